@@ -1,0 +1,77 @@
+"""Validators of attrs fields: one message shape for every impossible number."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from attrs import Attribute
+
+from .errors import DescriptionError
+
+__all__ = ["angle", "count", "finite", "fraction", "non_negative", "optional", "positive", "refuse"]
+
+
+def refuse(
+    owner: object, attribute: Attribute[Any], value: object, expected: str, hint: str = ""
+) -> DescriptionError:
+    """Build the error that names the owner, the field, its unit and the value."""
+    unit = attribute.metadata.get("unit", "")
+    name = f"{type(owner).__name__}.{attribute.name}"
+    return DescriptionError(name, value, expected, unit="" if unit == "-" else unit, hint=hint)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def finite(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything but a finite number."""
+    if not _is_number(value):
+        raise refuse(owner, attribute, value, "be a finite number")
+
+
+def positive(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything but a positive, finite number."""
+    if not (_is_number(value) and value > 0.0):
+        raise refuse(owner, attribute, value, "be positive and finite")
+
+
+def non_negative(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse negative numbers, infinity and nan."""
+    if not (_is_number(value) and value >= 0.0):
+        raise refuse(owner, attribute, value, "be zero or positive, and finite")
+
+
+def fraction(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything outside 0 to 1."""
+    if not (_is_number(value) and 0.0 <= value <= 1.0):
+        raise refuse(owner, attribute, value, "lie between 0 and 1")
+
+
+def angle(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse an angle outside 0 to pi; suspect degrees if it looks like them."""
+    if not (_is_number(value) and 0.0 <= value <= math.pi):
+        degrees = _is_number(value) and math.pi < value <= 180.0
+        hint = (
+            f"was it meant in degrees? then write {value!r}*deg, or '{value:g} deg' in a file"
+            if degrees
+            else ""
+        )
+        raise refuse(owner, attribute, value, "lie between 0 and pi", hint)
+
+
+def count(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything but a whole number of at least one."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        raise refuse(owner, attribute, value, "be a whole number of at least 1")
+
+
+def optional(check: Any) -> Any:
+    """Allow None, meaning "not given", beside whatever `check` allows."""
+
+    def check_if_given(owner: object, attribute: Attribute[Any], value: Any) -> None:
+        if value is not None:
+            check(owner, attribute, value)
+
+    return check_if_given

@@ -1,0 +1,97 @@
+"""The roles a piece of physics may play in a separation, read off the equation of motion.
+
+.. math:: m \\ddot h = F_{ext}(t) - k_s (h - h_0) - \\sum F(h, \\dot h)
+
+An effect holds choices only. `prepare` does once whatever does not depend on gap and speed;
+what it returns is called in the loop.
+"""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from attrs import frozen
+
+if TYPE_CHECKING:
+    from ..accuracy import Accuracy
+    from ..scene import SeparationScene
+
+__all__ = [
+    "Effect",
+    "FilmEnd",
+    "FilmLimit",
+    "ForceLaw",
+    "Limiter",
+    "SeparationEffect",
+    "SeparationForce",
+]
+
+Limiter = Callable[[float, float, float], float]
+"""Force [N] that is left of a Newtonian force [N]: called with (gap, speed, force)."""
+
+
+class ForceLaw(NamedTuple):
+    """A force made ready: what it is, and where it is not smooth.
+
+    `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
+    slope jumps, `end` the gap beyond which it does not exist (inf: none), and `exponent` gives
+    n where the force falls as gap^-n, at a gap.
+    """
+
+    force: Callable[[float, float], float]
+    kinks: tuple[float, ...] = ()
+    end: float = float("inf")
+    exponent: Callable[[float], float] = lambda gap: 0.0
+    impulse: Callable[[float, float], float] | None = None
+    """Time integral [N.s] of a force that is proportional to speed, between two gaps."""
+
+
+@frozen(kw_only=True)
+class Effect(abc.ABC):
+    """A piece of physics a scene may call for. Subclasses are final and hold choices only."""
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+
+    @property
+    @abc.abstractmethod
+    def sources(self) -> tuple[str, ...]:
+        """Where the equations of this choice come from."""
+
+    def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
+        """Name what this effect needs and `scene` does not give, with units."""
+        return ()
+
+
+@frozen(kw_only=True)
+class SeparationEffect(Effect):
+    """An effect of a `SeparationScene`."""
+
+
+@frozen(kw_only=True)
+class SeparationForce(SeparationEffect):
+    """A force F(h, h') between the bodies; any number may act."""
+
+    @abc.abstractmethod
+    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+        """Do the work that depends on neither gap nor speed."""
+
+
+@frozen(kw_only=True)
+class FilmLimit(SeparationEffect):
+    """A bound on what the liquid can carry; it lowers the viscous force."""
+
+    @abc.abstractmethod
+    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
+        """Do the work that depends on neither gap nor speed."""
+
+
+@frozen(kw_only=True)
+class FilmEnd(SeparationEffect):
+    """A rule for the gap at which the film breaks; none or one."""
+
+    @abc.abstractmethod
+    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> float:
+        """Gap at which the film breaks [m]; inf for never."""

@@ -1,0 +1,85 @@
+"""How far the film reaches, as the viscous force and its limits see it: a disc with an upright rim."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..kernels import squeeze
+
+if TYPE_CHECKING:
+    from ..scene import SeparationScene
+
+__all__ = ["FilmShape", "film_shape", "needs_extent"]
+
+
+class FilmShape(NamedTuple):
+    """One of `count` equal films.
+
+    `radius` is the distance from the axis to the rim of the film [m] at a gap, `height` the
+    thickness of the film there [m]; the film is pinned at `rim` below `full_gap`.
+    """
+
+    count: int
+    volume: float
+    rim: float
+    full_gap: float
+    sphere_radius: float
+    radius: Callable[[float], float]
+    height: Callable[[float], float]
+
+
+def needs_extent(scene: SeparationScene) -> tuple[str, ...]:
+    """Ask for a volume or a rim where the film between two flats would have no end."""
+    interface = scene.interface
+    if interface.is_flat and interface.meniscus.volume is None and math.isinf(interface.rim_radius):
+        return ("interface.meniscus.volume [m3], or the radius [m] of a Flat face",)
+    return ()
+
+
+def film_shape(scene: SeparationScene, *, constant_radius: bool = False) -> FilmShape:
+    """Shape of one film of the scene; with `constant_radius` it never draws in."""
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    n = meniscus.count
+    volume = math.inf if meniscus.volume is None else meniscus.volume / n
+    # The faces are shared out: n films, each with its part of the area.
+    rim = interface.rim_radius / math.sqrt(n)
+    if interface.is_flat:
+        return _between_flats(n, volume, rim, scene.opening.initial_gap, constant_radius)
+    return _under_sphere(
+        n, volume, rim, interface.sphere_radius, scene.opening.initial_gap, constant_radius
+    )
+
+
+def _between_flats(n: int, volume: float, rim: float, start: float, constant: bool) -> FilmShape:
+    if constant:
+        rim, volume = min(rim, squeeze.disc_radius(volume, start)), math.inf
+    full_gap = volume / (math.pi * rim * rim) if math.isfinite(rim) else 0.0
+
+    def radius(gap: float) -> float:
+        return rim if gap <= full_gap else float(squeeze.disc_radius(volume, gap))
+
+    return FilmShape(n, volume, rim, full_gap, math.inf, radius, lambda gap: gap)
+
+
+def _under_sphere(
+    n: int, volume: float, rim: float, sphere: float, start: float, constant: bool
+) -> FilmShape:
+    def free_height(gap: float) -> float:
+        return float(squeeze.sphere_film_height(gap, volume, sphere))
+
+    if constant:
+        rim, volume = min(rim, math.sqrt(2.0 * sphere * (free_height(start) - start))), math.inf
+    sag = rim * rim / (2.0 * sphere)
+    # Full to the rim while D^2 + V/(pi R) >= (D + sag)^2.
+    full_gap = 0.5 * (volume / (math.pi * sphere * sag) - sag) if 0.0 < sag < math.inf else 0.0
+    full_gap = max(full_gap, 0.0)
+
+    def height(gap: float) -> float:
+        return gap + sag if gap <= full_gap or math.isinf(volume) else free_height(gap)
+
+    def radius(gap: float) -> float:
+        return math.sqrt(2.0 * sphere * max(height(gap) - gap, 0.0))
+
+    return FilmShape(n, volume, rim, full_gap, sphere, radius, height)

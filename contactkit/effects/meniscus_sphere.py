@@ -1,0 +1,73 @@
+"""The meniscus force on a sphere, solved once along the gap and read off a curve in the loop."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from .base import ForceLaw
+from .film_shape import film_shape
+
+if TYPE_CHECKING:
+    from ..accuracy import Accuracy
+    from ..scene import SeparationScene
+
+__all__ = ["sphere_law"]
+
+_MOST_NODES = 4097
+
+
+def sphere_law(scene: SeparationScene, accuracy: Accuracy, *, as_published: bool) -> ForceLaw:
+    """Force of the arc meniscus of constant volume on a sphere, as a law of the gap.
+
+    The arc is solved on nodes in the logarithm of the gap, doubled until the spline between them
+    agrees with the arc at the midpoints to a tenth of the tolerance of time, and a spline is what
+    the loop calls: microseconds in place of milliseconds.
+    """
+    from ..kernels import arc_sphere, published
+
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    film = film_shape(scene)
+    volume, n = film.volume, film.count
+    tension = meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None  # plan() has asked lacks() first
+    lower, upper = meniscus.contact_angle_lower, meniscus.contact_angle_upper
+    curvatures = (interface.lower.curvature, interface.upper.curvature)
+    profile = "parabola" if as_published else "sphere"
+    end = float(arc_sphere.zero_neck_gap(volume, lower, upper, *curvatures, profile=profile))
+
+    def force(gap):  # type: ignore[no-untyped-def]
+        state = arc_sphere.solve(gap, volume, lower, upper, *curvatures, profile=profile)
+        if as_published:
+            return published.meniscus_sphere_3_12(state, tension, upper, interface.sphere_radius)
+        return tension * state.force
+
+    # Lengths of the film: where it is thinner than this, the force hardly depends on the gap.
+    thin = 0.1 * math.sqrt(volume / (math.pi * film.sphere_radius))
+    top = min(scene.opening.final_gap * 2.0, end * (1.0 - 1e-9))
+    curve = _spline(force, thin, top, 0.1 * accuracy.time_rtol)
+    return ForceLaw(lambda gap, speed: n * curve(gap), end=min(end, math.inf))
+
+
+def _spline(
+    force: Callable[..., object], thin: float, top: float, rtol: float
+) -> Callable[[float], float]:
+    import numpy as np
+    from scipy.interpolate import CubicSpline
+
+    def to_gap(x):  # type: ignore[no-untyped-def]
+        return thin * np.expm1(x)
+
+    far = math.log1p(top / thin)
+    nodes = 33
+    while True:
+        x = np.linspace(0.0, far, 2 * nodes - 1)
+        f = np.asarray(force(to_gap(x)), dtype=float)
+        spline = CubicSpline(x[::2], f[::2])
+        error = float(np.max(np.abs(spline(x[1::2]) - f[1::2])) / np.max(np.abs(f)))
+        if error <= max(rtol, 1e-12) or 2 * nodes - 1 >= _MOST_NODES:
+            break
+        nodes = 2 * nodes - 1
+    fine = CubicSpline(x, f)
+    return lambda gap: float(fine(math.log1p(max(gap, 0.0) / thin)))

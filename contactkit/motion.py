@@ -1,0 +1,274 @@
+"""The time step: a mass, pulled, held back by a film and a spring.
+
+`advance` is the only step of time in contactkit. `separation.simulate` loops over it and the
+FMU calls it once per communication step; the state is one plain tuple of numbers.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .effects import ViscousForce
+from .errors import ConvergenceError
+from .kernels.step_reading import highest, travel_integral
+from .kernels.stiff_step import WEIGHTS, NetForce, Stage, Step, slopes, step
+from .motion_state import Drive, MotionState
+from .plan import Film, Plan
+
+__all__ = ["advance", "step_once"]
+
+_SAFETY, _SHRINK, _GROW = 0.9, 0.1, 8.0
+_SAME = 1e-11  # two gaps closer than this, relatively, are one
+
+
+def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionState:
+    """Advance the motion by `dt` [s] under a pull, however stiff the film.
+
+    Parameters
+    ----------
+    plan : Plan
+        Of a scene with an imposed force and a mass.
+    state : MotionState
+        Where it starts.
+    pull : callable
+        Pull [N] at a time [s], such as a `Pull`; smooth within the step.
+    dt : float
+        Length of the step [s]. The internal steps are chosen by their error, so that the result
+        does not depend on how a span of time is divided, to the tolerance of the plan.
+
+    Raises
+    ------
+    ConvergenceError
+        If no internal step can be found that meets the tolerance; carries the state reached.
+    """
+    end = state.time + dt
+    while end - state.time > 1e-13 * max(abs(end), dt):
+        state = _rest(plan, state, pull, end) if state.held else step_once(plan, state, pull, end)
+    return state._replace(time=end)
+
+
+def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+    """Rest on the asperities until the pull exceeds what holds the bodies together."""
+    opening = plan.scene.opening
+    holding = opening.stiffness * (state.gap - opening.initial_gap)
+    film = 0.0 if state.broken else plan.film_with(state.share).static_force(state.gap)
+    leave, low = end, state.time
+    if pull(low) - holding - film > 0.0:
+        leave = low
+    elif pull(end) - holding - film > 0.0:
+        while leave - low > 1e-15 * abs(leave) and low < (middle := 0.5 * (low + leave)) < leave:
+            if pull(middle) - holding - film > 0.0:
+                leave = middle
+            else:
+                low = middle
+    elapsed = leave - state.time
+    return state._replace(
+        time=leave,
+        held=pull(leave) - holding - film <= 0.0,
+        meniscus_impulse=state.meniscus_impulse + film * elapsed,
+        step=0.0,
+    )
+
+
+def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+    """Take one internal step, shortened to the first event inside it."""
+    opening, rtol = plan.scene.opening, plan.accuracy.time_rtol
+    film = None if state.broken else plan.film_with(state.share)
+    mass, spring, rest = _mass(plan), opening.stiffness, opening.initial_gap
+
+    def net(time: float, gap: float, speed: float) -> float:
+        held = film.force(gap, speed) if film is not None else 0.0
+        return pull(time) - spring * (gap - rest) - held
+
+    begin = Stage(state.time, state.gap, state.speed)
+    scale = state.given_impulse + mass * abs(state.speed)
+    left = end - state.time
+    length = min(state.step or _first_step(net, mass, begin, left), left)
+    rejected = evaluations = 0
+    while True:
+        exponent = _coordinate(film, net, mass, begin, length)
+        taken = step(net, mass, begin, length, exponent, rtol)
+        error = math.inf
+        if taken is not None:
+            evaluations += taken.evaluations
+            error = (
+                _error(taken, mass, scale + _forces_size(net, film, begin, pull) * length) / rtol
+            )
+        if taken is not None and error <= 1.0:
+            break
+        rejected += 1
+        length *= 0.25 if math.isinf(error) else max(_SHRINK, _SAFETY * error**-0.25)
+        if length < 1e-15 * max(abs(state.time), 1e-15) or rejected > 60:
+            raise ConvergenceError(
+                f"no step of time from {state.time:g} s, gap {state.gap:g} m, speed {state.speed:g} m/s "
+                f"meets rtol = {rtol:g}; loosen Accuracy.time_rtol", state,
+            )  # fmt: skip
+    following = length * min(_GROW, _SAFETY * max(error, 1e-12) ** -0.25)
+    if not rejected and length < state.step:  # cut short by the end of the span only
+        following = max(following, state.step)
+    mark = _first_mark(plan, film, state, taken.stages[2].gap)
+    if mark is not None:
+        taken, length = _locate(net, mass, begin, length, exponent, rtol, mark, taken)
+    state = _accumulate(state, film, taken, length, pull, _forces_size(net, film, begin, pull))
+    state = state._replace(
+        step=following,
+        n_steps=state.n_steps + 1,
+        n_rejected=state.n_rejected + rejected,
+        n_evaluations=state.n_evaluations + evaluations,
+    )
+    return state if mark is None else _event(plan, film, state, mark)
+
+
+def _mass(plan: Plan) -> float:
+    """Moving mass [kg]; without one, so little that its momentum is 1e-10 of the impulse given."""
+    opening = plan.scene.opening
+    if opening.mass is not None:
+        return opening.mass
+    impulse = plan.film.laws[ViscousForce].impulse
+    assert impulse is not None  # a viscous force always has one
+    given = impulse(opening.initial_gap, opening.final_gap)
+    pull = max(abs(opening.force or 0.0), 1e-300)
+    return 1e-10 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
+
+
+def _first_step(net: NetForce, mass: float, begin: Stage, left: float) -> float:
+    """Time [s] in which inertia alone would open a thousandth of the gap; error control does the rest."""
+    acceleration = abs(net(*begin)) / mass
+    still = math.sqrt(2e-3 * begin.gap / acceleration) if acceleration > 0.0 else left
+    moving = 1e-3 * begin.gap / abs(begin.speed) if begin.speed else left
+    return min(still, moving, left)
+
+
+def _coordinate(
+    film: Film | None, net: NetForce, mass: float, begin: Stage, length: float
+) -> float:
+    """Exponent of the coordinate: the viscous impulse where the film rules, else the gap."""
+    n = film.exponent(begin.gap) if film is not None else 0.0
+    if n <= 0.0:
+        return -1.0
+    _, _, by_speed = slopes(net, *begin, begin.gap / length)
+    return n - 1.0 if -by_speed * length > mass else -1.0
+
+
+def _forces_size(net: NetForce, film: Film | None, begin: Stage, pull: Drive) -> float:
+    """Size of the forces that deliver momentum [N], so that none that cancel go unseen."""
+    static = film.static_force(begin.gap) if film is not None else 0.0
+    return abs(pull(begin.time)) + abs(static) + abs(net(begin.time, begin.gap, 0.0)) + 1e-300
+
+
+def _error(taken: Step, mass: float, impulse: float) -> float:
+    """Error of a step: of the gap, and of the momentum against what was delivered so far.
+
+    Measured against the momentum of the mass alone, a transient of length m/c would have to be
+    resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over.
+    """
+    momentum = mass * abs(taken.stages[2].speed) + impulse
+    return max(taken.gap_error, mass * taken.speed_error / momentum)
+
+
+def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -> float | None:
+    """First gap on the way to `gap` at which something happens."""
+    opening = plan.scene.opening
+    low, high = sorted((state.gap, gap))
+    rising = gap > state.gap
+    marks = list(film.kinks) if film is not None else []
+    if rising:
+        marks += [opening.final_gap] if state.armed else []
+        marks += [film.end] if film is not None else []
+    else:
+        marks += [opening.rest_gap]
+        marks += [opening.initial_gap] if state.broken or not state.armed else []
+    inside = [m for m in marks if low * (1.0 + _SAME) < m < high or m == gap]
+    if not inside:
+        return None
+    return min(inside) if rising else max(inside)
+
+
+def _locate(
+    net: NetForce,
+    mass: float,
+    begin: Stage,
+    length: float,
+    s: float,
+    rtol: float,
+    mark: float,
+    taken: Step,
+) -> tuple[Step, float]:
+    """Step that ends at a gap: Newton on its length, kept inside the bracket."""
+    low, high = 0.0, length
+    rising = mark > begin.gap
+    for _ in range(60):
+        end = taken.stages[2]
+        miss = end.gap - mark
+        if abs(miss) <= 1e-13 * mark or high - low <= 1e-15 * high:
+            break
+        if (miss > 0.0) == rising:
+            high = length
+        else:
+            low = length
+        guess = length - miss / end.speed if end.speed else math.nan
+        length = guess if low < guess < high else 0.5 * (low + high)
+        again = step(net, mass, begin, length, s, rtol)
+        if again is None:
+            break
+        taken = again
+    return taken, length
+
+
+def _accumulate(
+    state: MotionState, film: Film | None, taken: Step, length: float, pull: Drive, size: float
+) -> MotionState:
+    """Add a step to the impulses, the work and the peak, by the quadrature of the method itself."""
+    viscous = meniscus = work = 0.0
+    end = taken.stages[2]
+    peak, at = state.peak_force, state.peak_time
+    if film is not None:
+        static = [film.static_force(stage.gap) for stage in taken.stages]
+        forces = [film.viscous_force(stage.gap, stage.speed)[0] for stage in taken.stages]
+        viscous = sum(w * f for w, f in zip(WEIGHTS, forces, strict=True))
+        meniscus = sum(w * f for w, f in zip(WEIGHTS, static, strict=True))
+        first = film.viscous_force(state.gap, state.speed)[0]
+        begin = Stage(state.time, state.gap, state.speed)
+        work = travel_integral(begin, taken, first, forces)
+        first += film.static_force(state.gap)
+        totals = [a + b for a, b in zip(static, forces, strict=True)]
+        if max(first, *totals) > 0.99 * peak:
+            value, where = highest(first, totals)
+            if value > peak:
+                peak, at = value, state.time + where * length
+    return state._replace(
+        time=state.time + length,
+        gap=end.gap,
+        speed=end.speed,
+        viscous_impulse=state.viscous_impulse + length * viscous,
+        meniscus_impulse=state.meniscus_impulse + length * meniscus,
+        dissipated_work=state.dissipated_work + work,
+        given_impulse=state.given_impulse + length * size,
+        peak_force=peak,
+        peak_time=at,
+    )
+
+
+def _event(plan: Plan, film: Film | None, state: MotionState, mark: float) -> MotionState:
+    """Apply what happens at a mark: release, rupture, rest or re-wetting."""
+    opening, meniscus = plan.scene.opening, plan.scene.interface.meniscus
+    rising = state.speed > 0.0
+    state = state._replace(gap=mark)
+    if rising and mark == opening.final_gap:
+        return state._replace(
+            armed=False,
+            release_time=state.time,
+            release_speed=state.speed,
+            n_releases=state.n_releases + 1,
+        )
+    if rising and film is not None and mark == film.end:
+        state = state._replace(broken=True, break_time=state.time, n_breaks=state.n_breaks + 1)
+    if rising or mark > opening.initial_gap:
+        return state
+    state = state._replace(armed=True)
+    if state.broken and meniscus.rewetting > 0.0:
+        if plan.film_with(meniscus.rewetting).end > mark:
+            state = state._replace(broken=False, share=meniscus.rewetting)
+    if mark == opening.rest_gap:
+        state = state._replace(held=True, speed=0.0)
+    return state

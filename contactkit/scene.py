@@ -1,0 +1,41 @@
+"""What is there, and which physics it calls for. What is not listed is not run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from attrs import field, frozen
+
+from .checks import positive
+from .interface import Interface, Opening
+from .units import celsius, si
+
+if TYPE_CHECKING:
+    from .effects.base import SeparationEffect
+
+__all__ = ["SeparationScene"]
+
+
+@frozen(kw_only=True)
+class SeparationScene:
+    """Two wetted bodies that are pulled apart along their common normal.
+
+    Parameters
+    ----------
+    interface : Interface
+        The bodies and the liquid between them.
+    opening : Opening
+        What is imposed: speed, force or time.
+    effects : tuple of effects
+        The physics to simulate, and nothing else.
+    temperature : float
+        Temperature of the liquid [K].
+    name : str
+        A title for tables and figures.
+    """
+
+    interface: Interface
+    opening: Opening
+    effects: tuple[SeparationEffect, ...] = field(converter=tuple)
+    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
+    name: str = ""

@@ -1,0 +1,177 @@
+"""Run a plan: the curve of an imposed speed, the impulse of an imposed time, the motion of a pull."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable
+
+from .curves import at_speed, frozen, newtonian_impulses, simulated, within_time
+from .effects import MeniscusForce, ViscousForce
+from .errors import ConvergenceError
+from .motion import advance, step_once
+from .motion_state import MotionState, outputs, start
+from .plan import Plan
+from .results import SeparationResult, Work
+from .validity import check, warn
+
+__all__ = ["advance", "simulate"]
+
+Progress = Callable[[float], None]
+"""Called now and then with the share of the run that is done, 0 to 1."""
+
+
+def simulate(
+    plan: Plan, *, throw: bool = True, progress: Progress | None = None
+) -> SeparationResult:
+    """Run a plan.
+
+    Parameters
+    ----------
+    plan : Plan
+        What to run.
+    throw : bool
+        Raise where an integration does not reach its tolerance; otherwise return what was
+        reached, with status ``not converged``.
+    progress : callable, optional
+        Called with the share that is done.
+
+    Returns
+    -------
+    SeparationResult
+        Curves, numbers, validity and cost.
+
+    Raises
+    ------
+    ConvergenceError
+        If no step of time meets the tolerance; carries the result so far.
+    """
+    imposed = plan.scene.opening.imposed
+    begun = clock.perf_counter()
+    if imposed == "force":
+        result = _motion(plan, begun, throw, progress)
+    elif imposed == "speed":
+        result = at_speed(plan, begun)
+    else:
+        result = within_time(plan, begun)
+    warn(result.validity)
+    return result
+
+
+def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) -> SeparationResult:
+    """Motion of a mass under a pull, one internal step at a time, to its release."""
+    opening = plan.scene.opening
+    pull = drive(plan)
+    states = [start(plan)]
+    problem = None
+    while states[-1].n_releases == 0 and states[-1].time < opening.time_limit:
+        if len(states) > plan.accuracy.max_steps:
+            problem = (
+                f"not released after {plan.accuracy.max_steps} steps; raise Accuracy.max_steps"
+            )
+            break
+        if _is_stuck(plan, states, pull):
+            break
+        try:
+            states.append(_one_step(plan, states[-1], pull))
+        except ConvergenceError as error:
+            problem = str(error)
+            break
+        if progress is not None and len(states) % 64 == 0:
+            progress(_share(plan, states[-1]))
+    result = _motion_result(plan, states, pull, begun, problem)
+    if problem is not None and throw:
+        raise ConvergenceError(problem, result)
+    return result
+
+
+def drive(plan: Plan) -> Callable[[float], float]:
+    """Pull [N] of the scene at a time [s]."""
+    force, rise = plan.scene.opening.force or 0.0, plan.scene.opening.rise_time
+    if rise == 0.0:
+        return lambda time: force
+    return lambda time: -force * math.expm1(-time / rise)
+
+
+def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
+    """Advance by one internal step, or to the next event."""
+    left = plan.scene.opening.time_limit - state.time
+    if state.held:
+        return advance(plan, state, pull, left)
+    return step_once(plan, state, pull, state.time + left)
+
+
+def _share(plan: Plan, state: MotionState) -> float:
+    opening = plan.scene.opening
+    share = math.log(max(state.gap / opening.initial_gap, 1.0))
+    return min(share / math.log(opening.final_gap / opening.initial_gap), 1.0)
+
+
+def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:
+    """Whether the pull, once risen, can never open the gap from here."""
+    state, opening = states[-1], plan.scene.opening
+    if state.broken or len(states) < 2:
+        return False
+    if opening.rise_time and state.time < 40.0 * opening.rise_time:
+        return False
+    film = plan.film_with(state.share)
+    held = film.static_force(state.gap) + opening.stiffness * (state.gap - opening.initial_gap)
+    return pull(state.time) <= held and state.speed <= 0.0 and state.gap <= opening.initial_gap
+
+
+def _motion_result(
+    plan: Plan,
+    states: list[MotionState],
+    pull: Callable[[float], float],
+    begun: float,
+    problem: str | None,
+) -> SeparationResult:
+    last, opening = states[-1], plan.scene.opening
+    rows = [outputs(plan, state, pull(state.time)) for state in states]
+    columns = {
+        "time": frozen([s.time for s in states]),
+        "gap": frozen([s.gap for s in states]),
+        "speed": frozen([s.speed for s in states]),
+        "pull": frozen([pull(s.time) for s in states]),
+        "film_status": frozen([row.status for row in rows]),
+    }
+    curves = {
+        "meniscus_force": [row.static for row in rows],
+        "viscous_force": [row.viscous for row in rows],
+        "newtonian_force": [_newtonian_force(plan, s) for s in states],
+        "limit": [row.limit for row in rows],
+    }
+    columns |= {name: frozen(curves[name]) for name in simulated(plan)}
+    impulses = {}
+    if plan.has(MeniscusForce):
+        impulses["meniscus_impulse"] = last.meniscus_impulse
+    if plan.has(ViscousForce):
+        columns["viscous_impulse"] = frozen([s.viscous_impulse for s in states])
+        impulses = impulses | newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
+    if last.n_releases:
+        status, message = (
+            "released",
+            f"released after {last.release_time:.6g} s at {last.release_speed:.4g} m/s",
+        )
+    elif problem is not None:
+        status, message = "not converged", problem
+    elif last.time >= opening.time_limit:
+        status = "time limit"
+        message = (
+            f"not released within Opening.time_limit = {opening.time_limit:g} s; gap {last.gap:g} m"
+        )
+    else:
+        status = "stuck"
+        message = (
+            f"stuck: the pull of {pull(last.time):.4g} N does not exceed the {rows[-1].static:.4g} N of the "
+            f"meniscus at {last.gap:g} m; pull harder, or start from a larger gap"
+        )
+    validity = check(plan, [(s.gap, s.speed) for s in states])
+    work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
+    return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
+
+
+def _newtonian_force(plan: Plan, state: MotionState) -> float:
+    if state.broken or not plan.has(ViscousForce):
+        return 0.0
+    return plan.film_with(state.share).laws[ViscousForce].force(state.gap, state.speed)

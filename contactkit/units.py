@@ -1,0 +1,184 @@
+"""Units: written once beside each field, read by messages, files, plots, results and FMUs.
+
+Everything inside contactkit is in SI units and radians. A unit is written as a product of
+symbols, ``N.s/m``, ``mm2/s`` or ``kg/m^3``; a quantity is a number, a space and a unit.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
+from typing import NamedTuple
+
+from .errors import DescriptionError
+
+__all__ = [
+    "GPa", "MPa", "Unit", "bar", "celsius", "cSt", "deg", "kPa", "mN", "mPa", "mm", "ms",
+    "nm", "parse_quantity", "parse_unit", "pm", "si", "um", "us",
+]  # fmt: skip
+
+pm, nm, um, mm = 1e-12, 1e-9, 1e-6, 1e-3
+us, ms = 1e-6, 1e-3
+mN = 1e-3
+mPa, kPa, MPa, GPa, bar = 1e-3, 1e3, 1e6, 1e9, 1e5
+cSt = 1e-6
+deg = math.pi / 180.0
+
+_ZERO_CELSIUS = 273.15
+
+_PREFIXES = {
+    "": 1.0, "p": 1e-12, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2,
+    "k": 1e3, "M": 1e6, "G": 1e9,
+}  # fmt: skip
+
+# symbol: factor to SI, exponents of the SI base units (the names FMI uses), takes prefixes
+_SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
+    "m": (1.0, {"m": 1}, True),
+    "g": (1e-3, {"kg": 1}, True),
+    "s": (1.0, {"s": 1}, True),
+    "A": (1.0, {"A": 1}, True),
+    "K": (1.0, {"K": 1}, True),
+    "rad": (1.0, {"rad": 1}, True),
+    "deg": (deg, {"rad": 1}, False),
+    "N": (1.0, {"kg": 1, "m": 1, "s": -2}, True),
+    "J": (1.0, {"kg": 1, "m": 2, "s": -2}, True),
+    "W": (1.0, {"kg": 1, "m": 2, "s": -3}, True),
+    "Pa": (1.0, {"kg": 1, "m": -1, "s": -2}, True),
+    "bar": (1e5, {"kg": 1, "m": -1, "s": -2}, True),
+    "V": (1.0, {"kg": 1, "m": 2, "s": -3, "A": -1}, True),
+    "ohm": (1.0, {"kg": 1, "m": 2, "s": -3, "A": -2}, True),
+    "H": (1.0, {"kg": 1, "m": 2, "s": -2, "A": -2}, True),
+    "Wb": (1.0, {"kg": 1, "m": 2, "s": -2, "A": -1}, True),
+    "T": (1.0, {"kg": 1, "s": -2, "A": -1}, True),
+    "Hz": (1.0, {"s": -1}, True),
+    "L": (1e-3, {"m": 3}, True),
+    "St": (1e-4, {"m": 2, "s": -1}, True),
+    "min": (60.0, {"s": 1}, False),
+    "h": (3600.0, {"s": 1}, False),
+    "1": (1.0, {}, False),
+    "%": (1e-2, {}, False),
+}
+
+
+class Unit(NamedTuple):
+    """A unit: its factor to SI and the exponents of its SI base units."""
+
+    factor: float
+    dimension: Mapping[str, int]
+
+
+def si(unit: str) -> dict[str, str]:
+    """Metadata for an attrs field whose values are in `unit`, an SI unit or ``-``."""
+    return {"unit": unit}
+
+
+def celsius(temperature: float) -> float:
+    """Temperature [K] of a temperature in degrees Celsius.
+
+    Examples
+    --------
+    >>> celsius(20.0)
+    293.15
+    """
+    return temperature + _ZERO_CELSIUS
+
+
+def _symbol(text: str) -> tuple[float, dict[str, int]] | None:
+    if text in _SYMBOLS:
+        return _SYMBOLS[text][:2]
+    head, tail = text[:1], text[1:]
+    if head in _PREFIXES and tail in _SYMBOLS and _SYMBOLS[tail][2]:
+        factor, dimension, _ = _SYMBOLS[tail]
+        return _PREFIXES[head] * factor, dimension
+    return None
+
+
+@lru_cache(maxsize=256)
+def parse_unit(text: str) -> Unit:
+    """Read a unit such as ``mN/m``, ``Pa.s``, ``kg/m3`` or ``-`` (no unit).
+
+    Raises
+    ------
+    DescriptionError
+        If a symbol is not known.
+
+    Examples
+    --------
+    >>> parse_unit("mm2/s").factor
+    1e-06
+    >>> dict(parse_unit("N.s/m").dimension)
+    {'kg': 1, 's': -1}
+    """
+    if text in ("-", ""):
+        return Unit(1.0, MappingProxyType({}))
+    factor, dimension = 1.0, dict[str, int]()
+    for sign, part in re.findall(r"([./*]|^)([^./*]+)", text.replace(" ", "")):
+        match = re.fullmatch(r"(1|[^\d^-]+)\^?(-?\d+)?", part)
+        found = _symbol(match[1]) if match else None
+        if match is None or found is None:
+            raise DescriptionError(
+                "unit", text, f"be made of known symbols ({part!r} is not one)",
+                hint="for example 'um', 'mN/m', 'mPa.s', 'mm2/s', 'kg/m3', 'deg', 'degC'",
+            )  # fmt: skip
+        power = int(match[2] or 1) * (-1 if sign == "/" else 1)
+        factor *= found[0] ** power
+        for base, exponent in found[1].items():
+            dimension[base] = dimension.get(base, 0) + power * exponent
+    return Unit(factor, MappingProxyType({b: e for b, e in dimension.items() if e}))
+
+
+def parse_quantity(value: object, unit: str, field: str = "value") -> float:
+    """Number in SI units of `unit`, from a number or a text such as ``"2.5 nm"``.
+
+    Parameters
+    ----------
+    value : float or str
+        A number is taken to be in `unit` already; a text carries its own unit.
+    unit : str
+        The SI unit the field is in.
+    field : str
+        Name of the field, for messages.
+
+    Raises
+    ------
+    DescriptionError
+        If the text is not a number and a unit, or its unit does not measure the same thing.
+
+    Examples
+    --------
+    >>> parse_quantity("72.75 mN/m", "N/m")
+    0.07275
+    >>> parse_quantity("-20 degC", "K")
+    253.14999999999998
+    """
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return float(value)
+    text = value.strip() if isinstance(value, str) else ""
+    match = re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?inf)\s*(.*)", text)
+    example = (
+        f"2.5 {unit}"
+        if unit not in ("-", "rad", "K")
+        else {"rad": "60 deg", "K": "20 degC"}.get(unit, "2.5")
+    )
+    if match is None:
+        raise DescriptionError(
+            field, value, "be a number and a unit", unit=unit, hint=f"for example {example!r}"
+        )
+    number, symbol = float(match[1]), match[2]
+    if symbol in ("degC", "°C") and unit == "K":
+        return celsius(number)
+    if not symbol:
+        if parse_unit(unit).dimension:
+            raise DescriptionError(
+                field, value, "carry a unit", unit=unit, hint=f"for example {example!r}"
+            )
+        return number
+    found, wanted = parse_unit(symbol), parse_unit(unit)
+    if found.dimension != wanted.dimension:
+        raise DescriptionError(
+            field, value, f"be in a unit that converts to {unit}", hint=f"for example {example!r}"
+        )
+    return number * found.factor / wanted.factor
