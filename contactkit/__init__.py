@@ -47,7 +47,8 @@ from .scene import SeparationScene
 from .surfaces import Flat, Sphere
 
 if TYPE_CHECKING:
-    from .io import load_liquid, load_result, load_scene, save_result, save_scene
+    from .archive import load_result, save_result
+    from .io import load_liquid, load_scene, save_scene
     from .separation import simulate
 
 __version__ = "0.1.0"
@@ -65,9 +66,9 @@ __all__ = [
 _LATER = {
     "simulate": "separation",
     "load_liquid": "io",
-    "load_result": "io",
+    "load_result": "archive",
     "load_scene": "io",
-    "save_result": "io",
+    "save_result": "archive",
     "save_scene": "io",
 }
 

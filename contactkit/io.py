@@ -1,9 +1,8 @@
-"""Files: scenes as TOML, results as npz. A file is either read whole or refused with reasons."""
+"""Scene files: TOML, read whole or refused with every reason."""
 
 from __future__ import annotations
 
 import difflib
-import json
 import os
 import tempfile
 import tomllib
@@ -17,19 +16,16 @@ import attrs
 import cattrs
 from cattrs.gen import make_dict_structure_fn, override
 
-from .accuracy import Accuracy
 from .effects import EFFECTS, SeparationEffect
 from .errors import DescriptionError
 from .liquids import LAWS, Liquid
-from .plan import plan
-from .results import SeparationResult, Work
 from .scene import SeparationScene
 from .surfaces import Flat, Sphere
 from .temperature_laws import TemperatureLaw
 from .units import parse_quantity
 
 __all__ = [
-    "load_liquid", "load_result", "load_scene", "read_tables", "save_result", "save_scene",
+    "load_liquid", "load_scene", "read_tables", "save_scene",
     "structure", "unstructure", "write_whole",
 ]  # fmt: skip
 
@@ -97,7 +93,10 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
         for key in value:
             if key not in known:
                 raise DescriptionError(
-                    f"{kind.__name__}.{key}", value[key], "be a known key", hint=_nearest(key, known)
+                    f"{kind.__name__}.{key}",
+                    value[key],
+                    "be a known key",
+                    hint=_nearest(key, known),
                 )
         return inner(value, target)
 
@@ -142,7 +141,9 @@ def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
         raise DescriptionError(origin, kind.__name__, f"describe a scene; {error}") from None
     except cattrs.ClassValidationError as error:
         found = cattrs.transform_error(error, format_exception=_say)
-        reasons = "\n  ".join(reason.replace(" @ $", "  at ", 1).replace("at .", "at ") for reason in found)
+        reasons = "\n  ".join(
+            reason.replace(" @ $", "  at ", 1).replace("at .", "at ") for reason in found
+        )
         raise _not_a_scene(origin, reasons) from None
 
 
@@ -260,56 +261,3 @@ def write_whole(path: str | Path) -> Iterator[Path]:
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def save_result(result: SeparationResult, path: str | Path) -> Path:
-    """Write a result to an npz file: its curves, and a JSON header that says what they are."""
-    import numpy as np
-
-    from . import __version__
-
-    header = {
-        "contactkit": __version__,
-        "scene": unstructure(result.plan.scene),
-        "accuracy": attrs.asdict(result.plan.accuracy),
-        "status": result.status,
-        "message": result.message,
-        "impulses": dict(result.impulses),
-        "state": list(result.state) if result.state is not None else None,
-        "work": result.work._asdict(),
-    }
-    with write_whole(Path(path).with_suffix(".npz")) as temporary:
-        np.savez_compressed(temporary, header=np.array(json.dumps(header)), **result.columns)
-    return Path(path).with_suffix(".npz")
-
-
-def load_result(path: str | Path) -> SeparationResult:
-    """Read a result written by `save_result`."""
-    import numpy as np
-
-    from .motion_state import MotionState
-    from .validity import check
-
-    try:
-        with np.load(Path(path), allow_pickle=False) as file:
-            header = json.loads(str(file["header"]))
-            columns = {name: file[name] for name in file.files if name != "header"}
-    except (OSError, ValueError, KeyError) as error:
-        raise DescriptionError("file", str(path), "be a result of contactkit", hint=str(error)) from None
-    scene = structure(header["scene"], SeparationScene, Path(path).name)
-    made = plan(scene, Accuracy(**header["accuracy"]))
-    for column in columns.values():
-        column.flags.writeable = False
-    state = header["state"]
-    speeds = columns.get("speed", np.zeros_like(columns["gap"]))
-    path_taken = [(float(h), float(v)) for h, v in zip(columns["gap"], speeds, strict=True) if h > 0.0]
-    return SeparationResult(
-        made,
-        header["status"],
-        header["message"],
-        columns,
-        header["impulses"],
-        MotionState(*state) if state is not None else None,
-        check(made, path_taken),
-        Work(**header["work"]),
-    )

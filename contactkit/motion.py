@@ -7,6 +7,7 @@ FMU calls it once per communication step; the state is one plain tuple of number
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from .effects import ViscousForce
 from .errors import ConvergenceError
@@ -70,10 +71,36 @@ def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionStat
     )
 
 
-def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
-    """Take one internal step, shortened to the first event inside it."""
-    opening, rtol = plan.scene.opening, plan.accuracy.time_rtol
-    film = None if state.broken else plan.film_with(state.share)
+class _Problem(NamedTuple):
+    """What one internal step solves, from where, and against which size its error is measured."""
+
+    net: NetForce
+    mass: float
+    begin: Stage
+    rtol: float
+    exponent: float  # with which the film falls
+    size: float  # sum of the forces that deliver momentum [N]; those that cancel count too
+    delivered: float  # momentum delivered so far [N.s]
+    at_start: tuple[float, float, float]
+
+    def attempt(self, length: float) -> Step | None:
+        """Try a step; in terms of the viscous impulse where the film rules, else of the gap."""
+        is_film_ruled = -self.at_start[2] * length > self.mass
+        exponent = self.exponent - 1.0 if is_film_ruled and self.exponent > 0.0 else -1.0
+        return step(self.net, self.mass, self.begin, length, exponent, self.rtol, self.at_start)
+
+    def error(self, taken: Step, length: float) -> float:
+        """Error of a step over its tolerance: of the gap, and of the momentum delivered so far.
+
+        Measured against the momentum of the mass alone, a transient of length m/c would have to
+        be resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over.
+        """
+        momentum = self.mass * abs(taken.stages[2].speed) + self.delivered + self.size * length
+        return max(taken.gap_error, self.mass * taken.speed_error / momentum) / self.rtol
+
+
+def _problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> _Problem:
+    opening = plan.scene.opening
     mass, spring, rest = _mass(plan), opening.stiffness, opening.initial_gap
 
     def net(time: float, gap: float, speed: float) -> float:
@@ -81,36 +108,44 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
         return pull(time) - spring * (gap - rest) - held
 
     begin = Stage(state.time, state.gap, state.speed)
-    scale = state.given_impulse + mass * abs(state.speed)
+    static = film.static_force(state.gap) if film is not None else 0.0
+    size = abs(pull(state.time)) + abs(static) + spring * abs(state.gap - rest) + 1e-300
+    exponent = film.exponent(state.gap) if film is not None else 0.0
+    delivered = state.given_impulse + mass * abs(state.speed)
+    at_start = slopes(net, *begin, state.gap / (state.step or 1e-6))
+    return _Problem(net, mass, begin, plan.accuracy.time_rtol, exponent, size, delivered, at_start)
+
+
+def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+    """Take one internal step, shortened to the first event inside it."""
+    film = None if state.broken else plan.film_with(state.share)
+    problem = _problem(plan, film, state, pull)
     left = end - state.time
-    length = min(state.step or _first_step(net, mass, begin, left), left)
-    rejected = evaluations = 0
+    length = min(state.step or _first_step(problem, left), left)
+    rejected, evaluations = 0, 3
     while True:
-        exponent = _coordinate(film, net, mass, begin, length)
-        taken = step(net, mass, begin, length, exponent, rtol)
-        error = math.inf
-        if taken is not None:
-            evaluations += taken.evaluations
-            error = (
-                _error(taken, mass, scale + _forces_size(net, film, begin, pull) * length) / rtol
-            )
+        taken = problem.attempt(length)
+        error = problem.error(taken, length) if taken is not None else math.inf
+        evaluations += taken.evaluations if taken is not None else 0
         if taken is not None and error <= 1.0:
             break
         rejected += 1
         length *= 0.25 if math.isinf(error) else max(_SHRINK, _SAFETY * error**-0.25)
         if length < 1e-15 * max(abs(state.time), 1e-15) or rejected > 60:
             raise ConvergenceError(
-                f"no step of time from {state.time:g} s, gap {state.gap:g} m, speed {state.speed:g} m/s "
-                f"meets rtol = {rtol:g}; loosen Accuracy.time_rtol", state,
-            )  # fmt: skip
+                f"no step of time from {state.time:g} s, gap {state.gap:g} m, speed "
+                f"{state.speed:g} m/s meets rtol = {problem.rtol:g}; loosen Accuracy.time_rtol",
+                state,
+            )
     following = length * min(_GROW, _SAFETY * max(error, 1e-12) ** -0.25)
     if not rejected and length < state.step:  # cut short by the end of the span only
         following = max(following, state.step)
     mark = _first_mark(plan, film, state, taken.stages[2].gap)
     if mark is not None:
-        taken, length = _locate(net, mass, begin, length, exponent, rtol, mark, taken)
-    state = _accumulate(state, film, taken, length, pull, _forces_size(net, film, begin, pull))
+        taken, length = _locate(problem, length, mark, taken)
+    state = _accumulate(state, film, taken, length)
     state = state._replace(
+        given_impulse=state.given_impulse + length * problem.size,
         step=following,
         n_steps=state.n_steps + 1,
         n_rejected=state.n_rejected + rejected,
@@ -131,39 +166,13 @@ def _mass(plan: Plan) -> float:
     return 1e-10 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
 
 
-def _first_step(net: NetForce, mass: float, begin: Stage, left: float) -> float:
-    """Time [s] in which inertia alone would open a thousandth of the gap; error control does the rest."""
-    acceleration = abs(net(*begin)) / mass
-    still = math.sqrt(2e-3 * begin.gap / acceleration) if acceleration > 0.0 else left
-    moving = 1e-3 * begin.gap / abs(begin.speed) if begin.speed else left
+def _first_step(problem: _Problem, left: float) -> float:
+    """Time [s] in which inertia alone would open a thousandth of the gap; a first guess."""
+    _, gap, speed = problem.begin
+    acceleration = abs(problem.at_start[0]) / problem.mass
+    still = math.sqrt(2e-3 * gap / acceleration) if acceleration > 0.0 else left
+    moving = 1e-3 * gap / abs(speed) if speed else left
     return min(still, moving, left)
-
-
-def _coordinate(
-    film: Film | None, net: NetForce, mass: float, begin: Stage, length: float
-) -> float:
-    """Exponent of the coordinate: the viscous impulse where the film rules, else the gap."""
-    n = film.exponent(begin.gap) if film is not None else 0.0
-    if n <= 0.0:
-        return -1.0
-    _, _, by_speed = slopes(net, *begin, begin.gap / length)
-    return n - 1.0 if -by_speed * length > mass else -1.0
-
-
-def _forces_size(net: NetForce, film: Film | None, begin: Stage, pull: Drive) -> float:
-    """Size of the forces that deliver momentum [N], so that none that cancel go unseen."""
-    static = film.static_force(begin.gap) if film is not None else 0.0
-    return abs(pull(begin.time)) + abs(static) + abs(net(begin.time, begin.gap, 0.0)) + 1e-300
-
-
-def _error(taken: Step, mass: float, impulse: float) -> float:
-    """Error of a step: of the gap, and of the momentum against what was delivered so far.
-
-    Measured against the momentum of the mass alone, a transient of length m/c would have to be
-    resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over.
-    """
-    momentum = mass * abs(taken.stages[2].speed) + impulse
-    return max(taken.gap_error, mass * taken.speed_error / momentum)
 
 
 def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -> float | None:
@@ -184,19 +193,10 @@ def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -
     return min(inside) if rising else max(inside)
 
 
-def _locate(
-    net: NetForce,
-    mass: float,
-    begin: Stage,
-    length: float,
-    s: float,
-    rtol: float,
-    mark: float,
-    taken: Step,
-) -> tuple[Step, float]:
+def _locate(problem: _Problem, length: float, mark: float, taken: Step) -> tuple[Step, float]:
     """Step that ends at a gap: Newton on its length, kept inside the bracket."""
     low, high = 0.0, length
-    rising = mark > begin.gap
+    rising = mark > problem.begin.gap
     for _ in range(60):
         end = taken.stages[2]
         miss = end.gap - mark
@@ -208,16 +208,14 @@ def _locate(
             low = length
         guess = length - miss / end.speed if end.speed else math.nan
         length = guess if low < guess < high else 0.5 * (low + high)
-        again = step(net, mass, begin, length, s, rtol)
+        again = problem.attempt(length)
         if again is None:
             break
         taken = again
     return taken, length
 
 
-def _accumulate(
-    state: MotionState, film: Film | None, taken: Step, length: float, pull: Drive, size: float
-) -> MotionState:
+def _accumulate(state: MotionState, film: Film | None, taken: Step, length: float) -> MotionState:
     """Add a step to the impulses, the work and the peak, by the quadrature of the method itself."""
     viscous = meniscus = work = 0.0
     end = taken.stages[2]
@@ -243,7 +241,6 @@ def _accumulate(
         viscous_impulse=state.viscous_impulse + length * viscous,
         meniscus_impulse=state.meniscus_impulse + length * meniscus,
         dissipated_work=state.dissipated_work + work,
-        given_impulse=state.given_impulse + length * size,
         peak_force=peak,
         peak_time=at,
     )
@@ -266,9 +263,9 @@ def _event(plan: Plan, film: Film | None, state: MotionState, mark: float) -> Mo
     if rising or mark > opening.initial_gap:
         return state
     state = state._replace(armed=True)
-    if state.broken and meniscus.rewetting > 0.0:
-        if plan.film_with(meniscus.rewetting).end > mark:
-            state = state._replace(broken=False, share=meniscus.rewetting)
+    wets = state.broken and meniscus.rewetting > 0.0
+    if wets and plan.film_with(meniscus.rewetting).end > mark:
+        state = state._replace(broken=False, share=meniscus.rewetting)
     if mark == opening.rest_gap:
         state = state._replace(held=True, speed=0.0)
     return state

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from attrs import evolve, field, frozen
@@ -28,21 +28,32 @@ class Film:
     kinks: tuple[float, ...]
     end: float
     full_gap: float
+    # The same laws, split once: these are called some ten times per internal step.
+    _viscous: ForceLaw | None = field(init=False, repr=False)
+    _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
+
+    @_viscous.default
+    def _find_viscous(self) -> ForceLaw | None:
+        return self.laws.get(ViscousForce)
+
+    @_static.default
+    def _find_static(self) -> tuple[Callable[[float, float], float], ...]:
+        return tuple(law.force for kind, law in self.laws.items() if kind is not ViscousForce)
 
     def static_force(self, gap: float) -> float:
         """Sum of the forces [N] that do not depend on speed, at a gap [m]."""
-        return sum(
-            law.force(gap, 0.0) for kind, law in self.laws.items() if kind is not ViscousForce
-        )
+        total = 0.0
+        for force in self._static:
+            total += force(gap, 0.0)
+        return total
 
     def viscous_force(
         self, gap: float, speed: float
     ) -> tuple[float, type[SeparationEffect] | None]:
         """Viscous force [N] that is left after the limits, and the limit that acts."""
-        law = self.laws.get(ViscousForce)
-        if law is None:
+        if self._viscous is None:
             return 0.0, None
-        newtonian = law.force(gap, speed)
+        newtonian = self._viscous.force(gap, speed)
         found, acting = newtonian, None
         for kind, limiter in self.limits:
             left = limiter(gap, speed, newtonian)
@@ -56,8 +67,7 @@ class Film:
 
     def exponent(self, gap: float) -> float:
         """Exponent n of the viscous force, which falls as gap^-n; 0 without one."""
-        law = self.laws.get(ViscousForce)
-        return law.exponent(gap) if law is not None else 0.0
+        return self._viscous.exponent(gap) if self._viscous is not None else 0.0
 
 
 @frozen(eq=False)

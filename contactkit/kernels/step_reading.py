@@ -32,6 +32,9 @@ def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
     (0.25, 0.5)
     """
     nodes, values = (0.0, *NODES), (first, *stages)
+    if stages[0] - first > 0.9 * (max(values) - min(values)):
+        # A stiff film jumps to its force within the step: only the end of it is accurate.
+        return stages[2], 1.0
     best = max(range(4), key=values.__getitem__)
     value, where = values[best], nodes[best]
     a, b, c, d = _cubic(first, stages)
@@ -43,9 +46,8 @@ def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
     for root in (q / (3.0 * d) if d else math.nan, b / q if q else math.nan):
         if 0.0 < root < 1.0 and 2.0 * c + 6.0 * d * root < 0.0:
             at = a + root * (b + root * (c + root * d))
-            # A cubic swings where a first, stiff step jumps; the lowest node is not trusted, and
-            # only a small rise above the others is.
-            if value < at <= value + 0.25 * (value - sorted(values)[1]):
+            # A cubic swings away from smooth stretches; trust only a small rise above the nodes.
+            if value < at <= value + 0.25 * (value - min(values)):
                 value, where = at, root
     return value, where
 

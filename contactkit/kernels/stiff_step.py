@@ -110,7 +110,15 @@ def slopes(
     )
 
 
-def step(net: NetForce, mass: float, start: Stage, dt: float, s: float, rtol: float) -> Step | None:
+def step(
+    net: NetForce,
+    mass: float,
+    start: Stage,
+    dt: float,
+    s: float,
+    rtol: float,
+    at_start: tuple[float, float, float],
+) -> Step | None:
     """Advance by `dt`; None if the stages cannot be solved, and a smaller step is to be tried.
 
     Parameters
@@ -127,23 +135,31 @@ def step(net: NetForce, mass: float, start: Stage, dt: float, s: float, rtol: fl
         Exponent of the coordinate, see the head of this module; -1 is the gap itself.
     rtol : float
         Tolerance of the step, from which that of the iteration derives.
+    at_start : tuple of 3 floats
+        Net force and its slopes at the start, from `slopes`.
     """
     rates = [start.speed / start.gap] * 3
-    size = math.inf
+    size, calls = math.inf, 0
+    known: list[tuple[float, float]] | None = None
     for iteration in range(_MAX_ITERATIONS):
-        found = _residual(net, mass, start, dt, s, rates)
-        if found is None:
+        points = _points(start, dt, s, rates)
+        found = _forces(net, points, start.gap / dt, known) if points is not None else None
+        if points is None or found is None:
             return None
-        residual, matrix = found
+        forces, slopes_there = found
+        calls += 3 if known is not None else 9
+        residual, matrix = _system(mass, start, dt, points, forces, slopes_there)
         change = _solve3(matrix, residual)
         if change is None:
             return None
         rates = [r - d for r, d in zip(rates, change, strict=True)]
         previous, size = size, max(map(abs, change)) / (max(map(abs, rates)) + 1e-6 / dt)
         if size <= 0.03 * rtol or (iteration > 1 and size < 1e-6 and size >= previous):
-            return _finish(net, mass, start, dt, s, rates, 9 * (iteration + 1))
-        if iteration > 4 and size > previous:
+            return _finish(net, mass, start, dt, s, rates, at_start, calls)
+        if iteration > 5 and size > previous:
             return None
+        # The slopes are kept once the iteration contracts well with them.
+        known = slopes_there if size < 0.05 * min(previous, 1.0) else None
     return None
 
 
@@ -163,41 +179,66 @@ def _points(
     return found
 
 
-def _residual(
-    net: NetForce, mass: float, start: Stage, dt: float, s: float, rates: list[float]
-) -> tuple[list[float], list[list[float]]] | None:
-    """Residual m (v_i - v_0) - dt sum(a_ij G_j) of the stages, and its matrix."""
-    points = _points(start, dt, s, rates)
-    if points is None:
+def _forces(
+    net: NetForce,
+    points: list[tuple[float, Stage, float, float]],
+    scale: float,
+    known: list[tuple[float, float]] | None,
+) -> tuple[list[float], list[tuple[float, float]]] | None:
+    """Net forces at the stages and their slopes, which are taken over where they are known."""
+    if known is not None:
+        forces = [net(*point) for _, point, _, _ in points]
+        return (forces, known) if all(map(math.isfinite, forces)) else None
+    found = [slopes(net, *point, scale) for _, point, _, _ in points]
+    if not all(math.isfinite(force) for force, _, _ in found):
         return None
-    forces, lines = [], []
-    for j, (_, point, first, second) in enumerate(points):
-        force, by_gap, by_speed = slopes(net, *point, start.gap / dt)
-        if not math.isfinite(force):
-            return None
-        forces.append(force)
+    return [force for force, _, _ in found], [(by_gap, by_speed) for _, by_gap, by_speed in found]
+
+
+def _system(
+    mass: float,
+    start: Stage,
+    dt: float,
+    points: list[tuple[float, Stage, float, float]],
+    forces: list[float],
+    slopes_there: list[tuple[float, float]],
+) -> tuple[list[float], list[list[float]]]:
+    """Residual m (v_i - v_0) - dt sum(a_ij G_j) of the stages, and its matrix."""
+    lines = []
+    for j, ((_, _, first, second), (by_gap, by_speed)) in enumerate(
+        zip(points, slopes_there, strict=True)
+    ):
         # d G_j / d rate_k, through the gap of the stage and through its speed.
         both = (by_gap * first + by_speed * second) * dt
         line = [both * a for a in _A[j]]
         line[j] += by_speed * first
         lines.append(line)
+    (x0, x1, x2), (y0, y1, y2), (z0, z1, z2) = lines
     residual, matrix = [], []
     for i, (_, point, first, second) in enumerate(points):
-        row = _A[i]
-        delivered = row[0] * forces[0] + row[1] * forces[1] + row[2] * forces[2]
+        a, b, c = _A[i]
+        delivered = a * forces[0] + b * forces[1] + c * forces[2]
         residual.append(mass * (point.speed - start.speed) - dt * delivered)
-        matrix.append(
-            [
-                mass * (second * dt * row[k] + (first if i == k else 0.0))
-                - dt * (row[0] * lines[0][k] + row[1] * lines[1][k] + row[2] * lines[2][k])
-                for k in range(3)
-            ]
-        )
+        swing = mass * second
+        row = [
+            dt * (swing * a - (a * x0 + b * y0 + c * z0)),
+            dt * (swing * b - (a * x1 + b * y1 + c * z1)),
+            dt * (swing * c - (a * x2 + b * y2 + c * z2)),
+        ]
+        row[i] += mass * first
+        matrix.append(row)
     return residual, matrix
 
 
 def _finish(
-    net: NetForce, mass: float, start: Stage, dt: float, s: float, rates: list[float], calls: int
+    net: NetForce,
+    mass: float,
+    start: Stage,
+    dt: float,
+    s: float,
+    rates: list[float],
+    at_start: tuple[float, float, float],
+    calls: int,
 ) -> Step | None:
     """Read the stages off the rates and estimate the error of the step."""
     points = _points(start, dt, s, rates)
@@ -205,7 +246,7 @@ def _finish(
         return None
     t0, h0, v0 = start
     # (gamma0/dt - J) err = f(start) + sum(e_i z_i)/dt in the unknowns (q, v); q = 0 at the start.
-    force, by_gap, by_speed = slopes(net, t0, h0, v0, h0 / dt)
+    force, by_gap, by_speed = at_start
     j11, j12 = -v0 * (1.0 + s) / h0, 1.0 / h0
     j21, j22 = by_gap * h0 / mass, by_speed / mass
     g = _GAMMA0 / dt
@@ -225,4 +266,4 @@ def _finish(
     if not (math.isfinite(eq) and math.isfinite(ev)):
         return None
     (q1, p1, *_), (q2, p2, *_), (q3, p3, *_) = points
-    return Step((p1, p2, p3), (q1, q2, q3), s, abs(eq), abs(ev), calls + 4)
+    return Step((p1, p2, p3), (q1, q2, q3), s, abs(eq), abs(ev), calls + 1)

@@ -1,0 +1,156 @@
+"""The command line: ``contactkit run | plan | cost | fmu build``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from .errors import ContactkitError
+
+__all__ = ["main"]
+
+Progress = Callable[[float], None]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    parsed = _parser().parse_args(arguments)
+    try:
+        return int(parsed.command(parsed) or 0)
+    except ContactkitError as error:
+        print(f"contactkit: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("contactkit: interrupted; nothing half-written is left behind", file=sys.stderr)
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="contactkit",
+        description="Meniscus and viscous forces that resist separating wetted surfaces.",
+    )
+    parser.add_argument("--version", action="store_true", help="print the version and exit")
+    parser.set_defaults(command=_version)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
+    for name, command, text in (
+        ("run", _run, "run a scene, print its numbers, write its curves and figures"),
+        ("plan", _plan, "print what a scene will simulate, what it will not, and the sources"),
+        ("cost", _cost, "show what accuracy costs in time, for this scene"),
+    ):
+        one = commands.add_parser(name, help=text, description=text)
+        one.add_argument("scene", help="a scene file, or the name of one that comes with contactkit")
+        one.set_defaults(command=command)
+        if name != "plan":
+            one.add_argument("--out", type=Path, help="folder to write curves and figures to")
+            one.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
+        if name == "cost":
+            one.add_argument("--error", type=float, default=1e-6, help="relative error to recommend a setting for")
+    fmu = commands.add_parser("fmu", help="build FMUs").add_subparsers(metavar="COMMAND", required=True)
+    build = fmu.add_parser("build", help="write an FMU", description="write an FMU")
+    build.add_argument("what", help="stiction-mass, valve-drive, or a scene whose values are baked in")
+    build.add_argument("--out", type=Path, required=True, help="FMU file to write, FILE.fmu")
+    build.add_argument("--native", action="store_true", help="not part of this version")
+    build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
+    build.set_defaults(command=_build)
+    return parser
+
+
+def _version(parsed: argparse.Namespace) -> int:
+    if parsed.version:
+        from . import __version__
+
+        print(__version__)
+        return 0
+    _parser().print_help()
+    return 2
+
+
+@contextmanager
+def _progress(text: str) -> Iterator[Progress]:
+    """Show progress on stderr for whatever takes longer than a second."""
+    from tqdm import tqdm
+
+    with tqdm(
+        total=100, desc=text, delay=1.0, leave=False, bar_format="{desc} {bar} {n:.0f} % {elapsed}"
+    ) as bar:
+
+        def show(share: float) -> None:
+            bar.n = min(100.0 * share, 100.0)
+            bar.update(0)
+
+        yield show
+
+
+def _load(name: str) -> Any:
+    """Open a scene: a file, or the name of one in contactkit.models; a device or a plain one."""
+    from importlib import import_module
+
+    from .models.scenes import open_scene
+
+    return open_scene(name, import_module)
+
+
+def _run(parsed: argparse.Namespace) -> None:
+    device = _load(parsed.scene)
+    with _progress(f"run {device.name}") as progress:
+        report = device.run(parsed.out, progress)
+    _show(report, parsed.json)
+
+
+def _plan(parsed: argparse.Namespace) -> None:
+    print(_load(parsed.scene).plan_text())
+
+
+def _cost(parsed: argparse.Namespace) -> None:
+    device = _load(parsed.scene)
+    with _progress(f"cost of {device.name}") as progress:
+        report = device.cost(parsed.out, progress, parsed.error)
+    _show(report, parsed.json)
+
+
+def _build(parsed: argparse.Namespace) -> None:
+    from .errors import DescriptionError, PlanError
+    from .fmu.build import FMUS, build, validate
+
+    if parsed.native or parsed.fmi != "2":
+        raise PlanError(
+            "only FMI 2.0 co-simulation FMUs that run in Python can be built by this version; "
+            "leave out --native and --fmi 3"
+        )
+    if parsed.out.suffix != ".fmu":
+        raise DescriptionError("--out", str(parsed.out), "end in .fmu")
+    name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
+    path = build(name, parsed.out, start=start)
+    problems = validate(path)
+    print(f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid"))
+
+
+def _show(report: Any, as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(_scalars(report.scalars), indent=2))
+        return
+    print(report.text)
+    if report.files:
+        print("written: " + ", ".join(str(path) for path in report.files))
+
+
+def _scalars(scalars: Mapping[str, tuple[Any, str]]) -> dict[str, dict[str, Any]]:
+    """Numbers for JSON, which has no nan and no infinity: these become null."""
+    return {
+        name: {
+            "value": None if isinstance(value, float) and not math.isfinite(value) else value,
+            "unit": unit,
+        }
+        for name, (value, unit) in scalars.items()
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,57 @@
+"""What is wrong with the equations of chapter 3, one sentence for each, for warnings and docs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+__all__ = ["ERRATA"]
+
+ERRATA: Mapping[str, str] = MappingProxyType(
+    {
+        "3.3": "Its logarithm is natural, and its radius comes out negative for undersaturated "
+        "vapour while Eqs. (3.4)-(3.6) need it positive.",
+        "3.5": "It drops the curvature around the axis (twice the right force for 90/90 deg), and "
+        "the film height is r1 (cos theta1 + cos theta2), not the Kelvin radius times that.",
+        "3.7": "It holds at a fixed film height, hence fixed humidity; at constant volume the "
+        "factor is 1 - D / sqrt(D^2 + V / (pi R)).",
+        "3.11": "It drops the curvature around the axis (+9 % at x/h = 10, +58 % at x/h = 1 for "
+        "60/60 deg, +100 % for 90/90 deg) and pulls the two bodies with different forces.",
+        "3.12": "The two curvatures of a neck have opposite signs: the plus should be a minus. "
+        "The printed force is 29 to 46 % too large for the source's own case and diverges where "
+        "the neck closes.",
+        "3.14": "Splitting a rough surface further than n = R / (2 (s - D)) makes the menisci of "
+        "neighbouring asperities overlap.",
+        "3.18": "Its minus sign makes resistance negative, against Eqs. (3.22) and (3.26).",
+        "3.19": "It is the impulse over the separation time, not a force at the break, and keeps "
+        "the radius constant: with the volume kept it is half as large, and its printed sign is "
+        "negative.",
+        "3.21": "Its sign is opposite to that of Eq. (3.16): suction is negative on opening.",
+        "3.23": "It takes the rim of the film for upright, and its H(x^2) should read H^2(x); the "
+        "volume of the arc turned about the axis differs by 2 % for a film of 2 nm.",
+        "3.25": "It is an impulse over the separation time; a force at a given gap would need "
+        "that gap as upper limit, and would still be an average.",
+        "3.26": "It is the impulse over the separation time, not a force at the break, and the D "
+        "in its denominator is the gap D_s at the break.",
+        "3.27": "It is not the limit of Eq. (3.26), which is ln((D0 + H0)^2 / (4 D0 H0)): it is "
+        "zero at H0 = 2 D0, negative below and 41 to 55 % too large for H0 = 3 to 6 D0.",
+        "3.33": "It inherits the errors of Eq. (3.11), which grow with the number of menisci "
+        "(+42 % at 1e4 for 6 nm), and gives numbers where no bridge is stable any more.",
+        "3.34": "It is the impulse over the separation time at constant radius: with the volume "
+        "kept it is half as large, and its printed sign is negative.",
+        "3.35": "Its right side should be the force of the undivided meniscus, and it holds only "
+        "where the line tension dominates.",
+        "3.37": "A paraboloid stands for the sphere, which costs 3 to 14 % of the force at contact "
+        "for volumes above 1e-2 R^3.",
+        "3.39": "Its absolute slope loses the sign of contact angles above 90 deg.",
+        "3.40": "What is kept is the volume turned about the axis, not the area between the axes.",
+        "3.41": "It is needed only for an unsigned arc radius, and neither it nor Eq. (3.39) "
+        "covers one angle below and one above 90 deg.",
+        "zero neck": "A closed neck of the arc is no criterion for rupture: the exact bridge "
+        "lets go 2 to 10 times earlier, unless an angle is 180 deg.",
+        "3.42": "It does not remove the initial gap, is infinite for theta1 + theta2 = 180 deg "
+        "and turns repulsion positive.",
+        "3.43": "With Eq. (3.19) as printed it tends to -1; with the volume kept to 1/2.",
+    }
+)
+"""What is wrong with each equation, by its number."""

@@ -1,0 +1,136 @@
+"""Figures. The only module that imports matplotlib; it draws, and computes nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .io import write_whole
+from .results import COLUMNS, SeparationResult
+from .workprecision import WorkPrecision
+
+__all__ = ["COLORS", "figure", "forces", "label_axis", "motion", "save", "work_precision"]
+
+COLORS = {
+    "gap": "#1f4e79", "speed": "#7f7f7f", "meniscus": "#2a9d8f", "viscous": "#c1440e",
+    "limit": "#e9c46a", "magnet": "#6a4c93", "spring": "#8d6b3d", "stop": "#444444", "pull": "#6a4c93",
+}  # fmt: skip
+"""One colour for each quantity, the same in every figure."""
+
+_STYLE = {
+    "font.size": 10.0, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+    "grid.alpha": 0.3, "grid.linewidth": 0.6, "legend.frameon": False, "lines.linewidth": 1.6,
+    "figure.dpi": 110, "savefig.dpi": 160, "axes.titlelocation": "left", "axes.titlesize": 11.0,
+    "figure.constrained_layout.use": True,
+}  # fmt: skip
+
+_LABELS = {column.name: column for column in COLUMNS}
+
+
+def figure(
+    rows: int = 1, columns: int = 1, size: tuple[float, float] = (7.0, 4.5), **grid: Any
+) -> tuple[Figure, Any]:
+    """Make a figure in the house style, without a window: the figure and its axes."""
+    with mpl.rc_context(_STYLE):
+        made = Figure(figsize=size)
+        return made, made.subplots(rows, columns, **grid)
+
+
+def save(made: Figure, path: str | Path) -> Path:
+    """Write a figure as a PNG file, whole or not at all."""
+    path = Path(path).with_suffix(".png")
+    with write_whole(path) as temporary, mpl.rc_context(_STYLE):
+        made.savefig(temporary, format="png")
+    return path
+
+
+def label_axis(name: str, display: str = "") -> str:
+    """Label of a column of a result, with its unit, or with the unit it is displayed in."""
+    column = _LABELS[name]
+    unit = display or column.unit
+    return column.label if unit == "-" else f"{column.label} [{unit}]"
+
+
+def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
+    """Draw the gap over time."""
+    ax = ax if ax is not None else figure()[1]
+    ax.plot(result.time * 1e3, result.gap * 1e6, color=COLORS["gap"])
+    ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("gap", "um"), yscale="log")
+    if result.state is not None and result.state.n_releases:
+        ax.axvline(result.state.release_time * 1e3, color="0.5", lw=0.8, ls="--")
+    return ax
+
+
+def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
+    """Draw the forces over the gap, and shade where a limit of the liquid acts."""
+    ax = ax if ax is not None else figure()[1]
+    gap = result.gap * 1e6
+    curves: Mapping[str, tuple[str, str]] = {
+        "newtonian_force": ("viscous", ":"), "viscous_force": ("viscous", "-"),
+        "meniscus_force": ("meniscus", "-"), "pull": ("pull", "--"),
+    }  # fmt: skip
+    for name, (color, style) in curves.items():
+        if name in result.columns:
+            ax.plot(
+                gap, result.columns[name], style, color=COLORS[color], label=_LABELS[name].label
+            )
+    if "limit" in result.columns:
+        acts = result.columns["limit"] > 1.0
+        ax.fill_between(
+            gap,
+            0,
+            1,
+            where=acts,
+            transform=ax.get_xaxis_transform(),
+            color=COLORS["limit"],
+            alpha=0.3,
+            label="limit of the liquid acts",
+        )
+    ax.set(xlabel=label_axis("gap", "um"), ylabel="force [N]", xscale="log")
+    top = max(
+        float(result.columns[n].max())
+        for n in ("viscous_force", "meniscus_force", "pull")
+        if n in result.columns
+    )
+    bottom = min(
+        0.0,
+        *(
+            float(result.columns[n].min())
+            for n in ("viscous_force", "meniscus_force")
+            if n in result.columns
+        ),
+    )
+    ax.set_ylim(1.1 * bottom, 1.15 * top)
+    ax.legend()
+    return ax
+
+
+def work_precision(
+    found: WorkPrecision, ax: Axes | None = None, markers: Sequence[str] = "osD^vP*X"
+) -> Axes:
+    """Draw error against seconds, one line for each method; models of the physics lie flat."""
+    ax = ax if ax is not None else figure()[1]
+    methods = list(dict.fromkeys(p.method for p in found.points))
+    for method, marker in zip(methods, markers, strict=False):
+        points = [p for p in found.points if p.method == method]
+        good = [p for p in points if p.error == p.error]
+        style = "--" if any(p.is_model for p in points) else "-"
+        drawn = [max(p.error, 1e-16) for p in good]
+        ax.plot([p.seconds for p in good], drawn, style, marker=marker, label=method)
+        for p in points:
+            if p.error != p.error:
+                ax.plot([], [], "x", color="k", label=f"{method}, {p.label}: failed")
+    ax.axhspan(1e-16, found.floor, color="0.9", label="error of the reference")
+    ax.set(
+        xscale="log",
+        yscale="log",
+        xlabel="seconds",
+        ylabel=f"relative error of the {found.quantity}",
+    )
+    ax.legend(fontsize=8)
+    return ax

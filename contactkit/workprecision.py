@@ -1,0 +1,141 @@
+"""What accuracy costs in time: error, counts and seconds of a set of settings."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+
+from attrs import field, frozen
+
+from .errors import ContactkitError, InfeasibleError
+
+__all__ = ["Outcome", "Point", "Setting", "WorkPrecision", "sweep"]
+
+
+@frozen
+class Outcome:
+    """What one run gives: the number that is judged, and what it took."""
+
+    value: float
+    counts: Mapping[str, int] = field(factory=dict)
+
+
+@frozen
+class Setting:
+    """One way to get the answer: the method (a line of the picture), its setting, and the run."""
+
+    method: str
+    label: str
+    run: Callable[[], Outcome]
+    is_model: bool = False  # its error is one of physics: it does not fall with the setting
+
+
+@frozen
+class Point:
+    """Error and cost of one setting; error and seconds are nan where it failed."""
+
+    method: str
+    label: str
+    error: float
+    seconds: float
+    counts: Mapping[str, int]
+    problem: str = ""
+    is_model: bool = False
+
+
+@frozen
+class WorkPrecision:
+    """The points of a sweep, against a reference with an error of its own."""
+
+    quantity: str
+    reference: float
+    floor: float
+    points: tuple[Point, ...]
+
+    def cheapest(self, error: float) -> Point:
+        """Return the fastest setting with at most this relative error.
+
+        Raises
+        ------
+        InfeasibleError
+            If no setting is that accurate; names the best there is.
+        """
+        good = [p for p in self.points if p.error <= error]
+        if not good:
+            best = min((p for p in self.points if p.error == p.error), key=lambda p: p.error)
+            raise InfeasibleError(
+                f"no setting reaches an error of {error:g}; the best is {best.error:.2g} by "
+                f"{best.method}, {best.label}"
+            )
+        return min(good, key=lambda p: p.seconds)
+
+    def table(self) -> str:
+        """Return the points as text, one to a line."""
+        head = f"{'method':34s} {'setting':16s} {'error':>9s} {'seconds':>9s}  counts"
+        rows = [head]
+        for p in self.points:
+            counts = ", ".join(f"{k} {v}" for k, v in p.counts.items())
+            error = f"{p.error:9.1e}" if math.isfinite(p.error) else "   failed"
+            rows.append(
+                f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
+            )
+        rows.append(
+            f"relative error of the {self.quantity} against {self.reference:.10g}, known to {self.floor:.0e}"
+        )
+        return "\n".join(rows)
+
+
+def sweep(
+    settings: Sequence[Setting],
+    reference: float,
+    *,
+    quantity: str,
+    floor: float,
+    repeats: int = 5,
+    budget: float = 2.0,
+    progress: Callable[[float], None] | None = None,
+) -> WorkPrecision:
+    """Run every setting and measure it.
+
+    Parameters
+    ----------
+    settings : sequence of Setting
+        What to run. Each runs once untimed, then up to `repeats` times within `budget` [s]; the
+        best time counts.
+    reference : float
+        The answer, by another method than those judged, or a closed form.
+    quantity : str
+        What the answer is.
+    floor : float
+        Relative error of the reference itself; an error below it means nothing.
+    """
+    points = []
+    for i, setting in enumerate(settings):
+        points.append(_measure(setting, reference, repeats, budget))
+        if progress is not None:
+            progress((i + 1) / len(settings))
+    return WorkPrecision(quantity, reference, floor, tuple(points))
+
+
+def _measure(setting: Setting, reference: float, repeats: int, budget: float) -> Point:
+    begun = time.perf_counter()
+    try:
+        outcome = setting.run()
+    except ContactkitError as problem:
+        reason = str(problem).split(";")[0]
+        return Point(
+            setting.method, setting.label, math.nan, math.nan, {}, reason, setting.is_model
+        )
+    best = math.inf
+    warm = time.perf_counter() - begun
+    for _ in range(repeats):
+        start = time.perf_counter()
+        if start - begun + min(best, warm) > budget and best < math.inf:
+            break
+        setting.run()
+        best = min(best, time.perf_counter() - start)
+    error = abs(outcome.value / reference - 1.0)
+    return Point(
+        setting.method, setting.label, error, best, dict(outcome.counts), is_model=setting.is_model
+    )

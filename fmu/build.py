@@ -1,0 +1,232 @@
+"""Writing FMU files: `build` makes one, `validate` lets fmpy check it.
+
+An FMU carries the modules it needs under a package name made from their hash, so that several
+builds can run in one process. Building twice from the same sources gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import ContactkitError, DescriptionError
+from ..units import parse_quantity
+from .document import index_page, license_text
+from .integrity import RECORD, content_hash, package_name
+from .ports import Port, Value, find_port
+from .vendor import Closure, fallback_attrs, find_closure
+
+if TYPE_CHECKING:
+    from .slave import PortSlave
+
+__all__ = ["FMUS", "build", "validate"]
+
+# name: module in contactkit.fmu, class
+FMUS: dict[str, tuple[str, str]] = {
+    "stiction-mass": ("stiction_mass", "StictionMass"),
+    "valve-drive": ("valve_drive", "ValveDrive"),
+}
+
+_SCRIPT = '''\
+"""Main script of this FMU: contactkit wrote it, pythonfmu loads it."""
+
+import sys
+from pathlib import Path
+
+try:
+    import attrs
+except ImportError:  # a bare interpreter gets the copy in this FMU
+    sys.path.append(str(Path(__file__).parent / "vendor"))
+
+from {package}.fmu.integrity import verify
+from {package}.fmu.{module} import {class_name} as Model
+
+
+class {class_name}(Model):
+    """The model with the start values of this build."""
+
+    build = {build!r}
+    baked = {baked!r}
+
+    # The class needs a method of its own: pythonfmu 0.7 gives back a reference to this module's
+    # namespace that it never took, each time it instantiates, and only a function renews one.
+    def __init__(self, **kwargs):
+        verify(kwargs["resources"], self.build)
+        super().__init__(**kwargs)
+'''
+
+# pythonfmu's builder leaves its traces in sys.path and sys.modules; another process keeps them
+_PACK = """\
+import sys
+from pythonfmu import FmuBuilder
+script, dest, documentation, *project_files = sys.argv[1:]
+FmuBuilder.build_FMU(script, dest, project_files, documentation)
+"""
+
+
+def build(
+    name: str, out: str | os.PathLike[str], *, start: Mapping[str, Value | str] | None = None
+) -> Path:
+    """Write an FMU (FMI 2.0, co-simulation).
+
+    Parameters
+    ----------
+    name : str
+        One of `FMUS`.
+    out : path
+        The file to write, or a folder to write ``<name>.fmu`` to.
+    start : mapping, optional
+        Start values to bake in, by variable; a text carries its unit (``"2.5 um"``).
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    DescriptionError
+        If the name, a variable or a start value is not possible.
+    ContactkitError
+        If pythonfmu is not installed, or the FMU could not be made.
+    """
+    slave = _slave_class(name)
+    baked = {key: _start_value(slave.ports, key, value) for key, value in (start or {}).items()}
+    target = Path(out)
+    if target.is_dir():
+        target /= f"{name}.fmu"
+    if target.suffix != ".fmu":
+        raise DescriptionError("out", str(out), "end in .fmu or be a folder that exists")
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        fmu = _pack(slave, name, dict(sorted(baked.items())), Path(folder))
+        return _repack(fmu, target)
+
+
+def validate(path: str | os.PathLike[str]) -> list[str]:
+    """Problems that fmpy finds in an FMU; none if it is fine."""
+    _require("fmpy", "checking an FMU")
+    from fmpy.validation import validate_fmu
+
+    return [str(problem) for problem in validate_fmu(os.fspath(path))]
+
+
+def _require(package: str, purpose: str) -> None:
+    if importlib.util.find_spec(package) is None:
+        raise ContactkitError(f'{purpose} needs {package}: pip install "contactkit[fmu]"')
+
+
+def _slave_class(name: str) -> type[PortSlave]:
+    if name not in FMUS:
+        raise DescriptionError("FMU", name, "be one of " + ", ".join(FMUS))
+    _require("pythonfmu", "building an FMU")
+    module, class_name = FMUS[name]
+    slave: type[PortSlave] = getattr(importlib.import_module(f"{__package__}.{module}"), class_name)
+    return slave
+
+
+def _start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Value:
+    port = find_port(ports, name)
+    if port.causality == "output":
+        raise DescriptionError(name, value, "be left to the model, because it is an output")
+    if isinstance(value, str) and port.kind == "real":
+        return port.read(parse_quantity(value, port.unit, name))
+    return port.read(value)
+
+
+def _pack(slave: type[PortSlave], name: str, baked: Mapping[str, Value], folder: Path) -> Path:
+    """Lay out the files of an FMU in a folder and let pythonfmu pack them."""
+    closure = find_closure(slave.__module__, f"{__package__}.integrity")
+    record = {
+        "fmu": name,
+        "class": slave.__name__,
+        "start": baked,
+        "script": _SCRIPT,
+        "requires": sorted(closure.requires),
+        "pythonfmu": importlib.metadata.version("pythonfmu"),
+        "attrs": importlib.metadata.version("attrs"),
+    }
+    identity = content_hash(record, closure.sources)
+    module = slave.__module__.rpartition(".")[2]
+    script = _SCRIPT.format(
+        package=package_name(identity), module=module, class_name=slave.__name__,
+        build=identity, baked=dict(baked),
+    )  # fmt: skip
+    main = f"{module}_{identity[:12]}.py"
+    files = {f"{package_name(identity)}/{path}": text for path, text in closure.sources.items()}
+    files |= {main: script.encode(), RECORD: json.dumps(record, sort_keys=True).encode()}
+    if closure.requires & {"attr", "attrs"}:
+        files |= {f"vendor/{path}": text for path, text in fallback_attrs().items()}
+    _write(folder / "resources", files)
+    _write(folder / "documentation", _documentation(slave, baked, closure))
+    top = sorted({path.partition("/")[0] for path in files} - {main})
+    return _run_builder(folder, main, top, name)
+
+
+def _documentation(
+    slave: type[PortSlave], baked: Mapping[str, Value], closure: Closure
+) -> dict[str, bytes]:
+    start = slave.start_values() | dict(baked)
+    requires = closure.requires - {"attr", "attrs"}
+    page = index_page(slave.__name__, slave.summary, slave.ports, start, requires)
+    package = sys.modules[(__package__ or "").partition(".")[0]]
+    own = Path(package.__path__[0]).parent / "LICENSE"
+    return {
+        "index.html": page.encode(),
+        "licenses/license.txt": license_text("contactkit", own).encode(),
+        "licenses/attrs.txt": license_text("attrs").encode(),
+        "licenses/pythonfmu.txt": license_text("pythonfmu").encode(),
+    }
+
+
+def _write(folder: Path, files: Mapping[str, bytes]) -> None:
+    for path, content in files.items():
+        target = folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(content)
+
+
+def _run_builder(folder: Path, main: str, others: list[str], name: str) -> Path:
+    resources, fmu = folder / "resources", folder / "raw.fmu"
+    arguments = [resources / main, fmu, folder / "documentation", *(resources / o for o in others)]
+    settings = {"PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": str(folder), "TEMP": str(folder)}
+    done = subprocess.run(
+        [sys.executable, "-c", _PACK, *map(str, arguments)],
+        cwd=folder, capture_output=True, text=True, check=False,
+        env=os.environ | settings,
+    )  # fmt: skip
+    if done.returncode or not fmu.exists():
+        raise ContactkitError(f"pythonfmu could not build {name!r}:\n{done.stderr.strip()}")
+    return fmu
+
+
+def _repack(fmu: Path, target: Path) -> Path:
+    """Copy an FMU so that equal content gives equal bytes, and never leave half a file."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    handle, partial = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    try:
+        with (
+            os.fdopen(handle, "wb") as stream,
+            zipfile.ZipFile(fmu) as source,
+            zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed,
+        ):
+            for entry in sorted(source.namelist()):
+                info = zipfile.ZipInfo(entry, date_time=(1980, 1, 1, 0, 0, 0))
+                info.compress_type, info.create_system = zipfile.ZIP_DEFLATED, 3
+                info.external_attr = 0o100644 << 16
+                packed.writestr(info, source.read(entry))
+        Path(partial).chmod(0o644)
+        Path(partial).replace(target)
+    except BaseException:
+        Path(partial).unlink(missing_ok=True)
+        raise
+    return target

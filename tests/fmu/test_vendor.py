@@ -1,0 +1,76 @@
+"""Which files an FMU carries: those its slave imports, at once or later, and no others."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from contactkit.errors import ContactkitError
+from contactkit.fmu.vendor import fallback_attrs, find_closure
+
+
+def test_only_what_the_slave_imports_is_carried(toy_module):
+    closure = find_closure("contactkit.fmu.toy_slave")
+    assert set(closure.sources) == {
+        "__init__.py", "checks.py", "errors.py", "units.py", "fmu/__init__.py", "fmu/access.py",
+        "fmu/ports.py", "fmu/slave.py", "fmu/state.py", "fmu/tables.py", "fmu/toy_slave.py",
+        "fmu/xml.py",
+    }  # fmt: skip
+    assert closure.requires == {"attrs"}
+    assert b"import" not in closure.sources["__init__.py"]
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A package to find imports in."""
+    files = {
+        "pack/__init__.py": "from .heavy import everything",
+        "pack/heavy.py": "import scipy",
+        "pack/a.py": (
+            "from typing import TYPE_CHECKING\nimport os.path\nfrom . import b\n"
+            "if TYPE_CHECKING:\n    from . import unseen\nelse:\n    from .sub import c\n"
+            "def later():\n    from .sub.d import x\n    import numpy as np\n"
+        ),
+        "pack/b.py": "",
+        "pack/unseen.py": "",
+        "pack/sub/__init__.py": "from .c import name\n",
+        "pack/sub/c.py": "name = 1\n",
+        "pack/sub/d.py": "from .. import b\n",
+        "pack/uses_init.py": "from .sub import name",
+        "pack/absolute.py": "import pack.b",
+        "pack/broken.py": "from . import b\nfrom .gone import x",
+    }
+    for path, text in files.items():
+        target = tmp_path / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setitem(sys.modules, "pack.heavy", type(sys)("pack.heavy"))
+    sys.modules["pack.heavy"].everything = None
+    yield
+    for name in [name for name in sys.modules if name.partition(".")[0] == "pack"]:
+        del sys.modules[name]
+
+
+def test_closure_follows_every_kind_of_import(package):
+    closure = find_closure("pack.a")
+    assert set(closure.sources) == {
+        "__init__.py", "a.py", "b.py", "sub/__init__.py", "sub/c.py", "sub/d.py",
+    }  # fmt: skip
+    assert closure.requires == {"numpy"}
+    assert b"import" not in closure.sources["sub/__init__.py"]
+    assert b"import" in find_closure("pack.uses_init").sources["sub/__init__.py"]
+
+
+def test_closure_refuses_what_cannot_be_carried(package):
+    with pytest.raises(ContactkitError, match="imports 'pack' by name; make the import relative"):
+        find_closure("pack.absolute")
+    with pytest.raises(ContactkitError, match=r"needs module pack\.gone, which does not exist"):
+        find_closure("pack.broken")
+
+
+def test_fallback_is_all_of_attrs():
+    files = fallback_attrs()
+    assert {"attr/__init__.py", "attr/_make.py", "attrs/__init__.py"} <= set(files)
+    assert all(path.endswith(".py") for path in files)
