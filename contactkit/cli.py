@@ -26,6 +26,9 @@ def main(arguments: list[str] | None = None) -> int:
     except ContactkitError as error:
         print(f"contactkit: {error}", file=sys.stderr)
         return 2
+    except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
+        sys.stderr.close()
+        return 0
     except KeyboardInterrupt:
         print("contactkit: interrupted; nothing half-written is left behind", file=sys.stderr)
         return 130
@@ -45,16 +48,27 @@ def _parser() -> argparse.ArgumentParser:
         ("cost", _cost, "show what accuracy costs in time, for this scene"),
     ):
         one = commands.add_parser(name, help=text, description=text)
-        one.add_argument("scene", help="a scene file, or the name of one that comes with contactkit")
+        one.add_argument(
+            "scene", help="a scene file, or the name of one that comes with contactkit"
+        )
         one.set_defaults(command=command)
         if name != "plan":
             one.add_argument("--out", type=Path, help="folder to write curves and figures to")
             one.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
         if name == "cost":
-            one.add_argument("--error", type=float, default=1e-6, help="relative error to recommend a setting for")
-    fmu = commands.add_parser("fmu", help="build FMUs").add_subparsers(metavar="COMMAND", required=True)
+            one.add_argument(
+                "--error",
+                type=float,
+                default=1e-6,
+                help="relative error to recommend a setting for",
+            )
+    fmu = commands.add_parser("fmu", help="build FMUs").add_subparsers(
+        metavar="COMMAND", required=True
+    )
     build = fmu.add_parser("build", help="write an FMU", description="write an FMU")
-    build.add_argument("what", help="stiction-mass, valve-drive, or a scene whose values are baked in")
+    build.add_argument(
+        "what", help="stiction-mass, valve-drive, or a scene whose values are baked in"
+    )
     build.add_argument("--out", type=Path, required=True, help="FMU file to write, FILE.fmu")
     build.add_argument("--native", action="store_true", help="not part of this version")
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
@@ -77,8 +91,16 @@ def _progress(text: str) -> Iterator[Progress]:
     """Show progress on stderr for whatever takes longer than a second."""
     from tqdm import tqdm
 
+    # A terminal shows a bar that moves, a log a line now and then.
+    pause = 0.1 if sys.stderr.isatty() else 10.0
     with tqdm(
-        total=100, desc=text, delay=1.0, leave=False, bar_format="{desc} {bar} {n:.0f} % {elapsed}"
+        total=100,
+        mininterval=pause,
+        maxinterval=pause,
+        desc=text,
+        delay=1.0,
+        leave=False,
+        bar_format="{desc} {bar} {n:.0f} % {elapsed}",
     ) as bar:
 
         def show(share: float) -> None:
@@ -89,12 +111,10 @@ def _progress(text: str) -> Iterator[Progress]:
 
 
 def _load(name: str) -> Any:
-    """Open a scene: a file, or the name of one in contactkit.models; a device or a plain one."""
-    from importlib import import_module
-
+    """Open a scene; what it needs is imported now, so that --help is quick."""
     from .models.scenes import open_scene
 
-    return open_scene(name, import_module)
+    return open_scene(name)
 
 
 def _run(parsed: argparse.Namespace) -> None:
@@ -129,7 +149,9 @@ def _build(parsed: argparse.Namespace) -> None:
     name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
     path = build(name, parsed.out, start=start)
     problems = validate(path)
-    print(f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid"))
+    print(
+        f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")
+    )
 
 
 def _show(report: Any, as_json: bool) -> None:

@@ -25,7 +25,7 @@ from .temperature_laws import TemperatureLaw
 from .units import parse_quantity
 
 __all__ = [
-    "load_liquid", "load_scene", "read_tables", "save_scene",
+    "load_liquid", "load_scene", "nearest", "read_tables", "save_scene",
     "structure", "unstructure", "write_whole",
 ]  # fmt: skip
 
@@ -39,7 +39,8 @@ _TAGS: tuple[tuple[str, dict[str, type]], ...] = (
 )
 
 
-def _nearest(name: object, known: list[str]) -> str:
+def nearest(name: object, known: list[str]) -> str:
+    """Hint at the nearest of the known names, or list them."""
     close = difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
     return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
 
@@ -54,7 +55,7 @@ def _tagged(tag: str, kinds: Mapping[str, type]) -> Callable[[Any, Any], Any]:
         name = rest.pop(tag, None)
         if name not in kinds:
             raise DescriptionError(
-                tag, name, "name a known kind", hint=_nearest(name, sorted(kinds))
+                tag, name, "name a known kind", hint=nearest(name, sorted(kinds))
             )
         return _CONVERTER.structure(rest, kinds[name])
 
@@ -96,7 +97,7 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
                     f"{kind.__name__}.{key}",
                     value[key],
                     "be a known key",
-                    hint=_nearest(key, known),
+                    hint=nearest(key, known),
                 )
         return inner(value, target)
 
@@ -217,7 +218,7 @@ def load_liquid(name: str) -> Liquid:
     tables = tomllib.loads(text)
     if name not in tables:
         raise DescriptionError(
-            "liquid", name, "be a liquid of the library", hint=_nearest(name, sorted(tables))
+            "liquid", name, "be a liquid of the library", hint=nearest(name, sorted(tables))
         )
     return structure(tables[name], Liquid, f"liquids.toml, {name}")
 

@@ -8,13 +8,18 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from .io import write_whole
 from .results import COLUMNS, SeparationResult
 from .workprecision import WorkPrecision
 
-__all__ = ["COLORS", "figure", "forces", "label_axis", "motion", "save", "work_precision"]
+__all__ = [
+    "COLORS", "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save",
+    "shared_legend", "title", "work_precision",
+]  # fmt: skip
 
 COLORS = {
     "gap": "#1f4e79", "speed": "#7f7f7f", "meniscus": "#2a9d8f", "viscous": "#c1440e",
@@ -49,6 +54,29 @@ def save(made: Figure, path: str | Path) -> Path:
     return path
 
 
+def title(ax: Axes, text: str) -> None:
+    """Title of a panel, at its left."""
+    ax.set_title(text, loc="left", fontsize=11)
+
+
+def legend(ax: Axes, **more: Any) -> None:
+    """Legend without a frame."""
+    ax.legend(**({"frameon": False, "fontsize": 9} | more))
+
+
+def shared_legend(made: Figure, ax: Axes) -> None:
+    """One legend below all panels, from the curves of one of them."""
+    handles, labels = ax.get_legend_handles_labels()
+    made.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
+
+
+def plain_log(axis: Axis) -> None:
+    """Label a logarithmic axis with plain numbers, at 1, 2 and 5."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
 def label_axis(name: str, display: str = "") -> str:
     """Label of a column of a result, with its unit, or with the unit it is displayed in."""
     column = _LABELS[name]
@@ -61,6 +89,7 @@ def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
     ax = ax if ax is not None else figure()[1]
     ax.plot(result.time * 1e3, result.gap * 1e6, color=COLORS["gap"])
     ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("gap", "um"), yscale="log")
+    plain_log(ax.yaxis)
     if result.state is not None and result.state.n_releases:
         ax.axvline(result.state.release_time * 1e3, color="0.5", lw=0.8, ls="--")
     return ax
@@ -106,7 +135,8 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
         ),
     )
     ax.set_ylim(1.1 * bottom, 1.15 * top)
-    ax.legend()
+    plain_log(ax.xaxis)
+    legend(ax)
     return ax
 
 
@@ -132,5 +162,5 @@ def work_precision(
         xlabel="seconds",
         ylabel=f"relative error of the {found.quantity}",
     )
-    ax.legend(fontsize=8)
+    legend(ax, fontsize=8)
     return ax

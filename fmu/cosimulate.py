@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, Any, Self
 
 from attrs import field, frozen
 
-from ..errors import ConvergenceError, DescriptionError
+from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from .ports import Port
-from .stiction_mass import PORTS as MASS_PORTS
 
 if TYPE_CHECKING:
     import numpy as np
@@ -171,6 +170,7 @@ def cosimulate(
     *,
     drive_start: Mapping[str, float] | None = None,
     mass_start: Mapping[str, float] | None = None,
+    linear: bool = True,
     progress: Progress | None = None,
 ) -> CoSimulation:
     """Couple a drive FMU and a mass FMU.
@@ -185,11 +185,16 @@ def cosimulate(
         Communication step [s]; shortened so that a whole number of them fits.
     drive_start, mass_start : mapping, optional
         Start values by variable name, in SI units; those baked into the FMUs if not given.
+    linear : bool
+        Give the mass the pull as a straight line over the step, by its input ``dF_ext``; else
+        hold the value at the start of the step, as a host without that input does.
     progress : callable, optional
         Called with the share that is done.
 
     Raises
     ------
+    InfeasibleError
+        If the step is too long for the stop; names the longest.
     ConvergenceError
         If an FMU does not accept a step, or the final time is not reached.
     DescriptionError
@@ -205,12 +210,13 @@ def cosimulate(
     with Instance(Path(drive)) as one, Instance(Path(mass)) as other:
         one.start(drive_start or {}, stop_time)
         other.start(mass_start or {}, stop_time)
+        _check_step(one, other, length)
         table = np.empty((n + 1, len(one.names) + len(other.names)))
         table[0] = one.outputs() + other.outputs()
         begun = clock.perf_counter()
         time = 0.0
         for i in range(n):
-            _exchange(one, other, time, length)
+            _exchange(one, other, time, length, linear)
             time = (i + 1) * length
             table[i + 1] = one.outputs() + other.outputs()
             if progress is not None and i % 200 == 0:
@@ -224,19 +230,32 @@ def cosimulate(
     return CoSimulation(np.linspace(0.0, stop_time, n + 1), columns, _ports(), log, n, seconds)
 
 
-def _exchange(drive: Instance, mass: Instance, time: float, length: float) -> None:
+def _check_step(drive: Instance, mass: Instance, length: float) -> None:
+    """Refuse a step at which a blow on the stop would feed on itself, and look like an answer."""
+    m = mass.get(mass.references("m"))[0]
+    stiffness = drive.get(drive.references("k_stop"))[0]
+    longest = 2.0 * math.sqrt(m / stiffness)
+    if length > longest:
+        raise InfeasibleError(
+            f"the communication step of {length:g} s exceeds {longest:.3g} s = 2 sqrt(m/k_stop), the "
+            f"longest with which the stop can be coupled to the mass; take a tenth of that"
+        )
+
+
+def _exchange(drive: Instance, mass: Instance, time: float, length: float, linear: bool) -> None:
     """One communication step: the drive with the motion so far, the mass with the pull found."""
     motion, pull = mass.references("h", "v"), mass.references("F_ext", "dF_ext")
     drive.set(drive.references("h", "v"), mass.get(motion))
+    before = drive.get(drive.references("F_ext"))[0]
     drive.step(time, length)
-    end, rate = drive.get(drive.references("F_ext", "dF_ext"))
-    mass.set(pull, [end - rate * length, rate])
+    rate = drive.get(drive.references("dF_ext"))[0] if linear else 0.0
+    mass.set(pull, [before, rate])
     mass.step(time, length)
 
 
 def _ports() -> dict[str, Port]:
-    from .valve_drive import PORTS as DRIVE_PORTS
+    from .stiction_mass import StictionMass
+    from .valve_drive import ValveDrive
 
-    # The mass comes last: what it calls F_ext is an input, the drive's an output.
-    ports = {p.name: p for p in MASS_PORTS if p.causality == "output"}
-    return ports | {p.name: p for p in DRIVE_PORTS if p.causality == "output"}
+    tables = (*StictionMass.ports, *ValveDrive.ports)
+    return {port.name: port for port in tables if port.causality == "output"}

@@ -16,6 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arc_segment import segment
+
 __all__ = [
     "Circle",
     "Problem",
@@ -114,27 +116,6 @@ def _distance(radius: Array, curvature: Array, profile: str) -> Array:
     return np.divide(np.arcsin(sine), curvature, out=radius.copy(), where=curvature > 0.0)
 
 
-def _segment(half: Array) -> tuple[Array, Array, Array, Array]:
-    """Area of a circular segment, its moment about the chord, for unit chord, and their slopes.
-
-    `half` is half of the angle that the arc turns by; positive bulges. Right to rounding.
-    """
-    z2 = 4.0 * half**2
-    tail = np.zeros_like(half)
-    for k in range(12, 0, -1):  # (z - sin z) / z^3, whose closed form cancels for small z
-        tail = (1.0 - z2 * tail) / (2.0 * k * (2.0 * k + 1.0))
-    straight, small = half == 0.0, z2 < 4.0
-    sine = np.where(straight, 1.0, np.sin(half))
-    cosine = np.where(straight, 0.0, np.cos(half))
-    cotangent = cosine / sine
-    ratio = np.where(straight, 1.0, half / sine)
-    area = np.where(small, half * ratio**2 * tail, 0.25 * (half / sine - cosine) / sine)
-    moment = np.where(straight, 0.0, 1.0 / 12.0 - 0.5 * area * cotangent)
-    d_area = np.where(straight, 1.0 / 6.0, 0.5 - 2.0 * area * cotangent)
-    d_moment = 0.5 * area + cotangent * (1.5 * area * cotangent - 0.25)
-    return area, moment, d_area, np.where(abs(half) < 1e-4, half / 30.0, d_moment)
-
-
 def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
     """Contact circles between cones that touch the bodies where a film would end.
 
@@ -153,7 +134,7 @@ def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
         turn = np.clip(bias + above.slope - below.slope, 0.5 * (bias - np.pi), 0.5 * (bias + np.pi))
         lean = -np.tan(0.5 * turn) * height
         half = 0.5 * (angle_lower + below.slope + angle_upper + above.slope) - _RIGHT
-        area, moment, _, _ = _segment(half)
+        area, moment, _, _ = segment(half)
         chord2 = height**2 + lean**2
         bend = area * chord2 / height
         square = (volume + below.cap + above.cap) / (np.pi * height)
@@ -174,7 +155,7 @@ def equations(problem: Problem, one: Array, two: Array, profile: str) -> Equatio
     turn = (angle_upper - angle_lower) + (t.slope - b.slope)
     sine, cosine = np.cos(0.5 * turn), -np.sin(0.5 * turn)  # of the angle of the chord
     half = 0.5 * ((angle_lower - _RIGHT) + (angle_upper - _RIGHT) + (b.slope + t.slope))
-    area, moment, d_area, d_moment = _segment(half)
+    area, moment, d_area, d_moment = segment(half)
     disc = mean**2 + lean**2 / 12.0  # mean square radius of the frustum
     ring = area * mean + moment * height  # first moment of the segment over chord squared
     d_ring_half = 0.5 * (d_area * mean + d_moment * height)

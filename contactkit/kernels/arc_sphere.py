@@ -134,8 +134,7 @@ def solve(
 
     Notes
     -----
-    Newton's method, three iterations as a rule; points it misses are tracked along the branch
-    from a trace of liquid (see `arc_newton`). Relative errors are near 1e-15.
+    Three Newton iterations as a rule (see `arc_newton`); relative errors are near 1e-15.
 
     References
     ----------
@@ -189,10 +188,7 @@ def volume(
     This turns the height of an initial film, ``D + x^2 / 2R``, into a volume: that of the arc
     turned about the axis, which Eq. (3.23) approximates by a film with an upright rim.
 
-    Raises
-    ------
-    ConvergenceError
-        If no lower contact circle goes with the upper one.
+    Raises ConvergenceError if no lower contact circle goes with the upper one.
 
     Examples
     --------
@@ -258,9 +254,8 @@ def zero_neck_gap(
 ) -> float:
     """Gap [m] at which the neck, or for a belly the smaller contact circle, closes.
 
-    The break distance of the dissertation, and not where a bridge breaks: the exact bridge lets
-    go 2 to 10 times earlier unless an angle is 180 deg. Infinite where it does not happen within
-    a hundred times the size of drop and bodies.
+    The break distance of the dissertation, not where a bridge breaks: see `arc_flat`. Infinite
+    where it does not happen within a hundred times the size of drop and bodies.
 
     Raises
     ------
@@ -296,9 +291,8 @@ def zero_neck_gap(
     def neck(gap: float) -> float:
         return _track(gap, place, fixed, profile)[0]
 
-    ends = neck(near), neck(far)
     limit = near
-    if ends[0] > 0.0 > ends[1]:
+    if neck(near) > 0.0 > neck(far):
         limit = float(brentq(neck, near, far, xtol=1e-15 * far, rtol=1e-14))
     if abs(neck(limit)) > 1e-9 * size:
         raise ConvergenceError(f"no closing neck between gaps of {near!r} and {far!r} m")

@@ -119,20 +119,22 @@ def _between_flats(points: list[Array], beyond: str) -> list[Array]:
 
 def _no_arc(point: list[float], closed: bool) -> Exception:
     """Say why a point between curved bodies has no arc."""
-    limit = arc_sphere.zero_neck_gap(*point[1:])
-    if point[0] >= limit * (1.0 - 1e-12):
+    gap, volume, lower, upper, below, above = point
+    limit = arc_sphere.zero_neck_gap(volume, lower, upper, below, above)
+    if gap >= limit * (1.0 - 1e-12):
         return arc_flat.closed_neck(limit)
     if closed:
         return InfeasibleError(
-            f"no arc bridge at a gap of {point[0]!r} m: its neck is closed there, though not up "
+            f"no arc bridge at a gap of {gap!r} m: its neck is closed there, though not up "
             f"to {limit!r} m"
         )
-    return ConvergenceError(f"no arc was found at a gap of {point[0]!r} m, below {limit!r} m")
+    return ConvergenceError(f"no arc was found at a gap of {gap!r} m, below {limit!r} m")
 
 
 def _between_curved(points: list[Array], beyond: str) -> list[Array]:
     """Six columns for points with a curved body, all at once."""
-    state = arc_sphere.solve(*points)
+    gap, volume, lower, upper, below, above = points
+    state = arc_sphere.solve(gap, volume, lower, upper, below, above)
     unsure = ~state.found if beyond == "raise" else ~state.found & ~state.closed
     for i in np.flatnonzero(unsure):
         error = _no_arc([float(column[i]) for column in points], bool(state.closed[i]))

@@ -171,6 +171,11 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
     surface_tension, angle_upper : float or ndarray, shape (...)
         Surface tension [N/m] and contact angle on the sphere [rad].
 
+    Raises
+    ------
+    DescriptionError
+        If the lower body is curved.
+
     Notes
     -----
     The radius :math:`R\sin\phi` of the contact circle is that of the arc, :math:`x_n`, and
@@ -186,6 +191,11 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
     """
     import numpy as np
 
+    if np.any(abs(state.slope_lower) > 0.0):
+        raise DescriptionError(
+            "meniscus_sphere_3_12.state", "a curved lower body", "have its sphere above a flat",
+            hint="swap the bodies and their angles",
+        )  # fmt: skip
     x, inverse, phi = state.radius_upper, state.inverse_arc_radius, state.slope_upper
     # x_c - r1 times 1/r1, which stays finite for a straight arc
     centre = x * inverse - (1.0 - np.sin(angle_upper + phi))

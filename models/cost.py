@@ -1,0 +1,215 @@
+"""What accuracy costs in time, for the scenes of the command line."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import evolve
+
+from ..accuracy import Accuracy
+from ..effects import MeniscusForce, SeparationEffect, ViscousForce
+from ..errors import InfeasibleError, PlanError, ValidityWarning
+from ..plan import plan
+from ..scene import SeparationScene
+from ..workprecision import Outcome, Setting, WorkPrecision, sweep
+from .scenes import Report, mass_values
+
+if TYPE_CHECKING:
+    from .injector import FuelInjector, InjectorScene
+
+__all__ = ["cost_report", "injector_sweep", "separation_sweep"]
+
+Progress = Callable[[float], None]
+
+_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
+_STEPS = (50e-6, 20e-6, 10e-6, 5e-6, 2e-6, 1e-6)  # [s]
+
+
+def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str) -> Report:
+    """Turn a sweep into a table, numbers, and with a folder a picture and a CSV file."""
+    try:
+        best = found.cheapest(error)
+        advice = f"cheapest with an error of at most {error:g}: {best.method}, {best.label}, {best.seconds:.4f} s"
+    except InfeasibleError as problem:
+        advice = str(problem)
+    scalars: dict[str, tuple[Any, str]] = {found.quantity: (found.reference, "s")}
+    for point in found.points:
+        key = f"{point.method} / {point.label}"
+        scalars |= {f"{key} / error": (point.error, "-"), f"{key} / seconds": (point.seconds, "s")}
+        scalars |= {f"{key} / {count}": (value, "-") for count, value in point.counts.items()}
+    files = _write(found, out, name) if out is not None else ()
+    return Report(scalars, f"{found.table()}\n{advice}", files)
+
+
+def _write(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
+    from .. import plot
+    from ..io import write_whole
+
+    made, ax = plot.figure(size=(8.0, 5.2))
+    plot.work_precision(found, ax)
+    plot.title(ax, f"{name}: what accuracy costs")
+    table = out / "cost.csv"
+    with write_whole(table) as temporary:
+        rows = [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in found.points]
+        temporary.write_text("\n".join(["method,setting,error [-],seconds [s]", *rows, ""]))
+    return plot.save(made, out / "cost"), table
+
+
+def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecision:
+    """Error of the release time of a pull over the tolerance of time, against another solver."""
+    if scene.opening.imposed != "force" or scene.opening.mass is None:
+        raise PlanError(
+            "cost needs a scene with opening.force [N] and opening.mass [kg]: a curve at an imposed "
+            "speed or time is closed form and costs microseconds"
+        )
+    from ..separation import drive
+
+    made = plan(scene)
+    end = 1.001 * _release(scene, 1e-8).value
+    pull = drive(made)
+    exact, near = (_whole_release(scene, pull, end, rtol) for rtol in (1e-11, 1e-9))
+    settings = [
+        Setting("contactkit motion", f"rtol {rtol:.0e}", lambda rtol=rtol: _release(scene, rtol))
+        for rtol in _TOLERANCES
+    ]
+    settings += [
+        Setting(
+            "one system, scipy Radau",
+            f"rtol {rtol:.0e}",
+            lambda rtol=rtol: _whole_release(scene, pull, end, rtol),
+        )
+        for rtol in _TOLERANCES[1::2]
+    ]
+    published = _as_published(scene)
+    if published is not None:
+        settings += [
+            Setting(
+                "published meniscus, Eq. (3.11)",
+                f"rtol {rtol:.0e}",
+                lambda rtol=rtol: _release(published, rtol),
+                is_model=True,
+            )
+            for rtol in _TOLERANCES[::3]
+        ]
+    floor = max(abs(near.value / exact.value - 1.0), 1e-14)
+    return sweep(settings, exact.value, quantity="release time", floor=floor, progress=progress)
+
+
+def _release(scene: SeparationScene, rtol: float) -> Outcome:
+    from ..separation import simulate
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        result = simulate(plan(scene, Accuracy(time_rtol=rtol)))
+    if result.status != "released" or result.state is None:
+        raise PlanError(f"cost needs a scene that is released; {result.message}")
+    counts = {"steps": result.work.n_steps, "evaluations": result.work.n_evaluations}
+    return Outcome(result.state.release_time, counts)
+
+
+def _whole_release(
+    scene: SeparationScene, pull: Callable[[float], float], end: float, rtol: float
+) -> Outcome:
+    from .monolithic import simulate
+
+    whole = simulate(plan(scene), pull, end, rtol=rtol)
+    counts = {"steps": whole.n_steps, "evaluations": whole.n_evaluations}
+    return Outcome(whole.cycles[0].release_time, counts)
+
+
+def _swap(scene: SeparationScene, new: SeparationEffect) -> SeparationScene:
+    effects = tuple(new if type(e) is type(new) else e for e in scene.effects)
+    return evolve(scene, effects=effects)
+
+
+def _as_published(scene: SeparationScene) -> SeparationScene | None:
+    has_arc = any(isinstance(e, MeniscusForce) and e.profile == "arc" for e in scene.effects)
+    if not has_arc or not scene.interface.is_flat:
+        return None
+    return _swap(scene, MeniscusForce(profile="as-published"))
+
+
+def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
+    """Error of the first release of the injector, by solver, by communication step, by closure."""
+    import tempfile
+
+    scene = device.scene
+    film = scene.separation(scene.temperature)
+    exact, near = (_injector_whole(scene, film, rtol) for rtol in (1e-11, 1e-9))
+    floor = max(abs(near.value / exact.value - 1.0), 1e-14)
+    settings = [
+        Setting(
+            "one system, scipy",
+            f"rtol {rtol:.0e}",
+            lambda rtol=rtol: _injector_whole(scene, film, rtol),
+        )
+        for rtol in _TOLERANCES[::2]
+    ]
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        pair = device.build(Path(folder))
+        coupled = [
+            ("FMU pair, pull a straight line", film, True, False),
+            ("FMU pair, pull held", film, False, False),
+        ]
+        published = _as_published(film)
+        if published is not None:
+            coupled.append(("FMU pair, published meniscus (3.11)", published, True, True))
+        for method, one, linear, is_model in coupled:
+            settings += [
+                Setting(
+                    method,
+                    f"step {step * 1e6:g} us",
+                    lambda one=one, step=step, linear=linear: _injector_pair(
+                        scene, one, pair, step, linear
+                    ),
+                    is_model=is_model,
+                )
+                for step in _STEPS
+            ]
+        flooded = _swap(film, ViscousForce(closure="flooded"))
+        settings += [
+            Setting(
+                "published constant radius (3.19)",
+                f"rtol {rtol:.0e}",
+                lambda rtol=rtol: _injector_whole(scene, flooded, rtol),
+                is_model=True,
+            )
+            for rtol in _TOLERANCES[:5:2]
+        ]
+        return sweep(
+            settings,
+            exact.value,
+            quantity="release time",
+            floor=floor,
+            repeats=3,
+            progress=progress,
+        )
+
+
+def _first_pulse(scene: InjectorScene) -> float:
+    return scene.valve.profile.start_delay + scene.valve.profile.on_time
+
+
+def _injector_whole(scene: InjectorScene, film: SeparationScene, rtol: float) -> Outcome:
+    from .monolithic import simulate
+
+    whole = simulate(plan(film), scene.valve, _first_pulse(scene), rtol=rtol)
+    counts = {"steps": whole.n_steps, "evaluations": whole.n_evaluations}
+    return Outcome(whole.cycles[0].release_time, counts)
+
+
+def _injector_pair(
+    scene: InjectorScene, film: SeparationScene, pair: tuple[Path, Path], step: float, linear: bool
+) -> Outcome:
+    from ..fmu.cosimulate import cosimulate
+    from ..fmu.stiction_mass import MeniscusLaw
+
+    values = mass_values(film)
+    values["meniscus_law"] = MeniscusLaw[values["meniscus_law"]]
+    found = cosimulate(*pair, _first_pulse(scene), step, mass_start=values, linear=linear)
+    return Outcome(
+        float(found["t_release"][-1]) - scene.valve.profile.start_delay, {"steps": found.n_steps}
+    )

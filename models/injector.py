@@ -1,0 +1,256 @@
+"""The fuel injector: a spool valve held by an oil film, co-simulated over its firing cycles."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from attrs import evolve, field, frozen
+
+from ..checks import positive
+from ..effects import SeparationEffect, TensionLimit
+from ..errors import DescriptionError, PlanError
+from ..interface import Interface, Opening
+from ..io import structure
+from ..plan import Plan, plan
+from ..scene import SeparationScene
+from ..units import celsius, si
+from .scenes import Report, mass_values
+from .valve import Valve, energising_times
+
+if TYPE_CHECKING:
+    from ..fmu.cosimulate import CoSimulation
+    from .monolithic_result import MonolithicResult
+
+__all__ = ["FuelInjector", "InjectorScene", "Run", "Study", "open_device"]
+
+Progress = Callable[[float], None]
+
+
+def _temperatures(study: object, attribute: Any, values: tuple[float, ...]) -> None:
+    if not values:
+        raise DescriptionError(
+            "Study.temperatures", values, "name at least one temperature", unit="K"
+        )
+    for value in values:
+        positive(study, attribute, value)
+
+
+@frozen(kw_only=True)
+class Study:
+    """What the injector is run at.
+
+    Parameters
+    ----------
+    temperatures : tuple of float
+        Temperatures of the oil [K].
+    communication_step : float
+        Communication step of the co-simulation [s].
+    """
+
+    temperatures: tuple[float, ...] = field(
+        converter=tuple, validator=_temperatures, metadata=si("K")
+    )
+    communication_step: float = field(validator=positive, metadata=si("s"))
+
+
+@frozen(kw_only=True)
+class InjectorScene:
+    """A separation scene whose pull comes from a valve, and the temperatures to run it at."""
+
+    name: str = "fuel injector"
+    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
+    interface: Interface
+    opening: Opening
+    effects: tuple[SeparationEffect, ...] = field(converter=tuple)
+    valve: Valve
+    study: Study
+
+    def separation(self, temperature: float, *, limited: bool = True) -> SeparationScene:
+        """Film of the injector at a temperature [K], with or without its tension limit."""
+        kept = tuple(e for e in self.effects if limited or not isinstance(e, TensionLimit))
+        return SeparationScene(
+            name=self.name,
+            temperature=temperature,
+            interface=self.interface,
+            opening=self.opening,
+            effects=kept,
+        )
+
+    @property
+    def stop_time(self) -> float:
+        """Time at which the last cycle ends [s]."""
+        profile = self.valve.profile
+        return profile.start_delay + profile.cycles * profile.period
+
+
+class Run(NamedTuple):
+    """One co-simulation: at which temperature [K], with or without the tension limit, and its check."""
+
+    temperature: float
+    limited: bool
+    plan: Plan
+    coupled: CoSimulation
+    whole: MonolithicResult
+    seconds: float
+    whole_seconds: float
+
+    @property
+    def label(self) -> str:
+        """Temperature in degrees Celsius."""
+        return f"{self.temperature - celsius(0.0):+.0f} degC"
+
+
+class CycleNumbers(NamedTuple):
+    """What one firing cycle came to; nan where the spool was not released."""
+
+    start: float
+    delay: float
+    peak_force: float
+    impulse: float
+    held_by: str
+
+
+def open_device(tables: Mapping[str, Any], origin: str) -> FuelInjector:
+    """Open the tables of a fuel-injector scene file."""
+    return FuelInjector(structure(tables, InjectorScene, origin))
+
+
+@frozen
+class FuelInjector:
+    """The fuel injector as the command line runs it."""
+
+    scene: InjectorScene
+
+    @property
+    def name(self) -> str:
+        """Title of the scene."""
+        return self.scene.name
+
+    def plan_text(self) -> str:
+        """See `Runnable.plan_text`."""
+        made = plan(self.scene.separation(self.scene.temperature))
+        temperatures = ", ".join(
+            f"{t - celsius(0.0):g} degC" for t in self.scene.study.temperatures
+        )
+        extra = [
+            f"  on   {'valve':15s} coil, return spring, opposite stop; {self.scene.valve.profile.cycles} cycles",
+            f"  at   {temperatures}; FMUs valve-drive and stiction-mass, "
+            f"communication step {self.scene.study.communication_step:g} s",
+            "sources:",
+            *(f"  {line}" for line in made.cite().splitlines()),
+        ]
+        return "\n".join([str(made), *extra])
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `Runnable.fmu_start`."""
+        return "stiction-mass", mass_values(self.scene.separation(self.scene.temperature))
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `Runnable.run`."""
+        from .injector_report import report
+
+        return report(self.scene, self.runs(out, progress), out)
+
+    def runs(self, out: Path | None, progress: Progress) -> list[Run]:
+        """Build and validate the FMUs, and co-simulate each temperature with and without limit."""
+        study = self.scene.study
+        limited = (
+            (True, False)
+            if any(isinstance(e, TensionLimit) for e in self.scene.effects)
+            else (True,)
+        )
+        cases = [(t, limit) for t in study.temperatures for limit in limited]
+        with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+            drive, mass = self.build(out if out is not None else Path(folder))
+            runs = []
+            for i, (temperature, limit) in enumerate(cases):
+                runs.append(
+                    self._run(
+                        drive,
+                        mass,
+                        temperature,
+                        limit,
+                        lambda x, i=i: progress((i + x) / len(cases)),
+                    )
+                )
+        return runs
+
+    def build(self, folder: Path) -> tuple[Path, Path]:
+        """Build both FMUs with the values of the scene baked in, and validate them.
+
+        Raises
+        ------
+        PlanError
+            If an FMU is not valid.
+        """
+        from ..fmu.build import build, validate
+
+        name, start = self.fmu_start()
+        drive = build(
+            "valve-drive", folder / "valve-drive.fmu", start=drive_values(self.scene.valve)
+        )
+        mass = build(name, folder / f"{name}.fmu", start=start)
+        problems = validate(drive) + validate(mass)
+        if problems:
+            raise PlanError("FMU not valid: " + "; ".join(problems))
+        return drive, mass
+
+    def _run(
+        self, drive: Path, mass: Path, temperature: float, limited: bool, progress: Progress
+    ) -> Run:
+        from time import perf_counter
+
+        from ..fmu.cosimulate import cosimulate
+        from ..fmu.stiction_mass import MeniscusLaw
+        from .monolithic import simulate
+
+        scene = self.scene.separation(temperature, limited=limited)
+        values = mass_values(scene)
+        values["meniscus_law"] = MeniscusLaw[values["meniscus_law"]]
+        begun = perf_counter()
+        coupled = cosimulate(
+            drive, mass, self.scene.stop_time, self.scene.study.communication_step,
+            mass_start=values, progress=progress,
+        )  # fmt: skip
+        seconds = perf_counter() - begun
+        made = plan(scene)
+        begun = perf_counter()
+        whole = simulate(made, self.scene.valve, self.scene.stop_time)
+        return Run(temperature, limited, made, coupled, whole, seconds, perf_counter() - begun)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `Runnable.cost`."""
+        from .cost import cost_report, injector_sweep
+
+        return cost_report(injector_sweep(self, progress), out, error, self.name)
+
+
+def drive_values(valve: Valve) -> dict[str, Any]:
+    """Parameters of the FMU ``valve-drive`` for a valve."""
+    coil, spring, stop, profile = valve.coil, valve.spring, valve.stop, valve.profile
+    return {
+        "R_coil": coil.resistance, "N_turns": coil.turns, "A_pole": coil.pole_area,
+        "g_air": coil.air_gap, "g_iron": coil.iron_gap, "B_sat": coil.saturation or 0.0,
+        "k_spring": spring.stiffness, "F_preload": spring.preload,
+        "h_stop": stop.gap, "k_stop": stop.stiffness, "d_stop": stop.damping,
+        "t_delay": profile.start_delay, "T_period": profile.period, "t_on": profile.on_time,
+        "U_boost": profile.boost_voltage, "t_boost": profile.boost_time,
+        "U_hold": profile.hold_voltage, "U_off": profile.off_voltage, "n_cycles": profile.cycles,
+    }  # fmt: skip
+
+
+def release_delays(run: Run, valve: Valve) -> list[float]:
+    """Time [s] from energising to release in each cycle of a co-simulation; nan if there is none."""
+    import numpy as np
+
+    starts = energising_times(valve.profile)
+    found = np.unique(run.coupled["t_release"])
+    delays = []
+    for start in starts:
+        inside = [t - start for t in found if start <= t < start + valve.profile.period]
+        delays.append(float(inside[0]) if inside else math.nan)
+    return delays

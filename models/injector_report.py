@@ -1,0 +1,194 @@
+"""What the injector's co-simulations come to: a table, signals in files, figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from attrs import evolve
+
+from ..archive import save_csv, save_npz
+from ..effects import ViscousForce
+from ..io import unstructure
+from ..motion_state import LimitKind
+from ..plan import plan
+from ..units import celsius
+from .injector import InjectorScene, Run
+from .monolithic import simulate
+from .scenes import Report
+from .valve import energising_times
+
+__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report"]
+
+
+class Cycle(NamedTuple):
+    """One firing cycle of a co-simulation; times [s] from energising, nan if never released."""
+
+    delay: float
+    peak_force: float
+    viscous_impulse: float
+    meniscus_impulse: float
+    limited_share: float
+
+
+def cycles(run: Run, scene: InjectorScene) -> list[Cycle]:
+    """Read each firing cycle off the signals of a co-simulation."""
+    signals, profile = run.coupled, scene.valve.profile
+    time = signals.time
+    releases = np.unique(signals["t_release"])
+    found = []
+    for start in energising_times(profile):
+        after = [float(t) for t in releases if start <= t < start + profile.period]
+        delay = after[0] - start if after else math.nan
+        until = after[0] if after else start + profile.on_time
+        inside = (time >= start) & (time <= until)
+        acts = signals["limit"][inside] == LimitKind.TENSION
+        viscous, meniscus = (
+            float(np.interp(until, time, signals[n]) - np.interp(start, time, signals[n]))
+            for n in ("J", "J_m")
+        )
+        found.append(
+            Cycle(delay, float(signals["F"][inside].max()), viscous, meniscus, float(acts.mean()))
+        )
+    return found
+
+
+def dry_delay(scene: InjectorScene) -> float:
+    """Release delay [s] of a spool without a film: what magnet, spring and mass alone take."""
+    film = scene.separation(scene.temperature)
+    meniscus = film.interface.meniscus
+    thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
+    interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
+    dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))
+    return float(simulate(dry, scene.valve, _one_pulse(scene)).cycles[0].release_time)
+
+
+def _one_pulse(scene: InjectorScene) -> float:
+    return scene.valve.profile.start_delay + scene.valve.profile.on_time
+
+
+def delays_over_temperature(
+    scene: InjectorScene, *, limited: bool, n: int = 9
+) -> tuple[list[float], list[float]]:
+    """Temperatures [K] over the range of the study, and the release delay [s] at each."""
+    span = scene.study.temperatures
+    temperatures = sorted({*np.linspace(min(span), max(span), n).tolist(), *span})
+    delays = []
+    for temperature in temperatures:
+        made = plan(scene.separation(temperature, limited=limited))
+        first = simulate(made, scene.valve, _one_pulse(scene)).cycles[0]
+        delays.append(float(first.release_time))
+    return temperatures, delays
+
+
+def coupling_error(run: Run, scene: InjectorScene) -> float:
+    """Largest difference of release delay between co-simulation and one system, relative [-].
+
+    nan where neither releases the spool; inf where only one of them does.
+    """
+    worst = math.nan
+    for cycle, whole in zip(cycles(run, scene), run.whole.cycles, strict=True):
+        if math.isnan(cycle.delay) and math.isnan(whole.release_time):
+            continue
+        if math.isnan(cycle.delay) or math.isnan(whole.release_time):
+            return math.inf
+        error = abs(cycle.delay / whole.release_time - 1.0)
+        worst = error if math.isnan(worst) else max(worst, error)
+    return worst
+
+
+def _held_by(found: Sequence[Cycle], dry: float) -> str:
+    """Which force held the spool, in words."""
+    first = found[0]
+    total = first.viscous_impulse + first.meniscus_impulse
+    viscous = first.viscous_impulse / total if total > 0.0 else 0.0
+    name = "viscous film" if viscous >= 0.5 else "meniscus"
+    share = max(viscous, 1.0 - viscous)
+    text = f"{name} ({100 * share:.0f} % of the impulse)"
+    if first.limited_share > 0.0:
+        text += f", cut off by the tension limit {100 * first.limited_share:.0f} % of the time"
+    if not math.isnan(first.delay) and first.delay < 1.1 * dry:
+        text += "; hardly: mostly mass and coil"
+    return text
+
+
+def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Report:
+    """Turn the runs into a table and, with a folder, into signals and figures."""
+    dry = dry_delay(scene)
+    lines = [
+        f"{scene.name}: {scene.valve.profile.cycles} firing cycles, FMUs valve-drive and "
+        f"stiction-mass, communication step {scene.study.communication_step * 1e6:g} us",
+        f"a dry spool would be released {dry * 1e3:.3f} ms after energising",
+        "",
+        f"{'oil':>9s}  {'tension':>8s}  {'release':>9s}  {'sticks':>9s}  {'peak force':>10s}  "
+        f"{'impulse':>9s}  {'coupling':>8s}  {'seconds':>7s}  held by",
+        f"{'':>9s}  {'limit':>8s}  {'[ms]':>9s}  {'[ms]':>9s}  {'[N]':>10s}  {'[N.s]':>9s}  "
+        f"{'error':>8s}  {'':>7s}",
+    ]
+    scalars: dict[str, tuple[Any, str]] = {"dry_release_delay": (dry, "s")}
+    for run in runs:
+        found = cycles(run, scene)
+        delays = [c.delay for c in found]
+        delay = delays[0]
+        error = coupling_error(run, scene)
+        peak = max(c.peak_force for c in found)
+        stuck = math.isnan(delay)
+        lines.append(
+            f"{run.label:>9s}  {'on' if run.limited else 'off':>8s}  "
+            f"{'never' if stuck else f'{delay * 1e3:.4f}':>9s}  "
+            f"{'all pulse' if stuck else f'{(delay - dry) * 1e3:.4f}':>9s}  {peak:10.2f}  "
+            f"{found[0].viscous_impulse + found[0].meniscus_impulse:9.2e}  "
+            f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
+            f"{_held_by(found, dry)}"
+        )
+        key = (
+            f"{run.temperature - celsius(0.0):+.0f}degC_{'limited' if run.limited else 'unlimited'}"
+        )
+        scalars |= {
+            f"release_delay_{key}": (delay, "s"),
+            f"sticking_time_{key}": (delay - dry, "s"),
+            f"releases_{key}": (sum(not math.isnan(d) for d in delays), "-"),
+            f"peak_force_{key}": (peak, "N"),
+            f"viscous_impulse_{key}": (found[0].viscous_impulse, "N.s"),
+            f"meniscus_impulse_{key}": (found[0].meniscus_impulse, "N.s"),
+            f"coupling_error_{key}": (error, "-"),
+            f"seconds_{key}": (run.seconds, "s"),
+        }
+    lines += _spread(scene, runs)
+    files = _write(scene, runs, out, dry) if out is not None else ()
+    return Report(scalars, "\n".join(lines), files)
+
+
+def _spread(scene: InjectorScene, runs: Sequence[Run]) -> list[str]:
+    """Say which cycles were released, and how far they agree."""
+    lines = [""]
+    for run in runs:
+        delays = [c.delay for c in cycles(run, scene)]
+        good = [d for d in delays if not math.isnan(d)]
+        text = f"{run.label}, tension limit {'on' if run.limited else 'off'}: {len(good)} of {len(delays)} cycles released"
+        if good:
+            text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
+        lines.append(text)
+    return lines
+
+
+def _write(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> tuple[Path, ...]:
+    from .injector_figures import draw
+
+    files = []
+    for run in runs:
+        limit = "" if run.limited else "-without-tension-limit"
+        stem = out / f"signals{run.temperature - celsius(0.0):+.0f}degC{limit}"
+        columns = {"time": run.coupled.time, **run.coupled.columns}
+        headings = {"time": "time [s]"} | {n: p.heading for n, p in run.coupled.ports.items()}
+        header = {
+            "scene": unstructure(scene),
+            "temperature": run.temperature,
+            "tension_limit": run.limited,
+            "units": {n: p.unit for n, p in run.coupled.ports.items()} | {"time": "s"},
+        }
+        files += [save_csv(stem, columns, headings), save_npz(stem, columns, header)]
+    return (*files, *draw(scene, runs, out, dry))
