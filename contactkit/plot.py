@@ -155,12 +155,11 @@ def work_precision(
         for p in points:
             if p.error != p.error:
                 ax.plot([], [], "x", color="k", label=f"{method}, {p.label}: failed")
-    ax.axhspan(1e-16, found.floor, color="0.9", label="error of the reference")
-    ax.set(
-        xscale="log",
-        yscale="log",
-        xlabel="seconds",
-        ylabel=f"relative error of the {found.quantity}",
-    )
-    legend(ax, fontsize=8)
+    worst = [p.error for p in found.points if p.error == p.error]
+    low = 0.1 * min(found.floor, *worst)
+    ax.axhspan(low, found.floor, color="0.9", label="error of the reference")
+    ax.set(xscale="log", yscale="log", xlabel="seconds", ylim=(max(low, 1e-16), None))
+    ax.set_ylabel(f"relative error of the {found.quantity}")
+    plain_log(ax.xaxis)
+    legend(ax, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return ax
