@@ -30,7 +30,7 @@ def constant_force_time(plan: Plan, pull: float) -> float:
         isinstance(e, ViscousForce) and e.closure == "flooded" for e in plan.scene.effects
     )
     film = film_shape(plan.scene, constant_radius=flooded)
-    share = pull / film.count
+    share = pull / film.menisci
     if not plan.scene.interface.is_flat:
         return _sphere_time(plan, film, wetting_tension, share)
     turn = min(max(film.full_gap, opening.initial_gap), opening.final_gap)
@@ -60,8 +60,8 @@ def _sphere_time(plan: Plan, film: FilmShape, wetting_tension: float, pull: floa
 
     def integrand(log_gap: float) -> float:
         gap = math.exp(log_gap)
-        return gap * law.force(gap, 1.0) / film.count / (pull - laplace(gap))
+        return gap * law.force(gap, 1.0) / film.menisci / (pull - laplace(gap))
 
     low, high = math.log(opening.initial_gap), math.log(opening.final_gap)
-    value, _ = quad(integrand, low, high, epsrel=1e-11, limit=500)
+    value, _ = quad(integrand, low, high, epsabs=0.0, epsrel=1e-11, limit=500)
     return float(value)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ __all__ = ["at_speed", "frozen", "newtonian_impulses", "simulated", "within_time
 
 
 def frozen(values: object) -> NDArray[np.float64]:
+    """Make a read-only array of a curve."""
     array = np.array(values, dtype=np.float64)
     array.flags.writeable = False
     return array
@@ -101,19 +103,21 @@ def _quadrature(plan: Plan, force: Callable[[float, float], float]) -> float:
     high = min(opening.final_gap, plan.film.end)
     ends = [low, *(kink for kink in plan.film.kinks if low < kink < high), high]
     total = 0.0
-    for a, b in zip(ends, ends[1:], strict=False):
+    for a, b in pairwise(ends):
+        # Relative to the largest value there could be, as a force may change its sign.
+        floor = 1e-13 * b * max(abs(force(a, speed)), abs(force(b, speed)))
+        limits = {"epsabs": floor, "epsrel": 1e-10, "limit": 500}
         if a > 0.0:
-            part = quad(
-                lambda x: math.exp(x) * force(math.exp(x), speed),
-                math.log(a),
-                math.log(b),
-                epsrel=1e-10,
-                limit=500,
-            )
+            total += quad(_per_log, math.log(a), math.log(b), (force, speed), **limits)[0]
         else:
-            part = quad(lambda gap: force(gap, speed), a, b, epsrel=1e-10, limit=500)
-        total += part[0]
+            total += quad(force, a, b, (speed,), **limits)[0]
     return float(total)
+
+
+def _per_log(log_gap: float, force: Callable[[float, float], float], speed: float) -> float:
+    """Force per logarithm of the gap."""
+    gap = math.exp(log_gap)
+    return gap * force(gap, speed)
 
 
 def newtonian_impulses(plan: Plan) -> dict[str, float]:

@@ -159,4 +159,6 @@ class Opening:
     @property
     def imposed(self) -> Literal["speed", "force", "time"]:
         """What is imposed."""
-        return next(name for name in _IMPOSED if getattr(self, name) is not None)  # type: ignore[return-value]
+        if self.speed is not None:
+            return "speed"
+        return "force" if self.force is not None else "time"

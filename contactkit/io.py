@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 import os
-import tempfile
 import tomllib
+import uuid
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import resources
@@ -67,7 +67,7 @@ def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any
 
     def hook(value: Any, _: Any) -> Any:
         if isinstance(value, Mapping):
-            return _CONVERTER.structure(value, TemperatureLaw)
+            return _law(value, TemperatureLaw)
         if value == "vapour" or isinstance(value, bool) or (unit == "-" and isinstance(value, int)):
             return value
         if isinstance(value, list):
@@ -85,7 +85,7 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
         for a in attrs.fields(kind)
         if "unit" in a.metadata
     }
-    inner = make_dict_structure_fn(kind, _CONVERTER, **hooks)  # type: ignore[arg-type]
+    inner: Callable[[Any, Any], Any] = make_dict_structure_fn(kind, _CONVERTER, **hooks)  # type: ignore[arg-type]
     known = [a.alias for a in attrs.fields(kind) if a.init]
 
     def hook(value: Any, target: Any) -> Any:
@@ -107,7 +107,8 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
 def _liquid(value: Any, _: Any) -> Liquid:
     if isinstance(value, str):
         return load_liquid(value)
-    return _LIQUID(value, Liquid)
+    made: Liquid = _LIQUID(value, Liquid)
+    return made
 
 
 _CONVERTER = cattrs.Converter()
@@ -116,7 +117,7 @@ _LIQUID = _attrs_class(Liquid)
 _CONVERTER.register_structure_hook_func(lambda kind: kind is Liquid, _liquid)
 _CONVERTER.register_structure_hook_func(lambda kind: kind == Flat | Sphere, _tagged(*_TAGS[0]))
 _CONVERTER.register_structure_hook_func(lambda kind: kind is SeparationEffect, _tagged(*_TAGS[1]))
-_CONVERTER.register_structure_hook_func(lambda kind: kind is TemperatureLaw, _tagged(*_TAGS[2]))
+_law = _tagged(*_TAGS[2])
 
 
 def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
@@ -226,9 +227,10 @@ def load_liquid(name: str) -> Liquid:
 def unstructure(value: Any) -> Any:
     """Turn attrs objects into tables of plain values; what is at its default is left out."""
     if attrs.has(type(value)):
-        table = {}
+        table: dict[str, Any] = {}
         for tag, kinds in _TAGS:
-            table |= {tag: name for name, kind in kinds.items() if type(value) is kind}
+            names = [name for name, kind in kinds.items() if type(value) is kind]
+            table |= dict.fromkeys([tag], names[0]) if names else {}
         for a in attrs.fields(type(value)):
             item = getattr(value, a.name)
             if a.init and item is not None and item != a.default:
@@ -254,9 +256,8 @@ def write_whole(path: str | Path) -> Iterator[Path]:
     """Give a temporary path beside `path` and move it there at the end: never half a file."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
-    os.close(handle)
-    temporary = Path(name)
+    # Not tempfile: its files are private, and these are to be as readable as any other.
+    temporary = path.with_name(f".{path.stem}-{uuid.uuid4().hex[:8]}{path.suffix}")
     try:
         yield temporary
         os.replace(temporary, path)

@@ -155,7 +155,7 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
 
 
 def _mass(plan: Plan) -> float:
-    """Moving mass [kg]; without one, so little that its momentum is 1e-10 of the impulse given."""
+    """Moving mass [kg]; without one, so little that its momentum is 1e-14 of the impulse given."""
     opening = plan.scene.opening
     if opening.mass is not None:
         return opening.mass
@@ -163,7 +163,7 @@ def _mass(plan: Plan) -> float:
     assert impulse is not None  # a viscous force always has one
     given = impulse(opening.initial_gap, opening.final_gap)
     pull = max(abs(opening.force or 0.0), 1e-300)
-    return 1e-10 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
+    return 1e-14 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
 
 
 def _first_step(problem: _Problem, left: float) -> float:
@@ -173,6 +173,12 @@ def _first_step(problem: _Problem, left: float) -> float:
     still = math.sqrt(2e-3 * gap / acceleration) if acceleration > 0.0 else left
     moving = 1e-3 * gap / abs(speed) if speed else left
     return min(still, moving, left)
+
+
+def _closed_gap(plan: Plan) -> float:
+    """Gap below which the bodies count as closed again, so that the next release is a new one."""
+    opening = plan.scene.opening
+    return min(2.0 * opening.initial_gap, 0.5 * (opening.initial_gap + opening.final_gap))
 
 
 def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -> float | None:
@@ -186,7 +192,8 @@ def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -
         marks += [film.end] if film is not None else []
     else:
         marks += [opening.rest_gap]
-        marks += [opening.initial_gap] if state.broken or not state.armed else []
+        marks += [opening.initial_gap] if state.broken else []
+        marks += [] if state.armed else [_closed_gap(plan)]
     inside = [m for m in marks if low * (1.0 + _SAME) < m < high or m == gap]
     if not inside:
         return None
@@ -260,9 +267,12 @@ def _event(plan: Plan, film: Film | None, state: MotionState, mark: float) -> Mo
         )
     if rising and film is not None and mark == film.end:
         state = state._replace(broken=True, break_time=state.time, n_breaks=state.n_breaks + 1)
-    if rising or mark > opening.initial_gap:
+    if rising:
         return state
-    state = state._replace(armed=True)
+    if mark <= _closed_gap(plan):
+        state = state._replace(armed=True)
+    if mark > opening.initial_gap:
+        return state
     wets = state.broken and meniscus.rewetting > 0.0
     if wets and plan.film_with(meniscus.rewetting).end > mark:
         state = state._replace(broken=False, share=meniscus.rewetting)

@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 Drive = Callable[[float], float]
-"""Pull [N] at a time [s]."""
+"""Pull [N] at a time [s]; a `Pull`, or any function that is smooth within a step."""
 
 
 class FilmStatus(IntEnum):
@@ -58,7 +58,7 @@ class Pull(NamedTuple):
     rate: float = 0.0
     time: float = 0.0
 
-    def __call__(self, time: float) -> float:
+    def __call__(self, time: float, /) -> float:
         """Pull [N] at a time [s]."""
         return self.force + self.rate * (time - self.time)
 

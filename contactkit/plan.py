@@ -107,14 +107,17 @@ class Plan:
 
     def __str__(self) -> str:
         opening = self.scene.opening
-        title = f"{self.scene.name or 'separation'}: {opening.imposed} imposed, gap {opening.initial_gap:g} m to {opening.final_gap:g} m"
+        title = (
+            f"{self.scene.name or 'separation'}: {opening.imposed} imposed, "
+            f"gap {opening.initial_gap:g} m to {opening.final_gap:g} m"
+        )
         on = [f"  on   {e.name:15s} {_choices(e)}" for e in self.scene.effects]
         off = [f"  off  {kind.name:15s} {kind.summary}" for kind in EFFECTS if not self.has(kind)]
         return "\n".join([title, *on, *off])
 
 
 def _choices(effect: SeparationEffect) -> str:
-    fields = ((a.name, getattr(effect, a.name)) for a in type(effect).__attrs_attrs__)  # type: ignore[attr-defined]
+    fields = ((a.name, getattr(effect, a.name)) for a in type(effect).__attrs_attrs__)
     chosen = ", ".join(f"{name}={value!r}" for name, value in fields if value is not None)
     return f"{effect.summary}" + (f" ({chosen})" if chosen else "")
 
@@ -191,8 +194,8 @@ def _check_gap(scene: SeparationScene) -> None:
         )
     if any(isinstance(e, ViscousForce) for e in scene.effects):
         raise InfeasibleError(
-            "Opening.initial_gap is 0 m: the viscous impulse from a touching sphere is infinite, it "
-            "grows as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
+            "Opening.initial_gap is 0 m: the viscous impulse from a touching sphere is infinite, "
+            "it grows as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
         )
 
 

@@ -23,11 +23,12 @@ __all__ = [
 
 COLORS = {
     "gap": "#1f4e79", "speed": "#7f7f7f", "meniscus": "#2a9d8f", "viscous": "#c1440e",
-    "limit": "#e9c46a", "magnet": "#6a4c93", "spring": "#8d6b3d", "stop": "#444444", "pull": "#6a4c93",
+    "limit": "#e9c46a", "magnet": "#6a4c93", "spring": "#8d6b3d", "stop": "#444444",
+    "pull": "#6a4c93",
 }  # fmt: skip
 """One colour for each quantity, the same in every figure."""
 
-_STYLE = {
+_STYLE: Any = {
     "font.size": 10.0, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
     "grid.alpha": 0.3, "grid.linewidth": 0.6, "legend.frameon": False, "lines.linewidth": 1.6,
     "figure.dpi": 110, "savefig.dpi": 160, "axes.titlelocation": "left", "axes.titlesize": 11.0,

@@ -246,7 +246,7 @@ class SeparationResult:
                 self.columns[n] for n in ("meniscus_force", "viscous_force") if n in self.columns
             ]
             if total:
-                found["peak_force"] = (float(sum(total).max()), "N")  # type: ignore[union-attr, attr-defined]
+                found["peak_force"] = (float(sum(total).max()), "N")  # type: ignore[union-attr]
             return found
         found |= {
             "release_time": (state.release_time, "s"),

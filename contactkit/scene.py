@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TypeVar
 
 from attrs import field, frozen
 
@@ -13,7 +14,14 @@ from .units import celsius, si
 if TYPE_CHECKING:
     from .effects.base import SeparationEffect
 
-__all__ = ["SeparationScene"]
+__all__ = ["SeparationScene", "effects_tuple"]
+
+_E = TypeVar("_E", bound="SeparationEffect")
+
+
+def effects_tuple(effects: Iterable[SeparationEffect]) -> tuple[SeparationEffect, ...]:
+    """Convert any collection of effects to a tuple."""
+    return tuple(effects)
 
 
 @frozen(kw_only=True)
@@ -36,6 +44,10 @@ class SeparationScene:
 
     interface: Interface
     opening: Opening
-    effects: tuple[SeparationEffect, ...] = field(converter=tuple)
+    effects: tuple[SeparationEffect, ...] = field(converter=effects_tuple)
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     name: str = ""
+
+    def effect(self, kind: type[_E]) -> _E | None:
+        """Return the effect of a kind; None if the scene does not call for it."""
+        return next((effect for effect in self.effects if isinstance(effect, kind)), None)

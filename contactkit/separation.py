@@ -1,4 +1,4 @@
-"""Run a plan: the curve of an imposed speed, the impulse of an imposed time, the motion of a pull."""
+"""Run a plan: the curve of a speed, the impulse of a time, or the motion under a pull."""
 
 from __future__ import annotations
 
@@ -163,8 +163,9 @@ def _motion_result(
     else:
         status = "stuck"
         message = (
-            f"stuck: the pull of {pull(last.time):.4g} N does not exceed the {rows[-1].static:.4g} N of the "
-            f"meniscus at {last.gap:g} m; pull harder, or start from a larger gap"
+            f"stuck: the pull of {pull(last.time):.4g} N does not exceed the "
+            f"{rows[-1].static:.4g} N of the meniscus at {last.gap:g} m; pull harder, or start "
+            f"from a larger gap"
         )
     validity = check(plan, [(s.gap, s.speed) for s in states])
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)

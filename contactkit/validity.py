@@ -17,6 +17,8 @@ from .units import nm
 
 __all__ = ["ValidityNumber", "check", "warn"]
 
+_NO_DENSITY = "liquid.density [kg/m3] is not given"
+
 
 @frozen(kw_only=True)
 class ValidityNumber:
@@ -83,7 +85,7 @@ def _viscous(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> l
             name="Reynolds number",
             value=reynolds,
             high=1.0,
-            detail="liquid.density [kg/m3] is not given" if density is None else "inertia of the film is left out",
+            detail=_NO_DENSITY if density is None else "inertia of the film is left out",
             source="rho h' h/eta",
         ),
         ValidityNumber(
@@ -138,7 +140,8 @@ def _both(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> list
     meniscus = plan.scene.interface.meniscus
     state = meniscus.liquid.at(plan.scene.temperature)
     tension, viscosity = state.surface_tension, state.viscosity
-    assert tension is not None and viscosity is not None  # plan() has asked lacks() first
+    assert tension is not None
+    assert viscosity is not None  # plan() has asked lacks() first for both
     wetting = abs(math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper))
     opening = [(h, v) for h, v in pairs if v > 0.0 and math.isfinite(film.radius(h))]
     ratio = fingering = 0.0

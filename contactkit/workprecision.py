@@ -81,7 +81,8 @@ class WorkPrecision:
                 f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
             )
         rows.append(
-            f"relative error of the {self.quantity} against {self.reference:.10g}, known to {self.floor:.0e}"
+            f"relative error of the {self.quantity} against {self.reference:.10g}, "
+            f"known to {self.floor:.0e}"
         )
         return "\n".join(rows)
 

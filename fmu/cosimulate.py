@@ -151,7 +151,8 @@ class Instance:
         except FMICallException as error:
             said = self.log[-1] if self.log else "it logged nothing"
             raise ConvergenceError(
-                f"{self._slave.instanceName} stopped at t = {time:g} s with status {error.status}: {said}"
+                f"{self._slave.instanceName} stopped at t = {time:g} s with status "
+                f"{error.status}: {said}"
             ) from None
 
     def __enter__(self) -> Self:
@@ -237,8 +238,8 @@ def _check_step(drive: Instance, mass: Instance, length: float) -> None:
     longest = 2.0 * math.sqrt(m / stiffness)
     if length > longest:
         raise InfeasibleError(
-            f"the communication step of {length:g} s exceeds {longest:.3g} s = 2 sqrt(m/k_stop), the "
-            f"longest with which the stop can be coupled to the mass; take a tenth of that"
+            f"the communication step of {length:g} s exceeds {longest:.3g} s = 2 sqrt(m/k_stop), "
+            f"the longest with which the stop can be coupled to the mass; take a tenth of that"
         )
 
 

@@ -7,6 +7,7 @@ however long the communication step is.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any, ClassVar
@@ -46,6 +47,7 @@ class MeniscusLaw(IntEnum):
 _FILM = ("h0", "R", "V", "N")
 _MENISCUS = (*_FILM, "gamma", "theta1", "theta2", "meniscus_law")
 _VISCOUS = (*_FILM, "v0", "eta", "dp_cav", "tau_lim")
+_ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
 def _input(name: str, unit: str, label: str) -> Port:
@@ -79,7 +81,7 @@ PORTS = (
     _input("dF_ext", "N/s", "rate of the pull during the next step; 0 holds it constant"),
     _output("h", "m", "gap", ("h0",), display_unit="um", nominal=1e-6),
     _output("v", "m/s", "opening speed", ("v0",)),
-    _output("F", "N", "force of the film, positive resists opening", tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))),
+    _output("F", "N", "force of the film, positive resists opening", _ALL),
     _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS),
     _output("F_v", "N", "viscous force after the limits, positive resists opening", _VISCOUS),
     _output("J", "N.s", "viscous impulse since the start"),
@@ -94,32 +96,35 @@ PORTS = (
         kind="enumeration", enumeration=LimitKind, start=LimitKind.NONE,
     ),
     _output("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
-    _output("t_release", "s", "time the gap last reached h_rel, -1 before", start=-1.0),
+    _output("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
     _output("F_peak", "N", "largest force of the film so far"),
     _output("n_break", "-", "number of ruptures so far", kind="integer"),
     _output("n_release", "-", "number of releases so far", kind="integer"),
-    _size("m", "kg", "moving mass", 0.02, exclusive=True, display="g"),
-    _size("h0", "m", "gap at the start", 5e-6, exclusive=True, display="um"),
+    _size("m", "kg", "moving mass", 0.02, "g", exclusive=True),
+    _size("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),
     Port("v0", "m/s", causality="parameter", label="opening speed at the start", start=0.0),
     _size("k_s", "N/m", "stiffness of a spring that pulls back towards h0", 0.0),
-    _size("h_rel", "m", "gap at which the bodies count as released", 1e-4, exclusive=True, display="um"),
-    _size("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, display="um"),
-    _size("h_break", "m", "gap at which the film breaks; 0: where the neck of the arc vanishes", 0.0, display="um"),
-    _size("rewet", "-", "share of V that is there again when the bodies come back together", 1.0, maximum=1.0),
-    _size("R", "m", "radius of the faces", 3.175e-3, exclusive=True, display="mm"),
-    _size("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, exclusive=True, display="mPa.s"),
-    _size("gamma", "N/m", "surface tension of the liquid; 0: no meniscus force", 0.03, display="mN/m"),
-    _size("theta1", "rad", "contact angle on the fixed body", 0.2, maximum=3.141592653589793, display="deg"),
-    _size("theta2", "rad", "contact angle on the moving body", 0.2, maximum=3.141592653589793, display="deg"),
-    _size("V", "m3", "volume of the liquid; 0: the gap stays full to the rim (flooded)", 0.0, display="mm3"),
-    Port("N", "-", causality="parameter", label="number of equal menisci", kind="integer", start=1, minimum=1),
+    _size("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
+    _size("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
+    _size("h_break", "m", "gap at which the film breaks; 0: where its neck closes", 0.0, "um"),
+    _size("rewet", "-", "share of V that is there when the bodies return", 1.0, maximum=1.0),
+    _size("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
+    _size("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
+    _size("gamma", "N/m", "surface tension; 0: no meniscus force", 0.03, "mN/m"),
+    _size("theta1", "rad", "contact angle on the fixed body", 0.2, "deg", maximum=math.pi),
+    _size("theta2", "rad", "contact angle on the moving body", 0.2, "deg", maximum=math.pi),
+    _size("V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3"),
+    Port(
+        "N", "-", causality="parameter", label="number of equal menisci",
+        kind="integer", start=1, minimum=1,
+    ),
     Port(
         "meniscus_law", "-", causality="parameter", label="meniscus force that acts",
         kind="enumeration", enumeration=MeniscusLaw, start=MeniscusLaw.ARC,
     ),
-    _size("dp_cav", "Pa", "tension the liquid bears below ambient pressure; 0: no limit", 0.0, display="bar"),
-    _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, display="MPa"),
-    _size("rtol", "-", "relative tolerance of an internal step", 1e-8, exclusive=True, maximum=0.1),
+    _size("dp_cav", "Pa", "tension the liquid bears; 0: no limit", 0.0, "bar"),
+    _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
+    _size("rtol", "-", "tolerance of an internal step", 1e-8, exclusive=True, maximum=0.1),
 )  # fmt: skip
 
 
@@ -170,7 +175,7 @@ def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
     if law is MeniscusLaw.EXACT:
         raise DescriptionError(
             "meniscus_law", "EXACT", "be NONE, ARC or PUBLISHED",
-            hint="the exact bridge is not part of this version; ARC is its documented approximation",
+            hint="the exact bridge is not part of this version; ARC approximates it",
         )  # fmt: skip
     if law is not MeniscusLaw.NONE and values["gamma"] > 0.0:
         effects.append(MeniscusForce(profile="arc" if law is MeniscusLaw.ARC else "as-published"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +33,10 @@ def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str)
     """Turn a sweep into a table, numbers, and with a folder a picture and a CSV file."""
     try:
         best = found.cheapest(error)
-        advice = f"cheapest with an error of at most {error:g}: {best.method}, {best.label}, {best.seconds:.4f} s"
+        advice = (
+            f"cheapest with an error of at most {error:g}: {best.method}, {best.label}, "
+            f"{best.seconds:.4f} s"
+        )
     except InfeasibleError as problem:
         advice = str(problem)
     scalars: dict[str, tuple[Any, str]] = {found.quantity: (found.reference, "s")}
@@ -62,8 +66,8 @@ def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecisio
     """Error of the release time of a pull over the tolerance of time, against another solver."""
     if scene.opening.imposed != "force" or scene.opening.mass is None:
         raise PlanError(
-            "cost needs a scene with opening.force [N] and opening.mass [kg]: a curve at an imposed "
-            "speed or time is closed form and costs microseconds"
+            "cost needs a scene with opening.force [N] and opening.mass [kg]: a curve at an "
+            "imposed speed or time is closed form and costs microseconds"
         )
     from ..separation import drive
 
@@ -72,14 +76,14 @@ def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecisio
     pull = drive(made)
     exact, near = (_whole_release(scene, pull, end, rtol) for rtol in (1e-11, 1e-9))
     settings = [
-        Setting("contactkit motion", f"rtol {rtol:.0e}", lambda rtol=rtol: _release(scene, rtol))
+        Setting("contactkit motion", f"rtol {rtol:.0e}", partial(_release, scene, rtol))
         for rtol in _TOLERANCES
     ]
     settings += [
         Setting(
             "one system, scipy Radau",
             f"rtol {rtol:.0e}",
-            lambda rtol=rtol: _whole_release(scene, pull, end, rtol),
+            partial(_whole_release, scene, pull, end, rtol),
         )
         for rtol in _TOLERANCES[1::2]
     ]
@@ -89,7 +93,7 @@ def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecisio
             Setting(
                 "published meniscus, Eq. (3.11)",
                 f"rtol {rtol:.0e}",
-                lambda rtol=rtol: _release(published, rtol),
+                partial(_release, published, rtol),
                 is_model=True,
             )
             for rtol in _TOLERANCES[::3]
@@ -144,7 +148,7 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
         Setting(
             "one system, scipy",
             f"rtol {rtol:.0e}",
-            lambda rtol=rtol: _injector_whole(scene, film, rtol),
+            partial(_injector_whole, scene, film, rtol),
         )
         for rtol in _TOLERANCES[::2]
     ]
@@ -162,9 +166,7 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
                 Setting(
                     method,
                     f"step {step * 1e6:g} us",
-                    lambda one=one, step=step, linear=linear: _injector_pair(
-                        scene, one, pair, step, linear
-                    ),
+                    partial(_injector_pair, scene, one, pair, step, linear),
                     is_model=is_model,
                 )
                 for step in _STEPS
@@ -174,7 +176,7 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
             Setting(
                 "published constant radius (3.19)",
                 f"rtol {rtol:.0e}",
-                lambda rtol=rtol: _injector_whole(scene, flooded, rtol),
+                partial(_injector_whole, scene, flooded, rtol),
                 is_model=True,
             )
             for rtol in _TOLERANCES[:5:2]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 import tempfile
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,10 +16,10 @@ from ..errors import DescriptionError, PlanError
 from ..interface import Interface, Opening
 from ..io import structure
 from ..plan import Plan, plan
-from ..scene import SeparationScene
+from ..scene import SeparationScene, effects_tuple
 from ..units import celsius, si
 from .scenes import Report, mass_values
-from .valve import Valve, energising_times
+from .valve import Valve
 
 if TYPE_CHECKING:
     from ..fmu.cosimulate import CoSimulation
@@ -30,13 +30,17 @@ __all__ = ["FuelInjector", "InjectorScene", "Run", "Study", "open_device"]
 Progress = Callable[[float], None]
 
 
+def _all_positive(study: object, attribute: Any, values: tuple[float, ...]) -> None:
+    for value in values:
+        positive(study, attribute, value)
+
+
 def _temperatures(study: object, attribute: Any, values: tuple[float, ...]) -> None:
     if not values:
         raise DescriptionError(
             "Study.temperatures", values, "name at least one temperature", unit="K"
         )
-    for value in values:
-        positive(study, attribute, value)
+    _all_positive(study, attribute, values)
 
 
 @frozen(kw_only=True)
@@ -47,12 +51,17 @@ class Study:
     ----------
     temperatures : tuple of float
         Temperatures of the oil [K].
+    tension_limits : tuple of float
+        Tensions [Pa] the figure of the delays compares, beside none.
     communication_step : float
         Communication step of the co-simulation [s].
     """
 
     temperatures: tuple[float, ...] = field(
         converter=tuple, validator=_temperatures, metadata=si("K")
+    )
+    tension_limits: tuple[float, ...] = field(
+        default=(), converter=tuple, validator=_all_positive, metadata=si("Pa")
     )
     communication_step: float = field(validator=positive, metadata=si("s"))
 
@@ -65,13 +74,22 @@ class InjectorScene:
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     interface: Interface
     opening: Opening
-    effects: tuple[SeparationEffect, ...] = field(converter=tuple)
+    effects: tuple[SeparationEffect, ...] = field(converter=effects_tuple)
     valve: Valve
     study: Study
 
-    def separation(self, temperature: float, *, limited: bool = True) -> SeparationScene:
-        """Film of the injector at a temperature [K], with or without its tension limit."""
+    def separation(
+        self, temperature: float, *, limited: bool = True, tension: float | None = None
+    ) -> SeparationScene:
+        """Film of the injector at a temperature [K].
+
+        Without its tension limit if not `limited`, with another tension [Pa] if one is given.
+        """
         kept = tuple(e for e in self.effects if limited or not isinstance(e, TensionLimit))
+        if tension is not None:
+            kept = tuple(
+                evolve(e, tension=tension) if isinstance(e, TensionLimit) else e for e in kept
+            )
         return SeparationScene(
             name=self.name,
             temperature=temperature,
@@ -88,7 +106,7 @@ class InjectorScene:
 
 
 class Run(NamedTuple):
-    """One co-simulation: at which temperature [K], with or without the tension limit, and its check."""
+    """One co-simulation at a temperature [K], with or without the tension limit, and its check."""
 
     temperature: float
     limited: bool
@@ -102,16 +120,6 @@ class Run(NamedTuple):
     def label(self) -> str:
         """Temperature in degrees Celsius."""
         return f"{self.temperature - celsius(0.0):+.0f} degC"
-
-
-class CycleNumbers(NamedTuple):
-    """What one firing cycle came to; nan where the spool was not released."""
-
-    start: float
-    delay: float
-    peak_force: float
-    impulse: float
-    held_by: str
 
 
 def open_device(tables: Mapping[str, Any], origin: str) -> FuelInjector:
@@ -137,7 +145,8 @@ class FuelInjector:
             f"{t - celsius(0.0):g} degC" for t in self.scene.study.temperatures
         )
         extra = [
-            f"  on   {'valve':15s} coil, return spring, opposite stop; {self.scene.valve.profile.cycles} cycles",
+            f"  on   {'valve':15s} coil, return spring, opposite stop; "
+            f"{self.scene.valve.profile.cycles} cycles",
             f"  at   {temperatures}; FMUs valve-drive and stiction-mass, "
             f"communication step {self.scene.study.communication_step:g} s",
             "sources:",
@@ -168,15 +177,8 @@ class FuelInjector:
             drive, mass = self.build(out if out is not None else Path(folder))
             runs = []
             for i, (temperature, limit) in enumerate(cases):
-                runs.append(
-                    self._run(
-                        drive,
-                        mass,
-                        temperature,
-                        limit,
-                        lambda x, i=i: progress((i + x) / len(cases)),
-                    )
-                )
+                done = partial(_share, progress, i, len(cases))
+                runs.append(self._run(drive, mass, temperature, limit, done))
         return runs
 
     def build(self, folder: Path) -> tuple[Path, Path]:
@@ -229,6 +231,11 @@ class FuelInjector:
         return cost_report(injector_sweep(self, progress), out, error, self.name)
 
 
+def _share(progress: Progress, i: int, n: int, share: float) -> None:
+    """Report the share that is done of the i-th of n runs as one of them all."""
+    progress((i + share) / n)
+
+
 def drive_values(valve: Valve) -> dict[str, Any]:
     """Parameters of the FMU ``valve-drive`` for a valve."""
     coil, spring, stop, profile = valve.coil, valve.spring, valve.stop, valve.profile
@@ -241,16 +248,3 @@ def drive_values(valve: Valve) -> dict[str, Any]:
         "U_boost": profile.boost_voltage, "t_boost": profile.boost_time,
         "U_hold": profile.hold_voltage, "U_off": profile.off_voltage, "n_cycles": profile.cycles,
     }  # fmt: skip
-
-
-def release_delays(run: Run, valve: Valve) -> list[float]:
-    """Time [s] from energising to release in each cycle of a co-simulation; nan if there is none."""
-    import numpy as np
-
-    starts = energising_times(valve.profile)
-    found = np.unique(run.coupled["t_release"])
-    delays = []
-    for start in starts:
-        inside = [t - start for t in found if start <= t < start + valve.profile.period]
-        delays.append(float(inside[0]) if inside else math.nan)
-    return delays

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
 from .. import plot
 from ..motion_state import LimitKind
-from ..units import celsius
+from ..units import bar, celsius
 from .injector import InjectorScene, Run
-from .injector_report import cycles, delays_over_temperature
+from .injector_report import cycles, delays_over_temperature, stem
 from .valve import energising_times
 
 __all__ = ["draw"]
 
-_OIL = ("#264653", "#2a9d8f", "#e76f51", "#8d6b3d", "#6a4c93")
+_OIL = ("#264653", "#2a9d8f", "#e9a23b", "#e76f51", "#8a1c1c")
 
 
 def draw(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> tuple[Path, ...]:
@@ -84,7 +85,7 @@ def _balance(scene: InjectorScene, run: Run, out: Path) -> Path:
     plot.shared_legend(made, force)
     plot.title(force, "forces: up opens, down holds (blows on the stop are cut off)")
     force.set_xlabel("time [ms]")
-    return plot.save(made, out / f"force-balance{run.temperature - celsius(0.0):+.0f}degC")
+    return plot.save(made, out / f"force-balance_{stem(run.temperature)}")
 
 
 def _zoom(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
@@ -114,47 +115,34 @@ def _zoom(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
 
 
 def _delays(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> Path:
-    made, ax = plot.figure(size=(7.5, 4.8))
+    """Release delay over temperature, for several tensions the oil may bear."""
+    made, ax = plot.figure(size=(9.0, 5.0))
     pulse = scene.valve.profile.on_time * 1e3
-    for limited, color, label in ((True, _OIL[1], "with"), (False, _OIL[2], "without")):
-        if not any(run.limited is limited for run in runs):
-            continue
-        temperatures, delays = delays_over_temperature(scene, limited=limited)
+    curves: list[tuple[str, bool, float | None]] = [
+        (f"oil bears {t / bar:g} bar", True, t) for t in scene.study.tension_limits
+    ]
+    if not curves and any(run.limited for run in runs):
+        curves = [("with the tension limit", True, None)]
+    curves.append(("oil bears any tension", False, None))
+    for (label, limited, tension), color in zip(curves, cycle(_OIL), strict=False):
+        temperatures, delays = delays_over_temperature(scene, limited=limited, tension=tension)
         x = [t - celsius(0.0) for t in temperatures]
-        ax.plot(
-            x,
-            [d * 1e3 for d in delays],
-            "-",
-            color=color,
-            label=f"{label} the tension limit, one system",
-        )
+        ax.plot(x, [d * 1e3 for d in delays], "-", color=color, label=label)
         never = [t for t, d in zip(x, delays, strict=True) if math.isnan(d)]
-        ax.plot(
-            never,
-            [pulse] * len(never),
-            "x",
-            color=color,
-            label=f"{label} the limit: not within the pulse" if never else None,
-        )
-        found = [
-            (r.temperature - celsius(0.0), cycles(r, scene)[0].delay * 1e3)
-            for r in runs
-            if r.limited is limited
-        ]
-        ax.plot(
-            *zip(*found, strict=True),
-            "o",
-            color=color,
-            label=f"{label} the tension limit, FMU pair",
-        )
-    ax.axhline(dry * 1e3, color="0.5", ls=":", label="dry spool: magnet, spring and mass alone")
+        ax.plot(never, [pulse] * len(never), "x", color=color)
+    for run in runs:
+        delay = cycles(run, scene)[0].delay * 1e3
+        ax.plot(run.temperature - celsius(0.0), delay, "o", color="k", mfc="none")
+    ax.plot([], [], "o", color="k", mfc="none", label="FMU pair")
+    ax.plot([], [], "x", color="k", label="not released within the pulse")
     ax.axhline(pulse, color="0.5", ls="--", lw=0.8, label="end of the current pulse")
-    ax.set(
-        xlabel="oil temperature [degC]", ylabel="release delay after energising [ms]", yscale="log"
-    )
+    ax.axhline(dry * 1e3, color="0.5", ls=":", label="dry spool: magnet, spring, mass")
+    ax.set(xlabel="oil temperature [degC]", ylabel="release delay after energising [ms]")
+    ax.set_yscale("log")
+    ax.set_ylim(0.8 * dry * 1e3, 1.2 * pulse)
     plot.plain_log(ax.yaxis)
     plot.title(ax, f"{scene.name}: how long the spool sticks")
-    plot.legend(ax, loc="center right", fontsize=8)
+    plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return plot.save(made, out / "delay-against-temperature")
 
 
@@ -170,7 +158,7 @@ def _limit(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
             (run.coupled.time - profile.start_delay) * 1e3,
             run.coupled["h"] * 1e6,
             "-" if run.limited else "--",
-            color=_OIL[1] if run.limited else _OIL[2],
+            color=_OIL[1] if run.limited else _OIL[3],
             label="with the tension limit" if run.limited else "without it",
         )
         plot.title(ax, f"oil at {run.label}")

@@ -21,7 +21,7 @@ from .monolithic import simulate
 from .scenes import Report
 from .valve import energising_times
 
-__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report"]
+__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report", "stem"]
 
 
 class Cycle(NamedTuple):
@@ -56,6 +56,12 @@ def cycles(run: Run, scene: InjectorScene) -> list[Cycle]:
     return found
 
 
+def stem(temperature: float) -> str:
+    """Temperature [K] as part of a file name: ``minus20degC``, ``80degC``."""
+    degrees = temperature - celsius(0.0)
+    return f"{'minus' if degrees < 0.0 else ''}{abs(degrees):.0f}degC"
+
+
 def dry_delay(scene: InjectorScene) -> float:
     """Release delay [s] of a spool without a film: what magnet, spring and mass alone take."""
     film = scene.separation(scene.temperature)
@@ -71,15 +77,15 @@ def _one_pulse(scene: InjectorScene) -> float:
 
 
 def delays_over_temperature(
-    scene: InjectorScene, *, limited: bool, n: int = 9
+    scene: InjectorScene, *, limited: bool, tension: float | None = None, n: int = 9
 ) -> tuple[list[float], list[float]]:
     """Temperatures [K] over the range of the study, and the release delay [s] at each."""
     span = scene.study.temperatures
     temperatures = sorted({*np.linspace(min(span), max(span), n).tolist(), *span})
     delays = []
     for temperature in temperatures:
-        made = plan(scene.separation(temperature, limited=limited))
-        first = simulate(made, scene.valve, _one_pulse(scene)).cycles[0]
+        made = plan(scene.separation(temperature, limited=limited, tension=tension))
+        first = simulate(made, scene.valve, _one_pulse(scene), rtol=1e-6).cycles[0]
         delays.append(float(first.release_time))
     return temperatures, delays
 
@@ -168,7 +174,10 @@ def _spread(scene: InjectorScene, runs: Sequence[Run]) -> list[str]:
     for run in runs:
         delays = [c.delay for c in cycles(run, scene)]
         good = [d for d in delays if not math.isnan(d)]
-        text = f"{run.label}, tension limit {'on' if run.limited else 'off'}: {len(good)} of {len(delays)} cycles released"
+        text = (
+            f"{run.label}, tension limit {'on' if run.limited else 'off'}: "
+            f"{len(good)} of {len(delays)} cycles released"
+        )
         if good:
             text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
         lines.append(text)
@@ -180,8 +189,8 @@ def _write(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> 
 
     files = []
     for run in runs:
-        limit = "" if run.limited else "-without-tension-limit"
-        stem = out / f"signals{run.temperature - celsius(0.0):+.0f}degC{limit}"
+        limit = "" if run.limited else "_without_tension_limit"
+        file = out / f"signals_{stem(run.temperature)}{limit}"
         columns = {"time": run.coupled.time, **run.coupled.columns}
         headings = {"time": "time [s]"} | {n: p.heading for n, p in run.coupled.ports.items()}
         header = {
@@ -190,5 +199,5 @@ def _write(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> 
             "tension_limit": run.limited,
             "units": {n: p.unit for n, p in run.coupled.ports.items()} | {"time": "s"},
         }
-        files += [save_csv(stem, columns, headings), save_npz(stem, columns, header)]
+        files += [save_csv(file, columns, headings), save_npz(file, columns, header)]
     return (*files, *draw(scene, runs, out, dry))

@@ -172,7 +172,7 @@ class _Run:
             events=[watch for watch, _ in watched] or None,
             rtol=self.rtol, atol=self.rtol * self._sizes(), **method,
         )  # fmt: skip
-        if not solution.success:
+        if not solution.success or solution.sol is None:
             raise ConvergenceError(f"scipy stopped at {self.time:g} s: {solution.message}")
         self.n_steps += len(solution.t) - 1
         self.n_evaluations += solution.nfev
@@ -183,7 +183,7 @@ class _Run:
         if solution.status == 1:
             next(
                 action
-                for (_, action), times in zip(watched, solution.t_events, strict=True)
+                for (_, action), times in zip(watched, solution.t_events or [], strict=True)
                 if len(times)
             )()
 

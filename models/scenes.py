@@ -37,7 +37,9 @@ class Report(NamedTuple):
 class Runnable(Protocol):
     """What the command line asks of a scene."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """Title of the scene."""
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """Simulate, and write curves and figures to a folder."""
@@ -170,9 +172,12 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
 
     interface, opening, meniscus = scene.interface, scene.opening, scene.interface.meniscus
     liquid = meniscus.liquid.at(scene.temperature)
-    by_kind = {type(effect): effect for effect in scene.effects}
-    viscous, film = by_kind.get(ViscousForce), by_kind.get(MeniscusForce)
-    tension, shear, rupture = (by_kind.get(k) for k in (TensionLimit, ShearLimit, Rupture))
+    viscous, film = scene.effect(ViscousForce), scene.effect(MeniscusForce)
+    tension, shear, rupture = (
+        scene.effect(TensionLimit),
+        scene.effect(ShearLimit),
+        scene.effect(Rupture),
+    )
     against = [
         reason
         for reason, holds in {

@@ -1,6 +1,6 @@
-"""The roles a piece of physics may play in a separation, read off the equation of motion.
+r"""The roles a piece of physics may play in a separation, read off the equation of motion.
 
-.. math:: m \\ddot h = F_{ext}(t) - k_s (h - h_0) - \\sum F(h, \\dot h)
+.. math:: m \ddot h = F_{ext}(t) - k_s (h - h_0) - \sum F(h, \dot h)
 
 An effect holds choices only. `prepare` does once whatever does not depend on gap and speed;
 what it returns is called in the loop.

@@ -1,4 +1,4 @@
-"""How far the film reaches, as the viscous force and its limits see it: a disc with an upright rim."""
+"""How far the film reaches, as the viscous force and its limits see it: with an upright rim."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ __all__ = ["FilmShape", "film_shape", "needs_extent"]
 
 
 class FilmShape(NamedTuple):
-    """One of `count` equal films.
+    """One of `menisci` equal films.
 
     `radius` is the distance from the axis to the rim of the film [m] at a gap, `height` the
     thickness of the film there [m]; the film is pinned at `rim` below `full_gap`.
     """
 
-    count: int
+    menisci: int
     volume: float
     rim: float
     full_gap: float

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from attrs import field, frozen, validators
 
 from ..kernels import arc_flat, published
+from ..kernels.roots import bracketed_root
 from .base import ForceLaw, SeparationForce
 from .film_shape import film_shape, needs_extent
 
@@ -84,7 +85,7 @@ class MeniscusForce(SeparationForce):
     def _published(self, scene: SeparationScene) -> ForceLaw:
         meniscus, film = scene.interface.meniscus, film_shape(scene)
         tension = _surface_tension(scene)
-        n, radius = film.count, film.radius
+        n, radius = film.menisci, film.radius
         lower, upper, pulled = (
             meniscus.contact_angle_lower,
             meniscus.contact_angle_upper,
@@ -108,37 +109,43 @@ def _surface_tension(scene: SeparationScene) -> float:
 def _arc_law(scene: SeparationScene) -> ForceLaw:
     """Arc between flats: free at constant volume, or pinned at the rim of the faces."""
     meniscus, film = scene.interface.meniscus, film_shape(scene)
-    n, volume, rim, tension = film.count, film.volume, film.rim, _surface_tension(scene)
+    n, volume, rim, tension = film.menisci, film.volume, film.rim, _surface_tension(scene)
     arc = arc_flat.shape(meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-    free = math.isfinite(volume)
-    pinned = math.isfinite(rim)
-
-    def contact(gap: float) -> float:
-        if not free:
-            return float(arc_flat.rim_contact_radius(arc, gap, rim))
-        radius = float(arc_flat.contact_radius(arc, gap, volume))
-        return min(radius, float(arc_flat.rim_contact_radius(arc, gap, rim))) if pinned else radius
+    free, pinned = math.isfinite(volume), math.isfinite(rim)
+    pinned_end = arc_flat.zero_neck_gap_at_rim(arc, rim) if pinned else math.inf
+    free_end = float(arc_flat.zero_neck_gap(arc, volume)) if free else math.inf
+    full_gap = _full_gap(arc, volume, rim, min(free_end, pinned_end)) if free and pinned else 0.0
+    if not free:
+        full_gap = math.inf
+    end = pinned_end if full_gap >= pinned_end else free_end
+    last = end * (1.0 - 1e-12)  # a trial step may look beyond the end: the force stays as there
 
     def force(gap: float, speed: float) -> float:
-        return n * tension * float(arc_flat.force(arc, gap, contact(gap)))
+        gap = min(gap, last)
+        radius = (
+            arc_flat.rim_contact_radius(arc, gap, rim)
+            if gap < full_gap
+            else arc_flat.contact_radius(arc, gap, volume)
+        )
+        return n * tension * float(arc_flat.force(arc, gap, radius))
 
-    end = float(arc_flat.zero_neck_gap(arc, volume)) if free else math.inf
-    kinks = (_full_gap(arc, volume, rim, end),) if free and pinned else ()
+    kinks = (full_gap,) if 0.0 < full_gap < end else ()
     return ForceLaw(force, kinks, end=end)
 
 
 def _full_gap(arc: arc_flat.ArcShape, volume: float, rim: float, end: float) -> float:
-    """Gap [m] at which an arc of this volume just reaches the rim of the faces."""
-    from ..kernels.roots import bracketed_root
+    """Gap [m] below which an arc of this volume reaches the rim of the faces; inf for always."""
 
     def excess(gap: float) -> float:
         at_rim = arc_flat.rim_contact_radius(arc, gap, rim)
         return float(arc_flat.volume(arc, gap, at_rim)) / volume - 1.0
 
-    disc = volume / (math.pi * rim * rim)
-    low, high = 0.5 * disc, min(2.0 * disc, end)
+    last = end * (1.0 - 1e-9)
+    low = high = min(volume / (math.pi * rim * rim), last)
     while excess(low) > 0.0:
         low *= 0.5
-    while excess(high) < 0.0 and high < end:
-        high = min(2.0 * high, end)
-    return bracketed_root(excess, low, high) if excess(high) > 0.0 else end
+    while excess(high) < 0.0:
+        if high >= last:
+            return math.inf
+        high = min(2.0 * high, last)
+    return bracketed_root(excess, low, high)

@@ -10,6 +10,11 @@ from .base import ForceLaw
 from .film_shape import film_shape
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
     from ..accuracy import Accuracy
     from ..scene import SeparationScene
 
@@ -25,11 +30,13 @@ def sphere_law(scene: SeparationScene, accuracy: Accuracy, *, as_published: bool
     agrees with the arc at the midpoints to a tenth of the tolerance of time, and a spline is what
     the loop calls: microseconds in place of milliseconds.
     """
+    import numpy as np
+
     from ..kernels import arc_sphere, published
 
     interface, meniscus = scene.interface, scene.interface.meniscus
     film = film_shape(scene)
-    volume, n = film.volume, film.count
+    volume, n = film.volume, film.menisci
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None  # plan() has asked lacks() first
     lower, upper = meniscus.contact_angle_lower, meniscus.contact_angle_upper
@@ -37,11 +44,11 @@ def sphere_law(scene: SeparationScene, accuracy: Accuracy, *, as_published: bool
     profile = "parabola" if as_published else "sphere"
     end = float(arc_sphere.zero_neck_gap(volume, lower, upper, *curvatures, profile=profile))
 
-    def force(gap):  # type: ignore[no-untyped-def]
+    def force(gap: Floats) -> Floats:
         state = arc_sphere.solve(gap, volume, lower, upper, *curvatures, profile=profile)
         if as_published:
-            return published.meniscus_sphere_3_12(state, tension, upper, interface.sphere_radius)
-        return tension * state.force
+            return np.asarray(published.meniscus_sphere_3_12(state, tension, upper))
+        return np.asarray(tension * state.force)
 
     # Lengths of the film: where it is thinner than this, the force hardly depends on the gap.
     thin = 0.1 * math.sqrt(volume / (math.pi * film.sphere_radius))
@@ -51,13 +58,13 @@ def sphere_law(scene: SeparationScene, accuracy: Accuracy, *, as_published: bool
 
 
 def _spline(
-    force: Callable[..., object], thin: float, top: float, rtol: float
+    force: Callable[[Floats], Floats], thin: float, top: float, rtol: float
 ) -> Callable[[float], float]:
     import numpy as np
     from scipy.interpolate import CubicSpline
 
-    def to_gap(x):  # type: ignore[no-untyped-def]
-        return thin * np.expm1(x)
+    def to_gap(x: Floats) -> Floats:
+        return np.asarray(thin * np.expm1(x))
 
     far = math.log1p(top / thin)
     nodes = 33

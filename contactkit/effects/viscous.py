@@ -74,7 +74,7 @@ class ViscousForce(SeparationForce):
 
 
 def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
-    n, radius, full = film.count, film.radius, film.full_gap
+    n, radius, full = film.menisci, film.radius, film.full_gap
 
     def force(gap: float, speed: float) -> float:
         return n * float(squeeze.disc_force(radius(gap), gap, speed, viscosity))
@@ -92,7 +92,7 @@ def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> Fo
 
 
 def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
-    n, height, full, sphere = film.count, film.height, film.full_gap, film.sphere_radius
+    n, height, full, sphere = film.menisci, film.height, film.full_gap, film.sphere_radius
     flooded = math.isinf(film.volume)
 
     def force(gap: float, speed: float) -> float:
@@ -174,7 +174,7 @@ class TensionLimit(FilmLimit):
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
         """See `FilmLimit.prepare`."""
         film, drop = film_shape(scene, constant_radius=_keeps_radius(scene)), self.pressure_drop
-        n, radius, height = film.count, film.radius, film.height
+        n, radius, height = film.menisci, film.radius, film.height
         disc = (
             film_limits.disc_tension_reynolds
             if self.cavity == "reynolds"
@@ -217,7 +217,7 @@ class ShearLimit(FilmLimit):
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
         """See `FilmLimit.prepare`."""
         film, strength = film_shape(scene, constant_radius=_keeps_radius(scene)), self.strength
-        n, radius, height = film.count, film.radius, film.height
+        n, radius, height = film.menisci, film.radius, film.height
 
         def between_flats(gap: float, speed: float, force: float) -> float:
             return n * film_limits.disc_shear_limited(force / n, radius(gap), gap, strength)

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 __all__ = [
     "ArcShape", "bulge", "closed_neck", "contact_radius", "force", "neck", "pressure",
     "rim_contact_radius", "shape", "upper_contact_radius", "volume", "wetting", "zero_neck_gap",
+    "zero_neck_gap_at_rim",
 ]  # fmt: skip
 
 _Number = TypeVar("_Number", float, "NDArray[np.float64]")
@@ -123,9 +124,14 @@ def rim_contact_radius(shape: ArcShape, gap: _Number, rim_radius: _Number | floa
     """
     lower = rim_radius - gap * max(0.0, shape.upper_offset)
     if not _smallest(lower + gap * shape.least_offset) > 0.0:
-        span = max(0.0, shape.upper_offset) - shape.least_offset
-        raise closed_neck(_smallest(rim_radius) / span)
+        raise closed_neck(zero_neck_gap_at_rim(shape, _smallest(rim_radius)))
     return lower
+
+
+def zero_neck_gap_at_rim(shape: ArcShape, rim_radius: _Number) -> _Number:
+    """Gap [m] at which the neck of a film held by a rim closes; inf for two right angles."""
+    span = max(0.0, shape.upper_offset) - shape.least_offset
+    return rim_radius / span if span > 0.0 else rim_radius * math.inf
 
 
 def upper_contact_radius(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:

@@ -215,17 +215,20 @@ def sphere_shear_limited(
     while excess(far) > 0.0 and far < rim:
         far = min(2.0 * far, rim)
     outer = far if excess(far) >= 0.0 else bracketed_root(excess, peak, far)
-    lost = _sphere_force_between(k, radius, gap, inner, outer) - _plastic_force_between(
-        strength, radius, gap, inner, outer
+    # Summed from its parts; taking the excess off the Newtonian force would cancel.
+    left = (
+        _sphere_force_between(k, radius, gap, 0.0, inner)
+        + _plastic_force_between(strength, radius, gap, inner, outer)
+        + _sphere_force_between(k, radius, gap, outer, rim)
     )
-    return math.copysign(abs(newtonian_force) - lost, newtonian_force)
+    return math.copysign(min(left, abs(newtonian_force)), newtonian_force)
 
 
 def _sphere_force_between(k: float, radius: float, gap: float, inner: float, outer: float) -> float:
     r"""Newtonian share :math:`2\pi k \int r^3/H^3 dr` between two radii."""
-    h0, h1 = (gap + r * r / (2.0 * radius) for r in (inner, outer))
-    # Antiderivative of (H - D)/H^3 is (H - D)^2/(2 D H^2).
-    a, b = (h1 - gap) / h1, (h0 - gap) / h0
+    thin = 2.0 * radius * gap
+    # Antiderivative of (H - D)/H^3 is (H - D)^2/(2 D H^2), and 1 - D/H = r^2/(r^2 + 2 R D).
+    a, b = (1.0 if math.isinf(r) else r * r / (r * r + thin) for r in (outer, inner))
     return 2.0 * math.pi * k * radius**2 / gap * (a - b) * (a + b)
 
 

@@ -45,7 +45,7 @@ def log1p(x: Any) -> Any:
 
 
 def disc_radius(volume: Any, gap: Any) -> Any:
-    r"""Radius [m] of a disc of liquid of `volume` [m3] in a flat `gap` [m], :math:`\sqrt{V/\pi h}`."""
+    r"""Radius [m] of a disc of a `volume` [m3] in a flat `gap` [m], :math:`\sqrt{V/\pi h}`."""
     return (volume / (math.pi * gap)) ** 0.5
 
 
@@ -87,7 +87,8 @@ def disc_force(radius: Any, gap: Any, speed: Any, viscosity: Any) -> Any:
 def disc_impulse_flooded(radius: Any, gap_from: Any, gap_to: Any, viscosity: Any) -> Any:
     r"""Impulse [N.s] that opens a flooded disc from one gap to another, whatever the path in time.
 
-    .. math:: \int F \, dt = \frac{3\pi}{4} \, \eta \, r^4 \left(\frac{1}{h_0^2} - \frac{1}{h_1^2}\right)
+    .. math:: \int F \, dt = \frac{3\pi}{4} \, \eta \, r^4
+              \left(\frac{1}{h_0^2} - \frac{1}{h_1^2}\right)
 
     Notes
     -----
@@ -99,8 +100,8 @@ def disc_impulse_flooded(radius: Any, gap_from: Any, gap_to: Any, viscosity: Any
     >>> round(disc_impulse_flooded(1e-7, 2e-9, float("inf"), 0.89e-3) / 1e-7 * 1e9, 6)
     524.253274
     """
-    ratio = gap_from / gap_to
-    return 0.75 * math.pi * viscosity * radius**4 * (1.0 - ratio) * (1.0 + ratio) / gap_from**2
+    fall, ratio = _opening(gap_from, gap_to)
+    return 0.75 * math.pi * viscosity * radius**4 * fall * (1.0 + ratio) / gap_from**2
 
 
 def disc_impulse_conserved(volume: Any, gap_from: Any, gap_to: Any, viscosity: Any) -> Any:
@@ -119,16 +120,15 @@ def disc_impulse_conserved(volume: Any, gap_from: Any, gap_to: Any, viscosity: A
     >>> round(disc_impulse_conserved(volume, 2e-9, float("inf"), 0.89e-3) / 1e-7 * 1e9, 6)
     262.126637
     """
-    square = (gap_from / gap_to) ** 2
-    return (
-        3.0
-        / (8.0 * math.pi)
-        * viscosity
-        * volume**2
-        * (1.0 - square)
-        * (1.0 + square)
-        / gap_from**4
-    )
+    fall, ratio = _opening(gap_from, gap_to)
+    share = fall * (1.0 + ratio) * (1.0 + ratio * ratio)
+    return 3.0 / (8.0 * math.pi) * viscosity * volume**2 * share / gap_from**4
+
+
+def _opening(gap_from: Any, gap_to: Any) -> tuple[Any, Any]:
+    """1 - h0/h1 without cancellation, and h0/h1; `gap_to` may be inf."""
+    gap_to = _smaller(gap_to, 1e30 * gap_from)  # beyond, nothing is left to add
+    return (gap_to - gap_from) / gap_to, gap_from / gap_to
 
 
 def sphere_film_height(gap: Any, volume: Any, radius: Any) -> Any:
@@ -179,14 +179,14 @@ def sphere_force(radius: Any, gap: Any, film_height: Any, speed: Any, viscosity:
 
 
 def sphere_rim_height(gap: Any, rim_radius: Any, radius: Any) -> Any:
-    r"""Height [m] of a film that reaches out to a rim of radius a, :math:`H = D + a^2/2R`; inf in a bath."""
+    r"""Height [m] of a film out to a rim of radius a, :math:`H = D + a^2/2R`; inf in a bath."""
     return gap + rim_radius * rim_radius / (2.0 * radius)
 
 
 def sphere_impulse_flooded(
     radius: Any, rim_radius: Any, gap_from: Any, gap_to: Any, viscosity: Any
 ) -> Any:
-    r"""Impulse [N.s] that lifts a sphere while the film reaches out to a fixed radius a (inf: a bath).
+    r"""Impulse [N.s] that lifts a sphere, the film reaching out to a fixed radius a (inf: a bath).
 
     .. math:: 6\pi\eta R^2 \left[\ln\frac{D_1 (D_0 + b)}{D_0 (D_1 + b)}
               - \frac{b (D_1 - D_0)}{(D_0 + b)(D_1 + b)}\right], \qquad b = \frac{a^2}{2R}
@@ -212,7 +212,7 @@ def sphere_impulse_flooded(
 def sphere_impulse_conserved(
     radius: Any, film_height: Any, gap_from: Any, gap_to: Any, viscosity: Any
 ) -> Any:
-    r"""Impulse [N.s] that lifts a sphere at constant film volume; `film_height` is that at the start.
+    r"""Impulse [N.s] that lifts a sphere at constant volume; `film_height` is that at the start.
 
     .. math:: 6\pi\eta R^2 \int_{D_0}^{D_1} \left(1 - \frac{D}{H}\right)^2 \frac{dD}{D},
               \qquad H^2 = H_0^2 - D_0^2 + D^2

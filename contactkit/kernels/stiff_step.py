@@ -99,15 +99,16 @@ def _solve3(a: list[list[float]], b: list[float]) -> list[float] | None:
 def slopes(
     net: NetForce, time: float, gap: float, speed: float, scale: float
 ) -> tuple[float, float, float]:
-    """Net force and its derivatives with respect to gap and speed, by differences."""
+    """Net force and its derivatives with respect to gap and speed, by differences.
+
+    `scale` is a speed that is large here; at rest a difference far below it is taken, so that a
+    limit of the liquid that sets in at creeping speeds is not straddled.
+    """
     force = net(time, gap, speed)
     dh = 1e-7 * gap
-    dv = 1e-7 * (abs(speed) + scale)
-    return (
-        force,
-        (net(time, gap + dh, speed) - force) / dh,
-        (net(time, gap, speed + dv) - force) / dv,
-    )
+    dv = 1e-7 * (abs(speed) + 1e-6 * scale)
+    by_gap = (net(time, gap + dh, speed) - force) / dh
+    return force, by_gap, (net(time, gap, speed + dv) - force) / dv
 
 
 def step(

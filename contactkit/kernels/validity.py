@@ -13,7 +13,7 @@ GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2]."""
 
 LONGEST_FLAT_BRIDGE = 1.4645918875615231
-"""Longest stable bridge between free flats over the cube root of its volume: pi^(1/3), at 90/90 deg."""
+"""Longest stable bridge between flats over the cube root of its volume: pi^(1/3), at 90/90."""
 
 
 def reynolds_number(density: Any, speed: Any, gap: Any, viscosity: Any) -> Any:
@@ -34,7 +34,7 @@ def bond_number(density: Any, length_1: Any, length_2: Any, surface_tension: Any
 def viscous_to_capillary(
     viscosity: Any, radius: Any, speed: Any, gap: Any, tension_and_wetting: Any
 ) -> Any:
-    r"""Viscous against Laplace pressure [-], :math:`3\eta r^2 |\dot h|/(\gamma |c_1 + c_2| h^2)`."""
+    r"""Viscous over Laplace pressure [-], :math:`3\eta r^2 |\dot h|/(\gamma |c_1 + c_2| h^2)`."""
     return 3.0 * viscosity * radius**2 * abs(speed) / (tension_and_wetting * gap**2)
 
 

@@ -1,7 +1,7 @@
-"""Reynolds' equation of an axisymmetric film on a grid: the squeeze film without its closed form.
+r"""Reynolds' equation of an axisymmetric film on a grid: the squeeze film without its closed form.
 
-.. math:: \\frac{1}{r} \\frac{d}{dr}\\left(r H^3 \\frac{dp}{dr}\\right) = 12 \\eta \\dot h,
-          \\qquad p(r_n) = 0
+.. math:: \frac{1}{r} \frac{d}{dr}\left(r H^3 \frac{dp}{dr}\right) = 12 \eta \dot h,
+          \qquad p(r_n) = 0
 
 Finite volumes of second order. With a floor on the pressure the solution is that of the
 complementarity problem p >= -tension (Reynolds' cavitation condition), by projected relaxation of

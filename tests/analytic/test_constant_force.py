@@ -196,7 +196,7 @@ def test_a_sphere_held_by_its_meniscus_takes_longer_or_for_ever(film_scene):
     scene = film_scene(
         LAPLACE,
         ck.ViscousForce(),
-        lower=ck.Sphere(radius=1e-3),
+        upper=ck.Sphere(radius=1e-3),
         film={"volume": 1e-15},
         time=1.0,
         initial_gap=1e-8,

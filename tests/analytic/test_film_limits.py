@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -88,7 +89,7 @@ def integral(density, end, kinks):
     marks = [0.0, *inside, end]
     return math.fsum(
         quad(density, a, b, epsrel=1e-11, epsabs=0.0)[0]
-        for a, b in zip(marks, marks[1:], strict=False)
+        for a, b in pairwise(marks)
     )
 
 

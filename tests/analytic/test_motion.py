@@ -320,11 +320,11 @@ def test_the_weights_integrate_what_the_nodes_can_see(coefficients, dt):
 def test_work_along_a_step_is_force_times_travel():
     begin = Stage(0.0, 20e-6, 0.0)
     at_start = slopes(film_net, *begin, 1.0)
-    # In the gap itself a polynomial; in the impulse a step in which the gap quadruples, by six nodes.
+    # A polynomial in the gap; in the impulse six nodes span what is no polynomial.
     for exponent, rtol in ((-1.0, 1e-12), (2.0, 1e-6)):
         taken = step(film_net, MASS, begin, 1e-4, exponent, 1e-14, at_start)
         travel = taken.stages[2].gap - begin.gap
-        assert travel > 2.0 * begin.gap
+        assert travel > 0.4 * begin.gap
         assert travel_integral(begin, taken, 7.0, [7.0] * 3) == approx(7.0 * travel, rtol)
 
 

@@ -235,9 +235,10 @@ def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
 )
 def test_a_span_of_time_may_be_divided_at_will(parts, gap, viscosity):
     film = Film(gap=gap, final_gap=100.0 * gap, viscosity=viscosity)
-    made = film.plan(force=20.0, mass=0.01, stiffness=1e3)
-    span = released(film, force=20.0, mass=0.01).release_time * 0.9
-    pull = ck.Pull(20.0, rate=5.0 / span)
+    made = film.plan(force=20.0, mass=0.01)
+    time = ck.simulate(made).state.release_time
+    assume(time > 0.0)
+    span, pull = 0.9 * time, ck.Pull(20.0, rate=1.0 / time)
     whole = ck.advance(made, start(made), pull, span)
     state = start(made)
     for part in parts:
@@ -269,7 +270,7 @@ lengths, positives = decades(-9.0, -1.0), decades(-6.0, 6.0)
 angles = st.floats(0.0, math.pi)
 liquids = st.builds(
     ck.Liquid,
-    name=st.text(max_size=20).filter(lambda text: "\r" not in text),
+    name=st.text(max_size=20),
     surface_tension=st.floats(1e-3, 1.0),
     viscosity=positives,
     density=st.none() | positives,
@@ -329,7 +330,7 @@ scenes = st.builds(
     opening=openings(),
     effects=effects.flatmap(lambda all_five: st.lists(st.sampled_from(all_five), unique=True)),
     temperature=st.floats(200.0, 500.0),
-    name=st.text(max_size=20).filter(lambda text: "\r" not in text),
+    name=st.text(max_size=20),
 )
 
 
