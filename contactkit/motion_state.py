@@ -6,8 +6,11 @@ from collections.abc import Callable
 from enum import IntEnum
 from typing import NamedTuple
 
+from attrs import field, frozen
+
 from .effects import SeparationEffect, ShearLimit, TensionLimit
 from .plan import Plan
+from .units import si
 
 __all__ = [
     "LIMITS",
@@ -51,12 +54,13 @@ LIMITS: dict[type[SeparationEffect] | None, LimitKind] = {
 """Kind of a limit that acts, by its effect."""
 
 
-class Pull(NamedTuple):
+@frozen
+class Pull:
     """A pull that changes linearly in time: force [N] at a time [s] and its rate [N/s]."""
 
-    force: float
-    rate: float = 0.0
-    time: float = 0.0
+    force: float = field(metadata=si("N"))
+    rate: float = field(default=0.0, metadata=si("N/s"))
+    time: float = field(default=0.0, metadata=si("s"))
 
     def __call__(self, time: float, /) -> float:
         """Pull [N] at a time [s]."""

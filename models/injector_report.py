@@ -150,9 +150,7 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
             f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
             f"{_held_by(found, dry)}"
         )
-        key = (
-            f"{run.temperature - celsius(0.0):+.0f}degC_{'limited' if run.limited else 'unlimited'}"
-        )
+        key = f"{stem(run.temperature)}_{'limited' if run.limited else 'unlimited'}"
         scalars |= {
             f"release_delay_{key}": (delay, "s"),
             f"sticking_time_{key}": (delay - dry, "s"),

@@ -1,0 +1,121 @@
+"""The master: couples the two FMUs, converges, and refuses what would look like an answer."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError
+from contactkit.fmu.cosimulate import Instance, cosimulate
+from contactkit.fmu.stiction_mass import StictionMass
+from contactkit.fmu.valve_drive import ValveDrive
+from contactkit.io import read_tables
+from contactkit.models.injector import open_device
+from contactkit.models.monolithic import simulate
+from contactkit.plan import plan
+
+MODEL = Path(__file__).parents[2] / "models" / "fuel_injector.toml"
+
+
+@pytest.fixture(scope="module")
+def device():
+    tables = read_tables(MODEL)
+    tables.pop("device")
+    return open_device(tables, MODEL.name)
+
+
+@pytest.fixture(scope="module")
+def pair(device, tmp_path_factory):
+    return device.build(tmp_path_factory.mktemp("pair"))
+
+
+@pytest.fixture(scope="module")
+def first_release(device):
+    scene = device.scene
+    whole = simulate(plan(scene.separation(scene.temperature)), scene.valve, 2e-3, rtol=1e-10)
+    return whole.cycles[0].release_time + scene.valve.profile.start_delay
+
+
+def test_every_output_of_both_fmus_is_recorded_with_its_unit(pair):
+    found = cosimulate(*pair, 1e-4, 1e-5)
+    outputs = {p.name for p in (*StictionMass.ports, *ValveDrive.ports) if p.causality == "output"}
+    assert set(found.columns) == outputs
+    assert all(found.ports[name].name == name for name in outputs)
+    assert found.ports["F_mag"].unit == "N"
+    assert (found.n_steps, len(found.time), len(found["h"])) == (10, 11, 11)
+    assert found.time[-1] == 1e-4
+    with pytest.raises(ValueError, match="read-only"):
+        found["h"][0] = 0.0
+
+
+def test_the_coupling_error_falls_with_the_square_of_the_step(pair, first_release):
+    """Steps that meet the switching of the voltage; others err by the kink inside one step."""
+    steps = (10e-6, 5e-6, 2e-6)
+    errors = [abs(cosimulate(*pair, 2e-3, s)["t_release"][-1] / first_release - 1) for s in steps]
+    order = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert order == pytest.approx(2.0, abs=0.25)
+    assert errors[-1] < 2e-7
+
+
+def test_a_pull_that_is_held_costs_an_order(pair, first_release):
+    steps = (10e-6, 5e-6, 2e-6)
+    errors = [
+        abs(cosimulate(*pair, 2e-3, s, linear=False)["t_release"][-1] / first_release - 1)
+        for s in steps
+    ]
+    assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_step_too_long_for_the_stop_is_refused(pair):
+    """2 sqrt(m/k_stop) is 28 us; beyond it the spool would leap, and look released."""
+    with pytest.raises(InfeasibleError, match=r"5e-05 s exceeds 2\.83e-05 s.*tenth of that"):
+        cosimulate(*pair, 1e-3, 5e-5)
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
+@pytest.mark.parametrize("name", ["stop_time", "step"])
+def test_bad_times_are_refused(pair, name, value):
+    times = {"stop_time": 1e-3, "step": 1e-5} | {name: value}
+    with pytest.raises(DescriptionError, match=rf"{name} must be positive and finite \[s\]"):
+        cosimulate(*pair, **times)
+
+
+def test_an_fmu_that_stops_says_why(pair):
+    with pytest.raises(ConvergenceError, match=r"stiction-mass stopped at t = 0 s.*eta"):
+        cosimulate(*pair, 1e-3, 1e-5, mass_start={"eta": -1.0})
+
+
+def test_an_unknown_start_value_is_named(pair):
+    with pytest.raises(DescriptionError, match="etta must be a variable"):
+        cosimulate(*pair, 1e-3, 1e-5, mass_start={"etta": 1.0})
+
+
+def test_nothing_is_left_behind(pair, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    cosimulate(*pair, 1e-4, 1e-5)
+    with pytest.raises(ConvergenceError):
+        cosimulate(*pair, 1e-3, 1e-5, mass_start={"eta": -1.0})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_is_told(pair):
+    shares = []
+    cosimulate(*pair, 5e-3, 1e-5, progress=shares.append)
+    assert shares == sorted(shares)
+    assert 0.0 <= shares[0] < shares[-1] < 1.0
+
+
+def test_events_reach_the_log(pair):
+    found = cosimulate(*pair, 2e-3, 5e-6)
+    assert any("released at" in line for line in found.log)
+    assert any("film broke at" in line for line in found.log)
+
+
+def test_an_instance_reads_and_sets_by_name(pair):
+    with Instance(pair[1]) as mass:
+        mass.start({"h0": 7e-6, "h_min": 0.0}, 1.0)
+        assert mass.get(mass.references("h")) == [7e-6]
+        assert dict(zip(mass.names, mass.outputs(), strict=True))["h"] == 7e-6

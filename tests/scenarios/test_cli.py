@@ -1,0 +1,158 @@
+"""The command line, as a user types it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from contactkit.cli import main
+
+SCENE = """\
+name = "drop of oil"
+temperature = "25 degC"
+[interface.lower]
+shape = "flat"
+radius = "3 mm"
+[interface.upper]
+shape = "flat"
+[interface.meniscus]
+volume = "0.1 mm3"
+contact_angle_lower = "60 deg"
+[interface.meniscus.liquid]
+name = "oil"
+viscosity = "10 mPa.s"
+surface_tension = "30 mN/m"
+density = "870 kg/m3"
+[opening]
+initial_gap = "5 um"
+final_gap = "50 um"
+force = "40 N"
+mass = "20 g"
+[[effects]]
+effect = "meniscus-force"
+[[effects]]
+effect = "viscous-force"
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "drop.toml"
+    path.write_text(SCENE)
+    return path
+
+
+def test_run_prints_numbers_and_validity(scene, capsys):
+    assert main(["run", str(scene)]) == 0
+    printed = capsys.readouterr().out
+    for word in ("released after", "viscous_impulse", "N.s", "Reynolds number", "off  rupture"):
+        assert word in printed
+
+
+def test_run_json_prints_only_numbers_with_their_units(scene, capsys):
+    assert main(["run", str(scene), "--json"]) == 0
+    numbers = json.loads(capsys.readouterr().out)
+    assert numbers["release_time"]["unit"] == "s"
+    assert 0.0 < numbers["release_time"]["value"] < 1.0
+
+
+def test_run_writes_curves_and_figures(scene, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "--out", str(out)]) == 0
+    assert {p.name for p in out.iterdir()} == {
+        "result.npz",
+        "result.csv",
+        "forces.png",
+        "motion.png",
+    }
+    assert "written" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("imposed", ['speed = "10 mm/s"', 'time = "1 ms"'])
+def test_run_takes_every_kind_of_opening(scene, tmp_path, imposed, capsys):
+    text = scene.read_text().replace('force = "40 N"', imposed).replace('mass = "20 g"', "")
+    scene.write_text(text)
+    assert main(["run", str(scene), "--out", str(tmp_path / "out")]) == 0
+    assert "newtonian_impulse" in capsys.readouterr().out
+
+
+def test_plan_says_what_is_on_and_off_and_by_which_sources(scene, capsys):
+    assert main(["plan", str(scene)]) == 0
+    printed = capsys.readouterr().out
+    assert "on   viscous-force" in printed
+    assert "off  tension-limit" in printed
+    assert "Stefan 1874" in printed
+
+
+def test_cost_recommends_a_setting(scene, tmp_path, capsys):
+    assert main(["cost", str(scene), "--out", str(tmp_path), "--error", "1e-4"]) == 0
+    printed = capsys.readouterr().out
+    assert "cheapest with an error of at most 0.0001: " in printed
+    assert (tmp_path / "cost.png").exists()
+
+
+def test_an_fmu_is_built_from_a_scene(scene, tmp_path, capsys):
+    target = tmp_path / "drop.fmu"
+    assert main(["fmu", "build", str(scene), "--out", str(target)]) == 0
+    assert target.exists()
+    assert "valid" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "nothing.toml"], r"file must exist"),
+        (["plan", "fuel-injctor"], r"did you mean 'fuel-injector'"),
+        (["fmu", "build", "stiction-mass", "--out", "x.zip"], r"must end in \.fmu"),
+        (["fmu", "build", "stiction-mass", "--fmi", "3", "--out", "x.fmu"], r"only FMI 2\.0"),
+        (["fmu", "build", "stiction-mas", "--out", "x.fmu"], r"stiction-mas"),
+    ],
+)
+def test_mistakes_are_told_in_one_line_and_leave_no_file(
+    arguments, message, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("contactkit: ")
+    assert pytest.importorskip("re").search(message, error)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_bad_scene_writes_nothing(scene, tmp_path, capsys):
+    scene.write_text(SCENE.replace('viscosity = "10 mPa.s"', 'viscosity = "-10 mPa.s"'))
+    assert main(["run", str(scene), "--out", str(tmp_path / "out")]) == 2
+    assert "Liquid.viscosity must be positive and finite [Pa.s]" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_help_imports_nothing_heavy():
+    script = """
+import sys
+from contactkit.cli import main
+try:
+    main(["--help"])
+except SystemExit:
+    heavy = {"numpy", "scipy", "matplotlib", "fmpy", "tqdm", "cattrs"}
+    print(sorted(heavy & set(sys.modules)))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip().endswith("[]")
+
+
+def test_the_version_is_printed(capsys):
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out.strip() == "0.1.0"
+
+
+def test_the_module_runs_as_a_script(scene):
+    command = [sys.executable, "-m", "contactkit.cli", "plan", str(Path(scene))]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0
+    assert "viscous-force" in done.stdout
