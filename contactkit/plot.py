@@ -66,9 +66,11 @@ def legend(ax: Axes, **more: Any) -> None:
 
 
 def shared_legend(made: Figure, ax: Axes) -> None:
-    """One legend below all panels, from the curves of one of them."""
+    """One legend below all panels, from the curves of one of them, in as many rows as it takes."""
     handles, labels = ax.get_legend_handles_labels()
-    made.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
+    widest = 0.6 + 0.085 * max(map(len, labels))  # [inch]
+    columns = max(1, min(len(labels), int(made.get_figwidth() / widest)))
+    made.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False)
 
 
 def plain_log(axis: Axis) -> None:

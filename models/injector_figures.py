@@ -48,10 +48,15 @@ def _shade(ax: Any, run: Run, time: Any, **more: Any) -> None:
     )
 
 
-def _gap(ax: Any, scene: InjectorScene, run: Run, time: Any, **more: Any) -> None:
-    ax.plot(time, run.coupled["h"] * 1e6, color=plot.COLORS["gap"], **more)
-    ax.axhline(scene.opening.rest_gap * 1e6, color="0.6", lw=0.8, ls=":")
-    ax.axhline(scene.valve.stop.gap * 1e6, color="0.6", lw=0.8, ls=":")
+def _gap(ax: Any, scene: InjectorScene, run: Run, time: Any) -> None:
+    """Draw the gap, and where the spool meets the asperities and the stop."""
+    ax.plot(time, run.coupled["h"] * 1e6, color=plot.COLORS["gap"])
+    for gap, text in ((scene.opening.rest_gap, "at rest"), (scene.valve.stop.gap, "stop")):
+        ax.axhline(gap * 1e6, color="0.6", lw=0.8, ls=":")
+        ax.annotate(
+            text, (0.0, gap * 1e6), xycoords=("axes fraction", "data"), xytext=(4, 3),
+            textcoords="offset points", color="0.4", fontsize=8,
+        )  # fmt: skip
     ax.set_ylabel("gap at the end cap [um]")
 
 
@@ -63,7 +68,7 @@ def _forces(ax: Any, run: Run, time: Any) -> None:
         ("F_spring", "return spring", "spring", -1.0),
         ("F_stop", "opposite stop", "stop", -1.0),
         ("F_v", "viscous film", "viscous", -1.0),
-        ("F_m", "meniscus", "meniscus", -1.0),
+        ("F_m", f"meniscus (at most {signals['F_m'].max():.1f} N)", "meniscus", -1.0),
     ):
         ax.plot(time, sign * signals[name], color=plot.COLORS[color], label=label)
     top = 1.15 * float(signals["F_mag"].max())
@@ -88,6 +93,17 @@ def _balance(scene: InjectorScene, run: Run, out: Path) -> Path:
     return plot.save(made, out / f"force-balance_{stem(run.temperature)}")
 
 
+def _mark_events(ax: Any, run: Run, start: float, span: float) -> None:
+    """Mark the first rupture and the first release within `span` [ms] of energising."""
+    for name, label, color in (
+        ("t_break", "film breaks", plot.COLORS["viscous"]),
+        ("t_release", "released", "0.3"),
+    ):
+        when = float(run.coupled[name][run.coupled.time <= start + 1e-3 * span][-1])
+        if when > 0.0:
+            ax.axvline((when - start) * 1e3, color=color, lw=0.9, ls="--", label=label)
+
+
 def _zoom(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
     """First release at each temperature, gap above forces, from just before energising."""
     made, axes = plot.figure(2, len(runs), (4.2 * len(runs), 6.5), sharey="row", squeeze=False)
@@ -102,8 +118,7 @@ def _zoom(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
         for ax in (gap, force):
             _shade(ax, run, time, label="tension limit acts" if ax is force else None)
             ax.set_xlim(-0.05 * span, span)
-            if not math.isnan(first):
-                ax.axvline(first * 1e3, color="0.3", lw=0.9, ls="--")
+            _mark_events(ax, run, start, span)
         told = "never released" if math.isnan(first) else f"released after {first * 1e3:.3f} ms"
         plot.title(gap, f"oil at {run.label}: {told}")
         force.set_xlabel("time since energising [ms]")

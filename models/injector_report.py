@@ -13,9 +13,10 @@ from attrs import evolve
 from ..archive import save_csv, save_npz
 from ..effects import ViscousForce
 from ..io import unstructure
-from ..motion_state import LimitKind
+from ..motion_state import FilmStatus, LimitKind
 from ..plan import plan
 from ..units import celsius
+from ..validity import check
 from .injector import InjectorScene, Run
 from .monolithic import simulate
 from .scenes import Report
@@ -161,7 +162,7 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
             f"coupling_error_{key}": (error, "-"),
             f"seconds_{key}": (run.seconds, "s"),
         }
-    lines += _spread(scene, runs)
+    lines += [*_spread(scene, runs), *_validity(runs)]
     files = _write(scene, runs, out, dry) if out is not None else ()
     return Report(scalars, "\n".join(lines), files)
 
@@ -179,6 +180,24 @@ def _spread(scene: InjectorScene, runs: Sequence[Run]) -> list[str]:
         if good:
             text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
         lines.append(text)
+    return lines
+
+
+def _validity(runs: Sequence[Run]) -> list[str]:
+    """Say for each temperature how far the models were inside their ranges."""
+    lines = [""]
+    for run in runs:
+        if not run.limited:
+            continue
+        whole = run.coupled["state"] != FilmStatus.BROKEN
+        gaps, speeds = run.coupled["h"][whole], run.coupled["v"][whole]
+        found = check(run.plan, zip(gaps.tolist(), speeds.tolist(), strict=True))
+        told = [
+            f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
+            for n in found
+            if n.value is not None
+        ]
+        lines.append(f"validity, {run.label}: {', '.join(told)}")
     return lines
 
 
