@@ -122,13 +122,18 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     problem = _problem(plan, film, state, pull)
     left = end - state.time
     length = min(state.step or _first_step(problem, left), left)
+    # A hop that begins and ends at the rest gap has no crossing to look for: it is cut in two.
+    floor = plan.scene.opening.rest_gap
+    floor = floor if state.gap <= floor * (1.0 + _SAME) else 0.0
     rejected, evaluations = 0, 3
     while True:
         taken = problem.attempt(length)
         error = problem.error(taken, length) if taken is not None else math.inf
         evaluations += taken.evaluations if taken is not None else 0
         if taken is not None and error <= 1.0:
-            break
+            if taken.stages[2].gap >= floor:
+                break
+            error = 16.0
         rejected += 1
         length *= 0.25 if math.isinf(error) else max(_SHRINK, _SAFETY * error**-0.25)
         if length < 1e-15 * max(abs(state.time), 1e-15) or rejected > 60:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from .curves import at_speed, frozen, newtonian_impulses, simulated, within_time
 from .effects import MeniscusForce, ViscousForce
@@ -14,6 +15,10 @@ from .motion_state import MotionState, outputs, start
 from .plan import Plan
 from .results import SeparationResult, Work
 from .validity import check, warn
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = ["advance", "simulate"]
 
@@ -126,7 +131,23 @@ def _motion_result(
     begun: float,
     problem: str | None,
 ) -> SeparationResult:
-    last, opening = states[-1], plan.scene.opening
+    last = states[-1]
+    impulses = {}
+    if plan.has(MeniscusForce):
+        impulses["meniscus_impulse"] = last.meniscus_impulse
+    if plan.has(ViscousForce):
+        impulses |= newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
+    status, message = _outcome(plan, last, pull(last.time), problem)
+    validity = check(plan, [(s.gap, s.speed) for s in states])
+    work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
+    columns = _columns(plan, states, pull)
+    return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
+
+
+def _columns(
+    plan: Plan, states: list[MotionState], pull: Callable[[float], float]
+) -> dict[str, NDArray[np.float64]]:
+    """Curves along the states of a motion."""
     rows = [outputs(plan, state, pull(state.time)) for state in states]
     columns = {
         "time": frozen([s.time for s in states]),
@@ -142,34 +163,32 @@ def _motion_result(
         "limit": [row.limit for row in rows],
     }
     columns |= {name: frozen(curves[name]) for name in simulated(plan)}
-    impulses = {}
-    if plan.has(MeniscusForce):
-        impulses["meniscus_impulse"] = last.meniscus_impulse
     if plan.has(ViscousForce):
         columns["viscous_impulse"] = frozen([s.viscous_impulse for s in states])
-        impulses = impulses | newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
+    return columns
+
+
+def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) -> tuple[str, str]:
+    """Status of a motion, and the same as a sentence with its cure."""
+    limit = plan.scene.opening.time_limit
     if last.n_releases:
-        status, message = (
+        return (
             "released",
             f"released after {last.release_time:.6g} s at {last.release_speed:.4g} m/s",
         )
-    elif problem is not None:
-        status, message = "not converged", problem
-    elif last.time >= opening.time_limit:
-        status = "time limit"
-        message = (
-            f"not released within Opening.time_limit = {opening.time_limit:g} s; gap {last.gap:g} m"
+    if problem is not None:
+        return "not converged", problem
+    if last.time >= limit:
+        return (
+            "time limit",
+            f"not released within Opening.time_limit = {limit:g} s; gap {last.gap:g} m",
         )
-    else:
-        status = "stuck"
-        message = (
-            f"stuck: the pull of {pull(last.time):.4g} N does not exceed the "
-            f"{rows[-1].static:.4g} N of the meniscus at {last.gap:g} m; pull harder, or start "
-            f"from a larger gap"
-        )
-    validity = check(plan, [(s.gap, s.speed) for s in states])
-    work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
-    return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
+    held = outputs(plan, last, pull).static
+    return (
+        "stuck",
+        f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the meniscus at "
+        f"{last.gap:g} m; pull harder, or start from a larger gap",
+    )
 
 
 def _newtonian_force(plan: Plan, state: MotionState) -> float:

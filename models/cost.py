@@ -144,43 +144,8 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
     film = scene.separation(scene.temperature)
     exact, near = (_injector_whole(scene, film, rtol) for rtol in (1e-11, 1e-9))
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
-    settings = [
-        Setting(
-            "one system, scipy",
-            f"rtol {rtol:.0e}",
-            partial(_injector_whole, scene, film, rtol),
-        )
-        for rtol in _TOLERANCES[::2]
-    ]
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        pair = device.build(Path(folder))
-        coupled = [
-            ("FMU pair, pull a straight line", film, True, False),
-            ("FMU pair, pull held", film, False, False),
-        ]
-        published = _as_published(film)
-        if published is not None:
-            coupled.append(("FMU pair, published meniscus (3.11)", published, True, True))
-        for method, one, linear, is_model in coupled:
-            settings += [
-                Setting(
-                    method,
-                    f"step {step * 1e6:g} us",
-                    partial(_injector_pair, scene, one, pair, step, linear),
-                    is_model=is_model,
-                )
-                for step in _STEPS
-            ]
-        flooded = _swap(film, ViscousForce(closure="flooded"))
-        settings += [
-            Setting(
-                "published constant radius (3.19)",
-                f"rtol {rtol:.0e}",
-                partial(_injector_whole, scene, flooded, rtol),
-                is_model=True,
-            )
-            for rtol in _TOLERANCES[:5:2]
-        ]
+        settings = _injector_settings(scene, film, device.build(Path(folder)))
         return sweep(
             settings,
             exact.value,
@@ -189,6 +154,38 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
             repeats=3,
             progress=progress,
         )
+
+
+def _injector_settings(
+    scene: InjectorScene, film: SeparationScene, pair: tuple[Path, Path]
+) -> list[Setting]:
+    """One system over tolerances, FMU pairs over steps, published closures as models."""
+    wholes = [("one system, scipy", film, _TOLERANCES[::2], False)]
+    coupled = [
+        ("FMU pair, pull a straight line", film, True, False),
+        ("FMU pair, pull held", film, False, False),
+    ]
+    published = _as_published(film)
+    if published is not None:
+        coupled.append(("FMU pair, published meniscus (3.11)", published, True, True))
+    flooded = _swap(film, ViscousForce(closure="flooded"))
+    wholes.append(("published constant radius (3.19)", flooded, _TOLERANCES[:5:2], True))
+    settings = [
+        Setting(method, f"rtol {rtol:.0e}", partial(_injector_whole, scene, one, rtol), is_model)
+        for method, one, tolerances, is_model in wholes
+        for rtol in tolerances
+    ]
+    settings += [
+        Setting(
+            method,
+            f"step {step * 1e6:g} us",
+            partial(_injector_pair, scene, one, pair, step, linear),
+            is_model,
+        )
+        for method, one, linear, is_model in coupled
+        for step in _STEPS
+    ]
+    return settings
 
 
 def _first_pulse(scene: InjectorScene) -> float:

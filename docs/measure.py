@@ -1,0 +1,205 @@
+"""Measure the numbers of docs/accuracy.md and docs/injector.md on this machine and print them.
+
+Run it as ``python docs/measure.py``; it takes about half a minute and writes nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import tempfile
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from attrs import evolve
+
+import contactkit as ck
+from contactkit.fmu.build import build
+from contactkit.fmu.cosimulate import Instance
+from contactkit.fmu.stiction_mass import MeniscusLaw
+from contactkit.models.monolithic import simulate as whole
+from contactkit.models.scenes import open_scene
+from contactkit.units import celsius
+
+CASES = json.loads(
+    (Path(__file__).parents[1] / "tests" / "data" / "release.json").read_text("utf-8")
+)
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
+
+
+def scene(case: dict[str, Any]) -> ck.SeparationScene:
+    """Scene of a release case."""
+    oil = ck.Liquid(name="oil", viscosity=case["eta"], surface_tension=case["gamma"])
+    face, theta = ck.Flat(radius=case["R"]), case["theta"]
+    film = ck.Meniscus(
+        liquid=oil,
+        volume=case["V"] or None,
+        contact_angle_lower=theta,
+        contact_angle_upper=theta,
+    )
+    opening = ck.Opening(
+        initial_gap=case["h0"],
+        final_gap=case["h_rel"],
+        force=case["F0"],
+        mass=case["m"],
+        stiffness=case["k_s"],
+        rise_time=case["tau"],
+    )
+    limit = (ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()
+    return ck.SeparationScene(
+        interface=ck.Interface(lower=face, upper=face, meniscus=film),
+        opening=opening,
+        effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce(), *limit),
+    )
+
+
+def best_of(run: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
+    """Result of a run, and the best of its times [s]."""
+    found, seconds = run(), math.inf
+    for _ in range(repeats):
+        begun = time.perf_counter()
+        run()
+        seconds = min(seconds, time.perf_counter() - begun)
+    return found, seconds
+
+
+def release_table() -> str:
+    """Relative error of the release time, over the tolerance of a step of time."""
+    lines = [
+        "| case | tolerance | error of the release time | steps | time [ms] |",
+        "|---|---|---|---|---|",
+    ]
+    for name, entry in CASES.items():
+        for rtol in TOLERANCES:
+            made = ck.plan(scene(entry["case"]), ck.Accuracy(time_rtol=rtol))
+            result, seconds = best_of(lambda made=made: ck.simulate(made))
+            error = abs(result.state.release_time / entry["values"]["t_rel"] - 1.0)
+            steps = result.work.n_steps
+            lines.append(f"| {name} | {rtol:.0e} | {error:.0e} | {steps} | {seconds * 1e3:.1f} |")
+    return "\n".join(lines)
+
+
+def fmu_values(case: dict[str, Any]) -> dict[str, float]:
+    """Start values of ``stiction-mass`` for a release case."""
+    same = ("h0", "R", "eta", "gamma", "V", "m", "k_s", "h_rel", "dp_cav", "tau_lim")
+    values = {name: case[name] for name in same}
+    law = {"meniscus_law": MeniscusLaw.PUBLISHED, "theta1": case["theta"], "theta2": case["theta"]}
+    return values | law
+
+
+def fmu_release(fmu: Path, case: dict[str, Any], stop: float, n: int) -> float:
+    """Release time [s] that the FMU finds in n steps; -1 if none. A straight pull in each."""
+
+    def pull(at: float) -> float:
+        return case["F0"] * (-math.expm1(-at / case["tau"]) if case["tau"] else 1.0)
+
+    with Instance(fmu) as one:
+        one.start(fmu_values(case), stop)
+        inputs, length = one.references("F_ext", "dF_ext"), stop / n
+        for i in range(n):
+            begin, end = pull(i * length), pull((i + 1) * length)
+            one.set(inputs, [begin, (end - begin) / length])
+            one.step(i * length, length)
+        return one.get(one.references("t_release"))[0]
+
+
+def fmu_table(fmu: Path, counts: Sequence[int] = (1, 10, 100, 1000, 10000)) -> str:
+    """Relative error of the release time that the FMU finds, over communication steps."""
+    head = " | ".join(f"{n} steps" if n > 1 else "1 step" for n in counts)
+    lines = [f"| case | {head} |", "|---" * (len(counts) + 1) + "|"]
+    for name, entry in CASES.items():
+        wanted = entry["values"]["t_rel"]
+        found = [fmu_release(fmu, entry["case"], 1.2 * wanted, n) for n in counts]
+        cells = [f"{abs(t / wanted - 1.0):.0e}" if t > 0.0 else "no release" for t in found]
+        lines.append(f"| {name} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def step_cost(fmu: Path) -> str:
+    """Time of one exchange (set two inputs, doStep, get two outputs), by what the film does."""
+    lines = ["| state of the film | set 2, doStep, get 2 [us] |", "|---|---|"]
+    base = fmu_values(CASES["B"]["case"])
+    # h0 just below h_break: the film breaks in the first steps, and a free mass is left.
+    cases = {
+        "film acts, step 5 us, pull 40 N": ({}, 40.0, 5e-6, 1000),
+        "film and tension limit act, step 0.5 us, pull 40 N": ({"dp_cav": 1e6}, 40.0, 5e-7, 1000),
+        "broken, the mass flies freely": ({"h_break": 5.01e-6, "dp_cav": 1e4}, 40.0, 5e-6, 1000),
+        "closed, rests on asperities": ({"h_min": 5e-6}, -1.0, 5e-6, 1000),
+    }  # fmt: skip
+    for label, (more, force, length, n) in cases.items():
+        with Instance(fmu) as one:
+            one.start(base | more, 1.0)
+            inputs, motion = one.references("F_ext", "dF_ext"), one.references("h", "v")
+            at, spent = 0.0, []
+            for _ in range(n):
+                begun = time.perf_counter()
+                one.set(inputs, [force, 0.0])
+                one.step(at, length)
+                one.get(motion)
+                spent.append(time.perf_counter() - begun)
+                at += length
+        lines.append(f"| {label} | {sorted(spent)[n // 2] * 1e6:.0f} |")
+    return "\n".join(lines)
+
+
+def tension_table() -> str:
+    """Release delay of the injector over the tension the oil bears."""
+    injector = open_scene("fuel-injector").scene
+    temperatures = injector.study.temperatures
+    degrees = [f"{t - celsius(0.0):.0f} degC [ms]" for t in temperatures]
+    lines = ["| tension limit | " + " | ".join(degrees) + " |", "|---" * (1 + len(degrees)) + "|"]
+    for bar in (1.0, 3.0, 10.0, 12.0, 15.0, 20.0, 100.0, math.inf):
+        cells = []
+        for temperature in temperatures:
+            film = injector.separation(temperature, limited=math.isfinite(bar))
+            swap = (ck.TensionLimit(tension=bar * 1e5),) if math.isfinite(bar) else ()
+            others = tuple(e for e in film.effects if not isinstance(e, ck.TensionLimit))
+            made = ck.plan(evolve(film, effects=(*others, *swap)))
+            delay = whole(made, injector.valve, 5e-3).cycles[0].release_time
+            cells.append("never" if math.isnan(delay) else f"{delay * 1e3:.3f}")
+        label = f"{bar:g} bar" if math.isfinite(bar) else "none"
+        lines.append(f"| {label} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def healing_table() -> str:
+    """Gap left at the end of each cycle if the film never breaks and so heals at once."""
+    injector = open_scene("fuel-injector").scene
+    profile, rest = injector.valve.profile, injector.opening.rest_gap
+    ends = [profile.start_delay + (n + 1) * profile.period for n in range(profile.cycles)]
+    head = " | ".join(f"after cycle {n + 1} [um]" for n in range(len(ends)))
+    lines = [f"| temperature | {head} |", "|---" * (1 + len(ends)) + "|"]
+    for temperature in injector.study.temperatures:
+        film = injector.separation(temperature)
+        kept = tuple(e for e in film.effects if not isinstance(e, ck.Rupture))
+        found = whole(ck.plan(evolve(film, effects=kept)), injector.valve, ends[-1], times=ends)
+        short = " | ".join(f"{(gap - rest) * 1e6:.2f}" for gap in found.columns["gap"])
+        lines.append(f"| {temperature - celsius(0.0):.0f} degC | {short} |")
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """Print every table."""
+    warnings.simplefilter("ignore", ck.ValidityWarning)
+    tables: list[tuple[str, Callable[[], str]]] = [
+        ("release cases, Python", release_table),
+        ("injector: release delay over the tension limit", tension_table),
+        ("injector without rupture: how far short of the end cap the spool stays", healing_table),
+    ]
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        fmu = build("stiction-mass", Path(folder) / "stiction-mass.fmu")
+        tables[1:1] = [
+            ("release cases, FMU, tolerance 1e-8", lambda: fmu_table(fmu)),
+            ("cost of a communication step", lambda: step_cost(fmu)),
+        ]
+        for title, table in tables:
+            sys.stdout.write(f"{title}\n\n{table()}\n\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

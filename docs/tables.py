@@ -1,0 +1,374 @@
+"""Write the tables of the documentation from the code they describe.
+
+A page holds ``<!-- table: NAME -->`` and ``<!-- end of table -->``; what stands between them is
+made here. ``python docs/tables.py`` brings all pages up to date, ``--check`` only says which are
+not; a test does the same.
+"""
+
+from __future__ import annotations
+
+import inspect
+import json
+import math
+import re
+import sys
+import tomllib
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+from scipy.optimize import brentq
+
+import contactkit as ck
+from contactkit.effects.base import FilmEnd, FilmLimit, SeparationForce
+from contactkit.fmu.ports import Port
+from contactkit.fmu.stiction_mass import StictionMass
+from contactkit.fmu.valve_drive import ValveDrive
+from contactkit.kernels import arc_sphere, bridge_arc, published, squeeze
+from contactkit.liquids import LAWS
+from contactkit.models.coil import Coil
+from contactkit.models.injector import Study
+from contactkit.models.valve import DriveProfile, Spring, Stop
+from contactkit.units import celsius, cSt
+
+DOCS = Path(__file__).parent
+MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
+
+
+def grid(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Markdown table."""
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+    return "\n".join(lines)
+
+
+def descriptions(kind: type) -> dict[str, str]:
+    """What the docstring of a class, or of its bases, says about each parameter."""
+    found: dict[str, str] = {}
+    for one in kind.__mro__:
+        text = inspect.cleandoc(one.__dict__.get("__doc__") or "")
+        part = re.search(r"^Parameters\n-+\n(.*?)(?=^\w[\w ]*\n-+\n|\Z)", text, re.M | re.S)
+        for entry in re.split(r"\n(?=\S)", part[1]) if part else ():
+            head, _, body = entry.partition("\n")
+            told = re.sub(r":math:`\\?", "`", " ".join(body.split()).replace("``", "`"))
+            for name in head.partition(" : ")[0].split(", "):
+                if told and not told.startswith("See "):
+                    found.setdefault(name, told)
+    return found
+
+
+def default(field: attrs.Attribute[Any]) -> str:
+    """Default value of a field, in words."""
+    value = field.default
+    if value is attrs.NOTHING:
+        return "must be given"
+    if isinstance(value, attrs.Factory):  # type: ignore[arg-type]
+        return "flat, no rim"
+    if value is None:
+        return "not given"
+    if value in ("", ()):
+        return "empty"
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return f'`"{value}"`'
+    return f"{value:g}"
+
+
+def keys(kind: type) -> str:
+    """Keys of a table in a file: the fields of a class."""
+    told, rows = descriptions(kind), []
+    for field in attrs.fields(kind):
+        unit = field.metadata.get("unit", "")
+        text = re.sub(r" \[[^]]{1,8}\]", "", told[field.name])
+        rows.append((f"`{field.alias}`", unit, default(field), text))
+    return grid(("key", "unit", "default", "meaning"), rows)
+
+
+def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
+    """Keys of tables that name their kind under a tag, one below the other."""
+    parts = []
+    for name, kind in kinds:
+        summary = inspect.cleandoc(kind.__doc__ or "").partition("\n")[0]
+        fields = keys(kind) if attrs.fields(kind) else "No keys of its own."
+        parts.append(f'**`{tag} = "{name}"`**: {summary}\n\n{fields}')
+    return "\n\n".join(parts)
+
+
+def effect_table() -> str:
+    """Effects a scene may call for."""
+    roles = {SeparationForce: "force", FilmLimit: "limit", FilmEnd: "end of the film"}
+    rows = []
+    for kind in ck.EFFECTS:
+        must = {f.name: 1.0 for f in attrs.fields(kind) if f.default is attrs.NOTHING}
+        role = next(word for base, word in roles.items() if issubclass(kind, base))
+        source = "; ".join(kind(**must).sources)
+        rows.append((f"`{kind.name}`", f"`{kind.__name__}`", role, kind.summary, source))
+    return grid(
+        ("in files", "in Python", "role", "what it is", "source, as it is by default"), rows
+    )
+
+
+def ports(table: Sequence[Port], causality: str) -> str:
+    """Variables of an FMU of one causality."""
+    head = ["name", "unit", "shown in", "meaning"]
+    head[3:3] = [] if causality == "output" else ["start", "must"]
+    rows = []
+    for port in (p for p in table if p.causality == causality):
+        start = port.enumeration(port.start).name if port.enumeration else f"{port.start:g}"
+        row = [f"`{port.name}`", port.unit, port.display_unit or "", port.label]
+        row[3:3] = [] if causality == "output" else [start, port.expectation]
+        if causality == "output" and port.enumeration is not None:
+            row[-1] += ": " + ", ".join(f"{int(m)} {m.name}" for m in port.enumeration)
+        rows.append(row)
+    return grid(head, rows)
+
+
+def liquid_table() -> str:
+    """Viscosity of the liquids of the library over temperature, and what else they have."""
+    text = Path(inspect.getfile(Coil)).with_name("liquids.toml").read_text("utf-8")
+    at = (-20.0, 0.0, 20.0, 40.0, 80.0, 100.0)
+    rows = []
+    for name in tomllib.loads(text):
+        liquid = ck.load_liquid(name)
+        cells = []
+        for degrees in at:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", ck.ValidityWarning)
+                try:
+                    cells.append(f"{liquid.at(celsius(degrees)).viscosity * 1e3:.4g}")  # type: ignore[operator]
+                except ck.ValidityWarning:
+                    cells.append("outside")
+        room = liquid.at(celsius(20.0))
+        more = f"{room.surface_tension * 1e3:.4g}", f"{room.density:.5g}"  # type: ignore[operator]
+        rows.append((f"`{name}`", *cells, *more))
+    head = [f"{degrees:g} degC" for degrees in at]
+    return grid(("liquid", *head, "tension [mN/m]", "density [kg/m3]"), rows)
+
+
+def errata_table() -> str:
+    """What is wrong with the printed equations."""
+    return grid(
+        ("equation", "what is wrong"),
+        [(n if " " in n else f"({n})", text) for n, text in published.ERRATA.items()],
+    )
+
+
+def nano_table() -> str:
+    """The sphere of section 3.2.3: volumes, breaks and mean viscous forces, by this code."""
+    radius, gap, angle, duration, viscosity = 100e-9, 1e-9, math.pi / 3, 1e-7, 0.89e-3
+    shape = (angle, angle, 0.0, 1.0 / radius)
+    rows = []
+    for s0, far, force in zip(
+        (2, 3, 4, 5, 6), (39, 58, 73, 87, 99), (0.1976, 0.4826, 0.7487, 0.9861, 1.1974), strict=True
+    ):
+        circle = math.sqrt(2.0 * radius * (s0 * 1e-9 - gap))
+        volume = arc_sphere.volume(gap, circle, *shape, profile="parabola")
+        end = float(arc_sphere.zero_neck_gap(volume, *shape, profile="parabola"))
+
+        def neck(at: float, volume: float = volume) -> float:
+            return float(arc_sphere.solve(at, volume, *shape, profile="parabola").neck)
+
+        almost = brentq(lambda at: neck(at) - 0.55e-9, gap, end * (1.0 - 1e-9))
+        impulse = squeeze.sphere_impulse_conserved(radius, s0 * 1e-9, gap, far * 1e-9, viscosity)
+        rows.append(
+            (f"{s0}", f"{volume * 1e27:.2f}", f"{far}", f"{end * 1e9:.3f}", f"{almost * 1e9:.2f}",
+             f"{neck(far * 1e-9) * 1e9:.3f}", f"{force:.4f}", f"{impulse / duration * 1e9:.5f}")
+        )  # fmt: skip
+    head = ("s0 [nm]", "volume [nm3]", "printed break, unit put right [nm]", "neck 0 at [nm]",
+            "neck 0.55 nm at [nm]", "neck at the printed break [nm]",
+            "printed mean viscous force [nN]", "recomputed [nN]")  # fmt: skip
+    return grid(head, rows)
+
+
+def nano_force_table() -> str:
+    """Meniscus force on the same sphere at the start: the arc, and as published."""
+    radius, angle, tension = 100e-9, math.pi / 3, 0.072
+    shape, exact = (angle, angle, 0.0, 1.0 / radius), (22.51, 28.64, 31.19, 32.38, 32.95)
+    rows = []
+    for s0, right in zip((2, 3, 4, 5, 6), exact, strict=True):
+        circle = math.sqrt(2.0 * radius * (s0 - 1.0) * 1e-9)
+        volume = arc_sphere.volume(1e-9, circle, *shape, profile="parabola")
+        state = arc_sphere.solve(1e-9, volume, *shape, profile="parabola")
+        arc = tension * float(state.force) * 1e9
+        printed = float(np.asarray(published.meniscus_sphere_3_12(state, tension, angle))) * 1e9
+        off = [f"{100.0 * (force / right - 1.0):+.1f}" for force in (arc, printed)]
+        rows.append((f"{s0}", f"{right:.2f}", f"{arc:.2f}", off[0], f"{printed:.2f}", off[1]))
+    head = (
+        "s0 [nm]",
+        "exact [nN]",
+        "arc [nN]",
+        "off by [%]",
+        "Eq. (3.12) as printed [nN]",
+        "off by [%]",
+    )
+    return grid(head, rows)
+
+
+def _reference(group: str) -> list[dict[str, Any]]:
+    text = (DOCS.parent / "tests" / "data" / "separation.json").read_text("utf-8")
+    cases: list[dict[str, Any]] = json.loads(text)[group]
+    return cases
+
+
+def _bodies(case: Mapping[str, Any]) -> str:
+    curved = sum(case[key] > 0.0 for key in ("kappa1", "kappa2"))
+    return ("flats", "sphere on flat", "two spheres")[curved]
+
+
+def _shape(case: Mapping[str, Any]) -> tuple[float, float, float, float]:
+    angles = math.radians(case["theta1_deg"]), math.radians(case["theta2_deg"])
+    return (*angles, case["kappa1"], case["kappa2"])
+
+
+def exact_table() -> str:
+    """Force of the arc against the exact bridge, with the published one between flats."""
+    rows = []
+    for case in _reference("exact_bridge"):
+        shape, gap, volume = _shape(case), case["D"], case["V"]
+        right = case["F_over_gamma"]
+        state = bridge_arc.bridge(gap, volume, *shape)
+        forces = [float(state.force)]
+        if _bodies(case) == "flats":
+            radius = float(state.radius_lower)
+            forces.append(float(published.meniscus_flat_3_11(radius, gap, 1.0, *shape[:2])))
+        off = [f"{100.0 * (force - right) / abs(right):+.2f}" for force in forces]
+        where = f"{case['theta1_deg']:g}/{case['theta2_deg']:g}", f"{volume:g}", f"{gap:.3g}"
+        rows.append((_bodies(case), *where, f"{right:.6g}", *off, *[""] * (2 - len(off))))
+    head = ("bodies", "angles [deg]", "volume", "gap", "exact force", "arc [%]", "Eq. (3.11) [%]")
+    return grid(head, rows)
+
+
+def limit_table() -> str:
+    """Gap at which the neck of the arc closes, against the exact limit of stability."""
+    rows = []
+    for case in _reference("exact_limit"):
+        angles = f"{case['theta1_deg']:g}/{case['theta2_deg']:g}"
+        end = float(arc_sphere.zero_neck_gap(case["V"], *_shape(case)))
+        limit = case["D_limit"]
+        rows.append(
+            (_bodies(case), angles, f"{case['V']:g}", f"{limit:.4f}", f"{end:.4f}",
+             f"{end / limit:.1f}")
+        )  # fmt: skip
+    head = ("bodies", "angles [deg]", "volume", "exact limit", "neck of the arc closes", "ratio")
+    return grid(head, rows)
+
+
+def law_table() -> str:
+    """Laws of temperature against values from elsewhere."""
+
+    def oil(low: float, high: float) -> Callable[[float], float]:
+        kind = LAWS[0]
+        made: Any = kind(
+            temperature_1=celsius(40.0), kinematic_viscosity_1=low * cSt,
+            temperature_2=celsius(100.0), kinematic_viscosity_2=high * cSt,
+        )  # fmt: skip
+        return lambda degrees: float(made(celsius(degrees))) / cSt
+
+    water = ck.load_liquid("water")
+    vg46, engine = oil(46.0, 6.8), oil(105.0, 14.2)
+    checks: list[tuple[str, float, float]] = [
+        ("water, viscosity at 25 degC [mPa.s]", 0.89044, water.at(298.15).viscosity * 1e3),  # type: ignore[operator]
+        (
+            "water, surface tension at 25 degC [mN/m]",
+            71.972,
+            water.at(298.15).surface_tension * 1e3,
+        ),  # type: ignore[operator]
+        ("oil 46/6.8 cSt at -20 degC [cSt]", 4518.0, vg46(-20.0)),
+        ("oil 46/6.8 cSt at 0 degC [cSt]", 577.3, vg46(0.0)),
+        ("oil 46/6.8 cSt at 20 degC [cSt]", 133.84, vg46(20.0)),
+        ("oil 46/6.8 cSt at 80 degC [cSt]", 11.103, vg46(80.0)),
+        ("oil 105/14.2 cSt at -20 degC [cSt]", 8375.0, engine(-20.0)),
+        ("oil 105/14.2 cSt at 0 degC [cSt]", 1248.3, engine(0.0)),
+        ("oil 105/14.2 cSt at 20 degC [cSt]", 305.10, engine(20.0)),
+    ]
+    rows = [(what, f"{wanted:g}", f"{found:.5g}") for what, wanted, found in checks]
+    return grid(("what", "reference", "this code"), rows)
+
+
+def assumption_table() -> str:
+    """Numbers of the fuel injector with the reasons their file gives for them."""
+    text = Path(inspect.getfile(Coil)).with_name("fuel_injector.toml").read_text("utf-8")
+    rows: list[list[str]] = []
+    section, open_row = "", False
+    for line in text.partition('\ndevice = "')[2].splitlines()[1:]:
+        code, _, comment = line.partition("#")
+        code, comment = code.strip(), comment.strip()
+        if code.startswith("["):
+            section, open_row = code.strip("[]"), False
+        elif code:
+            key, _, value = (part.strip() for part in code.partition("="))
+            open_row = bool(comment) and key not in ("name", "shape")
+            if key == "effect":
+                section = value.strip('"')
+            name = f"{section}.{key}" if section else key
+            if open_row:
+                rows.append([f"`{name}`", value.strip('"'), comment])
+        elif comment and open_row:
+            rows[-1][2] += f" {comment}"
+    return grid(("key", "value", "where it comes from"), rows)
+
+
+FLUID = ("flat", ck.Flat), ("sphere", ck.Sphere)
+TABLES: Mapping[str, Callable[[], str]] = {
+    "scene": lambda: keys(ck.SeparationScene),
+    "interface": lambda: keys(ck.Interface),
+    "shapes": lambda: named(FLUID, "shape"),
+    "meniscus": lambda: keys(ck.Meniscus),
+    "liquid": lambda: keys(ck.Liquid),
+    "laws": lambda: named([(law.kind, law) for law in LAWS], "law"),
+    "opening": lambda: keys(ck.Opening),
+    "effect keys": lambda: named([(kind.name, kind) for kind in ck.EFFECTS], "effect"),
+    "effects": effect_table,
+    "accuracy": lambda: keys(ck.Accuracy),
+    "coil": lambda: keys(Coil),
+    "spring": lambda: keys(Spring),
+    "stop": lambda: keys(Stop),
+    "profile": lambda: keys(DriveProfile),
+    "study": lambda: keys(Study),
+    "liquids": liquid_table,
+    "stiction-mass inputs": lambda: ports(StictionMass.ports, "input"),
+    "stiction-mass outputs": lambda: ports(StictionMass.ports, "output"),
+    "stiction-mass parameters": lambda: ports(StictionMass.ports, "parameter"),
+    "valve-drive inputs": lambda: ports(ValveDrive.ports, "input"),
+    "valve-drive outputs": lambda: ports(ValveDrive.ports, "output"),
+    "valve-drive parameters": lambda: ports(ValveDrive.ports, "parameter"),
+    "errata": errata_table,
+    "nano": nano_table,
+    "nano forces": nano_force_table,
+    "temperature laws": law_table,
+    "assumptions": assumption_table,
+    "arc against exact": exact_table,
+    "limits": limit_table,
+}
+
+
+def updated(text: str) -> str:
+    """Text of a page with its tables made anew."""
+    return MARK.sub(lambda m: f"{m[1]}\n{TABLES[m[2]]()}\n\n{m[4]}", text)
+
+
+def stale(*, write: bool = False) -> list[str]:
+    """Pages whose tables are not those of the code; with `write` they are brought up to date."""
+    found = []
+    for page in sorted(DOCS.glob("*.md")):
+        old = page.read_text(encoding="utf-8")
+        new = updated(old)
+        if new != old:
+            found.append(page.name)
+            if write:
+                page.write_text(new, encoding="utf-8")
+    return found
+
+
+def main() -> int:
+    """Write or check the tables, and say which pages were out of date."""
+    check = "--check" in sys.argv[1:]
+    pages = stale(write=not check)
+    sys.stdout.write(f"{'out of date' if check else 'written'}: {', '.join(pages) or 'none'}\n")
+    return 1 if check and pages else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

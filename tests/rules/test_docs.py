@@ -1,0 +1,96 @@
+"""The documentation keeps up with the code."""
+
+import importlib.util
+import re
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+
+import contactkit as ck
+from contactkit import cli
+
+pytest.importorskip("pythonfmu")  # the tables of ports are made from the slaves
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PAGES = [
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")),
+    *sorted(DOCS.glob("*.md")),
+]
+
+
+@pytest.fixture(scope="module")
+def tables():
+    spec = importlib.util.spec_from_file_location("docs_tables", DOCS / "tables.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    yield module
+    del sys.modules[spec.name]
+
+
+def test_tables_are_up_to_date(tables):
+    assert tables.stale() == [], "run python docs/tables.py"
+
+
+def test_every_table_is_shown(tables):
+    shown = {
+        name for page in DOCS.glob("*.md") for _, name, *_ in tables.MARK.findall(page.read_text())
+    }
+    assert shown == set(tables.TABLES)
+
+
+@pytest.mark.parametrize("kind", ck.EFFECTS, ids=lambda kind: kind.name)
+def test_every_effect_is_documented(kind):
+    prose = re.sub(
+        r"<!-- table.*?end of table -->", "", (DOCS / "physics.md").read_text(), flags=re.S
+    )
+    assert f"`{kind.name}`" in prose
+    assert f"`{kind.__name__}`" in prose
+    assert f'`effect = "{kind.name}"`' in (DOCS / "usage.md").read_text()
+
+
+def commands():
+    """Each command of contactkit that README shows, in a block or between backticks."""
+    return re.findall(
+        r"(?:\.venv/bin/)(contactkit [^`\n]*)", (ROOT / "README.md").read_text("utf-8")
+    )
+
+
+@pytest.mark.parametrize("line", commands())
+def test_every_command_of_the_readme_exists(line):
+    words = shlex.split(line, comments=True)
+    assert cli._parser().parse_args(words[1:]).command is not None
+
+
+@pytest.mark.parametrize("name", ["run", "plan", "cost", "fmu build"])
+def test_every_command_is_in_the_readme(name):
+    assert any(line.startswith(f"contactkit {name}") for line in commands())
+
+
+def test_every_target_of_make_that_is_named_exists():
+    makefile = (ROOT / "Makefile").read_text("utf-8")
+    targets = set(re.findall(r"^([a-z]+):", makefile, re.M))
+    named = {name for page in PAGES for name in re.findall(r"`make ([a-z]+)`", page.read_text())}
+    assert named <= targets
+    assert {"demo", "test"} <= named
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    text = re.sub(r"```.*?```", "", page.read_text("utf-8"), flags=re.S)
+    for link in re.findall(r"\]\(([^)#\s]+)", text):
+        if not link.startswith("https://"):
+            assert (page.parent / link).exists(), link
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_no_path_of_a_machine(page):
+    assert not re.search(r"/(work|tmp|root|home)/", page.read_text("utf-8"))
+
+
+@pytest.mark.parametrize("picture", sorted(DOCS.glob("img/*.png")), ids=lambda path: path.name)
+def test_pictures_are_small(picture):
+    assert picture.stat().st_size < 200_000

@@ -1,0 +1,117 @@
+"""What an import brings along, and what runs where numpy is not installed."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+
+HEAVY = {"numpy", "scipy", "matplotlib", "fmpy", "pythonfmu", "numba", "cattrs", "tomli_w", "tqdm"}
+MOST_MODULES = 60  # of contactkit itself; attrs and the standard library add some 45
+
+
+def python(code):
+    """Run code in a fresh interpreter; give back what it prints as JSON."""
+    environment = {**os.environ, "PYTHONWARNINGS": "error", "MPLBACKEND": "agg"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+LOADED = (
+    "import json, sys; before = set(sys.modules); {};"
+    "print(json.dumps(sorted(set(sys.modules) - before)))"
+)
+
+
+def loaded_by(statement):
+    return python(LOADED.format(statement))
+
+
+def roots(modules):
+    return {name.split(".")[0] for name in modules}
+
+
+def test_importing_contactkit_imports_nothing_heavy():
+    assert roots(loaded_by("import contactkit")) & HEAVY == set()
+
+
+def test_importing_contactkit_stays_small():
+    modules = loaded_by("import contactkit")
+    assert len([m for m in modules if m.startswith("contactkit")]) <= MOST_MODULES
+    assert len(modules) <= 2 * MOST_MODULES
+
+
+def test_the_control_sees_what_is_heavy():
+    """`simulate` needs numpy: if this finds none, the tests above prove nothing."""
+    assert "numpy" in roots(loaded_by("import contactkit; contactkit.simulate"))
+
+
+@pytest.mark.parametrize(
+    "module",
+    ["contactkit.plan", "contactkit.motion", "contactkit.effects", "contactkit.liquids",
+     "contactkit.kernels.arc_flat", "contactkit.kernels.squeeze", "contactkit.kernels.film_limits",
+     "contactkit.kernels.stiff_step"],
+)  # fmt: skip
+def test_what_runs_inside_an_fmu_needs_no_numpy(module):
+    assert roots(loaded_by(f"import {module}")) & HEAVY == set()
+
+
+def test_only_plot_brings_matplotlib():
+    without = loaded_by(
+        "import contactkit; contactkit.simulate; contactkit.load_scene; contactkit.save_result;"
+        "import contactkit.results, contactkit.workprecision, contactkit.cli"
+    )
+    assert "matplotlib" not in roots(without)
+
+
+WITHOUT_NUMPY = """
+import json, sys
+for name in ("numpy", "scipy", "cattrs"):
+    sys.modules[name] = None  # importing it raises
+import warnings
+import contactkit as ck
+from contactkit.motion_state import outputs, start
+
+oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
+face = ck.Flat(radius=1e-3)
+film = ck.Meniscus(liquid=oil, volume=3e-12, contact_angle_lower=0.2, contact_angle_upper=0.2)
+found = []
+for meniscus in (ck.MeniscusForce(), ck.MeniscusForce(profile="as-published")):
+    for cavity in ("clipped", "reynolds"):
+        made = ck.plan(ck.SeparationScene(
+            interface=ck.Interface(lower=face, upper=face, meniscus=film),
+            opening=ck.Opening(initial_gap=1e-6, final_gap=1e-5, force=10.0, mass=1e-3),
+            effects=(meniscus, ck.ViscousForce(), ck.ShearLimit(strength=1e6), ck.Rupture(gap=5e-6),
+                     ck.TensionLimit(tension=1e6, cavity=cavity)),
+        ))
+        state = ck.advance(made, start(made), ck.Pull(10.0), 0.01)
+        outputs(made, state, 10.0)
+        found.append([state.release_time, state.break_time])
+print(json.dumps(found))
+"""
+
+
+def test_a_film_between_flats_moves_without_numpy():
+    """The interpreter a host embeds need not have it: release and rupture are found without."""
+    for release, rupture in python(WITHOUT_NUMPY):
+        assert 0.0 < rupture < release < 0.01
+
+
+def test_how_long_the_import_takes_is_printed():
+    """Printed, never asserted: seconds are the machine's."""
+    best = min(_seconds("import contactkit") - _seconds("pass") for _ in range(5))
+    print(f"import contactkit: {1e3 * best:.0f} ms over an empty interpreter, best of 5")  # noqa: T201
+    assert loaded_by("import contactkit") == loaded_by("import contactkit")
+
+
+def _seconds(code):
+    begun = time.perf_counter()
+    subprocess.run([sys.executable, "-c", code], check=True)
+    return time.perf_counter() - begun

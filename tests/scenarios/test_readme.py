@@ -1,0 +1,68 @@
+"""What README, CONTRIBUTING and docs show is run as written."""
+
+import re
+import textwrap
+import warnings
+from pathlib import Path
+
+import pytest
+
+import contactkit as ck
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks(page, language):
+    found = re.findall(
+        rf"^( *)```{language}\n(.*?)^\1```", page.read_text("utf-8"), re.MULTILINE | re.DOTALL
+    )
+    return [textwrap.dedent(body) for _, body in found]
+
+
+def with_blocks(language):
+    return [pytest.param(p, id=p.name) for p in PAGES if blocks(p, language)]
+
+
+@pytest.fixture
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("page", with_blocks("python"))
+def test_python_runs(page, elsewhere, capsys):
+    if "fmu" in page.name:
+        pytest.importorskip("pythonfmu")
+        pytest.importorskip("fmpy")
+    names = {"__name__": page.stem}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ck.ValidityWarning)  # the pages say that they come
+        for number, block in enumerate(blocks(page, "python"), start=1):
+            exec(compile(block, f"{page.name}, block {number}", "exec"), names)
+
+
+def test_the_readme_tells_what_its_example_prints(elsewhere, capsys):
+    (block,) = blocks(ROOT / "README.md", "python")
+    assert len([line for line in block.splitlines() if line.strip()]) <= 10
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        exec(block, {})
+    assert {w.category for w in caught} == {ck.ValidityWarning}
+    assert len(caught) == 2  # "two models are outside their range"
+    assert any("fingers" in str(w.message) for w in caught)
+    told = re.search(r"`(released after [^`]*)`", (ROOT / "README.md").read_text("utf-8"))[1]
+    assert told in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("page", with_blocks("toml"))
+def test_scenes_load(page, elsewhere):
+    for block in blocks(page, "toml"):
+        path = elsewhere / "scene.toml"
+        path.write_text(block, encoding="utf-8")
+        assert ck.plan(ck.load_scene(path)).scene.effects
+
+
+def test_the_scene_of_the_readme_has_six_lines():
+    (block,) = blocks(ROOT / "README.md", "toml")
+    assert len(block.splitlines()) == 6
