@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from attrs import Attribute
 
 from .errors import DescriptionError
 
-__all__ = ["angle", "count", "finite", "fraction", "non_negative", "optional", "positive", "refuse"]
+__all__ = [
+    "angle", "choice", "count", "finite", "fraction", "non_negative", "optional", "part",
+    "positive", "refuse",
+]  # fmt: skip
+
+if TYPE_CHECKING:
+    Validator = Callable[[Any, Attribute[Any], Any], None]
 
 
 def refuse(
@@ -67,7 +74,7 @@ def count(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "be a whole number of at least 1")
 
 
-def optional(check: Any) -> Any:
+def optional(check: Validator) -> Validator:
     """Allow None, meaning "not given", beside whatever `check` allows."""
 
     def check_if_given(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -75,3 +82,23 @@ def optional(check: Any) -> Any:
             check(owner, attribute, value)
 
     return check_if_given
+
+
+def choice(*options: str) -> Validator:
+    """Refuse anything but one of some words."""
+
+    def check_choice(owner: object, attribute: Attribute[Any], value: Any) -> None:
+        if value not in options:
+            raise refuse(owner, attribute, value, f"be one of {', '.join(map(repr, options))}")
+
+    return check_choice
+
+
+def part(*kinds: type) -> Validator:
+    """Refuse anything but an object of some kinds."""
+
+    def check_part(owner: object, attribute: Attribute[Any], value: Any) -> None:
+        if not isinstance(value, kinds):
+            raise refuse(owner, attribute, value, f"be a {' or '.join(k.__name__ for k in kinds)}")
+
+    return check_part

@@ -54,17 +54,14 @@ def at_speed(plan: Plan, begun: float) -> SeparationResult:
     } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
     impulses = {}
     if plan.has(MeniscusForce):
-        impulses["meniscus_impulse"] = (
-            _quadrature(plan, plan.film.laws[MeniscusForce].force) / speed
-        )
+        running = _running(plan.film.laws[MeniscusForce].force, speed, gaps)
+        impulses["meniscus_impulse"] = running[-1]
     if plan.has(ViscousForce):
+        running = _running(lambda gap, v: plan.film.viscous_force(gap, v)[0], speed, gaps)
+        columns["viscous_impulse"] = frozen(running)
         impulses |= newtonian_impulses(plan)
-        limited = any(isinstance(e, FilmLimit) for e in plan.scene.effects)
-        impulses["viscous_impulse"] = (
-            _quadrature(plan, lambda gap, v: plan.film.viscous_force(gap, v)[0]) / speed
-            if limited
-            else impulses["newtonian_impulse"]
-        )
+        if any(isinstance(e, FilmLimit) for e in plan.scene.effects):
+            impulses["viscous_impulse"] = running[-1]
     validity = check(plan, [(gap, speed) for gap in gaps if gap > 0.0])
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m"
@@ -94,30 +91,19 @@ def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
     return row
 
 
-def _quadrature(plan: Plan, force: Callable[[float, float], float]) -> float:
-    """Integral of a force over the gap at the imposed speed [N.m], kinks at panel ends."""
+def _running(
+    force: Callable[[float, float], float], speed: float, gaps: list[float]
+) -> list[float]:
+    """Time integral of a force [N.s] up to each gap of a curve, at an imposed speed."""
     from scipy.integrate import quad
 
-    opening = plan.scene.opening
-    speed, low = opening.speed or 0.0, opening.initial_gap
-    high = min(opening.final_gap, plan.film.end)
-    ends = [low, *(kink for kink in plan.film.kinks if low < kink < high), high]
-    total = 0.0
-    for a, b in pairwise(ends):
+    total, found = 0.0, [0.0]
+    for a, b in pairwise(gaps):
         # Relative to the largest value there could be, as a force may change its sign.
         floor = 1e-13 * b * max(abs(force(a, speed)), abs(force(b, speed)))
-        limits = {"epsabs": floor, "epsrel": 1e-10, "limit": 500}
-        if a > 0.0:
-            total += quad(_per_log, math.log(a), math.log(b), (force, speed), **limits)[0]
-        else:
-            total += quad(force, a, b, (speed,), **limits)[0]
-    return float(total)
-
-
-def _per_log(log_gap: float, force: Callable[[float, float], float], speed: float) -> float:
-    """Force per logarithm of the gap."""
-    gap = math.exp(log_gap)
-    return gap * force(gap, speed)
+        total += quad(force, a, b, (speed,), epsabs=floor, epsrel=1e-10, limit=500)[0] / speed
+        found.append(total)
+    return found
 
 
 def newtonian_impulses(plan: Plan) -> dict[str, float]:

@@ -12,7 +12,17 @@ from typing import Literal
 
 from attrs import Attribute, field, frozen
 
-from .checks import angle, count, finite, fraction, non_negative, optional, positive, refuse
+from .checks import (
+    angle,
+    count,
+    finite,
+    fraction,
+    non_negative,
+    optional,
+    part,
+    positive,
+    refuse,
+)
 from .errors import DescriptionError
 from .liquids import Liquid
 from .surfaces import Flat, Sphere, Surface
@@ -41,7 +51,7 @@ class Meniscus:
         [-]. 0: what is lost by rupture stays lost.
     """
 
-    liquid: Liquid
+    liquid: Liquid = field(validator=part(Liquid))
     volume: float | None = field(default=None, validator=optional(positive), metadata=si("m3"))
     contact_angle_lower: float = field(default=0.0, validator=angle, metadata=si("rad"))
     contact_angle_upper: float = field(default=0.0, validator=angle, metadata=si("rad"))
@@ -61,9 +71,9 @@ class Interface:
         The liquid between them.
     """
 
-    lower: Surface = field(factory=Flat)
-    upper: Surface = field(factory=Flat)
-    meniscus: Meniscus
+    lower: Surface = field(factory=Flat, validator=part(Flat, Sphere))
+    upper: Surface = field(factory=Flat, validator=part(Flat, Sphere))
+    meniscus: Meniscus = field(validator=part(Meniscus))
 
     @property
     def curvature(self) -> float:

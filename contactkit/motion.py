@@ -7,14 +7,13 @@ FMU calls it once per communication step; the state is one plain tuple of number
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from .effects import ViscousForce
 from .errors import ConvergenceError
 from .kernels.step_reading import highest, travel_integral
-from .kernels.stiff_step import WEIGHTS, NetForce, Stage, Step, slopes, step
+from .kernels.stiff_step import WEIGHTS, Stage, Step
 from .motion_state import Drive, MotionState
 from .plan import Film, Plan
+from .step_problem import StepProblem, first_step, step_problem
 
 __all__ = ["advance", "step_once"]
 
@@ -71,57 +70,12 @@ def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionStat
     )
 
 
-class _Problem(NamedTuple):
-    """What one internal step solves, from where, and against which size its error is measured."""
-
-    net: NetForce
-    mass: float
-    begin: Stage
-    rtol: float
-    exponent: float  # with which the film falls
-    size: float  # sum of the forces that deliver momentum [N]; those that cancel count too
-    delivered: float  # momentum delivered so far [N.s]
-    at_start: tuple[float, float, float]
-
-    def attempt(self, length: float) -> Step | None:
-        """Try a step; in terms of the viscous impulse where the film rules, else of the gap."""
-        is_film_ruled = -self.at_start[2] * length > self.mass
-        exponent = self.exponent - 1.0 if is_film_ruled and self.exponent > 0.0 else -1.0
-        return step(self.net, self.mass, self.begin, length, exponent, self.rtol, self.at_start)
-
-    def error(self, taken: Step, length: float) -> float:
-        """Error of a step over its tolerance: of the gap, and of the momentum delivered so far.
-
-        Measured against the momentum of the mass alone, a transient of length m/c would have to
-        be resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over.
-        """
-        momentum = self.mass * abs(taken.stages[2].speed) + self.delivered + self.size * length
-        return max(taken.gap_error, self.mass * taken.speed_error / momentum) / self.rtol
-
-
-def _problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> _Problem:
-    opening = plan.scene.opening
-    mass, spring, rest = _mass(plan), opening.stiffness, opening.initial_gap
-
-    def net(time: float, gap: float, speed: float) -> float:
-        held = film.force(gap, speed) if film is not None else 0.0
-        return pull(time) - spring * (gap - rest) - held
-
-    begin = Stage(state.time, state.gap, state.speed)
-    static = film.static_force(state.gap) if film is not None else 0.0
-    size = abs(pull(state.time)) + abs(static) + spring * abs(state.gap - rest) + 1e-300
-    exponent = film.exponent(state.gap) if film is not None else 0.0
-    delivered = state.given_impulse + mass * abs(state.speed)
-    at_start = slopes(net, *begin, state.gap / (state.step or 1e-6))
-    return _Problem(net, mass, begin, plan.accuracy.time_rtol, exponent, size, delivered, at_start)
-
-
 def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
     """Take one internal step, shortened to the first event inside it."""
     film = None if state.broken else plan.film_with(state.share)
-    problem = _problem(plan, film, state, pull)
+    problem = step_problem(plan, film, state, pull)
     left = end - state.time
-    length = min(state.step or _first_step(problem, left), left)
+    length = min(state.step or first_step(problem, left), left)
     # A hop that begins and ends at the rest gap has no crossing to look for: it is cut in two.
     floor = plan.scene.opening.rest_gap
     floor = floor if state.gap <= floor * (1.0 + _SAME) else 0.0
@@ -159,27 +113,6 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     return state if mark is None else _event(plan, film, state, mark)
 
 
-def _mass(plan: Plan) -> float:
-    """Moving mass [kg]; without one, so little that its momentum is 1e-14 of the impulse given."""
-    opening = plan.scene.opening
-    if opening.mass is not None:
-        return opening.mass
-    impulse = plan.film.laws[ViscousForce].impulse
-    assert impulse is not None  # a viscous force always has one
-    given = impulse(opening.initial_gap, opening.final_gap)
-    pull = max(abs(opening.force or 0.0), 1e-300)
-    return 1e-14 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
-
-
-def _first_step(problem: _Problem, left: float) -> float:
-    """Time [s] in which inertia alone would open a thousandth of the gap; a first guess."""
-    _, gap, speed = problem.begin
-    acceleration = abs(problem.at_start[0]) / problem.mass
-    still = math.sqrt(2e-3 * gap / acceleration) if acceleration > 0.0 else left
-    moving = 1e-3 * gap / abs(speed) if speed else left
-    return min(still, moving, left)
-
-
 def _closed_gap(plan: Plan) -> float:
     """Gap below which the bodies count as closed again, so that the next release is a new one."""
     opening = plan.scene.opening
@@ -205,7 +138,7 @@ def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -
     return min(inside) if rising else max(inside)
 
 
-def _locate(problem: _Problem, length: float, mark: float, taken: Step) -> tuple[Step, float]:
+def _locate(problem: StepProblem, length: float, mark: float, taken: Step) -> tuple[Step, float]:
     """Step that ends at a gap: Newton on its length, kept inside the bracket."""
     low, high = 0.0, length
     rising = mark > problem.begin.gap

@@ -63,7 +63,14 @@ class Film:
 
     def force(self, gap: float, speed: float) -> float:
         """Sum of all forces [N]; positive resists opening."""
-        return self.static_force(gap) + self.viscous_force(gap, speed)[0]
+        total = self.viscous_force(gap, speed)[0]
+        for force in self._static:
+            total += force(gap, speed)
+        return total
+
+    def resistance(self, gap: float) -> float:
+        """Viscous force per speed [N.s/m] of the film without limits, at a gap [m]."""
+        return self._viscous.force(gap, 1.0) if self._viscous is not None else 0.0
 
     def exponent(self, gap: float) -> float:
         """Exponent n of the viscous force, which falls as gap^-n; 0 without one."""
@@ -101,7 +108,9 @@ class Plan:
     def cite(self) -> str:
         """Sources of the equations of this run, one to a line."""
         lines = [
-            f"{effect.name}: {source}" for effect in self.scene.effects for source in effect.sources
+            f"{effect.name}: {source}"
+            for effect in self.scene.effects
+            for source in effect.cites(self.scene)
         ]
         return "\n".join(lines)
 
@@ -156,11 +165,21 @@ def _check_effects(scene: SeparationScene) -> None:
         raise PlanError(
             f"a separation scene needs at least one force among its effects; known: {_known()}"
         )
+    ends = [k.__name__ for k in kinds if issubclass(k, FilmEnd)]
+    if len(ends) > 1:
+        raise PlanError(f"{' and '.join(ends)} both say where the film breaks; keep one of them")
     problems = [
         f"{type(effect).__name__} needs {item}"
         for effect in scene.effects
         for item in effect.lacks(scene)
     ]
+    if scene.opening.imposed == "force" and scene.opening.mass is None:
+        problems += [
+            f"{type(e).__name__} needs opening.mass [kg]: where the film lets go, nothing else "
+            f"sets the speed"
+            for e in scene.effects
+            if isinstance(e, FilmLimit | FilmEnd)
+        ]
     if ViscousForce not in kinds:
         problems += [
             f"{type(e).__name__} needs ViscousForce() beside it: it bounds the viscous force"

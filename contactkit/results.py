@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from attrs import field, frozen
 
+from .columns import COLUMNS, Column
 from .constant_force import constant_force_time
 from .effects import MeniscusForce, SeparationEffect, ShearLimit, TensionLimit, ViscousForce
 from .errors import DescriptionError, NotSimulatedError
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
+_BY_NAME = {column.name: column for column in COLUMNS}
+
 __all__ = [
     "COLUMNS",
     "Column",
@@ -29,29 +32,6 @@ __all__ = [
     "ViscousPart",
     "Work",
 ]
-
-
-class Column(NamedTuple):
-    """A curve of a result: its name in files, its unit, what it is."""
-
-    name: str
-    unit: str
-    label: str
-
-
-COLUMNS = (
-    Column("time", "s", "time"),
-    Column("gap", "m", "gap"),
-    Column("speed", "m/s", "opening speed"),
-    Column("pull", "N", "pull"),
-    Column("meniscus_force", "N", "meniscus force"),
-    Column("viscous_force", "N", "viscous force"),
-    Column("newtonian_force", "N", "viscous force without limits"),
-    Column("viscous_impulse", "N.s", "viscous impulse so far"),
-    Column("limit", "-", "limit that acts"),
-    Column("film_status", "-", "state of the film"),
-)
-_BY_NAME = {column.name: column for column in COLUMNS}
 
 
 class Work(NamedTuple):
@@ -214,6 +194,11 @@ class SeparationResult:
         owner = _OWNERS.get(name)
         if owner is not None:
             self._demand(owner)
+        if name == "limit":
+            raise NotSimulatedError(
+                "the scene does not call for a limit of the liquid: add TensionLimit() or "
+                "ShearLimit() to its effects"
+            )
         return _known(None, _BY_NAME[name].label, self.plan)
 
     def _demand(self, kind: type[SeparationEffect]) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from attrs import field, frozen
 
-from .checks import positive
+from .checks import part, positive
 from .interface import Interface, Opening
 from .units import celsius, si
 
@@ -42,8 +42,8 @@ class SeparationScene:
         A title for tables and figures.
     """
 
-    interface: Interface
-    opening: Opening
+    interface: Interface = field(validator=part(Interface))
+    opening: Opening = field(validator=part(Opening))
     effects: tuple[SeparationEffect, ...] = field(converter=effects_tuple)
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     name: str = ""

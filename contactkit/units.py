@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from decimal import Decimal
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
@@ -115,8 +116,9 @@ def parse_unit(text: str) -> Unit:
     if text in ("-", ""):
         return Unit(1.0, MappingProxyType({}))
     factor, dimension = 1.0, dict[str, int]()
-    for sign, part in re.findall(r"([./*]|^)([^./*]+)", text.replace(" ", "")):
-        match = re.fullmatch(r"(1|[^\d^-]+)\^?(-?\d+)?", part)
+    first, *rest = re.split(r"([./*])", text.replace(" ", ""))
+    for sign, part in [("", first), *zip(rest[::2], rest[1::2], strict=True)]:
+        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d+))?", part)
         found = _symbol(match[1]) if match else None
         if match is None or found is None:
             raise DescriptionError(
@@ -128,6 +130,14 @@ def parse_unit(text: str) -> Unit:
         for base, exponent in found[1].items():
             dimension[base] = dimension.get(base, 0) + power * exponent
     return Unit(factor, MappingProxyType({b: e for b, e in dimension.items() if e}))
+
+
+def _scaled(number: str, factor: float) -> float:
+    """Multiply by a factor, without rounding twice where it is a power of ten: 20 um is 2e-05."""
+    power = round(math.log10(factor))
+    if math.isclose(factor, 10.0**power, rel_tol=1e-14) and "inf" not in number:
+        return float(Decimal(number).scaleb(power))
+    return float(number) * factor
 
 
 def parse_quantity(value: object, unit: str, field: str = "value") -> float:
@@ -181,4 +191,4 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
         raise DescriptionError(
             field, value, f"be in a unit that converts to {unit}", hint=f"for example {example!r}"
         )
-    return number * found.factor / wanted.factor
+    return _scaled(match[1], found.factor / wanted.factor)

@@ -54,16 +54,17 @@ class WorkPrecision:
     points: tuple[Point, ...]
 
     def cheapest(self, error: float) -> Point:
-        """Return the fastest setting with at most this relative error.
+        """Return the fastest setting with at most this relative error; never another model.
 
         Raises
         ------
         InfeasibleError
             If no setting is that accurate; names the best there is.
         """
-        good = [p for p in self.points if p.error <= error]
+        good = [p for p in self.points if p.error <= error and not p.is_model]
         if not good:
-            best = min((p for p in self.points if p.error == p.error), key=lambda p: p.error)
+            sound = [p for p in self.points if p.error == p.error and not p.is_model]
+            best = min(sound, key=lambda p: p.error)
             raise InfeasibleError(
                 f"no setting reaches an error of {error:g}; the best is {best.error:.2g} by "
                 f"{best.method}, {best.label}"
@@ -77,6 +78,8 @@ class WorkPrecision:
         for p in self.points:
             counts = ", ".join(f"{k} {v}" for k, v in p.counts.items())
             error = f"{p.error:9.1e}" if math.isfinite(p.error) else "   failed"
+            if p.error > 1.0:
+                counts += "  WRONG: looks like an answer and is none"
             rows.append(
                 f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
             )

@@ -176,7 +176,9 @@ def _documentation(
     slave: type[PortSlave], baked: Mapping[str, Value], closure: Closure
 ) -> dict[str, bytes]:
     start = slave.start_values() | dict(baked)
-    requires = closure.requires - {"attr", "attrs"}
+    # What is imported only when called for, such as numpy by a sphere, this model does without.
+    needed = find_closure(slave.__module__, at_once=True).requires
+    requires = (closure.requires & needed) - {"attr", "attrs"}
     page = index_page(slave.__name__, slave.summary, slave.ports, start, requires)
     package = sys.modules[(__package__ or "").partition(".")[0]]
     own = Path(package.__path__[0]).parent / "LICENSE"

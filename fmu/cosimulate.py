@@ -72,6 +72,12 @@ class Instance:
 
         self.log: list[str] = []
         self._folder = tempfile.mkdtemp(prefix="contactkit-")
+        if not self._folder.isascii() or set("#%") & set(self._folder):
+            shutil.rmtree(self._folder)
+            raise DescriptionError(
+                "TMPDIR", self._folder, "be a path of plain letters without # or %",
+                hint="pythonfmu ends the whole process on others; set TMPDIR to another folder",
+            )  # fmt: skip
         extract(str(path), self._folder)
         description = read_model_description(str(path))
         self.variables = {v.name: v for v in description.modelVariables}

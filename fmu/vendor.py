@@ -39,13 +39,15 @@ class Closure:
     requires: set[str] = field(factory=set)
 
 
-def find_closure(*modules: str) -> Closure:
+def find_closure(*modules: str, at_once: bool = False) -> Closure:
     """Collect modules of contactkit and everything they import, at once or later.
 
     Parameters
     ----------
     *modules : str
         Their full names.
+    at_once : bool
+        Leave out what is only imported inside functions, when they are called.
 
     Raises
     ------
@@ -63,7 +65,7 @@ def find_closure(*modules: str) -> Closure:
         if spec is None or spec.origin is None:
             raise ContactkitError(f"the FMU needs module {name}, which does not exist")
         closure.sources[_path_in_package(name, spec)] = Path(spec.origin).read_bytes()
-        inner, outer = _imports(name, spec)
+        inner, outer = _imports(name, spec, at_once)
         waiting += inner
         closure.requires.update(outer)
     if root in closure.requires:
@@ -96,12 +98,12 @@ def _path_in_package(name: str, spec: ModuleSpec) -> str:
     )
 
 
-def _imports(name: str, spec: ModuleSpec) -> tuple[set[str], set[str]]:
+def _imports(name: str, spec: ModuleSpec, at_once: bool) -> tuple[set[str], set[str]]:
     """Modules of the same package, and top-level names of others, that a module imports."""
     inner, outer = set[str](), set[str]()
     package = name if _is_package(spec) else name.rpartition(".")[0]
     source = Path(spec.origin or "").read_bytes()
-    for node in _statements(ast.parse(source)):
+    for node in _statements(ast.parse(source), at_once):
         if isinstance(node, ast.Import):
             outer.update(alias.name.partition(".")[0] for alias in node.names)
         elif node.level == 0:
@@ -118,15 +120,17 @@ def _imports(name: str, spec: ModuleSpec) -> tuple[set[str], set[str]]:
     return inner, outer - sys.stdlib_module_names
 
 
-def _statements(tree: ast.AST) -> Iterator[ast.Import | ast.ImportFrom]:
-    """Import statements at any depth, without those that only a type checker sees."""
+def _statements(tree: ast.AST, at_once: bool) -> Iterator[ast.Import | ast.ImportFrom]:
+    """Import statements, at any depth or outside functions, that are not for type checkers only."""
+    if at_once and isinstance(tree, ast.FunctionDef | ast.AsyncFunctionDef):
+        return
     if isinstance(tree, ast.Import | ast.ImportFrom):
         yield tree
     children = ast.iter_child_nodes(tree)
     if isinstance(tree, ast.If) and "TYPE_CHECKING" in ast.unparse(tree.test):
         children = iter(tree.orelse)
     for child in children:
-        yield from _statements(child)
+        yield from _statements(child, at_once)
 
 
 def fallback_attrs() -> dict[str, bytes]:

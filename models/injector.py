@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attrs import evolve, field, frozen
 
-from ..checks import positive
+from ..checks import part, positive
 from ..effects import SeparationEffect, TensionLimit
 from ..errors import DescriptionError, PlanError
 from ..interface import Interface, Opening
@@ -72,8 +72,8 @@ class InjectorScene:
 
     name: str = "fuel injector"
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
-    interface: Interface
-    opening: Opening
+    interface: Interface = field(validator=part(Interface))
+    opening: Opening = field(validator=part(Opening))
     effects: tuple[SeparationEffect, ...] = field(converter=effects_tuple)
     valve: Valve
     study: Study
@@ -140,19 +140,21 @@ class FuelInjector:
 
     def plan_text(self) -> str:
         """See `Runnable.plan_text`."""
-        made = plan(self.scene.separation(self.scene.temperature))
-        temperatures = ", ".join(
-            f"{t - celsius(0.0):g} degC" for t in self.scene.study.temperatures
-        )
-        extra = [
-            f"  on   {'valve':15s} coil, return spring, opposite stop; "
-            f"{self.scene.valve.profile.cycles} cycles",
-            f"  at   {temperatures}; FMUs valve-drive and stiction-mass, "
-            f"communication step {self.scene.study.communication_step:g} s",
-            "sources:",
-            *(f"  {line}" for line in made.cite().splitlines()),
+        scene = self.scene
+        made = plan(scene.separation(scene.temperature))
+        opening, meniscus = scene.opening, scene.interface.meniscus
+        degrees = ", ".join(f"{t - celsius(0.0):g} degC" for t in scene.study.temperatures)
+        head = [
+            f"{scene.name}: pulled by a valve over {scene.valve.profile.cycles} cycles, gap "
+            f"{opening.initial_gap:g} m to {opening.final_gap:g} m, faces of radius "
+            f"{scene.interface.rim_radius:g} m",
+            f"  at   {degrees}: {meniscus.liquid.name}",
+            f"  by   FMUs valve-drive and stiction-mass, communication step "
+            f"{scene.study.communication_step:g} s",
+            f"  on   {'valve':15s} coil, return spring, opposite stop",
         ]
-        return "\n".join([str(made), *extra])
+        sources = ["sources:", *(f"  {line}" for line in made.cite().splitlines())]
+        return "\n".join([*head, *str(made).splitlines()[1:], *sources])
 
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
         """See `Runnable.fmu_start`."""

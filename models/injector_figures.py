@@ -149,14 +149,14 @@ def _delays(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) ->
         delay = cycles(run, scene)[0].delay * 1e3
         ax.plot(run.temperature - celsius(0.0), delay, "o", color="k", mfc="none")
     ax.plot([], [], "o", color="k", mfc="none", label="FMU pair")
-    ax.plot([], [], "x", color="k", label="not released within the pulse")
+    ax.plot([], [], "x", color="k", label="not released within the pulse (colour of its curve)")
     ax.axhline(pulse, color="0.5", ls="--", lw=0.8, label="end of the current pulse")
     ax.axhline(dry * 1e3, color="0.5", ls=":", label="dry spool: magnet, spring, mass")
     ax.set(xlabel="oil temperature [degC]", ylabel="release delay after energising [ms]")
     ax.set_yscale("log")
     ax.set_ylim(0.8 * dry * 1e3, 1.2 * pulse)
     plot.plain_log(ax.yaxis)
-    plot.title(ax, f"{scene.name}: how long the spool sticks")
+    plot.title(ax, f"{scene.name}: release delay against temperature")
     plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return plot.save(made, out / "delay-against-temperature")
 

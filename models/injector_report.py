@@ -11,11 +11,11 @@ import numpy as np
 from attrs import evolve
 
 from ..archive import save_csv, save_npz
-from ..effects import ViscousForce
+from ..effects import TensionLimit, ViscousForce
 from ..io import unstructure
 from ..motion_state import FilmStatus, LimitKind
 from ..plan import plan
-from ..units import celsius
+from ..units import bar, celsius
 from ..validity import check
 from .injector import InjectorScene, Run
 from .monolithic import simulate
@@ -107,19 +107,30 @@ def coupling_error(run: Run, scene: InjectorScene) -> float:
     return worst
 
 
-def _held_by(found: Sequence[Cycle], dry: float) -> str:
+def _held_by(run: Run, found: Sequence[Cycle], dry: float) -> str:
     """Which force held the spool, in words."""
     first = found[0]
     total = first.viscous_impulse + first.meniscus_impulse
     viscous = first.viscous_impulse / total if total > 0.0 else 0.0
     name = "viscous film" if viscous >= 0.5 else "meniscus"
-    share = max(viscous, 1.0 - viscous)
-    text = f"{name} ({100 * share:.0f} % of the impulse)"
+    text = f"{name} ({100 * max(viscous, 1.0 - viscous):.0f} % of the impulse)"
     if first.limited_share > 0.0:
-        text += f", cut off by the tension limit {100 * first.limited_share:.0f} % of the time"
+        cap = _tension(run) * math.pi * run.plan.scene.interface.rim_radius**2
+        text += f", cut off near {cap:.1f} N {100 * first.limited_share:.0f} % of the time"
     if not math.isnan(first.delay) and first.delay < 1.1 * dry:
         text += "; hardly: mostly mass and coil"
     return text
+
+
+def _tension(run: Run) -> float:
+    """Tension [Pa] the oil bears in a run; inf without a limit."""
+    limit = run.plan.scene.effect(TensionLimit)
+    return math.inf if limit is None else limit.pressure_drop
+
+
+def _limit_text(run: Run) -> str:
+    tension = _tension(run)
+    return "none" if math.isinf(tension) else f"{tension / bar:g} bar"
 
 
 def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Report:
@@ -144,12 +155,12 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
         peak = max(c.peak_force for c in found)
         stuck = math.isnan(delay)
         lines.append(
-            f"{run.label:>9s}  {'on' if run.limited else 'off':>8s}  "
+            f"{run.label:>9s}  {_limit_text(run):>8s}  "
             f"{'never' if stuck else f'{delay * 1e3:.4f}':>9s}  "
             f"{'all pulse' if stuck else f'{(delay - dry) * 1e3:.4f}':>9s}  {peak:10.2f}  "
             f"{found[0].viscous_impulse + found[0].meniscus_impulse:9.2e}  "
             f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
-            f"{_held_by(found, dry)}"
+            f"{_held_by(run, found, dry)}"
         )
         key = f"{stem(run.temperature)}_{'limited' if run.limited else 'unlimited'}"
         scalars |= {
@@ -174,7 +185,7 @@ def _spread(scene: InjectorScene, runs: Sequence[Run]) -> list[str]:
         delays = [c.delay for c in cycles(run, scene)]
         good = [d for d in delays if not math.isnan(d)]
         text = (
-            f"{run.label}, tension limit {'on' if run.limited else 'off'}: "
+            f"{run.label}, tension limit {_limit_text(run)}: "
             f"{len(good)} of {len(delays)} cycles released"
         )
         if good:

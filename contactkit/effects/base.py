@@ -60,6 +60,10 @@ class Effect(abc.ABC):
     def sources(self) -> tuple[str, ...]:
         """Where the equations of this choice come from."""
 
+    def cites(self, scene: SeparationScene) -> tuple[str, ...]:
+        """Sources of what this choice computes for a scene; all of them, unless it depends."""
+        return self.sources
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
         return ()

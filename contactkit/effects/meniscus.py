@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from attrs import field, frozen, validators
+from attrs import field, frozen
 
+from ..checks import choice
 from ..kernels import arc_flat, published
 from ..kernels.roots import bracketed_root
 from .base import ForceLaw, SeparationForce
@@ -38,31 +39,35 @@ class MeniscusForce(SeparationForce):
     Against the exact bridge the arc is within 0.7 % up to a tenth of the stability limit, 4 % to
     a third, 7 % to nine tenths (equal angles below 90 degrees); mixed angles are worse where the
     gap is not small against the radius, -12 % at a radius of two gaps for 60/120 degrees. The
-    arc has no fold: it ends where its neck vanishes, 2 to 15 times beyond the exact limit.
+    arc has no fold: it ends where its neck vanishes, 1.4 to 15 times beyond the exact limit.
     """
 
     name: ClassVar[str] = "meniscus-force"
     summary: ClassVar[str] = "capillary force of the meniscus"
 
     profile: Literal["arc", "as-published"] = field(
-        default="arc", validator=validators.in_(("arc", "as-published"))
+        default="arc", validator=choice("arc", "as-published")
     )
-    pulled: Literal["lower", "upper"] = field(
-        default="lower", validator=validators.in_(("lower", "upper"))
-    )
+    pulled: Literal["lower", "upper"] = field(default="lower", validator=choice("lower", "upper"))
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        if self.profile == "as-published":
-            errata = tuple(
-                f"erratum to Eq. ({number}): {published.ERRATA[number]}"
-                for number in ("3.11", "3.12")
+        if self.profile == "arc":
+            return (
+                "arc of Eqs. (3.38)-(3.41) of Cai and Bhushan 2008a, force through its neck plane",
             )
-            return ("Eqs. (3.11), (3.12) of Cai and Bhushan 2007a, as printed", *errata)
-        return (
-            "arc of Eqs. (3.38)-(3.41) of Cai and Bhushan 2008a, force through its own neck plane",
+        return tuple(
+            f"Eq. ({number}) of Cai and Bhushan 2007a, as printed; {published.ERRATA[number]}"
+            for number in ("3.11", "3.12")
         )
+
+    def cites(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.cites`."""
+        if self.profile == "arc":
+            return self.sources
+        flats, sphere = self.sources
+        return (flats,) if scene.interface.is_flat else (sphere,)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from attrs import field, frozen, validators
+from attrs import field, frozen
 
-from ..checks import optional, positive
+from ..checks import choice, optional, positive
 from ..errors import DescriptionError
 from ..kernels import arc_flat
 from ..units import si
@@ -31,16 +31,14 @@ class Rupture(FilmEnd):
         Break distance [m], for example measured. None: by `criterion`.
     criterion : {"zero-neck"}
         Where the neck of the arc vanishes, as published. This is an upper bound: the exact
-        bridge loses stability at a gap 2 to 15 times smaller.
+        bridge loses stability at a gap 1.4 to 15 times smaller.
     """
 
     name: ClassVar[str] = "rupture"
     summary: ClassVar[str] = "the film breaks at a gap"
 
     gap: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-    criterion: Literal["zero-neck"] = field(
-        default="zero-neck", validator=validators.in_(("zero-neck",))
-    )
+    criterion: Literal["zero-neck"] = field(default="zero-neck", validator=choice("zero-neck"))
 
     @property
     def sources(self) -> tuple[str, ...]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from attrs import field, frozen, validators
+from attrs import field, frozen
 
-from ..checks import positive
+from ..checks import choice, positive
 from ..kernels import film_limits, squeeze
 from ..units import si
 from .base import FilmLimit, ForceLaw, Limiter, SeparationForce
@@ -46,7 +46,7 @@ class ViscousForce(SeparationForce):
     summary: ClassVar[str] = "viscous force of the film (Reynolds)"
 
     closure: Literal["volume-conserving", "flooded"] = field(
-        default="volume-conserving", validator=validators.in_(("volume-conserving", "flooded"))
+        default="volume-conserving", validator=choice("volume-conserving", "flooded")
     )
 
     @property
@@ -56,6 +56,11 @@ class ViscousForce(SeparationForce):
             "Stefan 1874, flats: Eq. (3.18) of Cai and Bhushan 2007a",
             "Matthewson 1988, sphere: Eqs. (3.22)-(3.24) of Cai and Bhushan 2007a",
         )
+
+    def cites(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.cites`."""
+        flats, sphere = self.sources
+        return (flats,) if scene.interface.is_flat else (sphere,)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
@@ -145,7 +150,7 @@ class TensionLimit(FilmLimit):
     tension: float | Literal["vapour"] = field(default="vapour", metadata=si("Pa"))
     ambient_pressure: float = field(default=101_325.0, validator=positive, metadata=si("Pa"))
     cavity: Literal["clipped", "reynolds"] = field(
-        default="clipped", validator=validators.in_(("clipped", "reynolds"))
+        default="clipped", validator=choice("clipped", "reynolds")
     )
 
     @tension.validator

@@ -222,7 +222,7 @@ def zero_neck_gap(shape: ArcShape, volume: _Number) -> _Number:
     .. math:: h = \bigl(V / (\pi \textstyle\int (\xi - \xi_{min})^2 d\eta)\bigr)^{1/3}
 
     Infinite for two right angles. This is the break distance of the dissertation, and not where
-    a bridge breaks: the exact bridge lets go 2 to 10 times earlier unless an angle is 180 deg.
+    a bridge breaks: the exact bridge lets go 1.4 to 15 times earlier unless an angle is 180 deg.
 
     Examples
     --------

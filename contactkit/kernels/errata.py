@@ -48,7 +48,7 @@ ERRATA: Mapping[str, str] = MappingProxyType(
         "3.41": "It is needed only for an unsigned arc radius, and neither it nor Eq. (3.39) "
         "covers one angle below and one above 90 deg.",
         "zero neck": "A closed neck of the arc is no criterion for rupture: the exact bridge "
-        "lets go 2 to 10 times earlier, unless an angle is 180 deg.",
+        "lets go 1.4 to 15 times earlier, unless an angle is 180 deg.",
         "3.42": "It does not remove the initial gap, is infinite for theta1 + theta2 = 180 deg "
         "and turns repulsion positive.",
         "3.43": "With Eq. (3.19) as printed it tends to -1; with the volume kept to 1/2.",

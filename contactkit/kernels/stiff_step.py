@@ -70,13 +70,13 @@ class Step(NamedTuple):
 
 def coordinate(gap: float, s: float, q: float) -> tuple[float, float, float] | None:
     """Gap and its first two derivatives with respect to q; None outside the range of q."""
-    if s == 0.0:
-        h = gap * math.exp(q)
-        return h, h, h
     base = 1.0 - s * q
     if base <= 0.0:
         return None
-    h = gap * base ** (-1.0 / s)
+    try:
+        h = gap * (math.exp(q) if s == 0.0 else base ** (-1.0 / s))
+    except OverflowError:
+        return None
     first = h / base
     return h, first, (1.0 + s) * first / base
 
@@ -101,12 +101,12 @@ def slopes(
 ) -> tuple[float, float, float]:
     """Net force and its derivatives with respect to gap and speed, by differences.
 
-    `scale` is a speed that is large here; at rest a difference far below it is taken, so that a
-    limit of the liquid that sets in at creeping speeds is not straddled.
+    `scale` is the speed at which the film balances the other forces. The difference at rest is
+    far below it, so that a limit of the liquid that sets in at creeping speeds is not straddled.
     """
     force = net(time, gap, speed)
     dh = 1e-7 * gap
-    dv = 1e-7 * (abs(speed) + 1e-6 * scale)
+    dv = 1e-7 * (abs(speed) + 1e-3 * scale)
     by_gap = (net(time, gap + dh, speed) - force) / dh
     return force, by_gap, (net(time, gap, speed + dv) - force) / dv
 
@@ -119,6 +119,7 @@ def step(
     s: float,
     rtol: float,
     at_start: tuple[float, float, float],
+    scale: float | None = None,
 ) -> Step | None:
     """Advance by `dt`; None if the stages cannot be solved, and a smaller step is to be tried.
 
@@ -138,13 +139,17 @@ def step(
         Tolerance of the step, from which that of the iteration derives.
     at_start : tuple of 3 floats
         Net force and its slopes at the start, from `slopes`.
+    scale : float, optional
+        Speed [m/s] at which the film balances the other forces, for the differences of `slopes`;
+        that which crosses the gap within the step if not given.
     """
+    scale = start.gap / dt if scale is None else scale
     rates = [start.speed / start.gap] * 3
     size, calls = math.inf, 0
     known: list[tuple[float, float]] | None = None
     for iteration in range(_MAX_ITERATIONS):
         points = _points(start, dt, s, rates)
-        found = _forces(net, points, start.gap / dt, known) if points is not None else None
+        found = _forces(net, points, scale, known) if points is not None else None
         if points is None or found is None:
             return None
         forces, slopes_there = found

@@ -87,10 +87,7 @@ def test_the_clipped_force_is_the_printed_formula(s):
 def integral(density, end, kinks):
     inside = sorted(kink for kink in kinks if 0.0 < kink < end)
     marks = [0.0, *inside, end]
-    return math.fsum(
-        quad(density, a, b, epsrel=1e-11, epsabs=0.0)[0]
-        for a, b in pairwise(marks)
-    )
+    return math.fsum(quad(density, a, b, epsrel=1e-11, epsabs=0.0)[0] for a, b in pairwise(marks))
 
 
 @pytest.mark.parametrize("s", [0.5, 1.5, 7.0, 1e3])

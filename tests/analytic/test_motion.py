@@ -249,12 +249,19 @@ def film_net(_time, gap, speed):
     return 40.0 - 5000.0 * (gap - 20e-6) - held
 
 
+def take(net, mass, begin, dt, exponent, rtol, scale):
+    """One step; `scale` is a speed [m/s] that matters to the net force."""
+    return step(net, mass, begin, dt, exponent, rtol, slopes(net, *begin, scale), scale)
+
+
+def take_film(begin, dt, exponent, rtol=1e-14):
+    return take(film_net, MASS, begin, dt, exponent, rtol, 40.0 / 119.7)
+
+
 def fixed_steps(exponent, count, time=2e-4):
     point = Stage(0.0, 20e-6, 0.0)
     for _ in range(count):
-        at_start = slopes(film_net, *point, point.gap / (time / count))
-        taken = step(film_net, MASS, point, time / count, exponent, 1e-15, at_start)
-        point = taken.stages[2]
+        point = take_film(point, time / count, exponent, 1e-15).stages[2]
     return point
 
 
@@ -282,8 +289,7 @@ def test_the_error_a_step_estimates_is_not_below_the_one_it_makes():
     """The estimate is of fourth order, the step of fifth: it may exceed, not fall short."""
     for dt in (1e-5, 2e-5, 4e-5):
         begin = Stage(0.0, 20e-6, 0.0)
-        at_start = slopes(film_net, *begin, begin.gap / dt)
-        one = step(film_net, MASS, begin, dt, 2.0, 1e-14, at_start)
+        one = take_film(begin, dt, 2.0)
         exact = fixed_steps(2.0, 100, dt)
         assert one.gap_error >= abs(one.stages[2].gap / exact.gap - 1.0)
         assert one.speed_error >= abs(one.stages[2].speed - exact.speed)
@@ -296,8 +302,7 @@ def test_a_step_over_a_transient_lands_on_the_slow_motion(stiffness):
     def net(_time, _gap, speed):
         return 1.0 - stiffness * speed
 
-    at_start = slopes(net, 0.0, 1.0, 0.0, 1.0)
-    taken = step(net, 1e-3, Stage(0.0, 1.0, 0.0), 1.0, -1.0, 1e-10, at_start)
+    taken = take(net, 1e-3, Stage(0.0, 1.0, 0.0), 1.0, -1.0, 1e-10, 1.0 / stiffness)
     end = taken.stages[2]
     assert end.speed == approx(1.0 / stiffness, 1e-5)
 
@@ -319,10 +324,9 @@ def test_the_weights_integrate_what_the_nodes_can_see(coefficients, dt):
 
 def test_work_along_a_step_is_force_times_travel():
     begin = Stage(0.0, 20e-6, 0.0)
-    at_start = slopes(film_net, *begin, 1.0)
     # A polynomial in the gap; in the impulse six nodes span what is no polynomial.
     for exponent, rtol in ((-1.0, 1e-12), (2.0, 1e-6)):
-        taken = step(film_net, MASS, begin, 1e-4, exponent, 1e-14, at_start)
+        taken = take_film(begin, 1e-4, exponent)
         travel = taken.stages[2].gap - begin.gap
         assert travel > 0.4 * begin.gap
         assert travel_integral(begin, taken, 7.0, [7.0] * 3) == approx(7.0 * travel, rtol)

@@ -59,6 +59,7 @@ def test_closure_follows_every_kind_of_import(package):
         "__init__.py", "a.py", "b.py", "sub/__init__.py", "sub/c.py", "sub/d.py",
     }  # fmt: skip
     assert closure.requires == {"numpy"}
+    assert find_closure("pack.a", at_once=True).requires == set()
     assert b"import" not in closure.sources["sub/__init__.py"]
     assert b"import" in find_closure("pack.uses_init").sources["sub/__init__.py"]
 

@@ -8,6 +8,7 @@ import pytest
 
 import contactkit as ck
 from contactkit.kernels import squeeze
+from contactkit.kernels.stiff_step import coordinate
 from contactkit.motion_state import outputs, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -452,3 +453,60 @@ def test_an_integration_that_gives_up_keeps_what_it_has(release_scene):
     quiet = ck.simulate(made, throw=False)
     assert quiet.status == "not converged"
     assert quiet.state == e.value.result.state
+
+
+# Where speed changes sign under a limit -------------------------------------------------------
+
+
+@pytest.mark.parametrize("limit", [ck.TensionLimit(tension=2e3), ck.ShearLimit(strength=500.0)])
+@pytest.mark.parametrize("speed", [1e-5, -1e-5, 0.1, -0.1])
+@pytest.mark.parametrize("pull", [-500.0, 1e-3])
+def test_a_thrown_mass_is_caught_by_a_limited_film_in_few_steps(film_scene, limit, speed, pull):
+    """Opening, the film hardly holds; at rest m/c is 1e-15 s: no creeping around the turn."""
+    scene = film_scene(
+        VISCOUS,
+        limit,
+        initial_gap=1e-8,
+        final_gap=1e-4,
+        force=pull,
+        mass=0.01,
+        initial_speed=speed,
+        rest_gap=1e-9,
+        time_limit=1e-3,
+    )
+    result = ck.simulate(ck.plan(scene, ck.Accuracy(max_steps=3000)), throw=False)
+    assert result.status != "not converged"
+    assert is_finite(result.state)
+
+
+def test_a_coordinate_too_large_for_a_float_is_no_coordinate():
+    """A trial step may ask for any gap; the answer is a smaller step, not an OverflowError."""
+    for exponent, q in ((0.0, 1e4), (1e-3, 999.999), (0.5, math.nextafter(2.0, 0.0) + 1.0)):
+        assert coordinate(1e-6, exponent, q) is None
+
+
+def test_a_bath_around_a_sphere_may_be_torn_at_once(film_scene):
+    """Exponent 0, a weak liquid and a strong pull: trial steps reach beyond any float."""
+    scene = film_scene(
+        VISCOUS,
+        ck.ShearLimit(strength=8e3),
+        lower=ck.Flat(),
+        upper=ck.Sphere(radius=1.2e-3),
+        liquid={"viscosity": 4.6},
+        initial_gap=3.4e-8,
+        final_gap=6.9e-6,
+        force=41.0,
+        mass=1.5,
+        rise_time=2.3e-5,
+    )
+    assert run(scene).status == "released"
+
+
+@pytest.mark.parametrize(
+    "more", [ck.TensionLimit(tension=1e5), ck.ShearLimit(strength=1e5), ck.Rupture(gap=2e-6)]
+)
+def test_without_a_mass_a_film_must_hold_all_the_way(film_scene, more):
+    """Where a limit or a rupture lets go, nothing is left to set the speed: ask for a mass."""
+    scene = film_scene(VISCOUS, more, force=10.0, film={"volume": 3e-12})
+    with pytest.raises(ck.PlanError, match=r"mass \[kg\]"):
+        ck.plan(scene)

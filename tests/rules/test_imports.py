@@ -13,7 +13,7 @@ FOLDERS = {"contactkit": "contactkit", "contactkit.fmu": "fmu", "contactkit.mode
 # A module may import what stands above it, and within a package its neighbours.
 CHAIN = [
     ["errors"],
-    ["units"],
+    ["units", "columns"],
     ["checks", "kernels.*"],
     ["temperature_laws"],
     ["viscosity_laws", "water_laws"],
@@ -23,6 +23,7 @@ CHAIN = [
     ["effects.*"],
     ["plan"],
     ["motion_state"],
+    ["step_problem"],
     ["motion", "validity", "constant_force"],
     ["results"],
     ["curves", "io", "workprecision"],

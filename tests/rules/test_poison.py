@@ -66,7 +66,11 @@ OWNED = {
 
 # What is not an effect's: how far the film reaches, the motion, and the ranges of validity.
 EXTENT = {"flats": {"squeeze.disc_radius"}, "sphere": {"squeeze.sphere_film_height"}}
-MOTION = {"stiff_step.*", "step_reading.*", "quadrature.gauss_legendre"}
+MOTION = {
+    "speed": {"quadrature.gauss_legendre"},
+    "time": set(),
+    "force": {"stiff_step.*", "step_reading.*", "quadrature.gauss_legendre"},
+}
 VALIDITY = {
     ck.ViscousForce: {"validity.reynolds_number", "validity.slenderness"},
     ck.MeniscusForce: {"validity.bond_number"},
@@ -136,7 +140,7 @@ def allowed(effects, body, imposed):
     names = set().union(EXTENT[body], *(OWNED[effect][body] for effect in effects))
     names |= set().union(*(VALIDITY.get(kind, set()) for kind in kinds))
     names |= VALIDITY_OF_BOTH if VALIDITY.keys() <= kinds else set()
-    return names | (MOTION if imposed == "force" else set())
+    return names | MOTION[imposed]
 
 
 def cases():
@@ -227,7 +231,7 @@ def test_every_effect_and_every_choice_is_poisoned():
 
 
 def test_the_table_names_kernels_that_exist():
-    patterns = set().union(MOTION, VALIDITY_OF_BOTH, *VALIDITY.values(), *EXTENT.values())
+    patterns = set().union(VALIDITY_OF_BOTH, *MOTION.values(), *VALIDITY.values(), *EXTENT.values())
     for bodies in OWNED.values():
         patterns |= set().union(*bodies.values())
     assert [p for p in sorted(patterns) if not any(matches(name, {p}) for name in KERNELS)] == []

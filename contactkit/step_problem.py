@@ -1,0 +1,95 @@
+"""What one internal step of the motion solves: the forces on the mass, and how they are scaled."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .effects import ViscousForce
+from .kernels.stiff_step import NetForce, Stage, Step, slopes, step
+from .motion_state import Drive, MotionState
+from .plan import Film, Plan
+
+__all__ = ["StepProblem", "first_step", "step_problem"]
+
+
+class StepProblem(NamedTuple):
+    """What one internal step solves, from where, and the size its error is measured against."""
+
+    net: NetForce
+    mass: float
+    begin: Stage
+    rtol: float
+    exponent: float  # with which the film falls
+    size: float  # sum of the forces that deliver momentum [N]; those that cancel count too
+    delivered: float  # momentum delivered so far [N.s]
+    scale: float  # speed at which the film balances the other forces [m/s]
+    at_start: tuple[float, float, float]
+
+    def attempt(self, length: float) -> Step | None:
+        """Try a step; in terms of the viscous impulse where the film rules, else of the gap."""
+        is_film_ruled = -self.at_start[2] * length > self.mass
+        exponent = self.exponent - 1.0 if is_film_ruled and self.exponent > 0.0 else -1.0
+        return step(
+            self.net, self.mass, self.begin, length, exponent, self.rtol, self.at_start, self.scale
+        )
+
+    def error(self, taken: Step, length: float) -> float:
+        """Error of a step over its tolerance: of the gap, and of the momentum delivered so far.
+
+        Measured against the momentum of the mass alone, a transient of length m/c would have to
+        be resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over.
+        """
+        momentum = self.mass * abs(taken.stages[2].speed) + self.delivered + self.size * length
+        return max(taken.gap_error, self.mass * taken.speed_error / momentum) / self.rtol
+
+
+def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> StepProblem:
+    """Pose the step from a state, with a film or, where it is broken, without one."""
+    opening = plan.scene.opening
+    mass, spring, rest = _mass(plan), opening.stiffness, opening.initial_gap
+
+    def net(time: float, gap: float, speed: float) -> float:
+        held = film.force(gap, speed) if film is not None else 0.0
+        return pull(time) - spring * (gap - rest) - held
+
+    begin = Stage(state.time, state.gap, state.speed)
+    static = film.static_force(state.gap) if film is not None else 0.0
+    size = abs(pull(state.time)) + abs(static) + spring * abs(state.gap - rest) + 1e-300
+    exponent = film.exponent(state.gap) if film is not None else 0.0
+    delivered = state.given_impulse + mass * abs(state.speed)
+    resistance = film.resistance(state.gap) if film is not None else 0.0
+    scale = size / resistance if resistance > 0.0 else state.gap / (state.step or 1e-6)
+    at_start = slopes(net, *begin, scale)
+    return StepProblem(
+        net,
+        mass,
+        begin,
+        plan.accuracy.time_rtol,
+        exponent,
+        size,
+        delivered,
+        scale,
+        at_start,
+    )
+
+
+def _mass(plan: Plan) -> float:
+    """Moving mass [kg]; without one, so little that its momentum is 1e-14 of the impulse given."""
+    opening = plan.scene.opening
+    if opening.mass is not None:
+        return opening.mass
+    impulse = plan.film.laws[ViscousForce].impulse
+    assert impulse is not None  # a viscous force always has one
+    given = impulse(opening.initial_gap, opening.final_gap)
+    pull = max(abs(opening.force or 0.0), 1e-300)
+    return 1e-14 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
+
+
+def first_step(problem: StepProblem, left: float) -> float:
+    """Time [s] in which inertia alone would open a thousandth of the gap; a first guess."""
+    _, gap, speed = problem.begin
+    acceleration = abs(problem.at_start[0]) / problem.mass
+    still = math.sqrt(2e-3 * gap / acceleration) if acceleration > 0.0 else left
+    moving = 1e-3 * gap / abs(speed) if speed else left
+    return min(still, moving, left)
