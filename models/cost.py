@@ -160,7 +160,9 @@ def _injector_settings(
     scene: InjectorScene, film: SeparationScene, pair: tuple[Path, Path]
 ) -> list[Setting]:
     """One system over tolerances, FMU pairs over steps, published closures as models."""
-    wholes = [("one system, scipy", film, _TOLERANCES[::2], False)]
+    wholes: list[tuple[str, SeparationScene, tuple[float, ...], bool]] = [
+        ("one system, scipy", film, _TOLERANCES[::2], False)
+    ]
     coupled = [
         ("FMU pair, pull a straight line", film, True, False),
         ("FMU pair, pull held", film, False, False),

@@ -510,3 +510,23 @@ def test_without_a_mass_a_film_must_hold_all_the_way(film_scene, more):
     scene = film_scene(VISCOUS, more, force=10.0, film={"volume": 3e-12})
     with pytest.raises(ck.PlanError, match=r"mass \[kg\]"):
         ck.plan(scene)
+
+
+@pytest.mark.parametrize("volume", [None, 3e-15])
+def test_a_pull_that_starts_from_nothing_moves_the_stiffest_film(film_scene, volume):
+    """At time 0 no force acts at all, on a film of 1e16 N.s/m: no scale may come out as zero."""
+    scene = film_scene(
+        VISCOUS,
+        liquid={"viscosity": 10.0},
+        film={"volume": volume},
+        initial_gap=1e-9,
+        final_gap=1.5e-9,
+        force=100.0,
+        mass=0.02,
+        rise_time=1e-3,
+        time_limit=0.01,
+    )
+    state = run(scene).state
+    # The gap has hardly moved: what was given, the film has taken.
+    given_impulse = 100.0 * (0.01 + 1e-3 * math.expm1(-10.0))
+    assert state.viscous_impulse == approx(given_impulse, 1e-3)
