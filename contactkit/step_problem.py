@@ -38,10 +38,15 @@ class StepProblem(NamedTuple):
         """Error of a step over its tolerance: of the gap, and of the momentum delivered so far.
 
         Measured against the momentum of the mass alone, a transient of length m/c would have to
-        be resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over.
+        be resolved, 1e-12 s at 10 nm; it delivers nothing and is stepped over. What the film took
+        counts too: an error of the gap, times the resistance, is one of its impulse.
         """
         momentum = self.mass * abs(taken.stages[2].speed) + self.delivered + self.size * length
-        return max(taken.gap_error, self.mass * taken.speed_error / momentum) / self.rtol
+        film = -self.at_start[2] * self.begin.gap * taken.gap_error
+        wrong = max(self.mass * taken.speed_error, film)
+        # A mass that the film leads has no momentum to speak of; its speed is still asked for.
+        speed = taken.speed_error / (abs(taken.stages[2].speed) + self.scale)
+        return max(taken.gap_error, wrong / momentum, 0.1 * speed) / self.rtol
 
 
 def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> StepProblem:
@@ -59,7 +64,9 @@ def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive)
     exponent = film.exponent(state.gap) if film is not None else 0.0
     delivered = state.given_impulse + mass * abs(state.speed)
     resistance = film.resistance(state.gap) if film is not None else 0.0
-    scale = size / resistance if resistance > 0.0 else state.gap / (state.step or 1e-6)
+    crossing = state.gap / (state.step or 1e-6)
+    # Where no force acts yet, a film still has a scale: the differences need not be zero.
+    scale = max(size / resistance, 1e-15 * crossing) if resistance > 0.0 else crossing
     at_start = slopes(net, *begin, scale)
     return StepProblem(
         net,

@@ -120,7 +120,10 @@ def _between_flats(points: list[Array], beyond: str) -> list[Array]:
 def _no_arc(point: list[float], closed: bool) -> Exception:
     """Say why a point between curved bodies has no arc."""
     gap, volume, lower, upper, below, above = point
-    limit = arc_sphere.zero_neck_gap(volume, lower, upper, below, above)
+    try:
+        limit = arc_sphere.zero_neck_gap(volume, lower, upper, below, above)
+    except InfeasibleError as nowhere:
+        return nowhere
     if gap >= limit * (1.0 - 1e-12):
         return arc_flat.closed_neck(limit)
     if closed:

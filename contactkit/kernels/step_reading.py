@@ -22,6 +22,12 @@ def _cubic(first: float, stages: Sequence[float]) -> tuple[float, float, float, 
     return f[0], b, c, d
 
 
+def _jumps(first: float, stages: Sequence[float]) -> bool:
+    """Whether a stiff film came up to its force at once, in a transient the step strode over."""
+    values = (first, *stages)
+    return stages[0] - first > 0.9 * (max(values) - min(values))
+
+
 def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
     """Highest value on a step, and where (0 start, 1 end), from its start and its three stages.
 
@@ -31,10 +37,9 @@ def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
     >>> round(value, 12), round(where, 12)
     (0.25, 0.5)
     """
+    if _jumps(first, stages):
+        return stages[2], 1.0  # on the way there the stages are not accurate
     nodes, values = (0.0, *NODES), (first, *stages)
-    if stages[0] - first > 0.9 * (max(values) - min(values)):
-        # A stiff film jumps to its force within the step: only the end of it is accurate.
-        return stages[2], 1.0
     best = max(range(4), key=values.__getitem__)
     value, where = values[best], nodes[best]
     a, b, c, d = _cubic(first, stages)
@@ -69,6 +74,11 @@ def travel_integral(start: Stage, taken: Step, first: float, values: Sequence[fl
     Force and coordinate are taken as cubics in time and the gap follows from the coordinate
     exactly, so that a step in which the gap multiplies loses nothing.
     """
+    if _jumps(first, values):
+        # The jump takes no time: begin where the stages, as a parabola, say it ended.
+        (a, b, c), (u, v, w) = NODES, values
+        first = u * b * c / ((a - b) * (a - c)) + v * a * c / ((b - a) * (b - c))
+        first += w * a * b / ((c - a) * (c - b))
     f0, f1, f2, f3 = _cubic(first, values)
     _, q1, q2, q3 = _cubic(0.0, taken.coordinates)
     total = 0.0

@@ -244,8 +244,10 @@ def test_a_span_of_time_may_be_divided_at_will(parts, gap, viscosity):
     for part in parts:
         state = ck.advance(made, state, pull, span * part / sum(parts))
     # 200 steps of 1e-8, and towards the release the gap answers an error ten times over.
-    for name in ("gap", "speed", "viscous_impulse", "meniscus_impulse", "dissipated_work"):
+    for name in ("gap", "viscous_impulse", "meniscus_impulse", "dissipated_work"):
         assert getattr(state, name) == approx(getattr(whole, name), 5e-5), name
+    # While the film rules the speed follows from it; its error is of the momentum delivered.
+    assert 0.01 * state.speed == pytest.approx(0.01 * whole.speed, abs=1e-7 * whole.given_impulse)
 
 
 @few
