@@ -14,8 +14,8 @@ __all__ = ["Accuracy"]
 
 
 def _tolerance(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-13 <= value <= 0.1:
-        raise refuse(owner, attribute, value, "lie between 1e-13 and 0.1")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-11 <= value <= 0.1:
+        raise refuse(owner, attribute, value, "lie between 1e-11 and 0.1")
 
 
 @frozen(kw_only=True)

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 import math
 
-from .errors import ConvergenceError
+from .errors import ConvergenceError, DescriptionError
 from .kernels.step_reading import highest, travel_integral
 from .kernels.stiff_step import WEIGHTS, Stage, Step
 from .motion_state import Drive, MotionState
 from .plan import Film, Plan
 from .step_problem import StepProblem, first_step, step_problem
 
-__all__ = ["advance", "step_once"]
+__all__ = ["advance", "rest_once", "step_once"]
 
 _SAFETY, _SHRINK, _GROW = 0.9, 0.1, 8.0
 _SAME = 1e-11  # two gaps closer than this, relatively, are one
+_NOTHING = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
 
 
 def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionState:
@@ -38,16 +39,27 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
 
     Raises
     ------
+    DescriptionError
+        If `dt` is negative or not finite.
     ConvergenceError
         If no internal step can be found that meets the tolerance; carries the state reached.
     """
+    if not (math.isfinite(dt) and dt >= 0.0):
+        raise DescriptionError("advance(dt)", dt, "be zero or positive, and finite", unit="s")
     end = state.time + dt
-    while end - state.time > 1e-13 * max(abs(end), dt):
-        state = _rest(plan, state, pull, end) if state.held else step_once(plan, state, pull, end)
-    return state._replace(time=end)
+    for _ in range(plan.accuracy.max_steps + 1):
+        if end - state.time <= 1e-13 * max(abs(end), dt):
+            return state._replace(time=end)
+        one = rest_once if state.held else step_once
+        state = one(plan, state, pull, end)
+    raise ConvergenceError(
+        f"{plan.accuracy.max_steps} internal steps led from {end - dt:g} s to {state.time:g} s, "
+        f"not to {end:g} s; loosen Accuracy.time_rtol or raise Accuracy.max_steps",
+        state,
+    )
 
 
-def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+def rest_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
     """Rest on the asperities until the pull exceeds what holds the bodies together."""
     opening = plan.scene.opening
     holding = opening.stiffness * (state.gap - opening.initial_gap)
@@ -72,30 +84,28 @@ def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionStat
 
 def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
     """Take one internal step, shortened to the first event inside it."""
+    if state.gap < _NOTHING:
+        raise _no_step(state, plan.accuracy.time_rtol)
+    rest = plan.scene.opening.rest_gap
+    if state.speed < 0.0 and state.gap <= rest * (1.0 + _SAME):
+        return state._replace(held=True, gap=rest, speed=0.0)
     film = None if state.broken else plan.film_with(state.share)
     problem = step_problem(plan, film, state, pull)
     left = end - state.time
     length = min(state.step or first_step(problem, left), left)
-    # A hop that begins and ends at the rest gap has no crossing to look for: it is cut in two.
-    floor = plan.scene.opening.rest_gap
-    floor = floor if state.gap <= floor * (1.0 + _SAME) else 0.0
     rejected, evaluations = 0, 3
     while True:
         taken = problem.attempt(length)
-        error = problem.error(taken, length) if taken is not None else math.inf
-        evaluations += taken.evaluations if taken is not None else 0
-        if taken is not None and error <= 1.0:
-            if taken.stages[2].gap >= floor:
+        error = math.inf
+        if taken is not None:
+            evaluations += taken.evaluations
+            error = _judge(plan, film, state, pull, problem, taken, length)
+            if error <= 1.0:
                 break
-            error = 16.0
         rejected += 1
         length *= 0.25 if math.isinf(error) else max(_SHRINK, _SAFETY * error**-0.25)
         if length < 1e-15 * max(abs(state.time), 1e-15) or rejected > 60:
-            raise ConvergenceError(
-                f"no step of time from {state.time:g} s, gap {state.gap:g} m, speed "
-                f"{state.speed:g} m/s meets rtol = {problem.rtol:g}; loosen Accuracy.time_rtol",
-                state,
-            )
+            raise _no_step(state, problem.rtol)
     following = length * min(_GROW, _SAFETY * max(error, 1e-12) ** -0.25)
     if not rejected and length < state.step:  # cut short by the end of the span only
         following = max(following, state.step)
@@ -111,6 +121,51 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
         n_evaluations=state.n_evaluations + evaluations,
     )
     return state if mark is None else _event(plan, film, state, mark)
+
+
+def _no_step(state: MotionState, rtol: float) -> ConvergenceError:
+    """Error for a state from which no step meets the tolerance."""
+    cure = f"loosen Accuracy.time_rtol = {rtol:g}"
+    if state.gap < 10.0 * _NOTHING:
+        cure = "the bodies are pressed together; give Opening.rest_gap [m], where asperities carry"
+    where = f"{state.time:g} s, gap {state.gap:g} m, speed {state.speed:g} m/s"
+    return ConvergenceError(f"no step of time can be taken from {where}; {cure}", state)
+
+
+def _judge(
+    plan: Plan,
+    film: Film | None,
+    state: MotionState,
+    pull: Drive,
+    problem: StepProblem,
+    taken: Step,
+    length: float,
+) -> float:
+    """Error of a step over its tolerance, with what the estimate inside the step cannot see."""
+    error = problem.error(taken, length)
+    if error > 1.0:
+        return error
+    end, rest = taken.stages[2], plan.scene.opening.rest_gap
+    if end.gap < rest * (1.0 - _SAME) and state.gap <= rest * (1.0 + _SAME):
+        return 16.0  # a hop that begins and ends at the rest gap: cut it, there is no crossing
+    if film is None or not film.limits:
+        return error
+    # Where a limit sets in or lets go, the slope of the force jumps: compare with two half steps.
+    points = (problem.begin, *taken.stages)
+    if len({film.viscous_force(point.gap, point.speed)[1] for point in points}) == 1:
+        return error
+    half = problem.attempt(0.5 * length)
+    if half is None:
+        return 16.0
+    middle = half.stages[2]
+    there = state._replace(time=middle.time, gap=middle.gap, speed=middle.speed)
+    rest_of_it = step_problem(plan, film, there, pull).attempt(0.5 * length)
+    if rest_of_it is None:
+        return 16.0
+    again = rest_of_it.stages[2]
+    gap_error, speed_error = abs(math.log(again.gap / end.gap)), abs(again.speed - end.speed)
+    seen = taken._replace(gap_error=gap_error, speed_error=speed_error)
+    return max(error, problem.error(seen, length))
 
 
 def _closed_gap(plan: Plan) -> float:

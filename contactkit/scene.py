@@ -20,8 +20,8 @@ _E = TypeVar("_E", bound="SeparationEffect")
 
 
 def effects_tuple(effects: Iterable[SeparationEffect]) -> tuple[SeparationEffect, ...]:
-    """Convert any collection of effects to a tuple."""
-    return tuple(effects)
+    """Convert any collection of effects, or a single one, to a tuple."""
+    return tuple(effects) if isinstance(effects, Iterable) else (effects,)
 
 
 @frozen(kw_only=True)

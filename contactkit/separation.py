@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from .curves import at_speed, frozen, newtonian_impulses, simulated, within_time
 from .effects import MeniscusForce, ViscousForce
 from .errors import ConvergenceError
-from .motion import advance, step_once
+from .motion import advance, rest_once, step_once
 from .motion_state import MotionState, outputs, start
 from .plan import Plan
 from .results import SeparationResult, Work
@@ -100,10 +100,9 @@ def drive(plan: Plan) -> Callable[[float], float]:
 
 def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
     """Advance by one internal step, or to the next event."""
-    left = plan.scene.opening.time_limit - state.time
-    if state.held:
-        return advance(plan, state, pull, left)
-    return step_once(plan, state, pull, state.time + left)
+    end = plan.scene.opening.time_limit
+    one = rest_once if state.held else step_once
+    return one(plan, state, pull, end)
 
 
 def _share(plan: Plan, state: MotionState) -> float:

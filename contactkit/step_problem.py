@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from .effects import ViscousForce
-from .kernels.stiff_step import NetForce, Stage, Step, slopes, step
+from .kernels.stiff_step import NODES, WEIGHTS, NetForce, Stage, Step, slopes, step
 from .motion_state import Drive, MotionState
 from .plan import Film, Plan
 
@@ -17,6 +17,7 @@ class StepProblem(NamedTuple):
     """What one internal step solves, from where, and the size its error is measured against."""
 
     net: NetForce
+    pull: Drive
     mass: float
     begin: Stage
     rtol: float
@@ -43,10 +44,21 @@ class StepProblem(NamedTuple):
         """
         momentum = self.mass * abs(taken.stages[2].speed) + self.delivered + self.size * length
         film = -self.at_start[2] * self.begin.gap * taken.gap_error
-        wrong = max(self.mass * taken.speed_error, film)
+        wrong = max(self.mass * taken.speed_error, film, abs(self._missed_impulse(length)))
         # A mass that the film leads has no momentum to speak of; its speed is still asked for.
         speed = taken.speed_error / (abs(taken.stages[2].speed) + self.scale)
         return max(taken.gap_error, wrong / momentum, 0.1 * speed) / self.rtol
+
+    def _missed_impulse(self, length: float) -> float:
+        """What the nodes of a step miss of the impulse of the pull [N.s], against Simpson's rule.
+
+        A stiff film hides a ramp of the pull from the estimates of gap and speed.
+        """
+        start = self.begin.time
+        nodes = zip(WEIGHTS, NODES, strict=True)
+        seen = sum(weight * self.pull(start + node * length) for weight, node in nodes)
+        first, middle, last = (self.pull(start + x * length) for x in (0.0, 0.5, 1.0))
+        return length * (seen - (first + 4.0 * middle + last) / 6.0)
 
 
 def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> StepProblem:
@@ -70,6 +82,7 @@ def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive)
     at_start = slopes(net, *begin, scale)
     return StepProblem(
         net,
+        pull,
         mass,
         begin,
         plan.accuracy.time_rtol,

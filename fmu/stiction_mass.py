@@ -202,7 +202,7 @@ class StictionMass(PortSlave):
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
-        tolerance = max(self.values["rtol"], 1e-13)
+        tolerance = max(self.values["rtol"], 1e-11)
         self.plan = plan(scene_of(self.values), Accuracy(time_rtol=tolerance))
         self.state = start(self.plan)._replace(time=self.start_time)
         self._show(0.0)

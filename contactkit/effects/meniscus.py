@@ -10,6 +10,7 @@ from attrs import field, frozen
 from ..checks import choice
 from ..kernels import arc_flat, published
 from ..kernels.roots import bracketed_root
+from ..surfaces import Sphere
 from .base import ForceLaw, SeparationForce
 from .film_shape import film_shape, needs_extent
 
@@ -77,6 +78,8 @@ class MeniscusForce(SeparationForce):
             missing += ("liquid.surface_tension [N/m]",)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a bath around a sphere has no meniscus",)
+        if self.profile == "as-published" and isinstance(scene.interface.lower, Sphere):
+            missing += ("the sphere as the upper body: Eq. (3.12) is printed for that",)
         return missing + needs_extent(scene)
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:

@@ -145,6 +145,8 @@ def step(
     """
     scale = start.gap / dt if scale is None else scale
     rates = [start.speed / start.gap] * 3
+    # Rates below this do not count: nothing of the gap per step, or of the creep of the film.
+    floor = min(1e-6 / dt, scale / start.gap)
     size, calls = math.inf, 0
     known: list[tuple[float, float]] | None = None
     for iteration in range(_MAX_ITERATIONS):
@@ -159,9 +161,10 @@ def step(
         if change is None:
             return None
         rates = [r - d for r, d in zip(rates, change, strict=True)]
-        previous, size = size, max(map(abs, change)) / (max(map(abs, rates)) + 1e-6 / dt)
-        is_met = size <= 0.03 * rtol and _is_small(residual, mass, dt, points, found, rtol)
-        if is_met or (iteration > 1 and size < 1e-6 and size >= previous):
+        previous, size = size, max(map(abs, change)) / (max(map(abs, rates)) + floor)
+        is_met = size <= 0.03 * rtol and _is_small(residual, mass, dt, scale, points, found, rtol)
+        is_stalled = iteration > 1 and size < 1e-6 and size >= previous  # at rounding
+        if is_met or (is_stalled and _is_small(residual, mass, dt, scale, points, found, 1e-7)):
             return _finish(net, mass, start, dt, s, rates, at_start, calls)
         if iteration > 5 and size > previous:
             return None
@@ -178,7 +181,7 @@ def _points(
     for node, row, rate in zip(NODES, _A, rates, strict=True):
         q = dt * (row[0] * rates[0] + row[1] * rates[1] + row[2] * rates[2])
         place = coordinate(start.gap, s, q)
-        if place is None or not 0.0 < place[0] < math.inf:
+        if place is None or not 1e-100 < place[0] < math.inf:
             return None
         gap, first, second = place
         point = Stage(start.time + node * dt, gap, rate * first)
@@ -241,19 +244,20 @@ def _is_small(
     residual: list[float],
     mass: float,
     dt: float,
+    scale: float,
     points: list[tuple[float, Stage, float, float]],
     found: tuple[list[float], list[tuple[float, float]]],
     rtol: float,
 ) -> bool:
     """Whether the momentum left over is small against what the film and the mass take.
 
-    The rates alone do not tell: a film that hardly yields carries its force at a speed that is
-    nothing against the gap per step, and still has to be known.
+    The rates alone do not tell: a film that hardly yields carries its force at next to no speed.
     """
     momentum = 0.0
     for (_, point, _, _), force, (_, by_speed) in zip(points, *found, strict=True):
         speed = abs(point.speed)
-        momentum = max(momentum, mass * speed + dt * (abs(force) + abs(by_speed) * speed))
+        carried = abs(by_speed) * (speed + scale)  # by the film, moving or in balance
+        momentum = max(momentum, mass * speed + dt * (abs(force) + carried))
     return max(map(abs, residual)) <= rtol * momentum
 
 

@@ -71,7 +71,7 @@ FIELDS = [
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
     (SHEAR, "strength", "Pa", POSITIVE, [0.0, -1e5, None]),
     (BREAK, "gap", "m", POSITIVE, [0.0, -1e-6]),
-    (ACCURACY, "time_rtol", "", "lie between 1e-13 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),
+    (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),
     (ACCURACY, "points", "", WHOLE, [0, -5, 1.5, None]),
     (ACCURACY, "max_steps", "", WHOLE, [0, -5, 1.5, None]),
 ]
