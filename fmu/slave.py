@@ -10,6 +10,7 @@ or goes back to an earlier state.
 from __future__ import annotations
 
 import traceback
+from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from math import isfinite
@@ -80,9 +81,9 @@ class PortSlave(PortAccess):
         tool reads outputs, and after a state was restored: so it starts from `values` alone.
         """
 
+    @abstractmethod
     def advance(self, time: float, step: float) -> None:
         """Go from `time` to ``time + step`` [s] and set the outputs there."""
-        raise NotImplementedError
 
     def refresh(self) -> None:
         """Let outputs follow inputs set since the last step, where they depend on them."""

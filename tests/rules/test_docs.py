@@ -26,7 +26,9 @@ def tables():
     spec = importlib.util.spec_from_file_location("docs_tables", DOCS / "tables.py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
+    sys.path.insert(0, str(DOCS))  # as when it is run as a script
     spec.loader.exec_module(module)
+    sys.path.remove(str(DOCS))
     yield module
     del sys.modules[spec.name]
 
