@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from ..errors import ConvergenceError, InfeasibleError
 from .base import ForceLaw
 from .film_shape import film_shape
 
@@ -47,34 +48,56 @@ def sphere_law(scene: SeparationScene, accuracy: Accuracy, *, as_published: bool
     def force(gap: Floats) -> Floats:
         state = arc_sphere.solve(gap, volume, lower, upper, *curvatures, profile=profile)
         if as_published:
-            return np.asarray(published.meniscus_sphere_3_12(state, tension, upper))
+            return np.asarray(published.meniscus_sphere_3_12(state, tension, upper) * left(gap))
         return np.asarray(tension * state.force)
+
+    # The printed force grows without bound as the neck closes; a curve of it would ring. What is
+    # tabulated is the force times the share of the way to the end that is left.
+    def left(gap: Any) -> Any:
+        return 1.0 - gap / end if as_published else 1.0
 
     # Lengths of the film: where it is thinner than this, the force hardly depends on the gap.
     thin = 0.1 * math.sqrt(volume / (math.pi * film.sphere_radius))
     top = min(scene.opening.final_gap * 2.0, end * (1.0 - 1e-9))
     curve = _spline(force, thin, top, 0.1 * accuracy.time_rtol)
-    return ForceLaw(lambda gap, speed: n * curve(gap), end=min(end, math.inf))
+
+    def law(gap: float, speed: float) -> float:
+        gap = min(max(gap, 0.0), top)
+        return n * curve(gap) / float(left(gap))
+
+    return ForceLaw(law, end=end)
 
 
 def _spline(
     force: Callable[[Floats], Floats], thin: float, top: float, rtol: float
 ) -> Callable[[float], float]:
+    """Curve through a force on nodes in the logarithm of the gap, as many as it takes.
+
+    Raises
+    ------
+    InfeasibleError
+        If there is no arc at a gap on the way.
+    ConvergenceError
+        If the force is not smooth enough for a curve.
+    """
     import numpy as np
     from scipy.interpolate import CubicSpline
 
-    def to_gap(x: Floats) -> Floats:
-        return np.asarray(thin * np.expm1(x))
-
     far = math.log1p(top / thin)
-    nodes = 33
-    while True:
+    nodes, error = 33, math.inf
+    while error > max(rtol, 1e-12) and 2 * nodes - 1 <= _MOST_NODES:
         x = np.linspace(0.0, far, 2 * nodes - 1)
-        f = np.asarray(force(to_gap(x)), dtype=float)
+        gaps = np.minimum(thin * np.expm1(x), top)
+        f = force(gaps)
+        if not np.all(np.isfinite(f)):
+            missing = float(gaps[~np.isfinite(f)][0])
+            raise InfeasibleError(f"no arc meniscus spans a gap of {missing:g} m on the way")
         spline = CubicSpline(x[::2], f[::2])
         error = float(np.max(np.abs(spline(x[1::2]) - f[1::2])) / np.max(np.abs(f)))
-        if error <= max(rtol, 1e-12) or 2 * nodes - 1 >= _MOST_NODES:
-            break
         nodes = 2 * nodes - 1
+    if error > 1e-6:
+        raise ConvergenceError(
+            f"the meniscus force on the sphere is rough: {error:.1e} off a curve"
+        )
     fine = CubicSpline(x, f)
-    return lambda gap: float(fine(math.log1p(max(gap, 0.0) / thin)))
+    return lambda gap: float(fine(math.log1p(gap / thin)))

@@ -1,0 +1,58 @@
+"""The curve through the meniscus force on a sphere is the force, also where it grows or ends."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import contactkit as ck
+from contactkit.kernels import arc_sphere, published
+
+TENSION, ANGLES, RADIUS, VOLUME = 0.02, (1.0, 0.2), 7e-3, 3e-12
+
+
+def exact(gap, profile):
+    kind = "sphere" if profile == "arc" else "parabola"
+    state = arc_sphere.solve(np.array([gap]), VOLUME, *ANGLES, 0.0, 1.0 / RADIUS, profile=kind)
+    if profile == "arc":
+        return TENSION * float(state.force[0])
+    return float(np.ravel(published.meniscus_sphere_3_12(state, TENSION, ANGLES[1]))[0])
+
+
+@pytest.mark.parametrize("profile", ["arc", "as-published"])
+@pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.9, 0.99, 0.9999])
+def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, share):
+    """As printed the force grows without bound as the neck closes; a plain spline rang there."""
+    scene = film_scene(
+        ck.MeniscusForce(profile=profile),
+        lower=ck.Flat(),
+        upper=ck.Sphere(radius=RADIUS),
+        liquid={"surface_tension": TENSION},
+        film={
+            "volume": VOLUME,
+            "contact_angle_lower": ANGLES[0],
+            "contact_angle_upper": ANGLES[1],
+        },
+        initial_gap=1e-12,
+        final_gap=1e-3,
+    )
+    law = ck.plan(scene).film.laws[ck.MeniscusForce]
+    gap = share * law.end
+    # The curve is asked for 1e-9 of the largest force; near its end the arc pulls with little,
+    # and the printed force is divided by the share that is left.
+    rel = 1e-8 + 1e-10 / (1.0 - share)
+    assert law.force(gap, 0.0) == pytest.approx(exact(gap, profile), rel=rel, abs=1e-9 * 2e-3)
+
+
+def test_a_drop_with_nothing_to_span_is_refused(film_scene):
+    with pytest.raises(ck.InfeasibleError, match=r"no .*(bridge|meniscus)"):
+        ck.plan(
+            film_scene(
+                ck.MeniscusForce(),
+                lower=ck.Flat(),
+                upper=ck.Sphere(radius=1e-6),
+                film={"volume": 1e-21},
+                initial_gap=1e-5,
+                final_gap=1e-4,
+            )
+        )
