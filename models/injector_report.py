@@ -22,7 +22,7 @@ from .monolithic import simulate
 from .scenes import Report
 from .valve import energising_times
 
-__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report", "stem"]
+__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report", "run_error", "stem"]
 
 
 class Cycle(NamedTuple):
@@ -91,20 +91,12 @@ def delays_over_temperature(
     return temperatures, delays
 
 
-def coupling_error(run: Run, scene: InjectorScene) -> float:
-    """Largest difference of release delay between co-simulation and one system, relative [-].
+def run_error(run: Run, scene: InjectorScene) -> float:
+    """Coupling error of a co-simulation against the monolithic solve, see `coupling_error`."""
+    from ..fmu.cosimulate import coupling_error
 
-    nan where neither releases the spool; inf where only one of them does.
-    """
-    worst = math.nan
-    for cycle, whole in zip(cycles(run, scene), run.whole.cycles, strict=True):
-        if math.isnan(cycle.delay) and math.isnan(whole.release_time):
-            continue
-        if math.isnan(cycle.delay) or math.isnan(whole.release_time):
-            return math.inf
-        error = abs(cycle.delay / whole.release_time - 1.0)
-        worst = error if math.isnan(worst) else max(worst, error)
-    return worst
+    coupled = [cycle.delay for cycle in cycles(run, scene)]
+    return coupling_error(coupled, [cycle.release_time for cycle in run.whole.cycles])
 
 
 def _held_by(run: Run, found: Sequence[Cycle], dry: float) -> str:
@@ -151,7 +143,7 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
         found = cycles(run, scene)
         delays = [c.delay for c in found]
         delay = delays[0]
-        error = coupling_error(run, scene)
+        error = run_error(run, scene)
         peak = max(c.peak_force for c in found)
         stuck = math.isnan(delay)
         lines.append(
