@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, ClassVar
 
 from attrs import Attribute, field, frozen
@@ -45,11 +44,6 @@ class Accuracy:
     draft: ClassVar[Accuracy]
     standard: ClassVar[Accuracy]
     reference: ClassVar[Accuracy]
-
-    @property
-    def digits(self) -> float:
-        """Decimal digits asked for in a step of time."""
-        return -math.log10(self.time_rtol)
 
 
 Accuracy.draft = Accuracy(time_rtol=1e-5, points=50)

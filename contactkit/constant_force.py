@@ -6,6 +6,7 @@ import math
 
 from .effects import MeniscusForce, ViscousForce
 from .effects.film_shape import FilmShape, film_shape
+from .effects.viscous import keeps_radius
 from .kernels import constant_force
 from .plan import Plan
 
@@ -26,10 +27,7 @@ def constant_force_time(plan: Plan, pull: float) -> float:
         assert state.surface_tension is not None
         wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
         wetting_tension = state.surface_tension * wetting
-    flooded = any(
-        isinstance(e, ViscousForce) and e.closure == "flooded" for e in plan.scene.effects
-    )
-    film = film_shape(plan.scene, constant_radius=flooded)
+    film = film_shape(plan.scene, constant_radius=keeps_radius(plan.scene))
     share = pull / film.menisci
     if not plan.scene.interface.is_flat:
         return _sphere_time(plan, film, wetting_tension, share)

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .effects import MeniscusForce, ViscousForce
-from .effects.base import FilmLimit
 from .errors import PlanError
 from .motion_state import LIMITS, FilmStatus
 from .plan import Plan
@@ -60,7 +59,7 @@ def at_speed(plan: Plan, begun: float) -> SeparationResult:
         running = _running(lambda gap, v: plan.film.viscous_force(gap, v)[0], speed, gaps)
         columns["viscous_impulse"] = frozen(running)
         impulses |= newtonian_impulses(plan)
-        if any(isinstance(e, FilmLimit) for e in plan.scene.effects):
+        if plan.film.limits:
             impulses["viscous_impulse"] = running[-1]
     validity = check(plan, [(gap, speed) for gap in gaps if gap > 0.0])
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
@@ -116,7 +115,7 @@ def newtonian_impulses(plan: Plan) -> dict[str, float]:
 
 def within_time(plan: Plan, begun: float) -> SeparationResult:
     """Impulse and mean force of an opening of which only the duration is given."""
-    limits = [type(e).__name__ for e in plan.scene.effects if isinstance(e, FilmLimit)]
+    limits = [kind.__name__ for kind, _ in plan.film.limits]
     if limits:
         raise PlanError(
             f"{', '.join(limits)} needs a speed or a force imposed: with only the time given, the "

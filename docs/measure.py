@@ -19,7 +19,7 @@ from attrs import evolve
 
 import contactkit as ck
 from contactkit.fmu.build import build
-from contactkit.fmu.cosimulate import Instance
+from contactkit.fmu.instance import Instance
 from contactkit.fmu.stiction_mass import MeniscusLaw
 from contactkit.models.monolithic import simulate as whole
 from contactkit.models.scenes import open_scene

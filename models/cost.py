@@ -20,6 +20,7 @@ from .scenes import Report, mass_values
 
 if TYPE_CHECKING:
     from .injector import FuelInjector, InjectorScene
+    from .monolithic import Drive
 
 __all__ = ["cost_report", "injector_sweep", "separation_sweep"]
 
@@ -114,12 +115,11 @@ def _release(scene: SeparationScene, rtol: float) -> Outcome:
     return Outcome(result.state.release_time, counts)
 
 
-def _whole_release(
-    scene: SeparationScene, pull: Callable[[float], float], end: float, rtol: float
-) -> Outcome:
+def _whole_release(film: SeparationScene, pulled_by: Drive, end: float, rtol: float) -> Outcome:
+    """First release of film and drive solved as one system."""
     from .monolithic import simulate
 
-    whole = simulate(plan(scene), pull, end, rtol=rtol)
+    whole = simulate(plan(film), pulled_by, end, rtol=rtol)
     counts = {"steps": whole.n_steps, "evaluations": whole.n_evaluations}
     return Outcome(whole.cycles[0].release_time, counts)
 
@@ -142,7 +142,8 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
 
     scene = device.scene
     film = scene.separation(scene.temperature)
-    exact, near = (_injector_whole(scene, film, rtol) for rtol in (1e-11, 1e-9))
+    end = scene.first_pulse_end
+    exact, near = (_whole_release(film, scene.valve, end, rtol) for rtol in (1e-11, 1e-9))
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         settings = _injector_settings(scene, film, device.build(Path(folder)))
@@ -173,7 +174,12 @@ def _injector_settings(
     flooded = _swap(film, ViscousForce(closure="flooded"))
     wholes.append(("published constant radius (3.19)", flooded, _TOLERANCES[:5:2], True))
     settings = [
-        Setting(method, f"rtol {rtol:.0e}", partial(_injector_whole, scene, one, rtol), is_model)
+        Setting(
+            method,
+            f"rtol {rtol:.0e}",
+            partial(_whole_release, one, scene.valve, scene.first_pulse_end, rtol),
+            is_model,
+        )
         for method, one, tolerances, is_model in wholes
         for rtol in tolerances
     ]
@@ -190,27 +196,14 @@ def _injector_settings(
     return settings
 
 
-def _first_pulse(scene: InjectorScene) -> float:
-    return scene.valve.profile.start_delay + scene.valve.profile.on_time
-
-
-def _injector_whole(scene: InjectorScene, film: SeparationScene, rtol: float) -> Outcome:
-    from .monolithic import simulate
-
-    whole = simulate(plan(film), scene.valve, _first_pulse(scene), rtol=rtol)
-    counts = {"steps": whole.n_steps, "evaluations": whole.n_evaluations}
-    return Outcome(whole.cycles[0].release_time, counts)
-
-
 def _injector_pair(
     scene: InjectorScene, film: SeparationScene, pair: tuple[Path, Path], step: float, linear: bool
 ) -> Outcome:
     from ..fmu.cosimulate import cosimulate
-    from ..fmu.stiction_mass import MeniscusLaw
 
-    values = mass_values(film)
-    values["meniscus_law"] = MeniscusLaw[values["meniscus_law"]]
-    found = cosimulate(*pair, _first_pulse(scene), step, mass_start=values, linear=linear)
+    found = cosimulate(
+        *pair, scene.first_pulse_end, step, mass_start=mass_values(film), linear=linear
+    )
     return Outcome(
         float(found["t_release"][-1]) - scene.valve.profile.start_delay, {"steps": found.n_steps}
     )

@@ -99,6 +99,11 @@ class InjectorScene:
         )
 
     @property
+    def first_pulse_end(self) -> float:
+        """Time at which the first current pulse ends [s]."""
+        return self.valve.profile.start_delay + self.valve.profile.on_time
+
+    @property
     def stop_time(self) -> float:
         """Time at which the last cycle ends [s]."""
         profile = self.valve.profile
@@ -114,7 +119,6 @@ class Run(NamedTuple):
     coupled: CoSimulation
     whole: MonolithicResult
     seconds: float
-    whole_seconds: float
 
     @property
     def label(self) -> str:
@@ -169,11 +173,8 @@ class FuelInjector:
     def runs(self, out: Path | None, progress: Progress) -> list[Run]:
         """Build and validate the FMUs, and co-simulate each temperature with and without limit."""
         study = self.scene.study
-        limited = (
-            (True, False)
-            if any(isinstance(e, TensionLimit) for e in self.scene.effects)
-            else (True,)
-        )
+        has_limit = self.scene.separation(self.scene.temperature).effect(TensionLimit) is not None
+        limited = (True, False) if has_limit else (True,)
         cases = [(t, limit) for t in study.temperatures for limit in limited]
         with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
             drive, mass = self.build(out if out is not None else Path(folder))
@@ -209,22 +210,18 @@ class FuelInjector:
         from time import perf_counter
 
         from ..fmu.cosimulate import cosimulate
-        from ..fmu.stiction_mass import MeniscusLaw
         from .monolithic import simulate
 
         scene = self.scene.separation(temperature, limited=limited)
-        values = mass_values(scene)
-        values["meniscus_law"] = MeniscusLaw[values["meniscus_law"]]
         begun = perf_counter()
         coupled = cosimulate(
             drive, mass, self.scene.stop_time, self.scene.study.communication_step,
-            mass_start=values, progress=progress,
+            mass_start=mass_values(scene), progress=progress,
         )  # fmt: skip
         seconds = perf_counter() - begun
         made = plan(scene)
-        begun = perf_counter()
         whole = simulate(made, self.scene.valve, self.scene.stop_time)
-        return Run(temperature, limited, made, coupled, whole, seconds, perf_counter() - begun)
+        return Run(temperature, limited, made, coupled, whole, seconds)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `Runnable.cost`."""

@@ -70,11 +70,7 @@ def dry_delay(scene: InjectorScene) -> float:
     thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
     interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
     dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))
-    return float(simulate(dry, scene.valve, _one_pulse(scene)).cycles[0].release_time)
-
-
-def _one_pulse(scene: InjectorScene) -> float:
-    return scene.valve.profile.start_delay + scene.valve.profile.on_time
+    return float(simulate(dry, scene.valve, scene.first_pulse_end).cycles[0].release_time)
 
 
 def delays_over_temperature(
@@ -86,16 +82,16 @@ def delays_over_temperature(
     delays = []
     for temperature in temperatures:
         made = plan(scene.separation(temperature, limited=limited, tension=tension))
-        first = simulate(made, scene.valve, _one_pulse(scene), rtol=1e-6).cycles[0]
+        first = simulate(made, scene.valve, scene.first_pulse_end, rtol=1e-6).cycles[0]
         delays.append(float(first.release_time))
     return temperatures, delays
 
 
-def run_error(run: Run, scene: InjectorScene) -> float:
-    """Coupling error of a co-simulation against the monolithic solve, see `coupling_error`."""
+def run_error(run: Run, found: Sequence[Cycle]) -> float:
+    """Coupling error of a run and its cycles against the monolithic solve, see `coupling_error`."""
     from ..fmu.cosimulate import coupling_error
 
-    coupled = [cycle.delay for cycle in cycles(run, scene)]
+    coupled = [cycle.delay for cycle in found]
     return coupling_error(coupled, [cycle.release_time for cycle in run.whole.cycles])
 
 
@@ -139,11 +135,13 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
         f"{'error':>8s}  {'':>7s}",
     ]
     scalars: dict[str, tuple[Any, str]] = {"dry_release_delay": (dry, "s")}
+    spread = [""]
     for run in runs:
         found = cycles(run, scene)
         delays = [c.delay for c in found]
         delay = delays[0]
-        error = run_error(run, scene)
+        spread.append(_spread(run, delays))
+        error = run_error(run, found)
         peak = max(c.peak_force for c in found)
         stuck = math.isnan(delay)
         lines.append(
@@ -165,25 +163,21 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
             f"coupling_error_{key}": (error, "-"),
             f"seconds_{key}": (run.seconds, "s"),
         }
-    lines += [*_spread(scene, runs), *_validity(runs)]
+    lines += [*spread, *_validity(runs)]
     files = _write(scene, runs, out, dry) if out is not None else ()
     return Report(scalars, "\n".join(lines), files)
 
 
-def _spread(scene: InjectorScene, runs: Sequence[Run]) -> list[str]:
-    """Say which cycles were released, and how far they agree."""
-    lines = [""]
-    for run in runs:
-        delays = [c.delay for c in cycles(run, scene)]
-        good = [d for d in delays if not math.isnan(d)]
-        text = (
-            f"{run.label}, tension limit {_limit_text(run)}: "
-            f"{len(good)} of {len(delays)} cycles released"
-        )
-        if good:
-            text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
-        lines.append(text)
-    return lines
+def _spread(run: Run, delays: Sequence[float]) -> str:
+    """Say how many cycles of a run were released, and how far they agree."""
+    good = [d for d in delays if not math.isnan(d)]
+    text = (
+        f"{run.label}, tension limit {_limit_text(run)}: "
+        f"{len(good)} of {len(delays)} cycles released"
+    )
+    if good:
+        text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
+    return text
 
 
 def _validity(runs: Sequence[Run]) -> list[str]:

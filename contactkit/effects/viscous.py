@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..accuracy import Accuracy
     from ..scene import SeparationScene
 
-__all__ = ["ShearLimit", "TensionLimit", "ViscousForce"]
+__all__ = ["ShearLimit", "TensionLimit", "ViscousForce", "keeps_radius"]
 
 
 def _viscosity(scene: SeparationScene) -> float:
@@ -178,7 +178,7 @@ class TensionLimit(FilmLimit):
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
         """See `FilmLimit.prepare`."""
-        film, drop = film_shape(scene, constant_radius=_keeps_radius(scene)), self.pressure_drop
+        film, drop = film_shape(scene, constant_radius=keeps_radius(scene)), self.pressure_drop
         n, radius, height = film.menisci, film.radius, film.height
         disc = (
             film_limits.disc_tension_reynolds
@@ -221,7 +221,7 @@ class ShearLimit(FilmLimit):
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
         """See `FilmLimit.prepare`."""
-        film, strength = film_shape(scene, constant_radius=_keeps_radius(scene)), self.strength
+        film, strength = film_shape(scene, constant_radius=keeps_radius(scene)), self.strength
         n, radius, height = film.menisci, film.radius, film.height
 
         def between_flats(gap: float, speed: float, force: float) -> float:
@@ -235,6 +235,7 @@ class ShearLimit(FilmLimit):
         return between_flats if math.isinf(film.sphere_radius) else under_sphere
 
 
-def _keeps_radius(scene: SeparationScene) -> bool:
+def keeps_radius(scene: SeparationScene) -> bool:
     """Whether the viscous force of this scene keeps the radius of the film."""
-    return any(isinstance(e, ViscousForce) and e.closure == "flooded" for e in scene.effects)
+    viscous = scene.effect(ViscousForce)
+    return viscous is not None and viscous.closure == "flooded"

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
-from contactkit.fmu.cosimulate import Instance, cosimulate
+from contactkit.fmu.cosimulate import cosimulate
+from contactkit.fmu.instance import Instance
 from contactkit.models.monolithic import simulate as one_system
 from contactkit.models.scenes import open_scene
 from contactkit.motion_state import start

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError
-from contactkit.fmu.cosimulate import Instance, cosimulate
+from contactkit.fmu.cosimulate import cosimulate
+from contactkit.fmu.instance import Instance
 from contactkit.fmu.stiction_mass import StictionMass
 from contactkit.fmu.valve_drive import ValveDrive
 from contactkit.io import read_tables
@@ -119,3 +120,11 @@ def test_an_instance_reads_and_sets_by_name(pair):
         mass.start({"h0": 7e-6, "h_min": 0.0}, 1.0)
         assert mass.get(mass.references("h")) == [7e-6]
         assert dict(zip(mass.names, mass.outputs(), strict=True))["h"] == 7e-6
+
+
+def test_an_enumeration_is_set_by_the_name_of_its_item(pair):
+    with Instance(pair[1]) as mass:
+        mass.start({"meniscus_law": "NONE", "h_min": 0.0}, 1.0)
+        assert mass.get(mass.references("F_m")) == [0.0]
+    with Instance(pair[1]) as mass, pytest.raises(DescriptionError, match="be one of NONE, EXACT"):
+        mass.start({"meniscus_law": "ARCH"}, 1.0)

