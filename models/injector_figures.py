@@ -139,12 +139,14 @@ def _delays(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) ->
     if not curves and any(run.limited for run in runs):
         curves = [("with the tension limit", True, None)]
     curves.append(("oil bears any tension", False, None))
-    for (label, limited, tension), color in zip(curves, cycle(_OIL), strict=False):
+    sizes = range(4 * len(curves) + 2, 2, -4)
+    for (label, limited, tension), color, size in zip(curves, cycle(_OIL), sizes, strict=False):
         temperatures, delays = delays_over_temperature(scene, limited=limited, tension=tension)
         x = [t - celsius(0.0) for t in temperatures]
         ax.plot(x, [d * 1e3 for d in delays], "-", color=color, label=label)
         never = [t for t, d in zip(x, delays, strict=True) if math.isnan(d)]
-        ax.plot(never, [pulse] * len(never), "x", color=color)
+        # The crosses of several curves share their places: the earlier ones are the larger.
+        ax.plot(never, [pulse] * len(never), "x", color=color, ms=size, mew=1.6)
     for run in runs:
         delay = cycles(run, scene)[0].delay * 1e3
         ax.plot(run.temperature - celsius(0.0), delay, "o", color="k", mfc="none")
