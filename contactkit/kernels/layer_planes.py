@@ -1,0 +1,115 @@
+"""Planes at depth in a layered half-space, with a side where they lie on an interface.
+
+z points into the solid.  In-plane stresses jump at an interface: side "-" of a plane there is the
+material above, side "+" the one below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import DescriptionError
+
+__all__ = ["Side", "default_depths", "locate"]
+
+Side = Literal["+", "-"]
+SIDES: dict[str, Side] = {"+": "+", "-": "-"}
+
+
+def locate(
+    depths: Sequence[float], sides: Sequence[str] | str, thickness: ArrayLike
+) -> list[tuple[float, Side, int]]:
+    """Depth, side and layer of each plane, in the order given.
+
+    Parameters
+    ----------
+    depths : sequence of float
+        Of the planes, >= 0 [m].
+    sides : sequence of {"+", "-"} or one of them for all
+        Which material a plane on an interface belongs to: "+" the lower, "-" the upper one.  The
+        surface itself belongs to the top layer whatever its side.
+    thickness : array_like, shape (n_layers,)
+        [m].
+
+    Returns
+    -------
+    list of (depth, side, layer)
+        The layer counts from 0 at the top; n_layers is the substrate.
+
+    Raises
+    ------
+    DescriptionError
+        For a depth that is negative or not finite, another side, or numbers of both that differ.
+
+    Notes
+    -----
+    A depth within 1e-12 of an interface, relative to it, is on the interface: sums of thicknesses
+    do not come out the same in every order.
+
+    Examples
+    --------
+    >>> locate([0.0, 0.75, 0.75, 1.0], ["+", "-", "+", "+"], [0.25, 0.5])
+    [(0.0, '+', 0), (0.75, '-', 1), (0.75, '+', 2), (1.0, '+', 2)]
+    """
+    each = [sides] * len(depths) if sides in ("+", "-") else list(sides)
+    if len(each) != len(depths):
+        raise DescriptionError("planes.sides", len(each), f"be {len(depths)}, one for each depth")
+    bottoms = np.cumsum(np.asarray(thickness, dtype=np.float64))
+    found: list[tuple[float, Side, int]] = []
+    for z, side in zip(depths, each, strict=True):
+        if not 0.0 <= z < np.inf:
+            raise DescriptionError("planes.depths", z, "be zero or positive and finite", unit="m")
+        if side not in SIDES:
+            raise DescriptionError("planes.sides", side, 'be "+" (below) or "-" (above)')
+        known = SIDES[side]
+        on = np.flatnonzero(np.abs(bottoms - z) <= 1e-12 * bottoms)
+        if on.size:
+            found.append((float(bottoms[on[0]]), known, int(on[0]) + (side == "+")))
+        else:
+            found.append((float(z), known, int(np.searchsorted(bottoms, z))))
+    return found
+
+
+def default_depths(
+    thickness: ArrayLike, deepest: float, count: int = 24
+) -> tuple[list[float], list[Side]]:
+    """Planes that miss no jump: the surface, both sides of every interface, and a graded set.
+
+    Parameters
+    ----------
+    thickness : array_like, shape (n_layers,)
+        [m].
+    deepest : float
+        Depth of the last plane, typically two contact radii [m].
+    count : int, optional
+        Of the graded planes, which crowd towards the surface as the squares of 1/count, 2/count...
+
+    Returns
+    -------
+    depths, sides
+        Ascending; interfaces below `deepest` are left out.
+
+    Raises
+    ------
+    DescriptionError
+        Unless `deepest` is positive and finite and `count` at least 1.
+
+    Examples
+    --------
+    >>> default_depths([0.5], 1.0, count=2)
+    ([0.0, 0.25, 0.5, 0.5, 1.0], ['+', '+', '-', '+', '+'])
+    """
+    if not (0.0 < deepest < np.inf and count >= 1):
+        raise DescriptionError("default_depths.deepest", (deepest, count), "be positive", unit="m")
+    bottoms = np.cumsum(np.asarray(thickness, dtype=np.float64))
+    bottoms = bottoms[bottoms <= deepest]
+    graded = deepest * (np.arange(count + 1.0) / count) ** 2
+    apart = [float(z) for z in graded if not np.any(np.abs(bottoms - z) <= 1e-9 * bottoms)]
+    planes: list[tuple[float, bool]] = [(z, True) for z in apart]
+    planes += [(float(z), below) for z in bottoms for below in (False, True)]
+    planes.sort()
+    return [z for z, _ in planes], ["+" if below else "-" for _, below in planes]
