@@ -1,0 +1,206 @@
+r"""Surface displacement of a layered half-space under a point load: a table over the radius.
+
+Pressure positive in compression, displacement positive into the solid. A unit force sinks the
+surface at the radius r by
+
+.. math:: g(r) = \frac{1}{2\pi} \int_0^\infty \alpha C(\alpha) J_0(\alpha r)\,d\alpha
+               = \frac{T(r)}{2\pi r},
+
+with T going from C_inf, twice the compliance of the top layer, at r = 0 to C_s of the substrate
+far away. On the logarithms of wavenumber and radius both alpha C and T are smooth, whatever the
+thicknesses and contrasts, and the transform is a convolution. It is done mode by mode:
+
+.. math:: \int_0^\infty \alpha^{i\omega} r J_0(\alpha r)\,d\alpha = r^{-i\omega}\,
+          2^{i\omega}\, \frac{\Gamma((1 + i\omega)/2)}{\Gamma((1 - i\omega)/2)},
+
+of modulus one: no digit is lost. Before, the step of alpha C from C_s to C_inf is taken out as
+that of exp(-alpha c), whose T is known.
+
+============  ===========================================================  =========
+symbol        quantity                                                     unit
+============  ===========================================================  =========
+T_k           r^(2k+1) (1/r d/dr)^k (T/r) = (D - 2k + 1) ... (D - 1) T     1/Pa
+D             r d/dr                                                       -
+I             mean of T over radii from 0 to r                             1/Pa
+C_s, C_inf    limits of alpha C for long and short waves                   1/Pa
+c             scale of the step that is taken out                          m
+============  ===========================================================  =========
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+from scipy.special import loggamma
+
+from . import layered
+
+__all__ = ["ORDERS", "PointLoad", "cubic", "locate", "mean_to", "table"]
+
+ORDERS = 5
+"""Number of functions T_0, T_1 ... that are tabulated."""
+
+# Modes of the logarithm of the wavenumber fall below rounding at a frequency of 45 for sandwiches
+# of any contrast; more steps would add only noise to the derivatives.
+_STEP = np.log(10.0) / 40.0
+_FINER = 24  # steps of the radius in one of the wavenumber: cubics between them are right to 1e-13
+_BELOW, _ABOVE = 1e-26, 1e16  # the range of alpha H and alpha h_1; see table
+
+
+class PointLoad(NamedTuple):
+    """Cubics in the logarithm of the radius, on equal steps.
+
+    Attributes
+    ----------
+    start : float
+        Logarithm of the least radius.
+    step : float
+        Step of the logarithm.
+    derivatives : ndarray, shape (ORDERS, 4, n_steps)
+        Coefficients, constant first, of T_0 .. T_4 in the fraction of the step [1/Pa].
+    mean : ndarray, shape (4, n_steps)
+        The same for the mean I.
+    """
+
+    start: float
+    step: float
+    derivatives: NDArray[np.float64]
+    mean: NDArray[np.float64]
+
+
+def table(
+    young_modulus: NDArray[np.float64],
+    poisson_ratio: NDArray[np.float64],
+    thickness: NDArray[np.float64],
+    least_radius: float,
+    largest_radius: float,
+) -> PointLoad:
+    """Tabulate the displacement under a point load between two radii.
+
+    Parameters
+    ----------
+    young_modulus, poisson_ratio : ndarray, shape (n_layers + 1,)
+        Of the layers, top first, and of the substrate [Pa], [-].
+    thickness : ndarray, shape (n_layers,)
+        Of the layers [m]; at least one.
+    least_radius, largest_radius : float
+        Ends of the table [m].
+
+    Returns
+    -------
+    PointLoad
+
+    Notes
+    -----
+    The range of wavenumbers is so wide that what is left at its ends is below rounding: at the
+    upper end since T tends to C_inf like r / h_1 at the matching radii, at the lower since alpha C
+    tends to C_s like alpha H times the contrast of moduli. The error of T is about 1e-14 of the
+    larger of C_s and C_inf: ten digits remain far from a load on a layer a million times softer
+    than the substrate.
+
+    References
+    ----------
+    .. [1] A. J. S. Hamilton, Mon. Not. R. Astron. Soc. 312 (2000) 257-284, Appendix B: Hankel
+       transforms on logarithms.
+
+    Examples
+    --------
+    Far from a point load a layer is not felt: T tends to 2 (1 - nu^2) / E of the substrate.
+
+    >>> E, nu, h = np.array([4.0, 1.0]), np.array([0.3, 0.3]), np.array([1.0])
+    >>> load = table(E, nu, h, 1e-3, 1e4)
+    >>> ends = load.derivatives[0, 0, [0, -1]]
+    >>> [round(float(end), 3) for end in ends]
+    [0.456, 1.82]
+    """
+    plane_compliance = 2.0 * (1.0 - poisson_ratio**2) / young_modulus
+    c_inf, c_s = float(plane_compliance[0]), float(plane_compliance[-1])
+    scale = float(np.sum(thickness))
+    low = min(_BELOW / scale, 0.1 / largest_radius)
+    high = max(_ABOVE / float(thickness[0]), 10.0 / least_radius)
+    count = fft.next_fast_len(int(np.ceil(np.log(high / low) / _STEP)), real=True)
+    alpha = low * np.exp(_STEP * np.arange(count))
+    response = alpha * layered.compliance(alpha, young_modulus, poisson_ratio, thickness).C
+    rest = response - (c_inf + (c_s - c_inf) * np.exp(-alpha * scale))
+    start = np.log(least_radius) - 2.0 * _STEP
+    n_radii = int(np.ceil((np.log(largest_radius) - start) * _FINER / _STEP)) + 2 * _FINER
+    step = _STEP / _FINER
+    radius = np.exp(start + step * np.arange(n_radii))
+    modes = _modes(rest, np.log(low) + start)
+    orders, mean = _rest_over_radius(modes, count, n_radii)
+    root = np.hypot(radius, scale)
+    share = radius / root
+    for k in range(ORDERS + 1):
+        odd = float(np.prod(np.arange(1.0, 2 * k, 2)))
+        orders[k] += (-1) ** k * odd * (c_inf + (c_s - c_inf) * share ** (2 * k + 1))
+    mean += c_inf + (c_s - c_inf) * radius / (root + scale)
+    slopes = [orders[k + 1] + (2 * k + 1) * orders[k] for k in range(ORDERS)]
+    cubics = [_hermite(orders[k], slopes[k], step) for k in range(ORDERS)]
+    return PointLoad(start, step, np.array(cubics), _hermite(mean, orders[0] - mean, step))
+
+
+def mean_to(load: PointLoad, radius: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean of T over radii from 0 to `radius` [1/Pa], from the table."""
+    return cubic(load.mean, *locate(load, np.log(radius)))
+
+
+def locate(
+    load: PointLoad, log_radius: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Step of the table in which a logarithm of a radius lies, and the fraction of the step."""
+    place = (log_radius - load.start) / load.step
+    index = place.astype(np.intp)
+    place -= index
+    return index, place
+
+
+def cubic(
+    coefficients: NDArray[np.float64], index: NDArray[np.intp], fraction: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Value of the cubics `coefficients` (4, n_steps) of step `index` at a `fraction` of it."""
+    value: NDArray[np.float64] = coefficients[3].take(index)
+    for row in coefficients[2::-1]:
+        value *= fraction
+        value += row.take(index)
+    return value
+
+
+def _modes(rest: NDArray[np.float64], shift: float) -> NDArray[np.complex128]:
+    """Fourier modes of T of a response, over logarithms of radii that begin at exp(shift)/alpha."""
+    modes = fft.rfft(rest) / rest.size
+    omega = 2.0 * np.pi * np.arange(modes.size) / (rest.size * _STEP)
+    phase = omega * (np.log(2.0) - shift) + 2.0 * loggamma(0.5 + 0.5j * omega).imag
+    modes *= np.exp(1j * phase)
+    if rest.size % 2 == 0:
+        modes[-1] = 0.0  # its sign is not known between the samples
+    return np.asarray(modes.conj())  # r^(-i omega): the sum over modes is an inverse transform
+
+
+def _rest_over_radius(
+    modes: NDArray[np.complex128], count: int, n_radii: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """T_0 .. T_5 and the mean I of the modes, on `n_radii` steps."""
+    derivative = 2j * np.pi * np.arange(modes.size) / (count * _STEP)
+    length = count * _FINER
+
+    def sample(spectrum: NDArray[np.complex128]) -> NDArray[np.float64]:
+        values = fft.irfft(spectrum, length) * length
+        return np.asarray(np.resize(values, n_radii))
+
+    orders = np.empty((ORDERS + 1, n_radii))
+    spectrum = modes
+    for k in range(ORDERS + 1):
+        orders[k] = sample(spectrum)
+        spectrum = spectrum * (derivative - (2 * k + 1))
+    return orders, sample(modes / (1.0 + derivative))
+
+
+def _hermite(
+    value: NDArray[np.float64], slope: NDArray[np.float64], step: float
+) -> NDArray[np.float64]:
+    """Cubics through values and slopes on equal steps, in the fraction of the step."""
+    rise, left, right = np.diff(value), step * slope[:-1], step * slope[1:]
+    return np.array([value[:-1], left, 3.0 * rise - 2.0 * left - right, left + right - 2.0 * rise])
