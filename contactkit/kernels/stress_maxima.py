@@ -114,7 +114,7 @@ def maxima(
     >>> from .stress_measures import sqrt_j2
     >>> from .stress_planes import planes
     >>> wave = np.cos(2 * np.pi * np.arange(32) / 32)[None, :]
-    >>> depths = list(np.linspace(0.05, 0.3, 11))
+    >>> depths = list(np.linspace(0.05, 0.3, 41))
     >>> pixel = (1.0, 1 / 32)
     >>> below = planes(wave, None, None, pixel, [1e9], [0.5], [], depths)
     >>> peak = maxima(below, {"sqrt_j2": sqrt_j2}, pixel, refine=True)["sqrt_j2"]

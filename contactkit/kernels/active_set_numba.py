@@ -1,0 +1,246 @@
+"""Passes of the active-set method compiled by numba: the functions of `active_set_loops`.
+
+Import this module only once numba is wanted; `compiled` gives serial or threaded functions, kept on
+disk after their first use. Infinite caps forbid the assumption that all numbers are finite, so
+that only the order of sums is left to the compiler.
+
+Sign convention and symbols: see `active_set_loops`.
+"""
+
+from __future__ import annotations
+
+import functools
+from types import SimpleNamespace
+from typing import Any
+
+import numba
+import numpy as np
+from numba import prange
+
+__all__ = ["compiled"]
+
+Array = Any
+FAST = {"reassoc", "contract", "arcp", "nsz", "nnan"}
+
+
+def scale_spectrum(spectrum: Array, symbol: Array) -> None:
+    """Multiply a spectrum by a real symbol, in place."""
+    for i in prange(spectrum.shape[0]):
+        for j in range(spectrum.shape[1]):
+            spectrum[i, j] *= symbol[i, j]
+
+
+def reduce_gap(u: Array, h: Array) -> None:
+    """Turn a displacement into the reduced gap, in place."""
+    for k in prange(u.size):
+        u[k] -= h[k]
+
+
+def survey(p: Array, g: Array, cap: Array) -> tuple[float, float, int]:
+    """Sums of p and p g over the pixels between the bounds, and the number of these."""
+    many = 0 if cap.size == 1 else 1
+    weight, weighted, free = 0.0, 0.0, 0
+    for k in prange(p.size):
+        if 0.0 < p[k] < cap[k * many]:
+            weight += p[k]
+            weighted += p[k] * g[k]
+            free += 1
+    return weight, weighted, free
+
+
+def grade(p: Array, g: Array, cap: Array, level: float) -> tuple[float, float, float]:
+    """Largest violation of a contact condition, bound of the energy error, deepest penetration."""
+    many = 0 if cap.size == 1 else 1
+    worst, energy, deepest = 0.0, 0.0, 0.0
+    for k in prange(p.size):
+        off, bound = g[k] - level, cap[k * many]
+        if p[k] > 0.0:
+            if off > 0.0:
+                energy += p[k] * off
+                worst = max(worst, off)
+            else:
+                energy -= (bound - p[k] if bound < np.inf else p[k]) * off
+                if p[k] < bound:
+                    worst = max(worst, -off)
+                    deepest = max(deepest, -off)
+        elif off < 0.0 and bound > 0.0:
+            if bound < np.inf:
+                energy -= bound * off
+            worst = max(worst, -off)
+            deepest = max(deepest, -off)
+    return worst, energy, deepest
+
+
+def select(p: Array, g: Array, cap: Array, level: float) -> tuple[Array, int]:
+    """Pixels that may move, and how many of them leave a bound."""
+    many = 0 if cap.size == 1 else 1
+    at = np.empty(p.size, np.int32)
+    count, added = 0, 0
+    for k in range(p.size):
+        if p[k] <= 0.0 and g[k] >= level:  # nearly all of them
+            continue
+        bound = cap[k * many]
+        if p[k] <= 0.0:
+            if bound > 0.0:
+                at[count] = k
+                count += 1
+                added += 1
+        elif p[k] < bound:
+            at[count] = k
+            count += 1
+        elif g[k] > level:
+            at[count] = k
+            count += 1
+            added += 1
+    return at[:count].astype(np.intp), added
+
+
+def pick(full: Array, at: Array, out: Array) -> None:
+    """Read the moving pixels of a map."""
+    for a in prange(at.size):
+        out[a] = full[at[a]]
+
+
+def put(full: Array, at: Array, values: Array) -> None:
+    """Write the moving pixels of a map."""
+    for a in prange(at.size):
+        full[at[a]] = values[a]
+
+
+def block_sums(block: Array, values: Array, count: int) -> Array:
+    """Sum over the moving pixels of each block."""
+    sums = np.zeros(count)
+    for a in range(block.size):
+        sums[block[a]] += values[a]
+    return sums
+
+
+def less_block_values(values: Array, block: Array, of_block: Array, out: Array) -> None:
+    """Take a value of its block off every moving pixel."""
+    for a in prange(values.size):
+        out[a] = values[a] - of_block[block[a]]
+
+
+def add_block_values(values: Array, block: Array, of_block: Array) -> None:
+    """Add a value of its block to every moving pixel, in place."""
+    for a in prange(values.size):
+        values[a] += of_block[block[a]]
+
+
+def stencil(f: Array, at: Array, stride: int, weights: tuple[float, ...], z: Array) -> None:
+    """Three by three stencil at the moving pixels of a map with a margin of one pixel."""
+    centre = np.float32(weights[0])
+    y, x, diagonal = np.float32(weights[1]), np.float32(weights[2]), np.float32(weights[3])
+    for a in prange(at.size):
+        k = at[a]
+        up, down = k - stride, k + stride
+        sides = f[up - 1] + f[up + 1] + f[down - 1] + f[down + 1]
+        z[a] = centre * f[k] + y * (f[up] + f[down]) + x * (f[k - 1] + f[k + 1]) + diagonal * sides
+
+
+def turn(
+    d: Array, z: Array, r: Array, q: Array, length: float, before: float, load_fixed: bool
+) -> float:
+    """Next search direction in place, from the last step and its ``r z``; the new ``r z``."""
+    mean = 0.0
+    if load_fixed:
+        for a in prange(z.size):
+            mean += z[a]
+        mean /= z.size
+    rz, zq = 0.0, 0.0
+    for a in prange(z.size):
+        value = np.float32(z[a] - mean)
+        z[a] = value
+        rz += r[a] * value
+        zq += q[a] * value
+    beta = max(-length * zq / before, 0.0) if before > 0.0 else 0.0
+    for a in prange(z.size):
+        d[a] = z[a] + beta * d[a]
+    return rz
+
+
+def advance(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
+    """Step to the minimum along d; give back its length and the new squared residual."""
+    mean = 0.0
+    if load_fixed:
+        for a in prange(q.size):
+            mean += q[a]
+        mean /= q.size
+    dq, rd = 0.0, 0.0
+    for a in prange(q.size):
+        value = np.float32(q[a] - mean)
+        q[a] = value
+        dq += d[a] * value
+        rd += d[a] * r[a]
+    if not dq > 0.0:
+        return 0.0, 0.0
+    length, rr = rd / dq, 0.0
+    for a in prange(q.size):
+        x[a] += length * d[a]
+        r[a] -= length * q[a]
+        rr += r[a] * r[a]
+    return length, rr
+
+
+def accumulate(change: Array, displacement: Array, length: float) -> None:
+    """Add a step to the change of the displacement, in place."""
+    for k in prange(change.size):
+        change[k] += length * displacement[k]
+
+
+def settle(p: Array, at: Array, x: Array, cap: Array) -> int:
+    """Add a correction to the moving pixels and clip to the bounds; number of clipped pixels."""
+    many = 0 if cap.size == 1 else 1
+    clipped = 0
+    for a in prange(at.size):
+        value, bound = p[at[a]] + x[a], cap[at[a] * many]
+        if value <= 0.0:
+            value = 0.0
+            clipped += 1
+        elif value >= bound:
+            value = bound
+            clipped += 1
+        p[at[a]] = value
+    return clipped
+
+
+def rescale(p: Array, at: Array, cap: Array, load: float) -> None:
+    """Scale the moving pixels so that all pressures sum to the load."""
+    many = 0 if cap.size == 1 else 1
+    total, share = 0.0, 0.0
+    for k in prange(p.size):
+        total += p[k]
+    for a in prange(at.size):
+        share += p[at[a]]
+    rest = load - (total - share)
+    if share > 0.0 and rest > 0.0:
+        for a in prange(at.size):
+            p[at[a]] = min(p[at[a]] * (rest / share), cap[at[a] * many])
+
+
+SERIAL = (select, block_sums)
+THREADED = (
+    scale_spectrum, reduce_gap, survey, grade, pick, put, less_block_values, add_block_values,
+    stencil, turn, advance, accumulate, settle, rescale,
+)  # fmt: skip
+
+
+@functools.lru_cache(maxsize=2)
+def compiled(threaded: bool) -> SimpleNamespace:
+    """The passes as one namespace, serial or threaded.
+
+    Parameters
+    ----------
+    threaded : bool
+        Split the loops over the threads that numba is set to.
+
+    Notes
+    -----
+    The first use of a function in a fresh installation costs its compilation, some ten seconds for
+    all of them; later processes load them from the cache.
+    """
+    serial = {f.__name__: numba.njit(f, cache=True, fastmath=FAST) for f in SERIAL}
+    rest = {
+        f.__name__: numba.njit(f, cache=True, fastmath=FAST, parallel=threaded) for f in THREADED
+    }
+    return SimpleNamespace(**serial, **rest, __name__="active_set_numba")
