@@ -1,4 +1,4 @@
-"""Meniscus and viscous forces that resist separating wetted surfaces.
+"""Contact of rough layered surfaces, and the forces that resist separating wetted ones.
 
 Scene -> Plan -> Result: describe what is there and which physics it calls for, `plan` it, and
 `simulate` the plan.
@@ -28,7 +28,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .accuracy import Accuracy
-from .effects import EFFECTS, MeniscusForce, Rupture, ShearLimit, TensionLimit, ViscousForce
+from .bodies import Body, ContactInterface, Pressing, Window
+from .contact_plan import ContactPlan
+from .contact_scene import ContactScene
+from .effects import MeniscusForce, Rupture, ShearLimit, TensionLimit, ViscousForce
+from .effects.elasticity import HalfSpace, LayeredHalfSpace
+from .effects.film import FilmMeniscus
+from .effects.friction import FrictionCoupling, FrictionTraction
+from .effects.plasticity import HardnessLimit, HardnessMap
+from .effects.registry import EFFECTS
+from .effects.stress import SubsurfaceStress
 from .errors import (
     ContactkitError,
     ConvergenceError,
@@ -40,32 +49,54 @@ from .errors import (
 )
 from .interface import Interface, Meniscus, Opening
 from .liquids import Liquid
+from .materials import Layer, Material, Stack
 from .motion import advance
 from .motion_state import FilmStatus, LimitKind, MotionState, Pull
-from .plan import Plan, plan
+from .plan import Plan
+from .planner import plan
 from .scene import SeparationScene
 from .surfaces import Flat, Sphere
+from .topography import (
+    CombinedSurface,
+    GaussianRoughness,
+    Heights,
+    Measured,
+    Paraboloid,
+    SelfAffineRoughness,
+    Wave,
+)
 
 if TYPE_CHECKING:
     from .archive import load_result, save_result
-    from .io import load_liquid, load_scene, save_scene
+    from .contact import solve
+    from .io import load_liquid, load_material, load_scene, save_scene
+    from .press_map import press
     from .separation import simulate
+    from .studies import study
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "EFFECTS", "Accuracy", "ContactkitError", "ConvergenceError", "DescriptionError",
-    "FilmStatus", "Flat", "InfeasibleError", "Interface", "LimitKind", "Liquid", "Meniscus",
-    "MeniscusForce", "MotionState", "NotSimulatedError", "Opening", "Plan", "PlanError", "Pull",
-    "Rupture", "SeparationScene", "ShearLimit", "Sphere", "TensionLimit", "ValidityWarning",
-    "ViscousForce", "advance", "load_liquid", "load_result", "load_scene", "plan", "save_result",
-    "save_scene", "simulate",
+    "EFFECTS", "Accuracy", "Body", "CombinedSurface", "ContactInterface", "ContactPlan",
+    "ContactScene", "ContactkitError", "ConvergenceError", "DescriptionError", "FilmMeniscus",
+    "FilmStatus", "Flat", "FrictionCoupling", "FrictionTraction", "GaussianRoughness",
+    "HalfSpace", "HardnessLimit", "HardnessMap", "Heights", "InfeasibleError", "Interface",
+    "Layer", "LayeredHalfSpace", "LimitKind", "Liquid", "Material", "Measured", "Meniscus",
+    "MeniscusForce", "MotionState", "NotSimulatedError", "Opening", "Paraboloid", "Plan",
+    "PlanError", "Pressing", "Pull", "Rupture", "SelfAffineRoughness", "SeparationScene",
+    "ShearLimit", "Sphere", "Stack", "SubsurfaceStress", "TensionLimit", "ValidityWarning",
+    "ViscousForce", "Wave", "Window", "advance", "load_liquid", "load_material", "load_result",
+    "load_scene", "plan", "press", "save_result", "save_scene", "simulate", "solve", "study",
 ]  # fmt: skip
 
 # What needs numpy or cattrs is imported when it is first asked for.
 _LATER = {
     "simulate": "separation",
+    "solve": "contact",
+    "press": "press_map",
+    "study": "studies",
     "load_liquid": "io",
+    "load_material": "io",
     "load_result": "archive",
     "load_scene": "io",
     "save_result": "archive",

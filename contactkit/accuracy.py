@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
-from .checks import count, refuse
+from .checks import choice, count, refuse
 from .units import si
 
 __all__ = ["Accuracy"]
@@ -17,9 +17,23 @@ def _tolerance(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "lie between 1e-11 and 0.1")
 
 
+def _grid(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if value is None:
+        return
+    for item in value if isinstance(value, tuple) else (value,):
+        if isinstance(item, bool) or not isinstance(item, int) or item < 2:
+            raise refuse(owner, attribute, value, "be a whole number of at least 2, or (ny, nx)")
+    if isinstance(value, tuple) and len(value) != 2:
+        raise refuse(owner, attribute, value, "be one number or a pair (ny, nx)")
+
+
+def _pair(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value
+
+
 @frozen(kw_only=True)
 class Accuracy:
-    """Numerical settings of a plan.
+    """Numerical settings of a plan: of a separation the first three, of a contact the others.
 
     Parameters
     ----------
@@ -30,6 +44,19 @@ class Accuracy:
         Points along a curve over gaps (imposed speed or time).
     max_steps : int
         Steps of time after which an integration gives up.
+    grid : int or (int, int), optional
+        Pixels of the window of a contact, (ny, nx) or the same both ways. None: those of a
+        measured surface, else 256.
+    rtol : float
+        Largest violation of the contact conditions anywhere, relative to the rms height of the
+        surface [-]: overlap, or a gap under pressure. Outer iterations (hardness, friction,
+        film) are held to a hundred times this, relative to what they change.
+    method : {"active-set", "quasi-newton", "conjugate-gradient"}
+        Solver of the contact; the last two are there to be compared with.
+    max_iterations : int
+        Steps after which the solver of a contact gives up.
+    threads : int
+        Threads of the transforms.
 
     Examples
     --------
@@ -41,11 +68,34 @@ class Accuracy:
     points: int = field(default=200, validator=count, metadata=si("-"))
     max_steps: int = field(default=100_000, validator=count, metadata=si("-"))
 
+    grid: int | tuple[int, int] | None = field(
+        default=None, converter=_pair, validator=_grid, metadata=si("-")
+    )
+    rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))
+    method: Literal["active-set", "quasi-newton", "conjugate-gradient"] = field(
+        default="active-set", validator=choice("active-set", "quasi-newton", "conjugate-gradient")
+    )
+    max_iterations: int = field(default=10_000, validator=count, metadata=si("-"))
+    threads: int = field(default=1, validator=count, metadata=si("-"))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Pixels (ny, nx) of a window that no measured surface sets."""
+        if isinstance(self.grid, tuple):
+            return self.grid
+        n = self.grid if self.grid is not None else 256
+        return (n, n)
+
+    @property
+    def outer_rtol(self) -> float:
+        """Tolerance of the outer iterations of a contact, relative to what they change [-]."""
+        return min(100.0 * self.rtol, 0.1)
+
     draft: ClassVar[Accuracy]
     standard: ClassVar[Accuracy]
     reference: ClassVar[Accuracy]
 
 
-Accuracy.draft = Accuracy(time_rtol=1e-5, points=50)
+Accuracy.draft = Accuracy(time_rtol=1e-5, points=50, rtol=1e-4)
 Accuracy.standard = Accuracy()
-Accuracy.reference = Accuracy(time_rtol=1e-11, points=1000)
+Accuracy.reference = Accuracy(time_rtol=1e-11, points=1000, rtol=1e-10)

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import io
 import json
+import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import IO, TYPE_CHECKING, Any
 
 import attrs
 import numpy as np
 
 from .accuracy import Accuracy
-from .errors import DescriptionError
+from .contact_archive import pack_contact, unpack_contact
+from .contact_result import ContactResult
+from .errors import ContactkitError, DescriptionError
 from .io import structure, unstructure, write_whole
 from .motion_state import MotionState
 from .plan import plan
@@ -19,7 +24,18 @@ from .results import SeparationResult, Work
 from .scene import SeparationScene
 from .validity import check
 
-__all__ = ["load_result", "save_csv", "save_npz", "save_result"]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Arrays = dict[str, NDArray[Any]]
+
+__all__ = ["from_bytes", "load_result", "save_csv", "save_npz", "save_result", "to_bytes"]
+
+# What reading anything but a whole result may raise.
+_UNREADABLE = (
+    OSError, ValueError, KeyError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error,
+    EOFError, NotImplementedError,
+)  # fmt: skip
 
 
 def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, Any]) -> Path:
@@ -30,12 +46,94 @@ def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, 
     return path
 
 
-def save_result(result: SeparationResult, path: str | Path) -> Path:
-    """Write a result to an npz file: its curves, and a JSON header that says what they are."""
+def save_result(result: SeparationResult | ContactResult, path: str | Path) -> Path:
+    """Write a result to an npz file without pickle, whole or not at all.
+
+    Parameters
+    ----------
+    result : SeparationResult or ContactResult
+        What to write: its curves or maps as arrays, the arrays that its scene and its effects
+        hold, and as ``header`` a JSON text with the scene, the accuracy, the status and the
+        numbers.
+    path : str or Path
+        The file; its suffix becomes ``.npz``.
+
+    Returns
+    -------
+    Path
+        The file that was written; `load_result` reads it.
+    """
+    header, columns = _pack(result)
+    return save_npz(path, columns, header)
+
+
+def load_result(path: str | Path) -> SeparationResult | ContactResult:
+    """Read a result written by `save_result`.
+
+    A `ContactResult` answers ``of`` and ``scalars`` as the one that was saved did. What it was
+    made from, such as the file of a measured surface, need not be there.
+
+    Raises
+    ------
+    DescriptionError
+        If the file is none of ours, or is cut short.
+    """
+    try:
+        # Opened here, for numpy leaves a file open that it cannot read.
+        with Path(path).open("rb") as file:
+            return _read(file, Path(path).name)
+    except _UNREADABLE as error:
+        raise _no_result(str(path), error) from None
+
+
+def to_bytes(result: SeparationResult | ContactResult) -> bytes:
+    """Return a result as `save_result` would write it, to send or to store."""
+    header, columns = _pack(result)
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, header=np.array(json.dumps(header)), **columns)
+    return buffer.getvalue()
+
+
+def from_bytes(data: bytes) -> SeparationResult | ContactResult:
+    """Read what `to_bytes` gave."""
+    try:
+        return _read(io.BytesIO(data), "result")
+    except _UNREADABLE as error:
+        raise _no_result("result", error) from None
+
+
+def _pack(result: SeparationResult | ContactResult) -> tuple[dict[str, Any], Mapping[str, Any]]:
     from . import __version__
 
-    header = {
-        "contactkit": __version__,
+    if isinstance(result, ContactResult):
+        header, columns = pack_contact(result)
+    else:
+        header, columns = _pack_separation(result), dict(result.columns)
+    return {"contactkit": __version__} | header, columns
+
+
+def _no_result(where: str, error: Exception) -> ContactkitError:
+    if isinstance(error, ContactkitError):
+        return error  # a result, of something that this version refuses
+    return DescriptionError(
+        "file", where, "be a result of contactkit", hint=f"{type(error).__name__}: {error}"
+    )
+
+
+def _read(source: IO[bytes], name: str) -> SeparationResult | ContactResult:
+    with np.load(source, allow_pickle=False) as file:
+        header = json.loads(str(file["header"]))
+        columns = {key: file[key] for key in file.files if key != "header"}
+    for column in columns.values():
+        column.flags.writeable = False
+    if header.get("kind") == "contact":
+        return unpack_contact(header, columns, name)
+    return _unpack_separation(header, columns, name)
+
+
+def _pack_separation(result: SeparationResult) -> dict[str, Any]:
+    return {
+        "kind": "separation",
         "scene": unstructure(result.plan.scene),
         "accuracy": attrs.asdict(result.plan.accuracy),
         "status": result.status,
@@ -44,23 +142,11 @@ def save_result(result: SeparationResult, path: str | Path) -> Path:
         "state": list(result.state) if result.state is not None else None,
         "work": result.work._asdict(),
     }
-    return save_npz(path, result.columns, header)
 
 
-def load_result(path: str | Path) -> SeparationResult:
-    """Read a result written by `save_result`."""
-    try:
-        with np.load(Path(path), allow_pickle=False) as file:
-            header = json.loads(str(file["header"]))
-            columns = {name: file[name] for name in file.files if name != "header"}
-    except (OSError, ValueError, KeyError) as error:
-        raise DescriptionError(
-            "file", str(path), "be a result of contactkit", hint=str(error)
-        ) from None
-    scene = structure(header["scene"], SeparationScene, Path(path).name)
+def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> SeparationResult:
+    scene = structure(header["scene"], SeparationScene, name)
     made = plan(scene, Accuracy(**header["accuracy"]))
-    for column in columns.values():
-        column.flags.writeable = False
     state = header["state"]
     speeds = columns.get("speed", np.zeros_like(columns["gap"]))
     path_taken = [

@@ -47,7 +47,22 @@ class DescriptionError(ContactkitError, ValueError):
         self.field, self.value, self.unit, self.hint = field, value, unit, hint
         bracket = f" [{unit}]" if unit else ""
         cure = f"; {hint}" if hint else ""
+        self.expected = expected
         super().__init__(f"{field} must {expected}{bracket}, got {value!r}{cure}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let processes send it: its message is made anew from its parts."""
+        return _description_error, (
+            self.field, self.value, self.expected, self.unit, self.hint, self.args,
+        )  # fmt: skip
+
+
+def _description_error(
+    field: str, value: object, expected: str, unit: str, hint: str, args: tuple[Any, ...]
+) -> DescriptionError:
+    made = DescriptionError(field, value, expected, unit=unit, hint=hint)
+    made.args = args
+    return made
 
 
 class PlanError(ContactkitError, ValueError):

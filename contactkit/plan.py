@@ -9,14 +9,14 @@ from types import MappingProxyType
 from attrs import evolve, field, frozen
 
 from .accuracy import Accuracy
-from .effects import EFFECTS, SeparationEffect
+from .effects import SEPARATION_EFFECTS, Effect, SeparationEffect
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, SeparationForce
 from .effects.film_shape import film_shape
 from .effects.viscous import ViscousForce
 from .errors import InfeasibleError, PlanError
 from .scene import SeparationScene
 
-__all__ = ["Film", "Plan", "plan"]
+__all__ = ["Film", "Plan", "choices", "plan"]
 
 
 @frozen(eq=False)
@@ -120,12 +120,17 @@ class Plan:
             f"{self.scene.name or 'separation'}: {opening.imposed} imposed, "
             f"gap {opening.initial_gap:g} m to {opening.final_gap:g} m"
         )
-        on = [f"  on   {e.name:15s} {_choices(e)}" for e in self.scene.effects]
-        off = [f"  off  {kind.name:15s} {kind.summary}" for kind in EFFECTS if not self.has(kind)]
+        on = [f"  on   {e.name:15s} {choices(e)}" for e in self.scene.effects]
+        off = [
+            f"  off  {kind.name:15s} {kind.summary}"
+            for kind in SEPARATION_EFFECTS
+            if not self.has(kind)
+        ]
         return "\n".join([title, *on, *off])
 
 
-def _choices(effect: SeparationEffect) -> str:
+def choices(effect: Effect) -> str:
+    """Say what an effect does and which choices it was given."""
     fields = ((a.name, getattr(effect, a.name)) for a in type(effect).__attrs_attrs__)
     chosen = ", ".join(f"{name}={value!r}" for name, value in fields if value is not None)
     return f"{effect.summary}" + (f" ({chosen})" if chosen else "")
@@ -195,7 +200,7 @@ def _check_effects(scene: SeparationScene) -> None:
 
 
 def _known() -> str:
-    return ", ".join(kind.__name__ for kind in EFFECTS)
+    return ", ".join(kind.__name__ for kind in SEPARATION_EFFECTS)
 
 
 def _check_gap(scene: SeparationScene) -> None:

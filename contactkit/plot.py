@@ -9,7 +9,9 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from .io import write_whole
@@ -17,7 +19,7 @@ from .results import COLUMNS, SeparationResult
 from .workprecision import WorkPrecision
 
 __all__ = [
-    "COLORS", "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save",
+    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save",
     "shared_legend", "title", "work_precision",
 ]  # fmt: skip
 
@@ -143,10 +145,28 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     return ax
 
 
+def bars(names: Sequence[str], values: Sequence[float], ax: Axes, label: str) -> Axes:
+    """Draw a bar for each of some names, from the top down."""
+    places = list(range(len(names)))
+    ax.barh(places, values, color=COLORS["gap"], height=0.6)
+    ax.set_yticks(places, names)
+    ax.invert_yaxis()
+    ax.set_xlabel(label)
+    ax.grid(visible=False, axis="y")
+    return ax
+
+
 def work_precision(
-    found: WorkPrecision, ax: Axes | None = None, markers: Sequence[str] = "osD^vP*X"
+    found: WorkPrecision,
+    ax: Axes | None = None,
+    markers: Sequence[str] = "osD^vP*X",
+    *,
+    beside: bool = True,
 ) -> Axes:
-    """Draw error against seconds, one line for each method; models of the physics lie flat."""
+    """Draw error against seconds, one line for each method; models of the physics lie flat.
+
+    `beside` puts the legend at the side of the panel, else below it.
+    """
     ax = ax if ax is not None else figure()[1]
     methods = list(dict.fromkeys(p.method for p in found.points))
     for method, marker in zip(methods, markers, strict=False):
@@ -164,5 +184,8 @@ def work_precision(
     ax.set(xscale="log", yscale="log", xlabel="seconds", ylim=(max(low, 1e-16), None))
     ax.set_ylabel(f"relative error of the {found.quantity}")
     plain_log(ax.xaxis)
-    legend(ax, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    if beside:
+        legend(ax, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    else:
+        legend(ax, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
     return ax

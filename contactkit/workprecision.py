@@ -15,10 +15,15 @@ __all__ = ["Outcome", "Point", "Setting", "WorkPrecision", "sweep"]
 
 @frozen
 class Outcome:
-    """What one run gives: the number that is judged, and what it took."""
+    """What one run gives: the number that is judged, and what it took.
+
+    `error` is its relative error where that is not the one of a single number, such as the norm
+    of the error of a map.
+    """
 
     value: float
     counts: Mapping[str, int] = field(factory=dict)
+    error: float | None = None
 
 
 @frozen
@@ -139,7 +144,9 @@ def _measure(setting: Setting, reference: float, repeats: int, budget: float) ->
             break
         setting.run()
         best = min(best, time.perf_counter() - start)
-    error = abs(outcome.value / reference - 1.0)
+    error = outcome.error
+    if error is None:
+        error = abs(outcome.value / reference - 1.0)
     return Point(
         setting.method, setting.label, error, best, dict(outcome.counts), is_model=setting.is_model
     )

@@ -6,14 +6,16 @@ import math
 from collections.abc import Callable, Mapping
 from importlib import import_module, resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from attrs import frozen
 
+from ..contact_scene import ContactScene
 from ..errors import DescriptionError, PlanError
-from ..io import nearest, read_tables, structure
+from ..io import nearest, read_tables, scene_kind, structure
 from ..plan import Plan, plan
 from ..scene import SeparationScene
+from .report import Report
 
 if TYPE_CHECKING:
     from ..results import SeparationResult
@@ -25,13 +27,7 @@ Progress = Callable[[float], None]
 DEVICES = {"fuel-injector": "injector"}
 """Modules of this package that run a scene with a ``device`` key."""
 
-
-class Report(NamedTuple):
-    """What a run leaves: numbers with their units, text to read, files written."""
-
-    scalars: Mapping[str, tuple[Any, str]]
-    text: str
-    files: tuple[Path, ...] = ()
+_LIBRARIES = ("liquids", "materials")
 
 
 class Runnable(Protocol):
@@ -67,6 +63,10 @@ def open_scene(name: str) -> Runnable:
         path = _bundled(name)
     tables = read_tables(path)
     device = tables.pop("device", None)
+    if device is None and scene_kind(tables) is ContactScene:
+        from .contact_report import open_contact
+
+        return open_contact(tables, path.name)
     if device is None:
         return PlainScene(structure(tables, SeparationScene, path.name))
     if device not in DEVICES:
@@ -79,7 +79,9 @@ def open_scene(name: str) -> Runnable:
 
 def _bundled(name: str) -> Path:
     folder = Path(str(resources.files(__package__ or "contactkit.models")))
-    scenes = {p.stem.replace("_", "-"): p for p in folder.glob("*.toml") if p.stem != "liquids"}
+    scenes = {
+        p.stem.replace("_", "-"): p for p in folder.glob("*.toml") if p.stem not in _LIBRARIES
+    }
     if name not in scenes:
         hint = nearest(name, sorted(scenes)) + "; or give the path of a .toml file"
         raise DescriptionError("scene", name, "be a file or the name of a scene", hint=hint)

@@ -1,4 +1,4 @@
-"""The physics a scene may call for. `EFFECTS` is the whole registry."""
+"""The physics a separation scene may call for; those of a contact are in `contact`."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from .rupture import Rupture
 from .viscous import ShearLimit, TensionLimit, ViscousForce
 
 __all__ = [
-    "EFFECTS", "Effect", "MeniscusForce", "Rupture", "SeparationEffect", "ShearLimit",
-    "TensionLimit", "ViscousForce",
+    "SEPARATION_EFFECTS", "Effect", "MeniscusForce", "Rupture", "SeparationEffect",
+    "ShearLimit", "TensionLimit", "ViscousForce",
 ]  # fmt: skip
 
-EFFECTS: tuple[type[SeparationEffect], ...] = (
+SEPARATION_EFFECTS: tuple[type[SeparationEffect], ...] = (
     MeniscusForce,
     ViscousForce,
     TensionLimit,

@@ -60,6 +60,11 @@ class Effect(abc.ABC):
     def sources(self) -> tuple[str, ...]:
         """Where the equations of this choice come from."""
 
+
+@frozen(kw_only=True)
+class SeparationEffect(Effect):
+    """An effect of a `SeparationScene`."""
+
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
         """Sources of what this choice computes for a scene; all of them, unless it depends."""
         return self.sources
@@ -67,11 +72,6 @@ class Effect(abc.ABC):
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
         return ()
-
-
-@frozen(kw_only=True)
-class SeparationEffect(Effect):
-    """An effect of a `SeparationScene`."""
 
 
 @frozen(kw_only=True)

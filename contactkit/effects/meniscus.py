@@ -64,14 +64,14 @@ class MeniscusForce(SeparationForce):
         )
 
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.cites`."""
+        """See `SeparationEffect.cites`."""
         if self.profile == "arc":
             return self.sources
         flats, sphere = self.sources
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.lacks`."""
+        """See `SeparationEffect.lacks`."""
         meniscus = scene.interface.meniscus
         missing: tuple[str, ...] = ()
         if meniscus.liquid.at(scene.temperature).surface_tension is None:

@@ -48,7 +48,7 @@ class Rupture(FilmEnd):
         return ("zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.lacks`."""
+        """See `SeparationEffect.lacks`."""
         if self.gap is None and scene.interface.meniscus.volume is None:
             return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
         return ()

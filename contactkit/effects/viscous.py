@@ -58,12 +58,12 @@ class ViscousForce(SeparationForce):
         )
 
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.cites`."""
+        """See `SeparationEffect.cites`."""
         flats, sphere = self.sources
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.lacks`."""
+        """See `SeparationEffect.lacks`."""
         state = scene.interface.meniscus.liquid.at(scene.temperature)
         missing = () if state.viscosity is not None else ("liquid.viscosity [Pa.s]",)
         return missing + needs_extent(scene)
@@ -171,7 +171,7 @@ class TensionLimit(FilmLimit):
         return ("parabolic pressure clipped at the limit; Scheidl and Gradl 2016",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.lacks`."""
+        """See `SeparationEffect.lacks`."""
         if self.cavity == "reynolds" and not scene.interface.is_flat:
             return ('two flats (or cavity="clipped")',)
         return ()

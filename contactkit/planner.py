@@ -1,0 +1,51 @@
+"""`plan`, for any scene."""
+
+from __future__ import annotations
+
+from typing import overload
+
+from .accuracy import Accuracy
+from .contact_plan import ContactPlan, plan_contact
+from .contact_scene import ContactScene
+from .plan import Plan
+from .plan import plan as plan_separation
+from .scene import SeparationScene
+
+__all__ = ["plan"]
+
+
+@overload
+def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan: ...
+
+
+@overload
+def plan(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan: ...
+
+
+def plan(
+    scene: SeparationScene | ContactScene, accuracy: Accuracy | None = None
+) -> Plan | ContactPlan:
+    """Check the effects of a scene against it, and its feasibility, before any work.
+
+    Parameters
+    ----------
+    scene : SeparationScene or ContactScene
+        What is there and which physics it calls for.
+    accuracy : Accuracy, optional
+        How well to solve; `Accuracy.standard` if not given.
+
+    Returns
+    -------
+    Plan or ContactPlan
+        To be run by `simulate` or `solve`; printed, it says what it will do and what not.
+
+    Raises
+    ------
+    PlanError
+        If an effect is listed twice, lacks something, or does not fit the others.
+    InfeasibleError
+        If the scene has no answer.
+    """
+    if isinstance(scene, ContactScene):
+        return plan_contact(scene, accuracy)
+    return plan_separation(scene, accuracy)

@@ -1,0 +1,247 @@
+"""What accuracy costs in a contact: over tolerance and grid, by solver, and by effect."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from attrs import evolve
+
+from ..accuracy import Accuracy
+from ..contact_scene import ContactScene
+from ..effects.contact_base import Compliance, DisplacementTerm, PressureCap
+from ..effects.friction import FrictionTraction
+from ..errors import ConvergenceError, DescriptionError, InfeasibleError
+from ..planner import plan
+from ..workprecision import Outcome, Setting, WorkPrecision, sweep
+from .report import Report
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..contact_result import ContactResult
+    from .contact_report import PlainContact
+
+__all__ = ["EffectCost", "contact_cost", "effect_costs", "grid_sweep", "solver_sweep"]
+
+Progress = Callable[[float], None]
+Method = Literal["active-set", "quasi-newton", "conjugate-gradient"]
+
+_TOLERANCES: dict[Method, tuple[float, ...]] = {
+    "active-set": (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10),
+    "conjugate-gradient": (1e-2, 1e-3, 1e-4, 1e-6, 1e-8),
+    "quasi-newton": (1e-2, 1e-3, 1e-4),
+}
+_MOST_PIXELS = 256  # of the comparison of solvers: the slow ones take minutes beyond
+
+
+class EffectCost(NamedTuple):
+    """Seconds and operator applications of a scene with the effects up to this one."""
+
+    name: str
+    seconds: float
+    n_operator_applications: int
+    problem: str = ""
+
+
+def contact_cost(
+    contact: PlainContact, out: Path | None, progress: Progress, error: float
+) -> Report:
+    """Measure solvers, grids and effects of a scene: a table, numbers, and a picture."""
+    scene, accuracy = contact.scene, contact.accuracy
+    solvers = solver_sweep(scene, accuracy, lambda done: progress(0.5 * done))
+    grids = grid_sweep(scene, accuracy, lambda done: progress(0.5 + 0.3 * done))
+    effects = effect_costs(scene, accuracy, lambda done: progress(0.8 + 0.2 * done))
+    text = [solvers.table(), _advice(solvers, error), ""]
+    if grids is not None:
+        text += [grids.table(), ""]
+    text.append(f"{'effects up to':24s} {'seconds':>9s} {'adds':>9s}  operator applications")
+    before = 0.0
+    for one in effects:
+        adds = one.seconds - before
+        text.append(
+            f"{one.name:24s} {one.seconds:9.4f} {adds:9.4f}  "
+            f"{one.problem or one.n_operator_applications}"
+        )
+        before = one.seconds
+    scalars: dict[str, tuple[Any, str]] = {}
+    for found in (solvers, grids):
+        for point in found.points if found is not None else ():
+            key = f"{point.method} / {point.label}"
+            scalars[f"{key} / error"] = (point.error, "-")
+            scalars[f"{key} / seconds"] = (point.seconds, "s")
+            scalars |= {f"{key} / {k}": (v, "-") for k, v in point.counts.items()}
+    scalars |= {f"effects up to {e.name} / seconds": (e.seconds, "s") for e in effects}
+    files = _write(solvers, grids, effects, out, contact.name) if out is not None else ()
+    return Report(scalars, "\n".join(text), files)
+
+
+def _advice(found: WorkPrecision, error: float) -> str:
+    try:
+        best = found.cheapest(error)
+    except InfeasibleError as problem:
+        return str(problem)
+    return (
+        f"cheapest with an error of at most {error:g}: {best.method}, {best.label}, "
+        f"{best.seconds:.4f} s"
+    )
+
+
+def _bare(scene: ContactScene) -> ContactScene:
+    """The contact alone: compliance and hardness."""
+    kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureCap))
+    return evolve(scene, effects=kept)
+
+
+def _smaller(scene: ContactScene, accuracy: Accuracy) -> Accuracy:
+    """The same window on at most `_MOST_PIXELS` pixels, if the surfaces allow it."""
+    from ..realise import combined_heights, grid_of
+
+    try:
+        fewer = evolve(accuracy, grid=_MOST_PIXELS)
+        combined_heights(scene, grid_of(scene, fewer))
+    except DescriptionError:  # a measured surface, or one with shorter waves
+        return accuracy
+    return fewer if accuracy.shape > fewer.shape else accuracy
+
+
+def solver_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> WorkPrecision:
+    """Error of the pressure over the tolerance, for the three solvers.
+
+    The error is that of the whole map, ``|p - p_ref|/|p_ref|`` in the 2-norm; the reference is
+    the conjugate gradient at a tolerance a hundred times below the tightest one judged of it,
+    and its own error the distance to the active-set method at its tightest.
+    """
+    import numpy as np
+
+    bare = _bare(scene)
+    accuracy = _smaller(bare, accuracy)
+    exact = _solved(bare, evolve(accuracy, method="conjugate-gradient", rtol=1e-10)).pressure
+    near = _solved(bare, evolve(accuracy, rtol=1e-11)).pressure
+    size = float(np.linalg.norm(exact))
+    settings = [
+        Setting(method, f"rtol {rtol:.0e}", partial(_judged, bare, one, exact))
+        for method, tolerances in _TOLERANCES.items()
+        for rtol in tolerances
+        for one in [evolve(accuracy, method=method, rtol=rtol, max_iterations=3000)]
+    ]
+    floor = max(float(np.linalg.norm(near - exact)) / size, 1e-15)
+    return sweep(
+        settings, size, quantity="pressure map", floor=floor, repeats=2, budget=3.0,
+        progress=progress,
+    )  # fmt: skip
+
+
+def _solved(scene: ContactScene, accuracy: Accuracy) -> ContactResult:
+    from ..contact import solve
+
+    return solve(plan(scene, accuracy))
+
+
+def _judged(scene: ContactScene, accuracy: Accuracy, exact: NDArray[np.float64]) -> Outcome:
+    import numpy as np
+
+    result = _solved(scene, accuracy)
+    error = float(np.linalg.norm(result.pressure - exact) / np.linalg.norm(exact))
+    return Outcome(error, _counts(result), error=error)
+
+
+def _counts(result: ContactResult) -> dict[str, int]:
+    return {
+        "operator applications": result.work.n_operator_applications,
+        "FFTs": result.work.n_ffts,
+    }
+
+
+def grid_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> WorkPrecision | None:
+    """Error of the real area of contact over the grid, for one and the same surface.
+
+    None if the surfaces come with a grid of their own.
+    """
+    bare = _bare(scene)
+    n = max(accuracy.shape)
+    try:
+        exact = _solved(bare, evolve(accuracy, grid=2 * n)).contact_fraction
+    except DescriptionError:
+        return None
+    settings = []
+    for pixels in sorted({max(2, round(n * share)) for share in (0.25, 0.375, 0.5, 0.75, 1.0)}):
+        one = evolve(accuracy, grid=pixels)
+        settings.append(Setting("grid", f"{pixels} x {pixels}", partial(_area, bare, one)))
+    return sweep(
+        settings, exact, quantity=f"contact area (of {2 * n} x {2 * n} pixels)", floor=1e-4,
+        repeats=2, budget=3.0, progress=progress,
+    )  # fmt: skip
+
+
+def _area(scene: ContactScene, accuracy: Accuracy) -> Outcome:
+    result = _solved(scene, accuracy)
+    return Outcome(result.contact_fraction, _counts(result))
+
+
+def effect_costs(
+    scene: ContactScene, accuracy: Accuracy, progress: Progress
+) -> tuple[EffectCost, ...]:
+    """Seconds of the scene with its effects one after another, the compliance first."""
+    order = sorted(scene.effects, key=_rank)
+    found = []
+    for i in range(1, len(order) + 1):
+        some = evolve(scene, effects=tuple(order[:i]))
+        name = ("" if i == 1 else "+ ") + order[i - 1].name
+        try:
+            best, result = _best_of_two(some, accuracy)
+        except ConvergenceError as error:
+            found.append(EffectCost(name, float("nan"), 0, str(error).split(";")[0]))
+        else:
+            found.append(EffectCost(name, best, result.work.n_operator_applications))
+        progress(i / len(order))
+    return tuple(found)
+
+
+def _rank(effect: object) -> int:
+    ranks = (Compliance, PressureCap, FrictionTraction, DisplacementTerm)
+    return next((i for i, kind in enumerate(ranks) if isinstance(effect, kind)), len(ranks))
+
+
+def _best_of_two(scene: ContactScene, accuracy: Accuracy) -> tuple[float, ContactResult]:
+    seconds = []
+    for _ in range(2):
+        begun = time.perf_counter()
+        result = _solved(scene, accuracy)
+        seconds.append(time.perf_counter() - begun)
+    return min(seconds), result
+
+
+def _write(
+    solvers: WorkPrecision,
+    grids: WorkPrecision | None,
+    effects: tuple[EffectCost, ...],
+    out: Path,
+    name: str,
+) -> tuple[Path, ...]:
+    from .. import plot
+    from ..io import write_whole
+
+    made, axes = plot.figure(1, 2 if grids is None else 3, size=(15.0 if grids else 10.0, 4.6))
+    plot.work_precision(solvers, axes[0], beside=False)
+    plot.title(axes[0], f"{name}: tolerance, by solver")
+    if grids is not None:
+        plot.work_precision(grids, axes[1], beside=False)
+        plot.title(axes[1], "grid")
+    plot.bars(
+        [e.name for e in effects], [e.seconds for e in effects], axes[-1], "seconds of the solve"
+    )
+    plot.title(axes[-1], "effects, one after another")
+    table = out / "cost.csv"
+    rows = ["method,setting,error [-],seconds [s]"]
+    for found in (solvers, grids):
+        points = found.points if found is not None else ()
+        rows += [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in points]
+    rows += [f'"effects up to","{e.name}",,{e.seconds!r}' for e in effects]
+    with write_whole(table) as temporary:
+        temporary.write_text("\n".join([*rows, ""]))
+    return plot.save(made, out / "cost"), table
