@@ -156,7 +156,8 @@ def _parts(
 def _plastic(engine: Engine, solved: Solved, contact: Contact) -> PlasticPart:
     """Pixels at the hardness, to the rounding of the bound."""
     assert solved.hardness is not None
-    is_plastic = contact.pressure >= np.asarray(solved.hardness) * (1.0 - 1e-12)
+    at_bound = contact.pressure >= np.asarray(solved.hardness) * (1.0 - 1e-12)
+    is_plastic = at_bound & (contact.pressure > 0.0)
     overlap = engine.heights + solved.solution.level - contact.displacement
     overlap = np.where(is_plastic, np.maximum(overlap, 0.0), 0.0)
     area = float(is_plastic.sum()) * contact.grid.pixel_area

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
-from .contact_engine import Counts, Engine, Target
+from .contact_engine import Counts, Engine, Target, cap_of
 from .contact_outer import Solved, contact_of, solve_capped
 from .contact_plan import ContactPlan
 from .effects.film import FilmMeniscus, FilmPart
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Pulled", "pulled_together"]
 
 _MOST_ROUNDS = 60
+_MOST_IMBALANCE = 0.05  # of the load, at a step of the force
 
 
 class Pulled(NamedTuple):
@@ -36,103 +37,110 @@ class _Trial(NamedTuple):
     film: FilmPart
 
 
+_Attempt = Callable[[float, _Trial | None], _Trial | None]
+
+
 def pulled_together(
     plan: ContactPlan, engine: Engine, film: FilmMeniscus, counts: Counts
 ) -> Pulled:
-    """Find the smallest load N on the contact with N = W + F(N), and look for further ones.
+    """Find a load N on the contact with N = W + F(N), the smallest, and look for further ones.
 
-    F grows with N, so that steps N <- W + F(N) from W climb to the smallest equilibrium and
-    cannot pass it; secants speed them up where they crawl. Then loads above it are tried, by
-    factors of four up to W and the pull of a film over the whole window: a change of sign is
-    another equilibrium, and more than one means that the bodies snap in when pressed beyond the
-    second.
-
-    Raises
-    ------
-    InfeasibleError
-        If there is none: the film pulls the bodies together until they yield everywhere.
+    Steps N <- W + F(N) climb from W, sped up by secants where they crawl, inside a bracket that
+    always exists: the film cannot pull harder than over the whole window, and where the bodies
+    touch everywhere it does not pull at all. The force is a sum of pixels and has steps: if the
+    two sides meet at one, N is there, and `FilmPart.imbalance` says how high it is. Then loads
+    above N are tried, by factors of four: a change of sign is another equilibrium, and more than
+    one means that the bodies snap in when pressed beyond the second.
     """
     area = plan.grid.area
     assert plan.mean_pressure is not None
     imposed = plan.mean_pressure * area
+    largest = imposed + film.largest_force(plan.scene, plan.grid)
+    cap = cap_of(plan)
+    if cap is not None:
+        largest = min(largest, cap.most * area * (1.0 - 1e-6))
 
-    def attempt(load: float, start: _Trial | None) -> _Trial:
+    def attempt(load: float, start: _Trial | None) -> _Trial | None:
         at = start.solved.solution.pressure if start is not None else None
         hardness = start.solved.hardness if start is not None else None
         near = hardness if isinstance(hardness, float) else None
-        solved = solve_capped(plan, engine, Target(load / area, None, at, near), counts)
+        try:
+            solved = solve_capped(plan, engine, Target(load / area, None, at, near), counts)
+        except InfeasibleError:  # beyond what the hardness there can carry
+            return None
         contact = contact_of(plan, engine, solved)
         part = film.observe(contact)
         return _Trial(load, imposed + part.force - load, solved, contact, part)
 
-    found = _smallest(plan, attempt, imposed)
-    others = _further(attempt, found, imposed + film.largest_force(plan.scene, plan.grid))
-    relative = found.film.force / imposed if imposed > 0.0 else math.inf
-    part = found.film._replace(relative_force=relative, equilibria=(found.load, *others))
-    return Pulled(found.solved, found.contact, part)
+    found = _smallest(plan, attempt, imposed, largest)
+    others = _further(attempt, found, largest)
+    force = found.load - imposed
+    gap = abs(found.excess) / found.load if found.load > 0.0 else 0.0
+    part = found.film._replace(
+        force=force if force > 0.0 else found.film.force,
+        relative_force=found.film.force / imposed if imposed > 0.0 else math.inf,
+        equilibria=(found.load, *others),
+        imbalance=gap,
+    )
+    solved = found.solved
+    if gap > _MOST_IMBALANCE and not solved.problem:
+        solved = solved._replace(problem=_step(found, gap))
+    return Pulled(solved, found.contact, part)
 
 
-def _smallest(
-    plan: ContactPlan, attempt: Callable[[float, _Trial | None], _Trial], imposed: float
-) -> _Trial:
+def _step(found: _Trial, gap: float) -> str:
+    return (
+        f"the force of the film steps over the balance at a load of {found.load:.6g} N, which "
+        f"it misses by {100.0 * gap:.2g} %: its menisci are a few pixels wide; use a finer "
+        "Accuracy.grid or a smaller window"
+    )
+
+
+def _smallest(plan: ContactPlan, attempt: _Attempt, imposed: float, largest: float) -> _Trial:
     tolerance = max(plan.accuracy.outer_rtol, 1e-9)
-    low: _Trial | None = None
-    high: _Trial | None = None
-    trial = _attempt(attempt, imposed, None, imposed)
+    first = attempt(imposed, None)
+    if first is None:
+        raise InfeasibleError(
+            f"the bodies cannot carry the load of {imposed:.6g} N at the hardness that its "
+            "displacement leads to; lower the load"
+        )
+    low, high, top = first, None, largest
+    before = None
     for _ in range(_MOST_ROUNDS):
-        if abs(trial.excess) <= tolerance * trial.load:
-            return trial
-        if trial.excess > 0.0:
-            last, low = low, trial
+        best = low if high is None or abs(low.excess) < abs(high.excess) else high
+        if abs(best.excess) <= tolerance * best.load or top - low.load <= tolerance * top:
+            return best
+        load = low.load + low.excess
+        if before is not None:
+            load = max(load, _secant(before, low))
+        if high is not None or load >= top:
+            load = min(load, 0.5 * (low.load + top))
+        trial = attempt(load, low)
+        if trial is None or trial.excess < 0.0:
+            high, top = trial or high, load
         else:
-            last, high = low, trial
-        # The force is a sum of pixels: a bracket narrower than the tolerance is a step of it.
-        if low is not None and high is not None and high.load - low.load <= tolerance * high.load:
-            return high
-        load = trial.load + trial.excess
-        if high is not None and low is not None and not low.load < load < high.load:
-            load = 0.5 * (low.load + high.load)
-        elif last is not None and last is not trial and trial.excess > 0.0:
-            load = max(load, _secant(last, trial))
-            load = min(load, 0.5 * (trial.load + high.load)) if high is not None else load
-        trial = _attempt(attempt, load, trial, imposed)
-    return trial
+            before, low = low, trial
+    return best
 
 
 def _secant(before: _Trial, now: _Trial) -> float:
+    """Where the line through two trials meets zero, at most four fixed-point steps ahead."""
     slope = (now.excess - before.excess) / (now.load - before.load)
-    return now.load - now.excess / slope if slope < -0.01 else 0.0
+    ahead = now.excess / max(-slope, 0.25)
+    return now.load + ahead
 
 
-def _attempt(
-    attempt: Callable[[float, _Trial | None], _Trial], load: float, start: _Trial | None,
-    imposed: float,
-) -> _Trial:  # fmt: skip
-    try:
-        return attempt(load, start)
-    except InfeasibleError as error:
-        raise InfeasibleError(
-            f"the film snaps the bodies together: with a load of {imposed:.6g} N no equilibrium "
-            f"exists below what they can carry ({error}); use a thinner film, a larger contact "
-            "angle or rougher surfaces"
-        ) from None
-
-
-def _further(
-    attempt: Callable[[float, _Trial | None], _Trial], found: _Trial, largest: float
-) -> tuple[float, ...]:
+def _further(attempt: _Attempt, found: _Trial, largest: float) -> tuple[float, ...]:
     """Loads of further equilibria [N], each to the factor of four it was found in."""
     others: list[float] = []
     above, last = False, found
     load = max(4.0 * found.load, 1e-6 * largest)
     while load < largest:
-        before = last
-        try:
-            last = attempt(load, before)
-        except InfeasibleError:
+        trial = attempt(load, last)
+        if trial is None:
             break
-        if (last.excess > 0.0) != above:
-            others.append((before.load * load) ** 0.5 if before.load > 0.0 else load)
+        if (trial.excess > 0.0) != above:
+            others.append((last.load * load) ** 0.5 if last.load > 0.0 else load)
             above = not above
-        load *= 4.0
-    return (*others, largest) if above and load >= largest else tuple(others)
+        last, load = trial, 4.0 * load
+    return (*others, largest) if above else tuple(others)

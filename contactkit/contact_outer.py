@@ -68,8 +68,8 @@ def _unconverged(solution: Solution, plan: ContactPlan) -> str:
         return ""
     return (
         f"the contact conditions are violated by {solution.kkt:.2g} of the rms height, tolerance "
-        f"{plan.accuracy.rtol:g}, after {solution.n_outer} steps; raise Accuracy.max_iterations "
-        "or rtol"
+        f"{plan.accuracy.rtol:g}, after {solution.n_applications} operator applications; raise "
+        "Accuracy.max_iterations or rtol, or use method='active-set'"
     )
 
 
@@ -88,12 +88,13 @@ def _bracketed(
     """One hardness for all: fixed-point steps inside a bracket, so that they cannot cycle.
 
     Where the rule asks for more hardness than was given the root lies above, else below. A
-    bracket that closes on no root is a jump of the rule, and is said to be one.
+    bracket that closes on no root of a rule that jumps is a jump, and is said to be one.
     """
     tolerance = plan.accuracy.outer_rtol
     low, high = cap.least, cap.most
     if target.mean_pressure is not None:
         low = max(low, target.mean_pressure * (1.0 + 1e-9))
+    is_low_tried = False
     guess = target.hardness
     trial = guess if guess is not None and low < guess < high else high
     for _ in range(_MOST_ROUNDS):
@@ -104,15 +105,19 @@ def _bracketed(
             return solved
         target = target._replace(start=solution.pressure)
         if asked > trial:
-            low = trial
+            low, is_low_tried = trial, True
         else:
             high = trial
         if high - low <= tolerance * high:
             if target.mean_pressure is not None and asked < target.mean_pressure:
                 raise _too_soft(plan, target.mean_pressure, asked)
-            return solved._replace(problem=_jump(low, high, asked))
-        trial = asked if low < asked < high else 0.5 * (low + high)
-    return solved._replace(problem=_jump(low, high, asked))
+            return solved._replace(problem=_jump(low, high, asked)) if cap.has_jumps else solved
+        is_inside = low < asked < high or (asked == low and not is_low_tried)
+        trial = asked if is_inside else 0.5 * (low + high)
+    return solved._replace(
+        problem=f"the hardness is known to {high / low - 1.0:.2g} only after {_MOST_ROUNDS} "
+        "rounds; use a larger Accuracy.rtol"
+    )
 
 
 def _too_soft(plan: ContactPlan, load: float, hardness: float) -> InfeasibleError:

@@ -142,7 +142,7 @@ def _check_load(made: ContactPlan) -> None:
     if cap is None or load is None:
         return
     most = cap.prepare(scene, made.grid).most
-    if load >= most:
+    if load >= most and load > 0.0:
         area = made.grid.area
         raise InfeasibleError(
             f"load {load * area:.6g} N reaches H*A = {most * area:.6g} N, the hardness of "

@@ -19,8 +19,9 @@ from .results import COLUMNS, SeparationResult
 from .workprecision import WorkPrecision
 
 __all__ = [
-    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save",
-    "shared_legend", "title", "work_precision",
+    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "figure", "forces",
+    "label_axis", "legend", "motion", "plain_log", "save", "shared_legend", "title",
+    "work_precision",
 ]  # fmt: skip
 
 COLORS = {

@@ -87,10 +87,17 @@ def press(
     scene = ContactScene(
         interface=ContactInterface(
             lower=Body(solid=stack),
-            upper=Body(surface=Heights(heights=heights, pixel_size=pixel_size)),
+            upper=Body(surface=Heights(heights=heights, pixel_size=_floats(pixel_size))),
         ),
         window=Window(periodic=periodic),
-        pressing=Pressing(pressure=mean_pressure),
+        pressing=Pressing(pressure=float(mean_pressure)),
         effects=tuple(effects),
     )
     return solve(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
+
+
+def _floats(size: float | tuple[float, float]) -> float | tuple[float, float]:
+    """Take numbers of numpy as well as Python's."""
+    if np.ndim(size) == 0:
+        return float(size)  # type: ignore[arg-type]
+    return tuple(float(item) for item in size)  # type: ignore[return-value, union-attr]

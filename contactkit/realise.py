@@ -183,10 +183,12 @@ def _wave(surface: Wave, grid: Grid) -> Map:
 
     sizes = (grid.shape[1] * grid.pixel_size[1], grid.shape[0] * grid.pixel_size[0])
     lengths = (surface.wavelength, surface.wavelength_y)
-    for name, size, length in zip(("wavelength", "wavelength_y"), sizes, lengths, strict=True):
-        if length is None or not grid.periodic:
+    names, pixels = ("wavelength", "wavelength_y"), grid.pixel_size[::-1]
+    for name, size, length, pixel in zip(names, sizes, lengths, pixels, strict=True):
+        if length is None:
             continue
-        if abs(size / length - round(size / length)) > 1e-9 * size / length:
+        _resolved(f"Wave.{name}", length, pixel)
+        if grid.periodic and abs(size / length - round(size / length)) > 1e-9 * size / length:
             raise DescriptionError(
                 f"Wave.{name}", length, f"fit a whole number of times into the periodic window of "
                 f"{size:g} m", unit="m",
@@ -197,13 +199,7 @@ def _wave(surface: Wave, grid: Grid) -> Map:
 def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
     from .kernels import roughness
 
-    coarse = max(grid.pixel_size)
-    if surface.cutoff < 2.0 * coarse * (1.0 - 1e-12):
-        raise DescriptionError(
-            f"{type(surface).__name__}.cutoff", surface.cutoff,
-            f"be at least two pixels, {2.0 * coarse:g} m", unit="m",
-            hint="a finer Accuracy.grid, or a longer shortest wave",
-        )  # fmt: skip
+    _resolved(f"{type(surface).__name__}.cutoff", surface.cutoff, max(grid.pixel_size))
     if isinstance(surface, GaussianRoughness):
         return roughness.gaussian_exponential(
             grid.shape, grid.pixel_size, surface.rms, surface.correlation_length,
@@ -213,3 +209,11 @@ def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
         grid.shape, grid.pixel_size, surface.rms, surface.hurst, surface.rolloff,
         surface.cutoff, surface.seed,
     )  # fmt: skip
+
+
+def _resolved(name: str, length: float, pixel: float) -> None:
+    if length < 2.0 * pixel * (1.0 - 1e-12):
+        raise DescriptionError(
+            name, length, f"be at least two pixels, {2.0 * pixel:g} m", unit="m",
+            hint="a finer Accuracy.grid, or a longer wave",
+        )  # fmt: skip

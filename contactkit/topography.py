@@ -199,7 +199,14 @@ class Measured:
 def _as_map(value: Any) -> Map:
     import numpy as np
 
-    made = np.array(value, dtype=float, order="C")
+    given = np.asarray(value)
+    if given.dtype.kind not in "fiu":
+        raise DescriptionError(
+            "Heights.heights", value if given.ndim == 0 else f"an array of {given.dtype}",
+            "be an array of real numbers", unit="m",
+            hint="for a file use Measured(path=...)",
+        )  # fmt: skip
+    made = np.array(given, dtype=float, order="C")
     made.flags.writeable = False
     return made
 

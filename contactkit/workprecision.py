@@ -111,7 +111,7 @@ def sweep(
     ----------
     settings : sequence of Setting
         What to run. Each runs once untimed, then up to `repeats` times within `budget` [s]; the
-        best time counts.
+        best time counts. With no repeats the first run counts.
     reference : float
         The answer, by another method than those judged, or a closed form.
     quantity : str
@@ -138,6 +138,8 @@ def _measure(setting: Setting, reference: float, repeats: int, budget: float) ->
         )
     best = math.inf
     warm = time.perf_counter() - begun
+    if repeats == 0:
+        best = warm
     for _ in range(repeats):
         start = time.perf_counter()
         if start - begun + min(best, warm) > budget and best < math.inf:

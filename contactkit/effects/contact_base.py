@@ -47,8 +47,8 @@ class Cap(NamedTuple):
     """The largest pressure that the bodies bear [Pa].
 
     `least` and `most` bound its mean over the window; where they differ, `at` gives it for the
-    displacements [m] of the deforming bodies, one map each. `given` is one that does not depend
-    on them and differs from pixel to pixel.
+    displacements [m] of the deforming bodies, one map each; `has_jumps` if it jumps with them.
+    `given` is one that does not depend on them and differs from pixel to pixel.
     """
 
     least: float
@@ -56,6 +56,7 @@ class Cap(NamedTuple):
     at: Callable[[tuple[Map, ...]], Map | float] | None = None
     is_local: bool = False
     given: Map | None = None
+    has_jumps: bool = False
 
 
 @frozen(kw_only=True)

@@ -71,7 +71,7 @@ class FrictionTraction(Observer):
 class FrictionCoupling(DisplacementTerm):
     """The normal displacement that friction causes, fed back into the contact.
 
-    Traction moves the surface up ahead of a contact and down behind it; the effect vanishes for
+    Traction presses the surface in ahead of a contact and lifts it behind; the effect vanishes for
     incompressible bodies and for two equal ones. With it the problem has no energy any more: it
     is solved by repeating the contact with the displacement of the last traction, which contracts
     by about mu (1 - 2 nu)/(2 (1 - nu)).

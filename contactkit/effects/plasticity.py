@@ -145,7 +145,10 @@ class HardnessLimit(PressureCap):
             lowest: Map = np.minimum.reduce(found)
             return lowest if lowest.ndim else float(lowest)
 
-        return Cap(least, most, at, is_local=self.displacement == "local")
+        return Cap(
+            least, most, at, is_local=self.displacement == "local",
+            has_jumps=self.rule == "literal",
+        )  # fmt: skip
 
     def _of_body(self, stack: Stack) -> Callable[[Map], Map]:
         """Hardness of one body for the displacement [m] of its surface."""

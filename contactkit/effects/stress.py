@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
@@ -34,7 +35,7 @@ def _depths(owner: object, attribute: Attribute[Any], value: Any) -> None:
         return
     for depth in value:
         non_negative(owner, attribute, depth)
-    if not value or any(b <= a for a, b in zip(value, value[1:], strict=False)):
+    if not value or any(b <= a for a, b in pairwise(value)):
         raise refuse(owner, attribute, value, "be depths that grow")
 
 

@@ -21,16 +21,22 @@ PAGES = [
 ]
 
 
-@pytest.fixture(scope="module")
-def tables():
-    spec = importlib.util.spec_from_file_location("docs_tables", DOCS / "tables.py")
+def script(name):
+    """A script of docs/, imported as if it were run."""
+    spec = importlib.util.spec_from_file_location(f"docs_{name}", DOCS / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
-    sys.path.insert(0, str(DOCS))  # as when it is run as a script
+    sys.path.insert(0, str(DOCS))
     spec.loader.exec_module(module)
     sys.path.remove(str(DOCS))
+    return module
+
+
+@pytest.fixture(scope="module")
+def tables():
+    module = script("tables")
     yield module
-    del sys.modules[spec.name]
+    del sys.modules[module.__name__]
 
 
 def test_tables_are_up_to_date(tables):
@@ -42,6 +48,17 @@ def test_every_table_is_shown(tables):
         name for page in DOCS.glob("*.md") for _, name, *_ in tables.MARK.findall(page.read_text())
     }
     assert shown == set(tables.TABLES)
+
+
+def test_every_measured_block_is_there_once_and_filled():
+    """What it says is not checked: seconds differ between machines."""
+    pattern = r"<!-- measured: ([\w, -]+) -->\n(.*?)<!-- end of measured -->"
+    pages = [page.read_text() for page in DOCS.glob("*.md")]
+    found = [block for page in pages for block in re.findall(pattern, page, re.S)]
+    names = [name for name, _ in found]
+    assert len(names) == len(set(names)) == sum(page.count("<!-- measured:") for page in pages)
+    assert set(script("measure_contact").TABLES) <= set(names)
+    assert [name for name, body in found if not body.strip()] == []
 
 
 @pytest.mark.parametrize("kind", ck.EFFECTS, ids=lambda kind: kind.name)

@@ -48,14 +48,43 @@ def test_importing_contactkit_stays_small():
     assert len(modules) <= 2 * MOST_MODULES
 
 
+@pytest.mark.parametrize("extra", ["numba", "ducc0", "SurfaceTopography", "distributed"])
+def test_an_extra_is_not_brought_along_by_the_library(extra):
+    """Neither by the import nor by a contact that runs without it."""
+    contact = (
+        "import contactkit as ck; ck.solve; ck.press; ck.load_scene; ck.study;"
+        "import contactkit.contact_result, contactkit.effects.stress_scan, contactkit.realise"
+    )
+    assert extra not in roots(loaded_by(contact))
+
+
+SCENE = """import contactkit as ck
+body = ck.Body(solid=ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=1e7))
+rough = ck.GaussianRoughness(rms=1e-9, correlation_length=1e-7, cutoff=4e-8)
+made = ck.plan(ck.ContactScene(
+    interface=ck.ContactInterface(lower=body, upper=ck.Body(surface=rough)),
+    window=ck.Window(width=1e-6),
+    pressing=ck.Pressing(pressure=1e5),
+    effects=(ck.HalfSpace(), ck.HardnessLimit(), ck.FrictionTraction(coefficient=0.2),
+             ck.SubsurfaceStress()),
+))
+str(made), made.cite()"""
+
+
+def test_a_contact_is_described_and_planned_without_numpy():
+    assert roots(loaded_by(f"exec({SCENE!r})")) & HEAVY == set()
+
+
 def test_the_control_sees_what_is_heavy():
     """`simulate` needs numpy: if this finds none, the tests above prove nothing."""
     assert "numpy" in roots(loaded_by("import contactkit; contactkit.simulate"))
+    assert "numpy" in roots(loaded_by("import contactkit; contactkit.solve"))
 
 
 @pytest.mark.parametrize(
     "module",
     ["contactkit.plan", "contactkit.motion", "contactkit.effects", "contactkit.liquids",
+     "contactkit.planner", "contactkit.contact_plan", "contactkit.effects.registry",
      "contactkit.kernels.arc_flat", "contactkit.kernels.squeeze", "contactkit.kernels.film_limits",
      "contactkit.kernels.stiff_step"],
 )  # fmt: skip
@@ -66,6 +95,7 @@ def test_what_runs_inside_an_fmu_needs_no_numpy(module):
 def test_only_plot_brings_matplotlib():
     without = loaded_by(
         "import contactkit; contactkit.simulate; contactkit.load_scene; contactkit.save_result;"
+        "contactkit.solve; contactkit.press; contactkit.study; import contactkit.contact_archive;"
         "import contactkit.results, contactkit.workprecision, contactkit.cli"
     )
     assert "matplotlib" not in roots(without)

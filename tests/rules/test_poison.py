@@ -9,11 +9,16 @@ import itertools
 import pkgutil
 import sys
 
+import numpy as np
 import pytest
+import scipy.fft
 
 import contactkit as ck
 import contactkit.kernels
 from contactkit import separation
+from contactkit.contact import solve
+from contactkit.effects import SEPARATION_EFFECTS
+from contactkit.effects.contact import CONTACT_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -107,17 +112,19 @@ def matches(name, patterns):
 def poison(monkeypatch, names):
     """Replace kernels by ones that raise, wherever they have been imported to."""
     loaded = [m for name, m in sys.modules.items() if name.startswith("contactkit") and m]
-    for name in names:
-        original = KERNELS[name]
+    poisoned = {id(KERNELS[name]): _raising(name) for name in names}
+    for module in loaded:
+        for attribute, value in list(vars(module).items()):
+            if id(value) in poisoned:
+                monkeypatch.setattr(module, attribute, poisoned[id(value)])
 
-        @functools.wraps(original)
-        def raises(*_args, _name=name, **_kwargs):
-            raise PoisonError(_name)
 
-        for module in loaded:
-            for attribute, value in list(vars(module).items()):
-                if value is original:
-                    monkeypatch.setattr(module, attribute, raises)
+def _raising(name):
+    @functools.wraps(KERNELS[name])
+    def raises(*_args, **_kwargs):
+        raise PoisonError(name)
+
+    return raises
 
 
 def run(effects, body, imposed):
@@ -221,19 +228,197 @@ def test_the_poison_works_on_a_kernel_that_is_needed(monkeypatch, effects, body,
         run(effects, body, imposed)
 
 
+# Contacts -----------------------------------------------------------------------------------
+
+FIELDS = {"stress_modes.*", "stress_images.*", "layered_step.*", "layer_stack.stack_of"}
+CONTACT_OWNED = {
+    ck.HalfSpace(): set(),  # by the edges of the window, below
+    ck.LayeredHalfSpace(): set(),
+    ck.HardnessLimit(): {"hardness.effective_hardness"},
+    ck.HardnessLimit(rule="literal"): {
+        "hardness.effective_hardness_literal", "hardness.layer_on_substrate",
+    },
+    ck.HardnessLimit(rule="material"): set(),
+    ck.HardnessLimit(rule="constant", hardness=1e9): set(),
+    ck.FrictionTraction(coefficient=0.2): set(),
+    ck.FrictionCoupling(): {
+        "stress_planes.normal_displacement_of_traction", "layered.compliance", *FIELDS,
+    },
+    ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
+        "stress_planes.planes", "layered_fields.*", "layer_planes.locate", "stress_maxima.*",
+        "stress_measures.*", *FIELDS,
+    },
+    ck.FilmMeniscus(film_thickness=1e-9): {"film_islands.*"},
+    ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True): {"film_islands.*"},
+}  # fmt: skip
+
+# What is not an effect's: the compliance by the edges of the window, the heights, the solver.
+EDGES = {
+    True: {"layered.normal_symbol", "layered_step.*", "layer_stack.stack_of"},
+    False: {"free_kernel.*", "love.*", "point_load.*", "layered.compliance", "layered_step.*",
+            "layer_stack.stack_of"},
+}  # fmt: skip
+SHAPES = {
+    "heights": set(),
+    "paraboloid": {"height_shapes.paraboloid"},
+    "sphere": {"height_shapes.sphere"},
+    "wave": {"height_shapes.wave"},
+    "gaussian": {"roughness.gaussian_exponential", "random_waves.*"},
+    "self-affine": {"roughness.self_affine", "random_waves.*"},
+}
+SOLVER = {
+    "active_set*", "convolve.*", "fft_backends.*", "grid_transfer.*", "kkt.*", "near_stencil.*",
+    "press_problem.*",
+}  # fmt: skip
+WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07)
+HARD = ck.Material(young_modulus=3e9, poisson_ratio=0.2, hardness=1e8)
+SOFT = ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=5e7)
+LAYERED = ck.Stack(layers=(ck.Layer(material=HARD, thickness=5e-9),), substrate=SOFT)
+SURFACES = {
+    "heights": ck.Heights(
+        heights=1e-9 * np.random.default_rng(0).normal(size=(16, 12)), pixel_size=2e-8
+    ),
+    "paraboloid": ck.Paraboloid(radius=1e-5),
+    "sphere": ck.Sphere(radius=1e-5),
+    "wave": ck.Wave(amplitude=1e-9, wavelength=2e-7),
+    "gaussian": ck.GaussianRoughness(rms=1e-9, correlation_length=1e-7, cutoff=6e-8),
+    "self-affine": ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=2e-7, cutoff=6e-8),
+}
+
+
+def press(effects, periodic, shape="heights"):
+    is_layered = any(isinstance(effect, ck.LayeredHalfSpace) for effect in effects)
+    known = shape == "heights"
+    scene = ck.ContactScene(
+        interface=ck.ContactInterface(
+            lower=ck.Body(solid=LAYERED if is_layered else SOFT),
+            upper=ck.Body(surface=SURFACES[shape]),
+            meniscus=ck.Meniscus(liquid=WATER),
+        ),
+        window=ck.Window(width=None if known else 4e-7, periodic=periodic),
+        pressing=ck.Pressing(pressure=1e6),
+        effects=effects,
+    )
+    return solve(ck.plan(scene, ck.Accuracy(grid=None if known else 16)))
+
+
+def contact_cases():
+    """Each effect alone, each pair of kinds that fits together, and all of them at once."""
+    elastic = [e for e in CONTACT_OWNED if isinstance(e, ck.HalfSpace | ck.LayeredHalfSpace)]
+    others = [effect for effect in CONTACT_OWNED if effect not in elastic]
+    sets = [(), *((e,) for e in others), *itertools.combinations(others, 2)]
+    everything = {type(effect): effect for effect in others}
+    for chosen in (*sets, tuple(everything.values())):
+        kinds = [type(effect) for effect in chosen]
+        if len(set(kinds)) < len(kinds):
+            continue
+        if ck.FrictionCoupling in kinds and ck.FrictionTraction not in kinds:
+            continue
+        laws = elastic if len(chosen) != 2 else elastic[1:]
+        for law, periodic in itertools.product(laws, EDGES):
+            yield (law, *chosen), periodic
+
+
+def contact_label(value):
+    return ("periodic" if value else "free") if isinstance(value, bool) else label(value)
+
+
+CONTACT_CASES = list(contact_cases())
+
+
+def allowed_in_contact(effects, periodic, shape="heights"):
+    owned = set().union(*(CONTACT_OWNED[effect] for effect in effects))
+    return owned | SOLVER | EDGES[periodic] | SHAPES[shape]
+
+
+@pytest.mark.parametrize(("effects", "periodic"), CONTACT_CASES, ids=contact_label)
+def test_a_contact_runs_with_every_other_kernel_poisoned(monkeypatch, effects, periodic):
+    mine = allowed_in_contact(effects, periodic)
+    poison(monkeypatch, [name for name in KERNELS if not matches(name, mine)])
+    assert press(effects, periodic).status == "converged"
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_surface_calls_its_own_recipe_only(monkeypatch, shape):
+    effects = (ck.LayeredHalfSpace(),)
+    mine = allowed_in_contact(effects, True, shape)
+    poison(monkeypatch, [name for name in KERNELS if not matches(name, mine)])
+    assert press(effects, True, shape).status == "converged"
+
+
+CONTACT_HEARTS = [
+    ((), True, "layered.normal_symbol"),
+    ((), False, "free_kernel.symbol"),
+    ((ck.HardnessLimit(),), True, "hardness.effective_hardness"),
+    ((ck.HardnessLimit(rule="literal"),), True, "hardness.effective_hardness_literal"),
+    ((ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()), True,
+     "stress_planes.normal_displacement_of_traction"),
+    ((ck.SubsurfaceStress(),), False, "stress_planes.planes"),
+    ((ck.FilmMeniscus(film_thickness=1e-9),), True, "film_islands.meniscus_area"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("effects", "periodic", "heart"), CONTACT_HEARTS, ids=str)
+def test_the_poison_works_on_a_kernel_that_a_contact_needs(monkeypatch, effects, periodic, heart):
+    poison(monkeypatch, [heart])
+    with pytest.raises(PoisonError, match=heart):
+        press((ck.LayeredHalfSpace(), *effects), periodic)
+
+
+def _counted(original, calls):
+    def counted(*args, **kwargs):
+        calls.append(original)
+        return original(*args, **kwargs)
+
+    return counted
+
+
+def transforms(monkeypatch, effects, periodic=True):
+    """Transforms of scipy that a contact takes; those by another library are never more."""
+    made = []
+    with monkeypatch.context() as patched:
+        for name in ("rfft", "fft", "ifft", "irfft", "rfft2", "irfft2", "rfftn", "irfftn"):
+            patched.setattr(scipy.fft, name, _counted(getattr(scipy.fft, name), made))
+        result = press((ck.LayeredHalfSpace(), *effects), periodic)
+    return len(made), result.work.n_ffts
+
+
+@pytest.mark.parametrize("periodic", [True, False], ids=contact_label)
+def test_what_a_scene_does_not_call_for_is_not_transformed(monkeypatch, periodic):
+    friction, none = ck.FrictionTraction(coefficient=0.2), ck.FrictionTraction(coefficient=0.0)
+    alone = transforms(monkeypatch, (), periodic)
+    assert transforms(monkeypatch, (friction,), periodic) == alone
+    assert transforms(monkeypatch, (ck.FilmMeniscus(film_thickness=1e-9),), periodic) == alone
+    counts = [
+        transforms(monkeypatch, effects, periodic)[0]
+        for effects in (
+            (ck.SubsurfaceStress(depths=(1e-8,)),),
+            (ck.SubsurfaceStress(depths=(1e-8,)), none),
+            (ck.SubsurfaceStress(depths=(1e-8,)), friction),
+            (ck.SubsurfaceStress(depths=(1e-8, 2e-8)), friction),
+        )
+    ]
+    assert alone[0] < counts[0] == counts[1] < counts[2] < counts[3]
+
+
 def test_every_effect_and_every_choice_is_poisoned():
     """A new effect, or a new choice of one, needs its line in the table."""
-    assert {type(effect) for effect in OWNED} == set(ck.EFFECTS)
+    assert {type(effect) for effect in OWNED} == set(SEPARATION_EFFECTS)
     assert {effect.profile for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
         "arc", "as-published",
     }  # fmt: skip
-    assert {type(effect) for case in CASES for effect in case[0]} == set(ck.EFFECTS)
+    assert {type(effect) for case in CASES for effect in case[0]} == set(SEPARATION_EFFECTS)
+    assert {type(effect) for effect in CONTACT_OWNED} == set(CONTACT_EFFECTS)
+    assert {type(effect) for case in CONTACT_CASES for effect in case[0]} == set(CONTACT_EFFECTS)
+    rules = {effect.rule for effect in CONTACT_OWNED if isinstance(effect, ck.HardnessLimit)}
+    assert rules == {"continuous", "literal", "material", "constant"}
 
 
 def test_the_table_names_kernels_that_exist():
     patterns = set().union(VALIDITY_OF_BOTH, *MOTION.values(), *VALIDITY.values(), *EXTENT.values())
     for bodies in OWNED.values():
         patterns |= set().union(*bodies.values())
+    patterns |= set().union(SOLVER, *CONTACT_OWNED.values(), *SHAPES.values(), *EDGES.values())
     assert [p for p in sorted(patterns) if not any(matches(name, {p}) for name in KERNELS)] == []
 
 
@@ -245,4 +430,4 @@ def test_the_scenes_of_the_devices_use_effects_that_are_poisoned_above():
             text = path.read_text(encoding="utf-8")
             used |= {kind for kind in ck.EFFECTS if f'"{kind.name}"' in text}
     assert used
-    assert used <= {type(effect) for effect in OWNED}
+    assert used <= {type(effect) for effect in (*OWNED, *CONTACT_OWNED)}

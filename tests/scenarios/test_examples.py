@@ -11,6 +11,12 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 EQUAL_VISCOSITY = 4.8 * 0.03 * (10e-6 / 1e-3) ** 2 / 1e-3  # [Pa.s]
 
 NUMBERS = {
+    # Hertz, nu = 0.3: 0.6200 at 0.4809 contact radii; the planes come within 0.01 of that depth.
+    "coated_sphere": pytest.approx(0.6200, rel=2e-3),
+    # Contact in proportion to the load, less on few summits: between Hertz's 2/3 and 1.
+    "head_disk_load_curve": pytest.approx(0.83, abs=0.12),
+    # A layer of no thickness and one without end are no layers.
+    "press_a_map": pytest.approx(0.0, abs=1e-4),
     # The closed form leaves out the mass: 4 % at 80 degC, where the spool is released in 2.4 ms.
     "spool_sticks": pytest.approx(0.0, abs=0.05),
     # The source prints four digits.

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
+from contactkit.models.scenes import open_scene
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -43,7 +44,7 @@ def test_python_runs(page, elsewhere, capsys):
 
 
 def test_the_readme_tells_what_its_example_prints(elsewhere, capsys):
-    (block,) = blocks(ROOT / "README.md", "python")
+    block, _ = blocks(ROOT / "README.md", "python")
     assert len([line for line in block.splitlines() if line.strip()]) <= 10
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -55,12 +56,26 @@ def test_the_readme_tells_what_its_example_prints(elsewhere, capsys):
     assert told in capsys.readouterr().out
 
 
+def test_the_readme_tells_what_pressing_a_map_prints(elsewhere, capsys):
+    _, block = blocks(ROOT / "README.md", "python")
+    assert len([line for line in block.splitlines() if line.strip()]) <= 8
+    exec(block, {})
+    told = re.search(r"`(converged: [^`]*)`", (ROOT / "README.md").read_text("utf-8"))[1]
+    status, _, numbers = told.partition(" ... ")
+    printed = capsys.readouterr().out
+    assert printed.startswith(status)
+    assert printed.endswith(f"{numbers}\n")
+
+
 @pytest.mark.parametrize("page", with_blocks("toml"))
 def test_scenes_load(page, elsewhere):
     for block in blocks(page, "toml"):
         path = elsewhere / "scene.toml"
         path.write_text(block, encoding="utf-8")
-        assert ck.plan(ck.load_scene(path)).scene.effects
+        if "[accuracy]" in block:  # a table of the command line, as those of a device
+            assert "on " in open_scene(str(path)).plan_text()
+        else:
+            assert ck.plan(ck.load_scene(path)).scene.effects
 
 
 def test_the_scene_of_the_readme_has_six_lines():

@@ -1,0 +1,96 @@
+"""How long a whole contact takes, from map or scene to numbers, and what each effect adds."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import attrs
+import pytest
+from contact_peers_cases import case
+
+import contactkit as ck
+from contactkit.models.scenes import open_scene
+
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+
+N = 256
+STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+CARBON = ck.Material(name="carbon", young_modulus=420e9, poisson_ratio=0.25)
+COATED = ck.Stack(layers=(ck.Layer(material=CARBON, thickness=2e-8),), substrate=STEEL)
+MODULUS = 210e9 / (1.0 - 0.3**2)  # contact modulus [Pa]
+EFFECTS = {
+    "friction": (ck.FrictionTraction(coefficient=0.3),),
+    "friction-coupling": (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling()),
+    "hardness": (ck.HardnessLimit(),),
+    "five-planes-of-stress": (ck.SubsurfaceStress(depths=(0.0, 1e-9, 5e-9, 2e-8, 1e-7)),),
+    "meniscus": (ck.FilmMeniscus(film_thickness=1e-9),),
+}
+
+
+@pytest.fixture(scope="module")
+def one_map():
+    """A map 1 um wide, and its load for 5 per cent of contact with steel."""
+    given = case("selfaffine", N, "periodic", 5)
+    return given.heights * 1e-6, given.load * MODULUS
+
+
+def head_disk(*effects):
+    """A quarter of the head-disk window, with its compliance and these effects only."""
+    scene = open_scene("head-disk").scene
+    return attrs.evolve(
+        scene, window=ck.Window(width=5e-6), effects=(ck.LayeredHalfSpace(), *effects)
+    )
+
+
+def planned(scene):
+    return ck.plan(scene, ck.Accuracy(grid=N))
+
+
+@pytest.mark.parametrize("solid", [STEEL, COATED], ids=["half-space", "coated"])
+@pytest.mark.parametrize("periodic", [True, False], ids=["periodic", "free"])
+def test_press_a_map(benchmark, one_map, solid, periodic):
+    heights, pressure = one_map
+    found = benchmark(ck.press, heights, 1e-6 / N, solid, pressure, periodic=periodic)
+    benchmark.extra_info["applications"] = found.work.n_operator_applications
+    assert found.status == "converged"
+
+
+@pytest.mark.parametrize("name", ["nothing", *EFFECTS])
+def test_head_disk_with(benchmark, name):
+    found = benchmark(ck.solve, planned(head_disk(*EFFECTS.get(name, ()))))
+    benchmark.extra_info["applications"] = found.work.n_operator_applications
+    assert found.status == "converged"
+
+
+def test_head_disk_with_everything(benchmark):
+    effects = open_scene("head-disk").scene.effects[1:]
+    found = benchmark.pedantic(ck.solve, (planned(head_disk(*effects)),), rounds=3)
+    assert len(found.parts) >= 4
+    assert found.status == "converged"
+
+
+def test_curve_of_ten_loads(benchmark):
+    scene = head_disk()
+    loads = [f"{8 * 1.3**i} MPa" for i in range(10)]
+    found = benchmark.pedantic(
+        ck.study, (scene, {"pressing.pressure": loads}, ck.Accuracy(grid=N)), rounds=3
+    )
+    assert {point.status for point in found.points} == {"converged"}
+
+
+def test_memory_of_a_press(benchmark, one_map):
+    """Largest memory held at once, in maps; the seconds are those of a traced run."""
+    heights, pressure = one_map
+
+    def traced():
+        tracemalloc.start()
+        found = ck.press(heights, 1e-6 / N, COATED, pressure)
+        largest = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return found, largest / heights.nbytes
+
+    ck.press(heights, 1e-6 / N, COATED, pressure)  # imports and compiled code are no part of it
+    found, maps = benchmark.pedantic(traced, rounds=1)
+    benchmark.extra_info["maps"] = maps
+    assert found.status == "converged"
+    assert maps < 30.0
