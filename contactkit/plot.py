@@ -177,7 +177,7 @@ def work_precision(
         drawn = [max(p.error, 1e-16) for p in good]
         ax.plot([p.seconds for p in good], drawn, style, marker=marker, label=method)
         for p in points:
-            if p.error != p.error:
+            if p.error != p.error and not p.problem.startswith("not tried"):
                 ax.plot([], [], "x", color="k", label=f"{method}, {p.label}: failed")
     worst = [p.error for p in found.points if p.error == p.error]
     low = 0.1 * min(found.floor, *worst)

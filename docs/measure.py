@@ -1,4 +1,4 @@
-"""Measure the numbers of docs/accuracy.md and docs/injector.md on this machine and print them.
+"""Measure the numbers of the separation on docs/accuracy.md and docs/injector.md, and print them.
 
 Run it as ``python docs/measure.py``; it takes about half a minute and writes nothing.
 """

@@ -1,38 +1,155 @@
 """Make the pictures of the documentation with the program itself: ``python docs/pictures.py``.
 
-Runs the fuel injector and its cost, and keeps the figures that the pages show, with a palette of
-64 colours so that they stay small.
+Runs the scenes and their costs, keeps the figures that the pages show, with a palette of 128
+colours so that they stay small, and writes the numbers of the head-disk interface into the pages.
+Some minutes; names select some of the runs: ``python docs/pictures.py head-disk``.
 """
 
 from __future__ import annotations
 
+import csv
+import io
+import json
+import math
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from measured_blocks import write_blocks
 from PIL import Image
+from validation_tables import grid
 
 IMG = Path(__file__).parent / "img"
-SHOWN = {
-    "run": ("tension-limit", "release-zoom", "delay-against-temperature"),
-    "cost": ("cost",),
+# (scene, command): figures by the name they have in the pages.
+SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
+    ("fuel-injector", "run"): {
+        name: name for name in ("tension-limit", "release-zoom", "delay-against-temperature")
+    },
+    ("fuel-injector", "cost"): {"cost": "cost"},
+    ("head-disk", "run"): {
+        "contact": "head-disk-contact",
+        "stress": "head-disk-stress",
+        "stack": "head-disk-stack",
+        "load-curve": "head-disk-load-curve",
+    },
+    ("head-disk", "cost"): {"cost": "head-disk-cost"},
+}
+CURVES = ("wet-film-reported-only", "wet-film-pulls-too")
+COLUMNS = {  # of a load curve: heading and factor
+    "pressing.pressure": ("mean pressure [MPa]", 1e-6),
+    "max_pressure": ("largest pressure [GPa]", 1e-9),
+    "hardness": ("effective hardness [GPa]", 1e-9),
+    "contact_fraction": ("contact [%]", 100.0),
+    "plastic_fraction": ("plastic [%]", 100.0),
+    "max_displacement": ("largest displacement [nm]", 1e9),
+    "relative_meniscus_force": ("meniscus force / load", 1.0),
+}
+COST_PICTURE = (
+    "![Error of the pressure over seconds for three solvers; error of the area over the grid; "
+    "seconds by effect](img/head-disk-cost.png)"
+)
+NUMBERS = {  # of the run: what it is, factor, unit
+    "load": ("load", 1e3, "mN"),
+    "max_pressure": ("largest pressure", 1e-9, "GPa"),
+    "hardness": ("effective hardness", 1e-9, "GPa"),
+    "contact_fraction": ("real area of contact", 100.0, "% of the window"),
+    "plastic_fraction": ("plastic area", 100.0, "% of the window"),
+    "max_displacement": ("largest displacement, from the mean plane", 1e9, "nm"),
+    "approach": ("approach, from the mean plane", 1e9, "nm"),
+    "friction_force": ("friction force", 1e3, "mN"),
+    "meniscus_force": ("meniscus force", 1e3, "mN"),
+    "n_menisci": ("menisci", 1.0, ""),
+    "max_von_mises": ("largest von Mises stress", 1e-9, "GPa"),
+    "max_tension": ("largest tension", 1e-9, "GPa"),
+    "max_tresca": ("largest shear stress (Tresca)", 1e-9, "GPa"),
+    "max_sigma_xz": ("largest sigma_xz", 1e-9, "GPa"),
 }
 
 
-def main() -> int:
-    """Run both commands and keep their figures."""
+def head_disk_numbers(scalars: Mapping[str, Mapping[str, float]]) -> str:
+    """Numbers of the head-disk interface at the pressure of the scene."""
+    rows = []
+    for name, (label, factor, unit) in NUMBERS.items():
+        place = ""
+        if f"{name}_depth" in scalars:
+            depth, layer = (scalars[f"{name}_{what}"]["value"] for what in ("depth", "layer"))
+            place = f"{depth * 1e9:.3g} nm deep, layer {int(layer) + 1}"
+        value = f"{scalars[name]['value'] * factor:.4g}"
+        rows.append((label, f"{value} {unit}".strip(), place))
+    return grid(("what", "value", "where"), rows)
+
+
+def load_curve(text: str) -> str:
+    """Load curve from the CSV file that the run wrote."""
+    rows = list(csv.DictReader(io.StringIO(text)))
+    found = {name: next(k for k in rows[0] if k.startswith(f"{name} [")) for name in COLUMNS}
+    cells = [
+        [f"{float(row[found[name]]) * factor:.3g}" for name, (_, factor) in COLUMNS.items()]
+        for row in rows
+    ]
+    return grid([heading for heading, _ in COLUMNS.values()], cells)
+
+
+def cost_table(text: str) -> str:
+    """Cost of the head-disk interface from the CSV file that the run wrote."""
+    rows = [
+        (row["method"], row["setting"], _number(row["error [-]"], ".1e"),
+         _number(row["seconds [s]"], ".3g"))
+        for row in csv.DictReader(io.StringIO(text))
+    ]  # fmt: skip
+    return grid(("method", "setting", "relative error", "seconds"), rows)
+
+
+def _number(text: str, digits: str) -> str:
+    value = float(text or "nan")
+    return "-" if math.isnan(value) else format(value, digits)
+
+
+def keep(folder: Path, names: Mapping[str, str]) -> None:
+    """Keep some figures of a run, small."""
+    for name, kept in names.items():
+        with Image.open(folder / f"{name}.png") as figure:
+            small = figure.convert("RGB").quantize(128, dither=Image.Dither.NONE)
+            small.save(IMG / f"{kept}.png", optimize=True)
+
+
+def run(scene: str, command: str, folder: Path) -> str:
+    """Run a command on a scene; what it prints as JSON."""
+    arguments = ["-m", "contactkit.cli", command, scene, "--out", str(folder), "--json"]
+    done = subprocess.run([sys.executable, *arguments], check=True, stdout=subprocess.PIPE)
+    return done.stdout.decode("utf-8")
+
+
+def blocks(command: str, folder: Path, printed: str) -> Mapping[str, str]:
+    """Blocks of measured numbers of the head-disk interface."""
+    if command == "cost":
+        table = cost_table((folder / "cost.csv").read_text("utf-8"))
+        return {"head-disk cost": f"{COST_PICTURE}\n\n{table}"}
+    curves = {
+        f"head-disk load curve, {name}": load_curve(
+            (folder / f"load-curve-{name}.csv").read_text("utf-8")
+        )
+        for name in CURVES
+    }
+    return {"head-disk numbers": head_disk_numbers(json.loads(printed)), **curves}
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the scenes and keep their figures."""
     IMG.mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        for command, names in SHOWN.items():
-            arguments = ["-m", "contactkit.cli", command, "fuel-injector", "--out", folder]
-            subprocess.run([sys.executable, *arguments], check=True)
-            for name in names:
-                with Image.open(Path(folder) / f"{name}.png") as figure:
-                    small = figure.convert("RGB").quantize(64, dither=Image.Dither.NONE)
-                    small.save(IMG / f"{name}.png", optimize=True)
+    for (scene, command), names in SHOWN.items():
+        if arguments and scene not in arguments and f"{scene}/{command}" not in arguments:
+            continue
+        with tempfile.TemporaryDirectory(prefix="contactkit-") as name:
+            folder = Path(name)
+            printed = run(scene, command, folder)
+            keep(folder, names)
+            if scene == "head-disk":
+                write_blocks(blocks(command, folder, printed))
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

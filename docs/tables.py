@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import attrs
+from contact_tables import head_disk_table, material_table, surface_kinds
 from validation_tables import (
     errata_table,
     exact_table,
@@ -27,7 +28,17 @@ from validation_tables import (
 )
 
 import contactkit as ck
-from contactkit.effects.base import FilmEnd, FilmLimit, SeparationForce
+from contactkit.bodies import Body
+from contactkit.effects import SEPARATION_EFFECTS
+from contactkit.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
+from contactkit.effects.contact import CONTACT_EFFECTS
+from contactkit.effects.contact_base import (
+    Compliance,
+    DisplacementTerm,
+    LoadTerm,
+    Observer,
+    PressureCap,
+)
 from contactkit.fmu.ports import Port
 from contactkit.fmu.stiction_mass import StictionMass
 from contactkit.fmu.valve_drive import ValveDrive
@@ -39,6 +50,19 @@ from contactkit.units import celsius, cSt
 
 DOCS = Path(__file__).parent
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
+
+
+FACTORIES = {ck.Flat: "flat, no rim", Body: "rigid and flat", ck.Window: "periodic"}
+ROLES: Mapping[type, str] = {
+    SeparationForce: "force",
+    FilmLimit: "limit",
+    FilmEnd: "end of the film",
+    Compliance: "compliance",
+    PressureCap: "cap of the pressure",
+    LoadTerm: "load",
+    DisplacementTerm: "displacement",
+    Observer: "observer",
+}
 
 
 def descriptions(kind: type) -> dict[str, str]:
@@ -62,12 +86,14 @@ def default(field: attrs.Attribute[Any]) -> str:
     if value is attrs.NOTHING:
         return "must be given"
     if isinstance(value, attrs.Factory):  # type: ignore[arg-type]
-        return "flat, no rim"
+        return FACTORIES[value.factory]
     if value is None:
         return "not given"
     if value in ("", ()):
         return "empty"
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if isinstance(value, bool):
+        return f"`{value}`".lower()
+    if not isinstance(value, int | float):
         return f'`"{value}"`'
     return f"{value:g}"
 
@@ -88,17 +114,17 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
     for name, kind in kinds:
         summary = inspect.cleandoc(kind.__doc__ or "").partition("\n")[0]
         fields = keys(kind) if attrs.fields(kind) else "No keys of its own."
-        parts.append(f'**`{tag} = "{name}"`**: {summary}\n\n{fields}')
+        told = summary.replace("``", "`")
+        parts.append(f'**`{tag} = "{name}"`**: {told}\n\n{fields}')
     return "\n\n".join(parts)
 
 
-def effect_table() -> str:
+def effect_table(kinds: Iterable[type[Effect]]) -> str:
     """Effects a scene may call for."""
-    roles = {SeparationForce: "force", FilmLimit: "limit", FilmEnd: "end of the film"}
     rows = []
-    for kind in ck.EFFECTS:
+    for kind in kinds:
         must = {f.name: 1.0 for f in attrs.fields(kind) if f.default is attrs.NOTHING}
-        role = next(word for base, word in roles.items() if issubclass(kind, base))
+        role = next(word for base, word in ROLES.items() if issubclass(kind, base))
         source = "; ".join(kind(**must).sources)
         rows.append((f"`{kind.name}`", f"`{kind.__name__}`", role, kind.summary, source))
     return grid(
@@ -198,17 +224,29 @@ def assumption_table() -> str:
     return grid(("key", "value", "where it comes from"), rows)
 
 
-FLUID = ("flat", ck.Flat), ("sphere", ck.Sphere)
 TABLES: Mapping[str, Callable[[], str]] = {
     "scene": lambda: keys(ck.SeparationScene),
     "interface": lambda: keys(ck.Interface),
-    "shapes": lambda: named(FLUID, "shape"),
+    "shapes": lambda: named((("flat", ck.Flat), ("sphere", ck.Sphere)), "shape"),
     "meniscus": lambda: keys(ck.Meniscus),
     "liquid": lambda: keys(ck.Liquid),
     "laws": lambda: named([(law.kind, law) for law in LAWS], "law"),
     "opening": lambda: keys(ck.Opening),
-    "effect keys": lambda: named([(kind.name, kind) for kind in ck.EFFECTS], "effect"),
-    "effects": effect_table,
+    "effect keys": lambda: named([(kind.name, kind) for kind in SEPARATION_EFFECTS], "effect"),
+    "effects": lambda: effect_table(SEPARATION_EFFECTS),
+    "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
+    "contact effects": lambda: effect_table(CONTACT_EFFECTS),
+    "contact scene": lambda: keys(ck.ContactScene),
+    "contact interface": lambda: keys(ck.ContactInterface),
+    "body": lambda: keys(Body),
+    "material": lambda: keys(ck.Material),
+    "stack": lambda: keys(ck.Stack),
+    "layer": lambda: keys(ck.Layer),
+    "surfaces": lambda: named(surface_kinds(), "shape"),
+    "window": lambda: keys(ck.Window),
+    "pressing": lambda: keys(ck.Pressing),
+    "materials": material_table,
+    "head-disk": head_disk_table,
     "accuracy": lambda: keys(ck.Accuracy),
     "coil": lambda: keys(Coil),
     "spring": lambda: keys(Spring),

@@ -198,25 +198,28 @@ def _counts(result: ContactResult) -> dict[str, int]:
 
 
 def grid_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> WorkPrecision | None:
-    """Error of the real area of contact over the grid, for one and the same surface.
+    """Error of the real area of contact over the grid, against a grid of twice the pixels.
 
     None if the surfaces come with a grid of their own.
     """
+    from scipy.fft import next_fast_len
+
     bare = _bare(scene)
     n = max(accuracy.shape)
     finest = evolve(accuracy, grid=2 * n)
     if not _resolves(bare, finest):
         return None
     exact = _solved(bare, finest).contact_fraction
-    grids = [evolve(accuracy, grid=2 * max(1, round(0.5 * n * share))) for share in _SHARES]
+    sizes = sorted({next_fast_len(round(n * share), real=True) for share in _SHARES})
+    grids = [evolve(accuracy, grid=size) for size in sizes]
     settings = [
         Setting("grid", f"{one.grid} x {one.grid}", partial(_area, bare, one))
         for one in grids
         if _resolves(bare, one)
     ]
     return sweep(
-        settings, exact, quantity=f"contact area (of {2 * n} x {2 * n} pixels)", floor=1e-4,
-        repeats=1, budget=3.0, progress=progress,
+        settings, exact, quantity="contact area", floor=1e-4, repeats=1, budget=3.0,
+        progress=progress,
     )  # fmt: skip
 
 

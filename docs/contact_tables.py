@@ -1,0 +1,83 @@
+"""Tables of the contact pages: nouns, surfaces, materials, and what the head-disk scene assumes."""
+
+from __future__ import annotations
+
+import inspect
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from validation_tables import grid
+
+import contactkit as ck
+from contactkit.models import scenes
+from contactkit.tables import SURFACE_KINDS
+
+MODELS = Path(inspect.getfile(scenes)).parent
+ONLY_IN_PYTHON = {"heights"}
+FACES = {"flat", "sphere"}  # described with the separation scenes
+
+
+def surface_kinds() -> list[tuple[str, type]]:
+    """Shapes that a file may name, but for those of separation scenes."""
+    without = FACES | ONLY_IN_PYTHON
+    return [(name, kind) for name, kind in SURFACE_KINDS.items() if name not in without]
+
+
+def _comments(name: str) -> Iterable[tuple[str, str]]:
+    """(code, comment) of each line of a file of this package."""
+    for line in (MODELS / name).read_text("utf-8").splitlines():
+        code, _, comment = line.partition("#")
+        yield code.strip().rstrip(","), comment.strip()
+
+
+def _sources_of_materials() -> Mapping[str, str]:
+    """Comments below the name of each material."""
+    found: dict[str, str] = {}
+    name = ""
+    for code, comment in _comments("materials.toml"):
+        if code.startswith("["):
+            name = code.strip("[]")
+        elif name and comment:
+            found[name] = f"{found.get(name, '')} {comment}".strip()
+    return found
+
+
+def material_table() -> str:
+    """Materials of the library, with what the file says about their numbers."""
+    told, rows = _sources_of_materials(), []
+    for name in tomllib.loads((MODELS / "materials.toml").read_text("utf-8")):
+        one = ck.load_material(name)
+        hardness = f"{one.hardness / 1e9:g}" if one.hardness else "-"
+        modulus = f"{one.young_modulus / 1e9:g}"
+        rows.append((f"`{name}`", modulus, f"{one.poisson_ratio:g}", hardness, told[name]))
+    return grid(("material", "E [GPa]", "nu", "H [GPa]", "where it comes from"), rows)
+
+
+def head_disk_table() -> str:
+    """Numbers of the head-disk scene with the reasons its file gives for them."""
+    rows: list[list[str]] = []
+    section, is_open = "", False
+    for code, comment in _comments("head_disk.toml"):
+        if code.startswith("["):
+            section, is_open = code.strip("[]"), False
+        elif code.startswith("effect ="):
+            section, is_open = code.partition("=")[2].strip(' "'), False
+        elif code and comment and section:
+            rows.append([*_entry(section, code), comment])
+            is_open = True
+        elif not code and comment and is_open:
+            rows[-1][2] += f" {comment}"
+        else:
+            is_open = False
+    return grid(("key", "value", "where it comes from"), rows)
+
+
+def _entry(section: str, code: str) -> tuple[str, str]:
+    """Key and value of a line; a layer is told by its material."""
+    if code.startswith("{"):
+        parts = dict(item.split(" = ") for item in code.strip("{} ").split(", "))
+        material = parts["material"].strip('"')
+        return f"`{section}`, thickness of `{material}`", parts["thickness"].strip('"')
+    key, _, value = (part.strip() for part in code.partition("="))
+    return f"`{section}.{key}`", value.strip('"')

@@ -1,0 +1,30 @@
+"""Blocks of the pages that hold measured numbers: seconds, errors, counts.
+
+A page holds ``<!-- measured: NAME -->`` and ``<!-- end of measured -->``. Unlike the tables of
+`tables.py` these are not checked by a test, as they differ from machine to machine; the scripts
+`measure_contact.py` and `pictures.py` write them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+DOCS = Path(__file__).parent
+
+
+def write_blocks(found: Mapping[str, str]) -> list[str]:
+    """Put what was measured into the pages; names of the blocks that no page has."""
+    left = set(found)
+    for page in sorted(DOCS.glob("*.md")):
+        old = new = page.read_text(encoding="utf-8")
+        for name, text in found.items():
+            mark = rf"(<!-- measured: {re.escape(name)} -->\n).*?(<!-- end of measured -->)"
+            new, n = re.subn(
+                mark, lambda m, text=text: f"{m[1]}\n{text}\n\n{m[2]}", new, flags=re.DOTALL
+            )
+            left -= {name} if n else set()
+        if new != old:
+            page.write_text(new, encoding="utf-8")
+    return sorted(left)

@@ -1,0 +1,55 @@
+"""The head-disk interface over the load, in one call.
+
+The scene that comes with the package on a smaller window, and only with the effects that a load
+curve needs. A study starts each contact from the one before. Contact grows somewhat slower than
+the load, as few summits carry it at first; the film adds a quarter of a small load, but little
+to a large one.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from attrs import evolve
+
+import contactkit as ck
+from contactkit import plot
+from contactkit.models.scenes import open_scene
+from contactkit.units import MPa, um
+
+
+def main(out: Path) -> float:
+    """Draw contact and film; return the power with which contact grows with the load [-]."""
+    opened = open_scene("head-disk").scene
+    wanted = (ck.LayeredHalfSpace, ck.HardnessLimit, ck.FilmMeniscus)
+    scene = evolve(
+        opened,
+        window=evolve(opened.window, width=4 * um),
+        effects=tuple(e for e in opened.effects if isinstance(e, wanted)),
+    )
+    loads = {"pressing.pressure": [1 * MPa * 2.0**i for i in range(8)]}
+    curve = ck.study(scene, loads, ck.Accuracy(grid=128))
+    pressure = curve.column("pressing.pressure") / MPa
+    contact, film = curve.column("contact_fraction"), curve.column("relative_meniscus_force")
+    figure, (left, right) = plot.figure(1, 2, size=(11.0, 4.6))
+    left.plot(pressure, 100.0 * contact, "o-", ms=3.5)
+    left.plot(
+        pressure, 100.0 * contact[-1] * pressure / pressure[-1], "k--", lw=1.0, label="~ load"
+    )
+    left.set(xscale="log", yscale="log", xlabel="mean pressure [MPa]", ylabel="contact [%]")
+    right.plot(pressure, film, "o-", ms=3.5)
+    right.set(xscale="log", xlabel="mean pressure [MPa]", ylabel="meniscus force / load [-]")
+    right.set_ylim(0.0, None)
+    for ax in (left, right):
+        plot.plain_log(ax.xaxis)
+    plot.title(left, "Head on disk: real area of contact")
+    plot.title(right, "Pull of a film of water, 1 nm")
+    plot.legend(left)
+    plot.save(figure, out / "head_disk_load_curve")
+    return float(np.polyfit(np.log(pressure), np.log(contact), 1)[0])
+
+
+if __name__ == "__main__":
+    sys.stdout.write(f"contact ~ load^{main(Path('out/examples')):.3f}\n")
