@@ -37,7 +37,8 @@ def main(arguments: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="contactkit",
-        description="Meniscus and viscous forces that resist separating wetted surfaces.",
+        description="Contact of rough layered surfaces, and the forces that resist separating "
+        "wetted ones.",
     )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
     parser.set_defaults(command=_version)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -112,6 +113,20 @@ class ContactResult:
         return float(self.contact.sum()) * self.plan.grid.pixel_area
 
     @property
+    def corrected_contact_area(self) -> float:
+        """Real area of contact [m2] without the excess of pixels cut by its edge.
+
+        The edges between pixels in and out of contact, of total length S, carry an excess of
+        ``(pi - 1 + ln 2)/24 S dx`` on average over the directions of a smooth edge (Yastrebov,
+        Anciaux and Molinari 2017). Spots should be several pixels wide; the result is at least 0.
+        """
+        touching, (dy, dx) = self.contact, self.plan.grid.pixel_size
+        along_x = _edges(touching, 1, self.plan.grid.periodic)
+        along_y = _edges(touching, 0, self.plan.grid.periodic)
+        excess = (math.pi - 1.0 + math.log(2.0)) / 24.0 * (along_x + along_y) * dx * dy
+        return max(self.contact_area - excess, 0.0)
+
+    @property
     def contact_fraction(self) -> float:
         """Real area of contact over the window [-]."""
         return float(self.contact.mean())
@@ -179,6 +194,7 @@ class ContactResult:
             "max_pressure": (self.max_pressure, "Pa"),
             "contact_area": (self.contact_area, "m2"),
             "contact_fraction": (self.contact_fraction, "-"),
+            "corrected_contact_area": (self.corrected_contact_area, "m2"),
             "max_displacement": (self.max_displacement, "m"),
             "approach": (self.approach, "m"),
         }
@@ -186,6 +202,14 @@ class ContactResult:
             if kind in self.parts:
                 found |= scalars(self.parts[kind], self)
         return found | {"residual": (self.residual, "-"), "energy": (self.energy, "J")}
+
+
+def _edges(touching: NDArray[np.bool_], axis: int, periodic: bool) -> int:
+    """Number of edges between pixels in and out of contact that are neighbours along an axis."""
+    if periodic:
+        return int((touching ^ np.roll(touching, 1, axis)).sum())
+    inner = int(np.diff(touching, axis=axis).sum())
+    return inner + int(touching.take([0, -1], axis).sum())
 
 
 def _plastic_scalars(part: PlasticPart, result: ContactResult) -> dict[str, tuple[float, str]]:

@@ -179,6 +179,7 @@ def quasi_newton(
     weight = steepest / h.size if load is not None else 0.0
     p = fit(start, problem)
     history: list[tuple[int, float]] = []
+    excess = np.inf
 
     def energy(p: Floats) -> tuple[float, Floats]:
         u = apply(p)
@@ -193,7 +194,10 @@ def quasi_newton(
         least: Any = scipy.optimize.minimize  # its stubs know no bounded method with a gradient
         answer = least(energy, p, jac=True, method="L-BFGS-B", bounds=bounds, options=options)
         p = np.asarray(answer.x)
-        level -= weight * (float(p.sum()) - (load or 0.0)) if load is not None else 0.0
+        if load is not None:
+            last, excess = excess, float(p.sum()) - load
+            level -= weight * excess
+            weight *= 4.0 if abs(excess) > 0.1 * abs(last) else 1.0
         admissible = fit(p, problem)
         u = apply(admissible)
         found, relative, scale = graded(admissible, u, problem)
