@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
-from .checks import choice, count, refuse
+from .checks import as_pair, choice, count, refuse
 from .units import si
 
 __all__ = ["Accuracy"]
@@ -25,10 +25,6 @@ def _grid(owner: object, attribute: Attribute[Any], value: Any) -> None:
             raise refuse(owner, attribute, value, "be a whole number of at least 2, or (ny, nx)")
     if isinstance(value, tuple) and len(value) != 2:
         raise refuse(owner, attribute, value, "be one number or a pair (ny, nx)")
-
-
-def _pair(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
 
 
 @frozen(kw_only=True)
@@ -69,7 +65,7 @@ class Accuracy:
     max_steps: int = field(default=100_000, validator=count, metadata=si("-"))
 
     grid: int | tuple[int, int] | None = field(
-        default=None, converter=_pair, validator=_grid, metadata=si("-")
+        default=None, converter=as_pair, validator=_grid, metadata=si("-")
     )
     rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))
     method: Literal["active-set", "quasi-newton", "conjugate-gradient"] = field(

@@ -1,9 +1,9 @@
-"""Validators of attrs fields: one message shape for every impossible number."""
+"""Validators and converters of attrs fields: one message shape for every impossible number."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from attrs import Attribute
@@ -11,8 +11,8 @@ from attrs import Attribute
 from .errors import DescriptionError
 
 __all__ = [
-    "angle", "choice", "count", "finite", "fraction", "non_negative", "optional", "part",
-    "positive", "refuse",
+    "angle", "as_pair", "as_tuple", "choice", "count", "finite", "fraction", "non_negative",
+    "optional", "part", "positive", "refuse",
 ]  # fmt: skip
 
 if TYPE_CHECKING:
@@ -102,3 +102,13 @@ def part(*kinds: type) -> Validator:
             raise refuse(owner, attribute, value, f"be a {' or '.join(k.__name__ for k in kinds)}")
 
     return check_part
+
+
+def as_tuple(value: Any) -> tuple[Any, ...]:
+    """Convert any collection, or a single thing, to a tuple."""
+    return tuple(value) if isinstance(value, Iterable) else (value,)
+
+
+def as_pair(value: Any) -> Any:
+    """Convert a list, as files give it, to a tuple; leave one number as it is."""
+    return tuple(value) if isinstance(value, list) else value

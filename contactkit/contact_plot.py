@@ -78,7 +78,8 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
     )  # fmt: skip
     _place(ax, unit)
     if 0 < (kinds == 3).sum() < 2e-3 * kinds.size:  # too few to be seen as pixels
-        rows, columns = np.argwhere(kinds == 3).T
+        found = np.argwhere(kinds == 3)
+        rows, columns = found[:, 0], found[:, 1]
         ny, nx = kinds.shape
         x, y = (columns + 0.5) * extent[1] / nx, (rows + 0.5) * extent[3] / ny
         ax.plot(x, y, "o", ms=4, mfc="none", mec=SPOTS["plastic"], mew=1.0)

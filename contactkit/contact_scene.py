@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypeVar
 
 from attrs import field, frozen
 
 from .bodies import ContactInterface, Pressing, Window
-from .checks import part, positive
+from .checks import as_tuple, part, positive
 from .units import celsius, si
 
 if TYPE_CHECKING:
@@ -17,10 +16,6 @@ if TYPE_CHECKING:
 __all__ = ["ContactScene"]
 
 _E = TypeVar("_E", bound="ContactEffect")
-
-
-def _tuple(effects: Iterable[ContactEffect]) -> tuple[ContactEffect, ...]:
-    return tuple(effects) if isinstance(effects, Iterable) else (effects,)
 
 
 @frozen(kw_only=True)
@@ -46,7 +41,7 @@ class ContactScene:
     interface: ContactInterface = field(validator=part(ContactInterface))
     window: Window = field(factory=Window, validator=part(Window))
     pressing: Pressing = field(validator=part(Pressing))
-    effects: tuple[ContactEffect, ...] = field(converter=_tuple)
+    effects: tuple[ContactEffect, ...] = field(converter=as_tuple)
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     name: str = ""
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 from attrs import Attribute, field, frozen
 
-from .checks import optional, part, positive, refuse
+from .checks import as_tuple, optional, part, positive, refuse
 from .units import si
 
 __all__ = ["Layer", "Material", "Stack"]
@@ -68,10 +67,6 @@ class Layer:
     thickness: float = field(validator=positive, metadata=si("m"))
 
 
-def _layers(value: Any) -> tuple[Any, ...]:
-    return tuple(value) if isinstance(value, Iterable) else (value,)
-
-
 def _all_layers(owner: object, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
     for layer in value:
         if not isinstance(layer, Layer):
@@ -98,7 +93,7 @@ class Stack:
     (['DLC', 'steel'], (2e-06,))
     """
 
-    layers: tuple[Layer, ...] = field(default=(), converter=_layers, validator=_all_layers)
+    layers: tuple[Layer, ...] = field(default=(), converter=as_tuple, validator=_all_layers)
     substrate: Material = field(validator=part(Material))
 
     @property

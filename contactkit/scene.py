@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypeVar
 
 from attrs import field, frozen
 
-from .checks import part, positive
+from .checks import as_tuple, part, positive
 from .interface import Interface, Opening
 from .units import celsius, si
 
 if TYPE_CHECKING:
     from .effects.base import SeparationEffect
 
-__all__ = ["SeparationScene", "effects_tuple"]
+__all__ = ["SeparationScene"]
 
 _E = TypeVar("_E", bound="SeparationEffect")
-
-
-def effects_tuple(effects: Iterable[SeparationEffect]) -> tuple[SeparationEffect, ...]:
-    """Convert any collection of effects, or a single one, to a tuple."""
-    return tuple(effects) if isinstance(effects, Iterable) else (effects,)
 
 
 @frozen(kw_only=True)
@@ -44,7 +38,7 @@ class SeparationScene:
 
     interface: Interface = field(validator=part(Interface))
     opening: Opening = field(validator=part(Opening))
-    effects: tuple[SeparationEffect, ...] = field(converter=effects_tuple)
+    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     name: str = ""
 

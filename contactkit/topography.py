@@ -7,12 +7,11 @@ but `Heights`, which is made from one.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
-from .checks import choice, optional, positive, refuse
+from .checks import as_pair, as_tuple, choice, optional, positive, refuse
 from .errors import DescriptionError
 from .surfaces import Flat, Sphere
 from .units import si
@@ -59,10 +58,6 @@ def _length_or_pair(owner: object, attribute: Attribute[Any], value: Any) -> Non
         raise refuse(owner, attribute, value, "be one length or a pair (along y, along x)")
 
 
-def _pair(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
-
-
 @frozen(kw_only=True)
 class GaussianRoughness:
     """Gaussian heights with the exponential autocorrelation of Eq. (2.42).
@@ -83,7 +78,7 @@ class GaussianRoughness:
 
     rms: float = field(validator=positive, metadata=si("m"))
     correlation_length: float | tuple[float, float] = field(
-        converter=_pair, validator=_length_or_pair, metadata=si("m")
+        converter=as_pair, validator=_length_or_pair, metadata=si("m")
     )
     cutoff: float = field(validator=positive, metadata=si("m"))
     seed: int = field(default=1, validator=_seed, metadata=si("-"))
@@ -186,7 +181,7 @@ class Measured:
 
     path: str
     pixel_size: float | tuple[float, float] | None = field(
-        default=None, converter=_pair, validator=optional(_length_or_pair), metadata=si("m")
+        default=None, converter=as_pair, validator=optional(_length_or_pair), metadata=si("m")
     )
     unit: str | None = None
     detrend: Literal["tilt", "none", "mean", "curvature"] = field(
@@ -225,7 +220,7 @@ class Heights:
 
     heights: Map = field(converter=_as_map, repr=False, metadata=si("m"))
     pixel_size: float | tuple[float, float] = field(
-        converter=_pair, validator=_length_or_pair, metadata=si("m")
+        converter=as_pair, validator=_length_or_pair, metadata=si("m")
     )
 
     @heights.validator
@@ -258,10 +253,6 @@ Shape = (
 SHAPES: tuple[type, ...] = Shape.__args__
 
 
-def _parts(value: Any) -> tuple[Any, ...]:
-    return tuple(value) if isinstance(value, Iterable) else (value,)
-
-
 @frozen(kw_only=True)
 class CombinedSurface:
     """Shapes added up, such as a rough sphere.
@@ -272,7 +263,7 @@ class CombinedSurface:
         What is added.
     """
 
-    parts: tuple[Shape, ...] = field(converter=_parts)
+    parts: tuple[Shape, ...] = field(converter=as_tuple)
 
     @parts.validator
     def _check_parts(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attrs import evolve, field, frozen
 
-from ..checks import part, positive
+from ..checks import as_tuple, part, positive
 from ..effects import SeparationEffect, TensionLimit
 from ..errors import DescriptionError, PlanError
 from ..interface import Interface, Opening
 from ..io import structure
 from ..plan import Plan, plan
-from ..scene import SeparationScene, effects_tuple
+from ..scene import SeparationScene
 from ..units import celsius, si
 from .scenes import Report, mass_values
 from .valve import Valve
@@ -74,7 +74,7 @@ class InjectorScene:
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     interface: Interface = field(validator=part(Interface))
     opening: Opening = field(validator=part(Opening))
-    effects: tuple[SeparationEffect, ...] = field(converter=effects_tuple)
+    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
     valve: Valve
     study: Study
 

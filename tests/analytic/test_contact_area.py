@@ -21,7 +21,7 @@ def pressed(surface, grid, **window):
 
 
 def test_a_disc_of_hertz_has_its_area():
-    """Counting a disc is right on average, to about a hundredth; the correction is a third of it."""
+    """Counting is right to about a hundredth; the correction to a fifth of that."""
     radius = 1e-6
     force = 4.0 * 1e9 * radius**3 / (3.0 * 1e-3)
     ball = ck.Paraboloid(radius=1e-3)
