@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -30,7 +31,7 @@ __all__ = ["solve"]
 def solve(
     plan: ContactPlan,
     *,
-    start: ContactResult | None = None,
+    start: ContactResult | Sequence[ContactResult] | None = None,
     engine: Engine | None = None,
     throw: bool = True,
 ) -> ContactResult:
@@ -40,8 +41,9 @@ def solve(
     ----------
     plan : ContactPlan
         What to solve.
-    start : ContactResult, optional
-        A result nearby, such as that of the load before: its pressure is where the solve begins.
+    start : ContactResult or sequence of them, optional
+        Results nearby, such as those of the loads before, the newest first: where the solve
+        begins. Of several under other loads the pressure is extrapolated.
     engine : Engine, optional
         Heights and compliance made for a plan with the same interface, grid and elastic law, to
         be used again.
@@ -99,18 +101,24 @@ def solve(
     return result
 
 
-def _target(plan: ContactPlan, engine: Engine, start: ContactResult | None) -> Target:
-    pressure = start.pressure if start is not None else None
-    if pressure is not None and pressure.shape != plan.grid.shape:
-        raise DescriptionError(
-            "start", f"a result on {pressure.shape} pixels", f"be one on {plan.grid.shape} pixels"
-        )
+def _target(
+    plan: ContactPlan, engine: Engine, start: ContactResult | Sequence[ContactResult] | None
+) -> Target:
+    before = [start] if isinstance(start, ContactResult) else list(start or ())
+    for one in before:
+        if one.pressure.shape != plan.grid.shape:
+            raise DescriptionError(
+                "start",
+                f"a result on {one.pressure.shape} pixels",
+                f"be one on {plan.grid.shape} pixels",
+            )
     approach = plan.scene.pressing.approach
     level = engine.first_touch + approach if approach is not None else None
-    plastic = start.parts.get(HardnessLimit) if start is not None else None
+    plastic = before[0].parts.get(HardnessLimit) if before else None
     hardness = getattr(plastic, "hardness", None)
     near = hardness if isinstance(hardness, float) else None
-    return Target(plan.mean_pressure, level, pressure, near)
+    pressures = [(one.mean_pressure, one.pressure) for one in before] or None
+    return Target(plan.mean_pressure, level, pressures, near)
 
 
 def _solve_all(

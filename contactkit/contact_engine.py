@@ -12,6 +12,7 @@ from .contact_plan import ContactPlan
 from .effects.contact_base import Cap, Compliance, DisplacementTerm, PressureCap
 from .errors import ConvergenceError
 from .kernels.active_set import Press, Solution
+from .kernels.active_set_start import Start
 from .realise import combined_heights
 
 if TYPE_CHECKING:
@@ -25,12 +26,13 @@ __all__ = ["Counts", "Engine", "Target", "cap_of", "interface_key"]
 class Target(NamedTuple):
     """What one solve is to reach: a mean pressure [Pa], or a level [m]; and from where.
 
-    `start` is a pressure (ny, nx) [Pa] and `hardness` [Pa] one that was right nearby.
+    `start` is a pressure (ny, nx) [Pa], or pairs of mean pressure and pressure, the newest
+    first; `hardness` [Pa] one that was right nearby.
     """
 
     mean_pressure: float | None
     level: float | None
-    start: Map | None = None
+    start: Start | None = None
     hardness: float | None = None
 
 

@@ -57,6 +57,9 @@ class Piece:
     keeps_maps: bool
 
 
+_MOST_BEFORE = 3  # results a start is extrapolated from
+
+
 class Done(NamedTuple):
     """A finished point, and its result as bytes where maps are kept."""
 
@@ -66,11 +69,11 @@ class Done(NamedTuple):
 
 
 class _Chain:
-    """What one solve leaves for the next: an engine, and a pressure to start from."""
+    """What one solve leaves for the next: an engine, and pressures to start from."""
 
     def __init__(self) -> None:
         self._engine: Engine | None = None
-        self._last: ContactResult | None = None
+        self._before: list[ContactResult] = []
 
     def run(self, scene: Scene, accuracy: Accuracy) -> ContactResult | SeparationResult:
         made = plan(scene, accuracy)
@@ -79,10 +82,10 @@ class _Chain:
         if self._engine is None or self._engine.key != interface_key(made):
             self._engine = None  # so that two of them are never in memory
             self._engine = Engine(made)
-        last = self._last
-        fits = last is not None and last.pressure.shape == made.grid.shape
-        self._last = solve(made, start=last if fits else None, engine=self._engine)
-        return self._last
+            self._before = [r for r in self._before if r.pressure.shape == made.grid.shape][:1]
+        result = solve(made, start=self._before, engine=self._engine)
+        self._before = [result, *self._before[: _MOST_BEFORE - 1]]
+        return result
 
 
 def run_piece(

@@ -6,18 +6,18 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..contact_scene import ContactScene
-from ..effects.contact_base import Compliance, DisplacementTerm, PressureCap
-from ..effects.friction import FrictionTraction
+from ..effects.contact_base import Compliance, PressureCap
 from ..effects.plasticity import HardnessLimit, HardnessMap
 from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..planner import plan
 from ..workprecision import Outcome, Setting, WorkPrecision, sweep
+from .effect_cost import EffectCost, effect_costs
 from .report import Report
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ..contact_result import ContactResult
     from .contact_report import PlainContact
 
-__all__ = ["EffectCost", "contact_cost", "effect_costs", "grid_sweep", "solver_sweep"]
+__all__ = ["contact_cost", "grid_sweep", "solver_sweep"]
 
 Progress = Callable[[float], None]
 Method = Literal["active-set", "quasi-newton", "conjugate-gradient"]
@@ -44,15 +44,6 @@ _AREAS = {
     "corrected at the edges": "corrected_contact_area",
 }
 _SHARES = (0.25, 0.375, 0.5, 0.7, 0.85, 1.0, 1.4)  # of the grid asked for
-
-
-class EffectCost(NamedTuple):
-    """Seconds and operator applications of a scene with the effects up to this one."""
-
-    name: str
-    seconds: float
-    n_operator_applications: int
-    problem: str = ""
 
 
 def contact_cost(
@@ -235,39 +226,6 @@ def grid_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> W
 def _area(scene: ContactScene, accuracy: Accuracy, name: str) -> Outcome:
     result = _solved(scene, accuracy)
     return Outcome(getattr(result, name), _counts(result))
-
-
-def effect_costs(
-    scene: ContactScene, accuracy: Accuracy, progress: Progress
-) -> tuple[EffectCost, ...]:
-    """Seconds of the scene with its effects one after another, the compliance first."""
-    order = sorted(scene.effects, key=_rank)
-    found = []
-    for i in range(1, len(order) + 1):
-        some = evolve(scene, effects=tuple(order[:i]))
-        name = ("" if i == 1 else "+ ") + order[i - 1].name
-        try:
-            best, result = _best_of_two(some, accuracy)
-        except ConvergenceError as error:
-            found.append(EffectCost(name, float("nan"), 0, str(error).split(";")[0]))
-        else:
-            found.append(EffectCost(name, best, result.work.n_operator_applications))
-        progress(i / len(order))
-    return tuple(found)
-
-
-def _rank(effect: object) -> int:
-    ranks = (Compliance, PressureCap, FrictionTraction, DisplacementTerm)
-    return next((i for i, kind in enumerate(ranks) if isinstance(effect, kind)), len(ranks))
-
-
-def _best_of_two(scene: ContactScene, accuracy: Accuracy) -> tuple[float, ContactResult]:
-    seconds = []
-    for _ in range(2):
-        begun = time.perf_counter()
-        result = _solved(scene, accuracy)
-        seconds.append(time.perf_counter() - begun)
-    return min(seconds), result
 
 
 def _write(

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..errors import DescriptionError, InfeasibleError
 from .active_set_grids import bytes_of, prepare
+from .active_set_start import Start, first_pressure
 from .active_set_steps import Outcome, improve
 from .convolve import SymbolMaker
 from .grid_transfer import prolong
@@ -71,9 +72,9 @@ class Press:
     Notes
     -----
     Some 25 to 40 applications of the operator to 1e-8, whatever the number of pixels, the load or
-    the cap, for a half-space and for layers of moderate contrast; a stiff plate of some pixels on a
-    soft ground may take hundreds. With a method of our own make, after the primal-dual active set
-    of [1]_ and the multilevel start of [2]_.
+    the cap, for a half-space and for layers of moderate contrast; a plate a thousand times stiffer
+    than its ground, or more, may take a hundred or two. With a method of our own make, after the
+    primal-dual active set of [1]_ and the multilevel start of [2]_.
 
     A `Press` owns its work arrays: do not share one between threads.
 
@@ -134,7 +135,7 @@ class Press:
 
     def solve(
         self, heights: Floats, *, mean_pressure: float | None = None, level: float | None = None,
-        cap: float | Floats | None = None, rtol: float = 1e-8, start: Floats | None = None,
+        cap: float | Floats | None = None, rtol: float = 1e-8, start: Start | None = None,
         max_iterations: int = 5000, progress: Progress = None, method: str = "active-set",
     ) -> Solution:  # fmt: skip
         """Pressure under a given load or rigid approach.
@@ -149,8 +150,9 @@ class Press:
             Largest pressure a pixel carries [Pa].
         rtol : float
             Largest violation of a contact condition to accept, over `kkt.height_scale`.
-        start : ndarray (ny, nx), optional
-            Pressures to start from [Pa], instead of the nested grids.
+        start : ndarray (ny, nx) or sequence of (float, ndarray), optional
+            Pressures to start from [Pa], instead of the nested grids; or pairs of mean pressure and
+            pressures of earlier solutions, newest first, to be extrapolated.
         max_iterations : int
             Steps of the fallback, or of a plain method, at most.
         progress : callable, optional
@@ -179,7 +181,7 @@ class Press:
             raise DescriptionError("rtol", rtol, "be positive and finite")
         problem = pose(heights, self.self_influence, mean_pressure, level, cap)
         self._refuse_closed_level(problem)
-        self._reset(problem, start)
+        self._reset(problem, start, mean_pressure)
         p = known_pressure(problem)
         if p is not None:
             self.grids[0].pressure[...] = p
@@ -208,20 +210,13 @@ class Press:
                 "periodic map is closed under any load; prescribe the load instead"
             )
 
-    def _reset(self, problem: Problem, start: Floats | None) -> None:
+    def _reset(self, problem: Problem, start: Start | None, mean_pressure: float | None) -> None:
         for grid in self.grids:
-            grid.quick.count = 0
-            if grid.exact is not None:
-                grid.exact.count = 0
-            if grid.blocks is not None:
-                grid.blocks.operator.count = 0
-        if start is None:
-            return
-        first = np.asarray(start, dtype=np.float64)
-        if first.shape != self.shape or not np.all(np.isfinite(first)):
-            raise DescriptionError("start", first.shape, f"be a finite map of shape {self.shape}")
-        p = fit(first.ravel() / problem.pressure, problem)
-        self.grids[0].pressure[...] = p.reshape(self.shape)
+            grid.reset()
+        if start is not None:
+            first = first_pressure(start, mean_pressure, self.shape)
+            p = fit(first.ravel() / problem.pressure, problem)
+            self.grids[0].pressure[...] = p.reshape(self.shape)
 
     def _from_coarse_grids(self, problem: Problem) -> None:
         """Solve roughly on ever finer grids; leave the start in the source of the finest."""
@@ -273,7 +268,7 @@ class Press:
         energy = 0.5 * float(np.vdot(p, u)) - float(np.vdot(problem.heights, p))
         count = fine.applications()
         coarse = sum(g.applications() for g in self.grids[1:])
-        coarse += sum(g.blocks.operator.count for g in self.grids if g.blocks is not None)
+        coarse += sum(g.two_level.applications() for g in self.grids if g.two_level is not None)
         vectors = int(np.count_nonzero(p)) * (5 * 4 + 3 * np.dtype(np.intp).itemsize)
         held = bytes_of(self.grids) + problem.heights.nbytes + 2 * p.nbytes + vectors
         padded = p.nbytes * (1 if self.periodic else 4)

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from . import active_set_loops
 from .active_set_inner import Grid
+from .active_set_inverse import NearInverse
+from .active_set_two_level import TwoLevel
 from .coarse_blocks import CoarseBlocks
 from .convolve import Convolution, SymbolMaker, self_influence, symbol_of
 from .fft_backends import fast_transforms_installed
@@ -23,9 +25,12 @@ __all__ = ["bytes_of", "compiled_loops", "prepare"]
 
 Floats = NDArray[np.float64]
 Shape = tuple[int, int]
-LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are treated by blocks
 LEAST_THREADED = 200  # pixels along the shorter side from which threads pay
+LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are treated by blocks
 STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
+PLATE = 8.0  # decay from which no stencil and no block will do, as under a stiff plate
+BLURRED = 3.1  # decay of a half-space where pixels are pressed evenly: symbols of free maps
+FEW = 4000  # moving pixels up to which the better preconditioner is also the cheaper one
 
 
 def compiled_loops(fast: bool | None, threads: int) -> Any:
@@ -72,21 +77,23 @@ class _Maker:
         return symbol
 
 
-def _block_pixels(symbol: Floats, periodic: bool) -> float:
-    """Pixels along a block: fewer where the compliance falls faster than that of a half-space."""
+def _two_level(maker: _Maker, shape: Shape, symbol: Floats, fast: bool, loops: Any) -> TwoLevel:
+    blocks = None
+    if max(shape) >= LEAST_BLOCKED:
+        pixels = 4.0 if _decay(symbol, maker.periodic) > STEEP else 8.0
+        sides = block_shape(shape, maker.pixel(shape), pixels)
+        own = maker.own(symbol, shape)
+        blocks = CoarseBlocks(shape, sides, maker(sides), maker.periodic, fast, own)
+    stencil = inverse_stencil(symbol, shape[1] if maker.periodic else 2 * shape[1])
+    return TwoLevel(shape, maker.periodic, stencil, blocks, loops)
+
+
+def _decay(symbol: Floats, periodic: bool) -> float:
+    """How much faster the symbol falls over short waves than that of a half-space, 1 / q."""
     column = symbol[:, 0] if periodic else symbol[::2, 0]
     top = max(column.size // 2, 1)
     low = max(top // 8, 1)
-    steep = float(column[low] / max(column[top], 1e-300)) > STEEP * top / low
-    return 4.0 if steep else 8.0
-
-
-def _blocks(maker: _Maker, shape: Shape, symbol: Floats, fast: bool) -> CoarseBlocks | None:
-    if max(shape) < LEAST_BLOCKED:
-        return None
-    blocks = block_shape(shape, maker.pixel(shape), _block_pixels(symbol, maker.periodic))
-    own = maker.own(symbol, shape)
-    return CoarseBlocks(shape, blocks, maker(blocks), maker.periodic, fast, own)
+    return float(column[low] / max(column[top], 1e-300)) * low / top
 
 
 def _response(operator: Convolution, periodic: bool) -> Floats:
@@ -103,16 +110,21 @@ def _grid(maker: _Maker, shape: Shape, threads: int, fast: bool, loops: Any, fin
     threads = threads if min(shape) >= LEAST_THREADED else 1
     scale = loops.scale_spectrum
     exact = Convolution(shape, symbol, periodic, threads, fast, np.float64, scale)
+    response = _response(exact, periodic)
+    decay = _decay(symbol, periodic) / (1.0 if periodic else BLURRED)
+    two_level = None if decay > PLATE else _two_level(maker, shape, symbol, fast, loops)
+    spare = None if two_level is None else two_level.margin
+    pixel = maker.pixel(shape)
     return Grid(
         pressure=exact.source if finest else np.zeros(shape),
         gap=exact.target if finest else np.zeros(shape),
         exact=exact if finest else None,
-        quick=Convolution(shape, symbol, periodic, threads, fast, np.float32, scale),
-        response=_response(exact, periodic),
-        margin=np.zeros((shape[0] + 2, shape[1] + 2), np.float32),
+        quick=Convolution(shape, symbol, periodic, threads, fast, np.float32, scale, exact),
+        response=response,
         change=np.zeros(shape[0] * shape[1], np.float32),
-        stencil=inverse_stencil(symbol, shape[1] if periodic else 2 * shape[1]),
-        blocks=_blocks(maker, shape, symbol, fast),
+        inverse=NearInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
+        two_level=two_level,
+        few=FEW if decay <= STEEP else 0,
         periodic=periodic,
         steepest=float(symbol.max()),
         loops=loops,
@@ -161,8 +173,7 @@ def bytes_of(grids: list[Grid]) -> int:
             convolutions.append(grid.exact)
         else:
             total += 2 * grid.pressure.nbytes
-        if grid.blocks is not None:
-            convolutions.append(grid.blocks.operator)
         total += sum(c.nbytes for c in convolutions)
-        total += grid.response.nbytes + grid.margin.nbytes + grid.change.nbytes
+        total += grid.response.nbytes + grid.inverse.nbytes + grid.change.nbytes
+        total += 0 if grid.two_level is None else grid.two_level.nbytes
     return total

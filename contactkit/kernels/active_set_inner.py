@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .active_set_direct import few_enough, influence_matrix, solve_directly
-from .coarse_blocks import CoarseBlocks
+from .active_set_inverse import NearInverse
+from .active_set_two_level import TwoLevel
 from .convolve import Convolution
-from .near_stencil import Stencil
 
 __all__ = ["Correction", "Grid"]
 
@@ -32,9 +32,9 @@ class Grid(NamedTuple):
     exact : operator in double precision from `pressure` to `gap`; none on coarse grids
     quick : operator in single precision; its source is zero between uses
     response : displacement under unit pressure on the first pixel; to the middle if periodic
-    margin : map with a margin of one pixel, for the stencil; zeros between the solves
     change : displacement gained since the last exact one, in single precision
-    stencil, blocks : short and long waves of the preconditioner
+    inverse : rough inverse of the operator on the moving pixels
+    two_level : cheaper one for more than `few` of them; none where it is poor, under stiff plates
     steepest : largest eigenvalue of the operator
     loops : passes over the pixels, of numpy or compiled
     """
@@ -44,17 +44,31 @@ class Grid(NamedTuple):
     exact: Convolution | None
     quick: Convolution
     response: NDArray[np.float64]
-    margin: Singles
     change: Singles
-    stencil: Stencil
-    blocks: CoarseBlocks | None
+    inverse: NearInverse
+    two_level: TwoLevel | None
+    few: int
     periodic: bool
     steepest: float
     loops: Any
 
+    def reset(self) -> None:
+        """Count from zero."""
+        self.quick.count = 0
+        if self.exact is not None:
+            self.exact.count = 0
+        if self.two_level is not None and self.two_level.blocks is not None:
+            self.two_level.blocks.operator.count = 0
+
     def applications(self) -> int:
         """Applications of the operator since the counters were reset."""
         return self.quick.count + (self.exact.count if self.exact is not None else 0)
+
+    def rough_inverse(self, moving: int) -> NearInverse | TwoLevel:
+        """What approximates the inverse of the operator best for its price."""
+        if self.two_level is None or moving <= self.few:
+            return self.inverse
+        return self.two_level
 
     def displace(self, exactly: bool) -> None:
         """Displacement under `pressure`, into `gap`."""
@@ -100,43 +114,11 @@ class Correction:
                 return x
         return self._iterate(r.astype(np.float32), reduction, missing)
 
-    def _begin(self) -> None:
-        width = self.grid.pressure.shape[1]
-        self.inner_at = self.at + 2 * (self.at // width) + (width + 3)
-        self.rest = np.empty(self.at.size, np.float32)
-        blocks = self.grid.blocks
-        if blocks is not None:
-            self.block = blocks.block_of(self.at)
-            ones = np.ones(self.at.size, np.float32)
-            blocks.weigh(
-                self.grid.loops.block_sums(self.block, ones, blocks.count), self.load_fixed
-            )
-
-    def _short_waves(self, r: Singles, z: Singles) -> None:
-        margin, loops = self.grid.margin, self.grid.loops
-        flat = margin.ravel()
-        loops.put(flat, self.inner_at, r)
-        if self.grid.periodic:
-            margin[0], margin[-1] = margin[-2], margin[1]
-            margin[:, 0], margin[:, -1] = margin[:, -2], margin[:, 1]
-        loops.stencil(flat, self.inner_at, margin.shape[1], tuple(self.grid.stencil), z)
-
-    def _precondition(self, r: Singles, z: Singles) -> None:
-        blocks, loops = self.grid.blocks, self.grid.loops
-        if blocks is None:
-            self._short_waves(r, z)
-            return
-        total = loops.block_sums(self.block, r, blocks.count)
-        loops.less_block_values(r, self.block, total * blocks.share, self.rest)
-        self._short_waves(self.rest, z)
-        long = blocks.solve(total)
-        long -= loops.block_sums(self.block, z, blocks.count) * blocks.share
-        loops.add_block_values(z, self.block, long)
-
     def _iterate(self, r: Singles, reduction: float, missing: float) -> Singles:
         grid, loops = self.grid, self.grid.loops
-        self._begin()
-        x, z, d, q = (np.zeros_like(r) for _ in range(4))
+        rough = grid.rough_inverse(self.at.size)
+        rough.prepare(self.at, self.load_fixed)
+        x, d, q = (np.zeros_like(r) for _ in range(3))
         grid.change[...] = 0.0
         if missing:  # an even share first: the steps below leave the sum alone
             d += missing / r.size
@@ -148,24 +130,18 @@ class Correction:
         stop = reduction**2 * float(np.dot(r, r))
         length, rz = 0.0, 0.0
         for _ in range(MOST_STEPS if stop > 0.0 else 0):
-            self._precondition(r, z)
+            z = rough(r)
             rz = loops.turn(d, z, r, q, length, rz, self.load_fixed)
             self._apply(d, q)
             length, rr = loops.advance(x, r, d, q, self.load_fixed)
             loops.accumulate(grid.change, self.target, length)
             if rr <= stop:
                 break
-        self._clean()
+        self.source[self.at] = 0.0
+        rough.clean()
         return x
 
     def _apply(self, d: Singles, q: Singles) -> None:
         self.grid.loops.put(self.source, self.at, d)
         self.grid.quick.run()
         self.grid.loops.pick(self.target, self.at, q)
-
-    def _clean(self) -> None:
-        self.source[self.at] = 0.0
-        self.grid.margin.ravel()[self.inner_at] = 0.0
-        if self.grid.periodic:
-            self.grid.margin[[0, -1]] = 0.0
-            self.grid.margin[:, [0, -1]] = 0.0

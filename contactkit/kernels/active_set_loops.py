@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 from .fft_backends import scale_spectrum
 
 __all__ = [
-    "accumulate", "add_block_values", "advance", "block_sums", "grade", "less_block_values", "pick",
-    "put", "reduce_gap", "rescale", "scale_spectrum", "select", "settle", "stencil", "survey",
-    "turn",
+    "accumulate", "add_block_values", "advance", "block_sums", "factor_rows", "grade",
+    "less_block_values", "neighbour_masks", "pick", "put", "reduce_gap", "rescale",
+    "scale_spectrum", "select", "settle", "stencil", "survey", "turn",
 ]  # fmt: skip
 
 Array = NDArray[Any]
@@ -164,3 +164,46 @@ def rescale(p: Array, at: Index, cap: Array, load: float) -> None:
     rest = load - (float(p.sum()) - share)
     if share > 0.0 and rest > 0.0:
         p[at] = np.minimum(moving * (rest / share), np.broadcast_to(cap, p.shape)[at])
+
+
+PART = 2**14  # rows at a time, to bound what the neighbours of all pixels would hold
+
+
+def _neighbours(
+    part: slice, order: Array, rank: Array, row: Array, column: Array, level: Array,
+    strides: Array, offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool,
+) -> tuple[Array, NDArray[np.bool_]]:  # fmt: skip
+    """Order of the pixels around some, and which of them come before."""
+    at = level[part]
+    y = row[part, None] + strides[at, :1] * offsets[:, 0]
+    x = column[part, None] + strides[at, 1:] * offsets[:, 1]
+    valid = allowed[at]
+    if not periodic:
+        valid = valid & (y >= 0) & (y < shape[0]) & (x >= 0) & (x < shape[1])
+    there = order[np.mod(y, shape[0]) * shape[1] + np.mod(x, shape[1])]
+    return there, valid & (there > 0) & (there < rank[part, None])
+
+
+def neighbour_masks(*around: Any) -> NDArray[np.int32]:
+    """One bit for every neighbour of each pixel that is there and comes before it."""
+    rank, offsets = around[1], around[6]
+    masks = np.zeros(rank.size, np.int32)
+    weights = (1 << np.arange(len(offsets))).astype(np.int32)
+    for start in range(0, rank.size, PART):
+        part = slice(start, start + PART)
+        masks[part] = _neighbours(part, *around)[1] @ weights
+    return masks
+
+
+def factor_rows(*everything: Any) -> None:
+    """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
+    around, (_, ids, rows, first, columns, values) = everything[:-6], everything[-6:]
+    rank = around[1]
+    for start in range(0, rank.size, PART):
+        part = slice(start, min(start + PART, rank.size))
+        there, before = _neighbours(part, *around)
+        there = (np.hstack([there, rank[part, None]]) - 1) % rank.size
+        before = np.hstack([before, np.ones((len(before), 1), bool)])
+        here = slice(first[part.start], first[part.stop])
+        columns[here] = there[before]
+        values[here] = rows[ids[part]][before]

@@ -218,10 +218,51 @@ def rescale(p: Array, at: Array, cap: Array, load: float) -> None:
             p[at[a]] = min(p[at[a]] * (rest / share), cap[at[a] * many])
 
 
+def neighbour_masks(
+    order: Array, rank: Array, row: Array, column: Array, level: Array, strides: Array,
+    offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool,
+) -> Array:  # fmt: skip
+    """One bit for every neighbour of each pixel that is there and comes before it."""
+    masks = np.zeros(rank.size, np.int32)
+    for a in prange(rank.size):
+        n, bits = level[a], 0
+        for k in range(offsets.shape[0]):
+            if not allowed[n, k]:
+                continue
+            y, x = row[a] + strides[n, 0] * offsets[k, 0], column[a] + strides[n, 1] * offsets[k, 1]
+            if periodic:
+                y, x = y % shape[0], x % shape[1]
+            elif y < 0 or y >= shape[0] or x < 0 or x >= shape[1]:
+                continue
+            if 0 < order[y * shape[1] + x] < rank[a]:
+                bits |= 1 << k
+        masks[a] = bits
+    return masks
+
+
+def factor_rows(
+    order: Array, rank: Array, row: Array, column: Array, level: Array, strides: Array,
+    offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool, masks: Array,
+    ids: Array, rows: Array, first: Array, columns: Array, values: Array,
+) -> None:  # fmt: skip
+    """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
+    for a in prange(rank.size):
+        n, at = level[a], first[a]
+        for k in range(offsets.shape[0]):
+            if masks[a] & (1 << k):
+                y = (row[a] + strides[n, 0] * offsets[k, 0]) % shape[0]
+                x = (column[a] + strides[n, 1] * offsets[k, 1]) % shape[1]
+                columns[at] = (order[y * shape[1] + x] - 1) % rank.size
+                values[at] = rows[ids[a], k]
+                at += 1
+        columns[at] = a
+        values[at] = rows[ids[a], offsets.shape[0]]
+
+
 SERIAL = (select, block_sums)
 THREADED = (
     scale_spectrum, reduce_gap, survey, grade, pick, put, less_block_values, add_block_values,
-    stencil, turn, advance, accumulate, settle, rescale,
+    stencil, turn, advance, accumulate, settle, rescale, neighbour_masks, factor_rows,
 )  # fmt: skip
 
 

@@ -26,6 +26,8 @@ __all__ = ["Outcome", "improve"]
 MOST_OUTER = 80
 ROUGH = 1e-2  # relative violation down to which single precision displacements are good enough
 BLURRED = 1e-5  # below it single precision displacements are no measure
+WARY = 1  # outer steps without progress after which few pixels may leave a bound at a time
+WORST = 0.8  # how far they are off, of the farthest
 CYCLE = 5  # outer steps without progress after which pixels that stop at a bound stay there
 PATIENCE = 15  # outer steps within which the residual must have halved
 
@@ -57,7 +59,7 @@ class _Walk:
         self.capped = bool(np.isfinite(self.cap).any())
         self.missing = self.load - float(self.p.sum()) if self.load_fixed else 0.0
         self.clipped, self.added, self.scale = 0, 0, 0.0
-        self.relative, self.stuck = np.inf, False
+        self.relative, self.stuck, self.wary = np.inf, False, False
         self.at = np.zeros(0, np.intp)
 
     def measure(self) -> float:
@@ -94,7 +96,7 @@ class _Walk:
         """Correct the moving pixels, or where none can move take a projected gradient step."""
         loops = self.grid.loops
         if self.clipped == 0:
-            self.at, self.added = loops.select(self.p, self.g, self.cap, self.level)
+            self._choose()
         if self.at.size <= (self.load_fixed and not self.missing):
             return self._descend()
         r = self.level - self.g[self.at]
@@ -118,7 +120,7 @@ class _Walk:
     def _reduction(self) -> float:
         """How far to reduce the inner residual: little as long as the active set moves."""
         if self.stuck:
-            return 1e-3
+            return 0.03
         changed = (self.clipped + self.added) / self.at.size
         if changed > 1e-3:
             return 0.1
@@ -141,7 +143,17 @@ class _Walk:
         if self.load_fixed:
             self.level = float(self.g[self.at].mean())
         self.g[self.at] = self.level
+        self._choose()
+
+    def _choose(self) -> None:
+        """Choose the moving pixels; while that leads nowhere, few of those that leave a bound."""
         self.at, self.added = self.grid.loops.select(self.p, self.g, self.cap, self.level)
+        if self.wary and self.added:
+            off = np.abs(self.g[self.at] - self.level)
+            between = self._between(self.at)
+            off[between] = 0.0
+            kept = between | (off > WORST * off.max())
+            self.at, self.added = self.at[kept], int(np.count_nonzero(kept & ~between))
 
     def _descend(self) -> None:
         gradient = self.g - (self.problem.level or 0.0)
@@ -187,6 +199,7 @@ def improve(
             continue  # measure again before anything is corrected
         if relative < 0.5 * best:
             best, best_step = relative, step
+        walk.wary = step - best_step >= WARY
         walk.stuck = step - best_step >= CYCLE
         if step - best_step >= PATIENCE:
             break

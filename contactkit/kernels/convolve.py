@@ -44,10 +44,8 @@ def symbol_of(
 
     Examples
     --------
-    >>> symbol_of(lambda shape, pixel: np.zeros((4, 3)), (4, 4), (1.0, 1.0), True)
-    Traceback (most recent call last):
-        ...
-    contactkit.errors.DescriptionError: symbol must be positive at every wavenumber but 0 [m/Pa], got 0.0
+    >>> symbol_of(lambda shape, pixel: np.ones((4, 3)), (4, 4), (1.0, 1.0), True)[0]
+    array([0., 1., 1.])
     """
     ny, nx = shape
     expected = (ny, nx // 2 + 1) if periodic else (2 * ny, nx + 1)
@@ -89,6 +87,14 @@ def self_influence(symbol: Floats, width: int) -> float:
     return float(twice / (symbol.shape[0] * width))
 
 
+def _lent(lender: Convolution | None, shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
+    size = int(np.prod(shape))
+    if lender is None or lender._spectrum.nbytes < size * np.dtype(kind).itemsize:
+        return np.zeros(shape, kind)
+    lent: NDArray[Any] = lender._spectrum.view(kind).ravel()[:size].reshape(shape)
+    return lent
+
+
 class Convolution:
     """``displacement = G pressure`` on one grid, with its own in- and output maps.
 
@@ -108,6 +114,8 @@ class Convolution:
         Precision, ``np.float64`` or ``np.float32``.
     scale : callable
         In-place product of spectrum and symbol.
+    lender : Convolution, optional
+        One of the same map and no less precision, to share the memory of its spectrum.
 
     Notes
     -----
@@ -125,18 +133,23 @@ class Convolution:
     def __init__(
         self, shape: tuple[int, int], symbol: Floats, periodic: bool, threads: int = 1,
         fast: bool = False, dtype: Any = np.float64, scale: Callable[..., None] = scale_spectrum,
+        lender: Convolution | None = None,
     ) -> None:  # fmt: skip
         self.shape = shape
         self.count = 0
         self.source: NDArray[Any] = np.zeros(shape, dtype)
         self.target: NDArray[Any] = np.zeros(shape, dtype)
         precise = np.dtype(dtype).itemsize
-        self.nbytes = precise * (2 * shape[0] * shape[1] + 3 * symbol.size)
+        kind = np.result_type(dtype, np.complex64)
+        self._spectrum = _lent(lender, symbol.shape, kind)
+        lent = lender is not None and np.shares_memory(self._spectrum, lender._spectrum)
+        self.nbytes = precise * (2 * shape[0] * shape[1] + (1 if lent else 3) * symbol.size)
         if fast and not periodic:
             self.nbytes += precise * 2 * shape[0] * shape[1]  # the padded rows
         self._transform = make_transform(
-            np.ascontiguousarray(symbol, dtype), shape, periodic, threads, fast, scale
-        )
+            np.ascontiguousarray(symbol, dtype), shape, periodic, threads, fast, scale,
+            self._spectrum,
+        )  # fmt: skip
 
     def run(self) -> NDArray[Any]:
         """Convolve `source` into `target` and give back `target`, which the next run overwrites."""

@@ -49,9 +49,10 @@ def scale_spectrum(spectrum: Array, symbol: Array) -> None:
     spectrum *= symbol
 
 
-def _scipy_transform(symbol: Array, periodic: bool, workers: int, scale: Scale) -> Transform:
+def _scipy_transform(
+    symbol: Array, periodic: bool, workers: int, scale: Scale, spectrum: Array
+) -> Transform:
     """Rows in chunks, so that what scipy allocates stays in the cache; columns in place."""
-    spectrum = np.zeros(symbol.shape, np.result_type(symbol.dtype, np.complex64))
 
     def transform(source: Array, target: Array) -> None:
         ny, nx = source.shape
@@ -71,9 +72,8 @@ def _scipy_transform(symbol: Array, periodic: bool, workers: int, scale: Scale) 
     return transform
 
 
-def _ducc_periodic(symbol: Array, threads: int, scale: Scale) -> Transform:
+def _ducc_periodic(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Transform:
     fft: Any = importlib.import_module("ducc0").fft
-    spectrum = np.zeros(symbol.shape, np.result_type(symbol.dtype, np.complex64))
     forth = {"axes": (0, 1), "nthreads": threads}
     back = {**forth, "forward": False, "allow_overwriting_input": True}
 
@@ -85,10 +85,9 @@ def _ducc_periodic(symbol: Array, threads: int, scale: Scale) -> Transform:
     return transform
 
 
-def _ducc_free(symbol: Array, threads: int, scale: Scale) -> Transform:
+def _ducc_free(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Transform:
     fft: Any = importlib.import_module("ducc0").fft
     ny, nx = symbol.shape[0] // 2, symbol.shape[1] - 1
-    spectrum = np.zeros(symbol.shape, np.result_type(symbol.dtype, np.complex64))
     top, rows = spectrum[:ny], np.zeros((ny, 2 * nx), symbol.dtype)
 
     def transform(source: Array, target: Array) -> None:
@@ -112,6 +111,7 @@ def make_transform(
     threads: int = 1,
     fast: bool = False,
     scale: Scale = scale_spectrum,
+    spectrum: Array | None = None,
 ) -> Transform:
     """Give a function ``transform(source, target)`` that convolves one map into another.
 
@@ -130,6 +130,8 @@ def make_transform(
         Use ducc0, which must then be installed.
     scale : callable
         In-place product of spectrum and symbol.
+    spectrum : ndarray, optional
+        Where to work, of the shape of the symbol and complex.
 
     Examples
     --------
@@ -141,6 +143,9 @@ def make_transform(
     """
     padded = shape[0] * shape[1] * (1 if periodic else 4)
     symbol = symbol / padded  # once, instead of after every inverse transform
+    if spectrum is None:
+        spectrum = np.zeros(symbol.shape, np.result_type(symbol.dtype, np.complex64))
     if fast:
-        return (_ducc_periodic if periodic else _ducc_free)(symbol, threads, scale)
-    return _scipy_transform(symbol, periodic, threads, scale)
+        transform = _ducc_periodic if periodic else _ducc_free
+        return transform(symbol, threads, scale, spectrum)
+    return _scipy_transform(symbol, periodic, threads, scale, spectrum)

@@ -141,6 +141,8 @@ def test_layers_a_million_times_stiffer_or_softer(contrast, pixels):
     press = Press((N, N), PIXEL, stack(contrast, pixels * PIXEL[0]), periodic=True, fast=False)
     s = press.solve(HEIGHTS, mean_pressure=1e9)
     assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 300
     assert s.pressure.mean() == pytest.approx(1e9, rel=1e-11)
 
 
@@ -212,7 +214,7 @@ def test_the_fallback_finishes_and_says_so(press, monkeypatch):
     s = press.solve(HEIGHTS, mean_pressure=1e9)
     assert s.fallback
     assert s.converged
-    np.testing.assert_allclose(s.pressure, best.pressure, rtol=1e-5, atol=1.0)
+    np.testing.assert_allclose(s.pressure, best.pressure, rtol=1e-5, atol=1e-7 * 1e9)
     cut = press.solve(HEIGHTS, mean_pressure=1e9, max_iterations=2)
     assert not cut.converged
     assert cut.kkt > 1e-8

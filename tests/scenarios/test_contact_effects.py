@@ -90,7 +90,7 @@ def test_every_effect_has_its_part_and_its_numbers(everything):
     alone = solved().scalars()
     assert set(alone) == {
         "load", "mean_pressure", "max_pressure", "contact_area", "contact_fraction",
-        "max_displacement", "approach", "residual", "energy",
+        "corrected_contact_area", "max_displacement", "approach", "residual", "energy",
     }  # fmt: skip
 
 

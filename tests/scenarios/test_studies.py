@@ -108,7 +108,7 @@ def test_a_chain_starts_from_its_neighbour(monkeypatch):
     starts = []
 
     def solve(plan, *, start, engine):
-        starts.append(None if start is None else start.mean_pressure)
+        starts.append(start[0].mean_pressure if start else None)
         return ck.solve(plan, start=start, engine=engine)
 
     monkeypatch.setattr(study_run, "solve", solve)

@@ -1,0 +1,231 @@
+r"""A sparse factor of the inverse of the operator between the pixels that may move.
+
+The pixels are put in order, those on the coarsest of nested lattices first. What a pixel adds to
+its predecessors is hardly seen beyond the nearest of them, whatever the solid: these screen the
+rest. Row by row, the inverse of a small matrix between a pixel and its near predecessors therefore
+gives a good inverse of the whole, for long and short waves, for stiff plates as for half-spaces
+(the Kullback-Leibler minimum among factors of that sparsity, Schaefer, Katzfuss & Owhadi, SIAM J.
+Sci. Comput. 43 (2021) A2019-A2046, eq. 8). As the solid is the same everywhere a row depends only
+on which neighbours are there; every such pattern is solved once and kept.
+
+Sign convention: pressure and displacement positive into the solid.
+
+======  ==================================================================
+symbol  meaning
+======  ==================================================================
+K       displacement of a map under unit pressure on its first pixel
+L       sparse factor, ``L' L`` about the inverse; rows follow the pixels
+order   map of the places of the pixels in the order, from 1; 0 where none is
+======  ==================================================================
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import scipy.sparse
+from numpy.typing import NDArray
+
+__all__ = ["NearInverse", "lattice_strides", "pattern_rows"]
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Shape = tuple[int, int]
+NEAR = 2  # squared distance of the neighbours looked at, in strides: the eight around
+WIDE = 5  # the same where the compliance falls steeply: all up to a knight's move
+MOST_PATTERNS = 200_000  # kept at most; more are forgotten before the next active set
+
+
+def lattice_strides(shape: Shape, pixel_size: tuple[float, float]) -> NDArray[np.int32]:
+    """Strides ``(n, 2)`` of nested lattices, every pixel first; long pixels are first made square.
+
+    Examples
+    --------
+    >>> lattice_strides((8, 64), (4.0, 1.0)).tolist()
+    [[1, 1], [1, 2], [1, 4], [2, 8], [4, 16], [4, 32]]
+    """
+    (sy, sx), (dy, dx) = (1, 1), pixel_size
+    strides = [(1, 1)]
+    while True:
+        can_y, can_x = 4 * sy <= shape[0], 4 * sx <= shape[1]
+        if not (can_y or can_x):
+            return np.array(strides, np.int32)
+        long_y, long_x = sy * dy > 1.5 * sx * dx, sx * dx > 1.5 * sy * dy
+        grow_y, grow_x = can_y and not (long_y and can_x), can_x and not (long_x and can_y)
+        sy, sx = sy * (1 + grow_y), sx * (1 + grow_x)
+        strides.append((sy, sx))
+
+
+def _offsets(squared: int) -> NDArray[np.int32]:
+    y, x = np.indices((5, 5)).reshape(2, -1) - 2
+    near = (y**2 + x**2 <= squared) & (y**2 + x**2 > 0)
+    return np.stack([y[near], x[near]], axis=1).astype(np.int32)
+
+
+def pattern_rows(
+    K: Floats, shape: Shape, stride: NDArray[np.int32], there: NDArray[np.bool_],
+    offsets: NDArray[np.int32],
+) -> Floats:  # fmt: skip
+    """Rows of the factor for patterns of neighbours, the pixel itself last.
+
+    Parameters
+    ----------
+    K : ndarray
+        Response as in `active_set_direct.influence_matrix`, positive.
+    shape : tuple of int
+        Pixels of the map.
+    stride : ndarray (2,)
+        Unit of the offsets, in pixels.
+    there : ndarray (n, k)
+        Which of the neighbours are in the patterns.
+    offsets : ndarray (k, 2)
+        Places of the neighbours.
+
+    Examples
+    --------
+    A pixel alone, and one with a neighbour that takes its share of the displacement:
+
+    >>> K = np.array([[2.0, 1.0, 0.0]])
+    >>> there, offsets = np.array([[False], [True]]), np.array([[0, 1]])
+    >>> pattern_rows(K, (1, 3), np.array([1, 1]), there, offsets).round(3)
+    array([[ 0.   ,  0.707],
+           [-0.408,  0.816]])
+    """
+    place = np.vstack([offsets, [[0, 0]]]) * stride
+    dy, dx = np.abs(place[:, None] - place[None]).transpose(2, 0, 1)
+    if K.shape != shape:
+        dy, dx = dy % shape[0], dx % shape[1]
+        dy, dx = np.minimum(dy, shape[0] - dy), np.minimum(dx, shape[1] - dx)
+    inside = np.hstack([there, np.ones((len(there), 1), bool)])
+    # Neighbours on opposite sides may be farther apart than a free map is wide: never both there.
+    matrix = K[np.minimum(dy, K.shape[0] - 1), np.minimum(dx, K.shape[1] - 1)]
+    G = np.where(inside[:, :, None] & inside[:, None, :], matrix, 0.0)
+    diagonal = np.arange(len(place))
+    G[:, diagonal, diagonal] = np.where(inside, matrix[0, 0] * (1.0 + 1e-7), 1.0)
+    unit = np.zeros((len(place), 1))
+    unit[-1] = 1.0
+    rows = np.asarray(np.linalg.solve(G, unit)[..., 0])
+    own = rows[:, -1:]
+    bad = ~(own > 0.0).ravel()  # rounding of a nearly singular matrix: the pixel alone
+    rows[bad] = np.where(diagonal == diagonal[-1], 1.0 / matrix[0, 0], 0.0)
+    return rows / np.sqrt(rows[:, -1:])
+
+
+class NearInverse:
+    """Rough inverse of the operator on any set of pixels of one grid.
+
+    Parameters
+    ----------
+    response : ndarray
+        Displacement under unit pressure on the pixel (0, 0), to the middle of the map if periodic.
+    shape : tuple of int
+        Pixels of the map.
+    pixel_size : tuple of float
+        Any unit.
+    periodic : bool
+        Whether the map repeats.
+    steep : bool
+        Whether the compliance falls faster than that of a half-space: more neighbours count.
+    loops : namespace
+        Passes over the pixels.
+    memory : ndarray, optional
+        Zeros of four bytes each, at least one per pixel, to borrow; left as zeros.
+
+    Examples
+    --------
+    >>> from contactkit.kernels import active_set_loops
+    >>> response = np.array([[2.0, 0.5], [0.5, 0.25]])
+    >>> inverse = NearInverse(response, (2, 2), (1.0, 1.0), False, False, active_set_loops)
+    >>> inverse.prepare(np.array([0, 3]))
+    >>> inverse(np.array([2.0, 0.25], np.float32)).round(3)
+    array([1., 0.], dtype=float32)
+    """
+
+    def __init__(
+        self, response: Floats, shape: Shape, pixel_size: tuple[float, float], periodic: bool,
+        steep: bool, loops: Any, memory: NDArray[Any] | None = None,
+    ) -> None:  # fmt: skip
+        self.shape, self.periodic, self.loops = shape, periodic, loops
+        self.response = response
+        self.lift = min(0.0, float(response.min()))  # makes a periodic response positive
+        self.strides = lattice_strides(shape, pixel_size)
+        self.offsets = _offsets(WIDE if steep else NEAR)
+        self.borrowed = memory is not None
+        held = np.zeros(shape, np.int32) if memory is None else memory
+        self.order = held.view(np.int32).ravel()[: shape[0] * shape[1]]
+        self._level_y, self._level_x = (
+            np.array([np.flatnonzero(i % s == 0)[-1] for i in range(n)], np.int8)
+            for n, s in zip(shape, self.strides.T, strict=True)
+        )
+        self.allowed = self._allowed()
+        self.last = 0
+        self._forget()
+
+    def _forget(self) -> None:
+        self.keys = np.zeros(0, np.int64)
+        self.rows = np.zeros((0, len(self.offsets) + 1), np.float32)
+
+    def _allowed(self) -> NDArray[np.bool_]:
+        """Which offsets of each lattice are not the same pixel twice across a repeating edge."""
+        if not self.periodic:
+            return np.ones((len(self.strides), len(self.offsets)), bool)
+        twice = 2 * self.strides[:, None, :] * self.offsets[None]
+        size = np.array(self.shape)
+        return np.asarray(((np.abs(twice) < size) | (twice == size)).all(axis=2))
+
+    @property
+    def nbytes(self) -> int:
+        """Memory held between the solves, and by the last set of pixels."""
+        order = 0 if self.borrowed else self.order.nbytes
+        return int(order + self.rows.nbytes + self.keys.nbytes + self.last)
+
+    def prepare(self, at: NDArray[np.intp], load_fixed: bool = False) -> None:
+        """Take a set of pixels, by sorted flat indices; a prescribed sum changes nothing here."""
+        row, column = np.divmod(at, self.shape[1])
+        level = np.minimum(self._level_y[row], self._level_x[column])
+        rank = (len(self.strides) - 1 - level).astype(np.int32) * np.int32(at.size)
+        rank += np.arange(1, at.size + 1, dtype=np.int32)
+        self.order[at] = rank
+        around: tuple[Any, ...] = (self.order, rank, row.astype(np.int32), column.astype(np.int32))
+        around += (level, self.strides, self.offsets, self.allowed, self.shape, self.periodic)
+        masks = self.loops.neighbour_masks(*around)
+        ids = self._known(masks.astype(np.int64) | (level.astype(np.int64) << 32))
+        count = np.bitwise_count(masks).astype(np.int32) + 1
+        first = np.zeros(at.size + 1, np.int32)
+        np.cumsum(count, out=first[1:])
+        columns, values = np.empty(first[-1], np.int32), np.empty(first[-1], np.float32)
+        self.loops.factor_rows(*around, masks, ids, self.rows, first, columns, values)
+        self.order[at] = 0
+        self.factor = scipy.sparse.csr_array((values, columns, first), shape=(at.size, at.size))
+        self.transposed = self.factor.T
+        self.last = columns.nbytes + values.nbytes + first.nbytes
+
+    def _known(self, keys: NDArray[np.int64]) -> NDArray[np.int32]:
+        """Rows of the table that belong to the patterns; new ones are solved first."""
+        if self.keys.size > MOST_PATTERNS:
+            self._forget()
+        unique, inverse = np.unique(keys, return_inverse=True)
+        new = np.setdiff1d(unique, self.keys, assume_unique=True)
+        bits = 1 << np.arange(len(self.offsets))
+        for level in np.unique(new >> 32):
+            some = new[new >> 32 == level]
+            for part in np.array_split(some, 1 + some.size // 4096):
+                there = (part[:, None] & bits) > 0
+                rows = pattern_rows(
+                    self.response - self.lift, self.shape, self.strides[level], there, self.offsets
+                )
+                self.keys = np.append(self.keys, part)
+                self.rows = np.vstack([self.rows, rows.astype(np.float32)])
+        if new.size:
+            at = np.argsort(self.keys)
+            self.keys, self.rows = self.keys[at], self.rows[at]
+        return np.asarray(np.searchsorted(self.keys, unique)[inverse], dtype=np.int32)
+
+    def __call__(self, r: Singles) -> Singles:
+        """Pressures that would displace the pixels by about `r`."""
+        return np.asarray(self.transposed @ (self.factor @ r))
+
+    def clean(self) -> None:
+        """Forget the set of pixels."""
+        del self.factor, self.transposed

@@ -1,0 +1,159 @@
+"""The head-disk interface and contact scenes from the command line: numbers, files, figures."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import attrs
+import pytest
+
+import contactkit as ck
+from contactkit.cli import main
+from contactkit.models.scenes import open_scene
+
+SMALL = """
+name = "small contact"
+
+[interface.lower.solid]
+substrate = "ni-p"
+layers = [{ material = "dlc", thickness = "5 nm" }]
+
+[interface.upper.surface]
+shape = "gaussian-roughness"
+rms = "3 nm"
+correlation_length = "0.4 um"
+cutoff = "0.1 um"
+
+[interface.meniscus]
+liquid = "water"
+contact_angle_lower = "60 deg"
+contact_angle_upper = "60 deg"
+
+[window]
+width = "2 um"
+
+[pressing]
+pressure = "40 MPa"
+
+[accuracy]
+grid = 48
+rtol = 1e-4
+
+[study]
+"pressing.pressure" = ["10 MPa", "40 MPa"]
+
+[[effects]]
+effect = "layered-half-space"
+
+[[effects]]
+effect = "hardness-limit"
+rule = "material"
+
+[[effects]]
+effect = "friction-traction"
+coefficient = 0.3
+
+[[effects]]
+effect = "subsurface-stress"
+depths = ["0 nm", "10 nm", "50 nm"]
+
+[[effects]]
+effect = "film-meniscus"
+film_thickness = "1 nm"
+"""
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL)
+    return path
+
+
+def test_the_disk_is_the_one_of_table_2_1():
+    scene = open_scene("head-disk").scene
+    disk, slider = scene.interface.lower.stack, scene.interface.upper.stack
+    assert [m.young_modulus / 1e9 for m in disk.materials] == [140.0, 190.0, 130.0, 70.0]
+    assert [m.hardness / 1e9 for m in disk.materials][:3] == [15.0, 9.0, 7.0]
+    assert (slider.substrate.young_modulus, slider.substrate.hardness) == (450e9, 23e9)
+    assert {e.name for e in scene.effects} == {
+        "layered-half-space", "hardness-limit", "friction-traction", "subsurface-stress",
+        "film-meniscus",
+    }  # fmt: skip
+
+
+def test_the_disk_presses_as_it_did():
+    """Golden numbers on a grid just fine enough for its roughness."""
+    opened = open_scene("head-disk")
+    kept = tuple(
+        e for e in opened.scene.effects if e.name in ("layered-half-space", "hardness-limit")
+    )
+    scene = attrs.evolve(opened.scene, effects=kept)
+    run = ck.solve(ck.plan(scene, ck.Accuracy(grid=512, rtol=1e-6)))
+    assert run.status == "converged"
+    assert run.mean_pressure == pytest.approx(100e6, rel=1e-9)
+    assert run.contact_fraction == pytest.approx(0.0454, rel=0.03)
+    assert run.max_pressure == pytest.approx(run.of(ck.HardnessLimit).hardness, rel=0.2)
+    assert 8e9 < run.of(ck.HardnessLimit).hardness < 15e9
+
+
+def test_a_scene_runs_into_numbers_files_and_figures(scene_file, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert main(["run", str(scene_file), "--out", str(out)]) == 0
+    shown = capsys.readouterr().out
+    for said in ("max pressure", "GPa" if "GPa" in shown else "Pa", "load curve, wet"):
+        assert said in shown
+    names = {path.name for path in out.iterdir()}
+    assert names == {
+        "contact.png", "stress.png", "stack.png", "load-curve.png", "result.npz",
+        "load-curve-wet-film-reported-only.csv", "load-curve-wet-film-pulls-too.csv",
+    }  # fmt: skip
+    loaded = ck.load_result(out / "result.npz")
+    assert f"{loaded.max_pressure:.6g} Pa" in shown
+    with (out / "load-curve-wet-film-reported-only.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    areas = [float(row["contact_fraction [-]"]) for row in rows]
+    assert len(areas) == 2
+    assert areas[0] < areas[1] == pytest.approx(loaded.contact_fraction)
+
+
+def test_a_run_prints_its_numbers_for_scripts(scene_file, capsys):
+    assert main(["run", str(scene_file), "--json"]) == 0
+    numbers = json.loads(capsys.readouterr().out)
+    assert numbers["mean_pressure"] == {"value": pytest.approx(40e6), "unit": "Pa"}
+    assert numbers["max_von_mises"]["unit"] == "Pa"
+    assert numbers["meniscus_force"]["value"] > 0.0
+
+
+def test_the_plan_says_what_is_on_and_off(scene_file, capsys):
+    assert main(["plan", str(scene_file)]) == 0
+    shown = capsys.readouterr().out
+    assert "on   film-meniscus" in shown
+    assert "off  friction-coupling" in shown
+    assert "Eq. (2.43)" in shown
+
+
+def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tmp_path, capsys):
+    out = tmp_path / "cost"
+    assert main(["cost", str(scene_file), "--out", str(out), "--json"]) == 0
+    numbers = json.loads(capsys.readouterr().out)
+    errors = [numbers[f"active-set / rtol 1e-0{n} / error"]["value"] for n in (2, 8)]
+    assert errors[1] < 1e-6 < 0.1 > errors[0]
+    assert numbers["conjugate-gradient / rtol 1e-06 / error"]["value"] < 1e-3
+    assert numbers["quasi-newton / rtol 1e-02 / operator applications"]["value"] > 0
+    assert "corrected at the edges / 48 x 48 / error" in numbers
+    assert "effects up to + film-meniscus / seconds" in numbers
+    assert {path.name for path in out.iterdir()} == {"cost.png", "cost.csv"}
+
+
+def test_a_contact_has_no_fmu_and_says_so(scene_file, tmp_path, capsys):
+    assert main(["fmu", "build", str(scene_file), "--out", str(tmp_path / "a.fmu")]) == 2
+    assert "no FMU" in capsys.readouterr().err
+
+
+def test_a_study_table_that_is_none_is_refused(tmp_path, capsys):
+    path = tmp_path / "bad.toml"
+    path.write_text(SMALL.replace('["10 MPa", "40 MPa"]', '"10 MPa"'))
+    assert main(["run", str(path)]) == 2
+    assert "must be a table of lists" in capsys.readouterr().err
