@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test lint bench docs format clean
+.PHONY: demo test lint bench peers docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -21,8 +21,16 @@ demo: $(VENV)/.all
 test: $(VENV)/.test
 	$(BIN)/python -m pytest
 
-bench: $(VENV)/.test
+# Ours first, then the same surfaces by the peers: some minutes. The whole table of docs/accuracy.md:
+# make bench CASES="--sizes 256 512 1024 2048 --surfaces selfaffine expacf --areas 1 5 20 --budget 120"
+CASES ?=
+bench: $(VENV)/.test peers
 	$(BIN)/python -m pytest tests/benchmarks --benchmark-only --benchmark-disable-gc --benchmark-columns=min,median,max,rounds
+	$(BIN)/python tests/benchmarks/contact_peers.py --peers $(VENV)/peers $(CASES)
+
+# Other contact solvers, each in an environment of its own; what does not install is named with the reason.
+peers: $(VENV)/.made
+	$(BIN)/python tests/benchmarks/contact_peers_install.py $(VENV)/peers
 
 # mypy reads the package as it is installed, fmu/ and models/ included, so it gets a copy laid out that way.
 lint: $(VENV)/.lint

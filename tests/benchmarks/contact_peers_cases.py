@@ -12,6 +12,8 @@ import numpy as np
 
 SURFACES = ("selfaffine", "expacf")
 BOUNDARIES = ("periodic", "free")
+TARGET = 1e-8  # largest violation over the rms roughness that an answer may have
+START, STEP = 1e-8, 0.3  # tolerance a solver is asked first, and how it is lowered
 RMS_SLOPE = 0.1
 # Mean pressure over modulus and rms slope for about so many per cent of contact.
 LOADS = {

@@ -9,7 +9,16 @@ import time
 from functools import partial
 
 import numpy as np
-from contact_peers_cases import LOADS, RMS_SLOPE, case, symbol_maker, violation
+from contact_peers_cases import (
+    LOADS,
+    RMS_SLOPE,
+    START,
+    STEP,
+    TARGET,
+    case,
+    symbol_maker,
+    violation,
+)  # fmt: skip
 from contact_peers_timing import goes_on
 
 POISSON = 0.3
@@ -27,15 +36,12 @@ CAP = 1.0 * RMS_SLOPE  # hardness over contact modulus: some tenth of the contac
 
 def run(job):
     """Rows of name, seconds and applications of both sides, and their ratio."""
-    rows = []
     given = case("selfaffine", job["n"], job["boundary"], job["area"])
-    paths = [False, True] if job["has_fast"] else [False]
-    for fast in paths:
-        rows += _single(job, given, fast)
-        if job["boundary"] == "periodic":
-            rows += _curve(job, given, fast)
-    if job["boundary"] == "periodic":
-        rows += _study(job)
+    is_fast = job["path"] == "fast"
+    rows = _single(job, given, is_fast)
+    if given.periodic:
+        rows += _curve(job, given, is_fast)
+        rows += _study(job) if job["has_study"] else []
     return {"rows": rows}
 
 
@@ -58,14 +64,14 @@ def _layered_maker(stack, periodic):
 
 def _good(press, given, symbol=None, cap=None):
     """A solve to repeat, its answer, and the violation by the independent operator."""
-    rtol = 1e-8
+    rtol = START
     while True:
         solve = partial(press.solve, given.heights, mean_pressure=given.load, cap=cap, rtol=rtol)
         found = solve()
         kkt, _ = violation(found.pressure, given, symbol, np.inf if cap is None else cap)
-        if kkt <= 1e-8 or rtol < 1e-11:
+        if kkt <= TARGET or rtol < 1e-3 * START:
             return solve, found, kkt
-        rtol *= 0.3
+        rtol *= STEP
 
 
 def _best(one, other, job):
@@ -118,10 +124,11 @@ def _curve(job, given, fast):
     loads = np.geomspace(low, high, 20)
 
     def all_loads(warm):
-        begun, start, count, worst = time.process_time(), None, 0, 0.0
+        begun, before, count, worst = time.process_time(), [], 0, 0.0
         for load in loads:
-            found = press.solve(given.heights, mean_pressure=load, start=start)
-            start, count = found.pressure if warm else None, count + found.n_applications
+            found = press.solve(given.heights, mean_pressure=load, start=before or None)
+            before = [(load, found.pressure), *before[:2]] if warm else []
+            count += found.n_applications
             worst = max(worst, found.kkt)
         return time.process_time() - begun, count, worst
 

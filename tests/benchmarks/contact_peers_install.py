@@ -17,7 +17,10 @@ HINTS = {
         "built from source: needs a C++ compiler and Eigen 3.4 (Debian: libeigen3-dev; or "
         "CPLUS_INCLUDE_PATH and CMAKE_PREFIX_PATH set to a tree that has it)"
     ),
-    "slippy": "its releases refuse Python 3.11 and newer; needs a python3.10 on the PATH",
+    "slippy": (
+        "its releases refuse Python 3.11 and newer: needs a python3.10 on the PATH "
+        "(of pyenv: PYENV_VERSION that names one)"
+    ),
 }
 
 
@@ -40,21 +43,29 @@ def names():
 def install(folder, name):
     """Make the environment of a peer; the reason if that fails, or None."""
     home, steps = folder / name, requirements(name)
-    base = shutil.which(f"python{steps[1]}") if steps[1] else sys.executable
-    if base is None:
-        return f"no python{steps[1]} here. {HINTS.get(name, '')}"
+    base = f"python{steps[1]}" if steps[1] else sys.executable
+    if shutil.which(base) is None or call([base, "-c", "pass"]):
+        return f"no {base} that runs here. {HINTS.get(name, '')}"
     shutil.rmtree(home, ignore_errors=True)
     asked = [[base, "-m", "venv", str(home)]]
     pip = [str(home / "bin" / "python"), "-m", "pip", "--disable-pip-version-check", "--quiet"]
     asked += [[*pip, "install", *line] for line in steps[0]]
     asked.append([str(home / "bin" / "python"), "-c", f"import {name}"])
     for command in asked:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=1800)
-        if done.returncode:
-            lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-            errors = [line.strip() for line in lines if "rror" in line] or lines or ["no message"]
-            return f"{errors[-1]}. {HINTS.get(name, '')}".strip()
+        reason = call(command)
+        if reason:
+            return f"{reason}. {HINTS.get(name, '')}".strip()
     return None
+
+
+def call(command):
+    """Run a command; what it complained of if it failed, or None."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=1800)
+    if done.returncode == 0:
+        return None
+    lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+    errors = [line for line in lines if "rror" in line] or lines or [f"exit {done.returncode}"]
+    return errors[-1]
 
 
 def main(folder):
