@@ -80,7 +80,7 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
     if 0 < (kinds == 3).sum() < 2e-3 * kinds.size:  # too few to be seen as pixels
         found = np.argwhere(kinds == 3)
         rows, columns = found[:, 0], found[:, 1]
-        ny, nx = kinds.shape
+        ny, nx = result.plan.grid.shape
         x, y = (columns + 0.5) * extent[1] / nx, (rows + 0.5) * extent[3] / ny
         ax.plot(x, y, "o", ms=4, mfc="none", mec=SPOTS["plastic"], mew=1.0)
     n = kinds.size
