@@ -76,7 +76,8 @@ def test_a_wave_on_a_half_space_is_that_of_westergaard(case):
 
 def test_pressure_and_gap_have_the_form_that_westergaard_gives_them():
     n, ratio = 512, 0.5
-    run = strip(ratio * math.pi, n)
+    # The tolerance bounds gaps; at the shortest wave a gap is worth n/2 times its pressure.
+    run = strip(ratio * math.pi, n, rtol=1e-11)
     x = np.arange(n) / n
     x = np.minimum(x, 1.0 - x)
     wanted = westergaard.pressure(x, ratio * math.pi, math.pi, 1.0)
@@ -84,7 +85,7 @@ def test_pressure_and_gap_have_the_form_that_westergaard_gives_them():
     inside, outside = x < 0.95 * half_width, x > half_width + 2.0 / n
     np.testing.assert_allclose(run.pressure[0, inside], wanted[inside], rtol=2e-3)
     assert not run.pressure[:, outside].any()
-    np.testing.assert_allclose(run.pressure[0], run.pressure[1], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(run.pressure[0], run.pressure[1], rtol=1e-8, atol=1e-8)
     assert run.gap[:, inside].max() <= 1e-7
 
 
