@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .contact_engine import Counts, Engine, Target, interface_key
+from .contact_engine import Counts, Engine, Friction, Target, interface_key
 from .contact_film import pulled_together
 from .contact_outer import Solved, contact_of, solve_capped
 from .contact_plan import ContactPlan
@@ -92,7 +92,7 @@ def solve(
     counts.seconds["setup"] = engine.setup_seconds
     target = _target(plan, engine, start)
     solved, contact, film = _solve_all(plan, engine, target, counts)
-    parts = _parts(plan, engine, target, solved, contact, counts)
+    parts = _parts(plan, engine, solved, contact, counts)
     if film is not None:
         parts[FilmMeniscus] = film
     result = _result(plan, engine, solved, contact, parts, counts, begun)
@@ -128,7 +128,7 @@ def _solve_all(
     film = plan.scene.effect(LoadTerm)  # type: ignore[type-abstract]
     if isinstance(film, FilmMeniscus) and film.self_consistent:
         begun = time.perf_counter()
-        pulled = pulled_together(plan, engine, film, counts)
+        pulled = pulled_together(plan, engine, film, target, counts)
         counts.clock("film", begun)
         return pulled.solved, pulled.contact, pulled.film
     solved = solve_capped(plan, engine, target, counts)
@@ -141,18 +141,13 @@ def _solve_all(
 
 
 def _parts(
-    plan: ContactPlan,
-    engine: Engine,
-    target: Target,
-    solved: Solved,
-    contact: Contact,
-    counts: Counts,
+    plan: ContactPlan, engine: Engine, solved: Solved, contact: Contact, counts: Counts
 ) -> dict[Any, Any]:
     parts: dict[Any, Any] = {}
     if plan.scene.effect(PressureCap) is not None:  # type: ignore[type-abstract]
         parts[HardnessLimit] = _plastic(engine, solved, contact)
-    if solved.friction_displacement is not None:
-        parts[FrictionCoupling] = _coupling(plan, engine, solved, contact, counts)
+    if solved.friction is not None:
+        parts[FrictionCoupling] = _coupling(solved.friction, contact)
     for effect in plan.scene.effects:
         if isinstance(effect, Observer):
             begun = time.perf_counter()
@@ -172,19 +167,14 @@ def _plastic(engine: Engine, solved: Solved, contact: Contact) -> PlasticPart:
     return PlasticPart(is_plastic, area, solved.hardness, overlap)
 
 
-def _coupling(
-    plan: ContactPlan, engine: Engine, solved: Solved, contact: Contact, counts: Counts
-) -> CouplingPart:
+def _coupling(friction: Friction, contact: Contact) -> CouplingPart:
     """Compare with the contact without coupling, of the same load and hardness."""
-    assert solved.friction_displacement is not None
-    mean, level = plan.mean_pressure, solved.solution.level
-    target = Target(mean, level if mean is None else None, contact.pressure)
-    without = engine.uncoupled(plan, target, solved.hardness, counts).pressure
+    without = friction.pressure_without
     largest = max(float(without.max()), np.finfo(float).tiny)
     change = float(np.abs(contact.pressure - without).max()) / largest
     n_without = max(int((without > 0.0).sum()), 1)
     area = int((contact.pressure > 0.0).sum()) / n_without - 1.0
-    return CouplingPart(solved.friction_displacement, change, area)
+    return CouplingPart(friction.displacement, change, area)
 
 
 def _result(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["Counts", "Engine", "Target", "cap_of", "interface_key"]
+__all__ = ["Counts", "Engine", "Friction", "Target", "cap_of", "interface_key"]
 
 
 class Target(NamedTuple):
@@ -34,6 +34,16 @@ class Target(NamedTuple):
     level: float | None
     start: Start | None = None
     hardness: float | None = None
+
+
+class Friction(NamedTuple):
+    """What friction did to a contact.
+
+    The normal displacement it causes [m], and the pressure [Pa] without it, (ny, nx) each.
+    """
+
+    displacement: Map
+    pressure_without: Map
 
 
 class Counts:
@@ -116,25 +126,21 @@ class Engine:
 
     def solve(
         self, plan: ContactPlan, target: Target, cap: Map | float | None, counts: Counts
-    ) -> tuple[Solution, Map | None]:
+    ) -> tuple[Solution, Friction | None]:
         """Solve one contact under a given cap; with friction coupling, until that agrees too.
 
-        Returns the solution and the normal displacement [m] that friction causes, if asked for.
+        Returns the solution, and what friction did to it if asked for.
         """
         begun = time.perf_counter()
         term = plan.scene.effect(DisplacementTerm)  # type: ignore[type-abstract]
         solution = self._once(plan, target, cap, self.heights, counts)
-        extra: Map | None = None
+        friction: Friction | None = None
         if term is not None:
-            solution, extra = self._coupled(plan, target, cap, counts, solution, term)
+            without = solution.pressure
+            solution, moved = self._coupled(plan, target, cap, counts, solution, term)
+            friction = Friction(moved, without)
         counts.clock("contact", begun)
-        return solution, extra
-
-    def uncoupled(
-        self, plan: ContactPlan, target: Target, cap: Map | float | None, counts: Counts
-    ) -> Solution:
-        """Solve one contact without the displacement that friction causes."""
-        return self._once(plan, target, cap, self.heights, counts)
+        return solution, friction
 
     def _coupled(
         self, plan: ContactPlan, target: Target, cap: Map | float | None, counts: Counts,

@@ -41,7 +41,7 @@ _Attempt = Callable[[float, _Trial | None], _Trial | None]
 
 
 def pulled_together(
-    plan: ContactPlan, engine: Engine, film: FilmMeniscus, counts: Counts
+    plan: ContactPlan, engine: Engine, film: FilmMeniscus, target: Target, counts: Counts
 ) -> Pulled:
     """Find a load N on the contact with N = W + F(N), the smallest, and look for further ones.
 
@@ -61,11 +61,12 @@ def pulled_together(
         largest = min(largest, cap.most * area * (1.0 - 1e-6))
 
     def attempt(load: float, start: _Trial | None) -> _Trial | None:
-        at = start.solved.solution.pressure if start is not None else None
-        hardness = start.solved.hardness if start is not None else None
-        near = hardness if isinstance(hardness, float) else None
+        near = target._replace(mean_pressure=load / area)
+        if start is not None:
+            hardness = start.solved.hardness if isinstance(start.solved.hardness, float) else None
+            near = near._replace(start=start.solved.solution.pressure, hardness=hardness)
         try:
-            solved = solve_capped(plan, engine, Target(load / area, None, at, near), counts)
+            solved = solve_capped(plan, engine, near, counts)
         except InfeasibleError:  # beyond what the hardness there can carry
             return None
         contact = contact_of(plan, engine, solved)
@@ -74,11 +75,12 @@ def pulled_together(
 
     found = _smallest(plan, attempt, imposed, largest)
     others = _further(attempt, found, largest)
-    force = found.load - imposed
+    # At a step of the force the balance says how much of it acts.
+    force = found.load - imposed if found.load > imposed else found.film.force
     gap = abs(found.excess) / found.load if found.load > 0.0 else 0.0
     part = found.film._replace(
-        force=force if force > 0.0 else found.film.force,
-        relative_force=found.film.force / imposed if imposed > 0.0 else math.inf,
+        force=force,
+        relative_force=force / imposed if imposed > 0.0 else math.inf,
         equilibria=(found.load, *others),
         imbalance=gap,
     )

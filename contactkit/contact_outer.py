@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .contact_engine import Counts, Engine, Target, cap_of
+from .contact_engine import Counts, Engine, Friction, Target, cap_of
 from .contact_plan import ContactPlan
 from .effects.contact_base import Cap, Contact
 from .errors import InfeasibleError
@@ -27,7 +27,7 @@ class Solved(NamedTuple):
 
     solution: Solution
     hardness: Map | float | None
-    friction_displacement: Map | None
+    friction: Friction | None
     problem: str = ""
 
 
@@ -35,8 +35,8 @@ def contact_of(plan: ContactPlan, engine: Engine, solved: Solved) -> Contact:
     """Show a solved contact to the effects."""
     solution = solved.solution
     displacement = solution.displacement
-    if solved.friction_displacement is not None:
-        displacement = displacement + solved.friction_displacement
+    if solved.friction is not None:
+        displacement = displacement + solved.friction.displacement
     gap = displacement - engine.heights - solution.level
     np.maximum(gap, 0.0, out=gap)
     return Contact(
@@ -57,10 +57,10 @@ def solve_capped(plan: ContactPlan, engine: Engine, target: Target, counts: Coun
         hardness: Map | float | None = None
         if cap is not None:
             hardness = cap.given if cap.given is not None else cap.most
-        solution, extra = engine.solve(plan, target, hardness, counts)
-        return Solved(solution, hardness, extra, _unconverged(solution, plan))
-    rounds = _local(plan, engine, target, counts, cap) if cap.is_local else None
-    return rounds or _bracketed(plan, engine, target, counts, cap)
+        solution, friction = engine.solve(plan, target, hardness, counts)
+        return Solved(solution, hardness, friction, _unconverged(solution, plan))
+    rounds = _local if cap.is_local else _bracketed
+    return rounds(plan, engine, target, counts, cap)
 
 
 def _unconverged(solution: Solution, plan: ContactPlan) -> str:
@@ -98,8 +98,8 @@ def _bracketed(
     guess = target.hardness
     trial = guess if guess is not None and low < guess < high else high
     for _ in range(_MOST_ROUNDS):
-        solution, extra = engine.solve(plan, target, trial, counts)
-        solved = Solved(solution, trial, extra, _unconverged(solution, plan))
+        solution, friction = engine.solve(plan, target, trial, counts)
+        solved = Solved(solution, trial, friction, _unconverged(solution, plan))
         asked = _deepest(engine, solution, cap)
         if abs(asked - trial) <= tolerance * trial or solved.problem:
             return solved
@@ -142,8 +142,8 @@ def _local(plan: ContactPlan, engine: Engine, target: Target, counts: Counts, ca
     hardness: Any = np.full(plan.grid.shape, cap.most)
     damping, last = 1.0, np.inf
     for _ in range(_MOST_ROUNDS):
-        solution, extra = engine.solve(plan, target, hardness, counts)
-        solved = Solved(solution, hardness, extra, _unconverged(solution, plan))
+        solution, friction = engine.solve(plan, target, hardness, counts)
+        solved = Solved(solution, hardness, friction, _unconverged(solution, plan))
         bodies = engine.displacements(solution.pressure, solution.displacement)
         asked = np.asarray(cap.at(tuple(np.maximum(u, 0.0) for u in bodies)))
         change = float(np.abs(asked / hardness - 1.0)[solution.pressure > 0.0].max(initial=0.0))

@@ -16,7 +16,7 @@ from .effects.contact_base import (
 )
 from .effects.friction import FrictionTraction
 from .errors import InfeasibleError, PlanError
-from .plan import choices
+from .plan import check_listed, choices
 from .realise import grid_of
 from .topography import Grid
 
@@ -101,12 +101,7 @@ def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> Conta
 
 def _check_effects(scene: ContactScene) -> None:
     known = ", ".join(kind.__name__ for kind in CONTACT_EFFECTS)
-    for effect in scene.effects:
-        if not isinstance(effect, ContactEffect):
-            raise PlanError(f"{effect!r} is not an effect of a contact scene; known: {known}")
-    kinds = [type(effect) for effect in scene.effects]
-    if twice := sorted({k.__name__ for k in kinds if kinds.count(k) > 1}):
-        raise PlanError(f"listed more than once: {', '.join(twice)}")
+    kinds = check_listed(scene.effects, ContactEffect, "contact", known)
     given = [k.__name__ for k in kinds if issubclass(k, Compliance)]
     if len(given) != 1:
         raise PlanError(

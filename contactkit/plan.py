@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
 from attrs import evolve, field, frozen
@@ -16,7 +16,7 @@ from .effects.viscous import ViscousForce
 from .errors import InfeasibleError, PlanError
 from .scene import SeparationScene
 
-__all__ = ["Film", "Plan", "choices", "plan"]
+__all__ = ["Film", "Plan", "check_listed", "choices", "plan"]
 
 
 @frozen(eq=False)
@@ -160,12 +160,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
 
 
 def _check_effects(scene: SeparationScene) -> None:
-    kinds = [type(effect) for effect in scene.effects]
-    for effect in scene.effects:
-        if not isinstance(effect, SeparationEffect):
-            raise PlanError(f"{effect!r} is not an effect of a separation scene; known: {_known()}")
-    if twice := sorted({k.__name__ for k in kinds if kinds.count(k) > 1}):
-        raise PlanError(f"listed more than once: {', '.join(twice)}")
+    kinds = check_listed(scene.effects, SeparationEffect, "separation", _known())
     if not any(isinstance(e, SeparationForce) for e in scene.effects):
         raise PlanError(
             f"a separation scene needs at least one force among its effects; known: {_known()}"
@@ -197,6 +192,19 @@ def _check_effects(scene: SeparationScene) -> None:
             )
     if problems:
         raise PlanError("; ".join(problems))
+
+
+def check_listed(
+    effects: Sequence[object], role: type, scene: str, known: str
+) -> list[type[object]]:
+    """Refuse what is no effect of a kind of scene, or is listed twice; return the kinds."""
+    for effect in effects:
+        if not isinstance(effect, role):
+            raise PlanError(f"{effect!r} is not an effect of a {scene} scene; known: {known}")
+    kinds = [type(effect) for effect in effects]
+    if twice := sorted({k.__name__ for k in kinds if kinds.count(k) > 1}):
+        raise PlanError(f"listed more than once: {', '.join(twice)}")
+    return kinds
 
 
 def _known() -> str:
