@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import active_set_loops
 from .active_set_inner import Grid
 from .active_set_inverse import NearInverse
+from .active_set_patch import Patch
 from .active_set_two_level import TwoLevel
 from .coarse_blocks import CoarseBlocks
 from .convolve import Convolution, SymbolMaker, self_influence, symbol_of
@@ -31,6 +32,7 @@ STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for sma
 PLATE = 8.0  # decay from which no stencil and no block will do, as under a stiff plate
 BLURRED = 3.1  # decay of a half-space where pixels are pressed evenly: symbols of free maps
 FEW = 4000  # moving pixels up to which the better preconditioner is also the cheaper one
+FEW_STEEP = 1500  # the same if it looks at more neighbours
 
 
 def compiled_loops(fast: bool | None, threads: int) -> Any:
@@ -120,11 +122,12 @@ def _grid(maker: _Maker, shape: Shape, threads: int, fast: bool, loops: Any, fin
         gap=exact.target if finest else np.zeros(shape),
         exact=exact if finest else None,
         quick=Convolution(shape, symbol, periodic, threads, fast, np.float32, scale, exact),
+        patch=None if periodic else Patch(response, threads, fast, scale, exact),
         response=response,
         change=np.zeros(shape[0] * shape[1], np.float32),
         inverse=NearInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
         two_level=two_level,
-        few=FEW if decay <= STEEP else 0,
+        few=FEW if decay <= STEEP else FEW_STEEP,
         periodic=periodic,
         steepest=float(symbol.max()),
         loops=loops,
@@ -174,6 +177,7 @@ def bytes_of(grids: list[Grid]) -> int:
         else:
             total += 2 * grid.pressure.nbytes
         total += sum(c.nbytes for c in convolutions)
+        total += 0 if grid.patch is None else grid.patch.nbytes
         total += grid.response.nbytes + grid.inverse.nbytes + grid.change.nbytes
         total += 0 if grid.two_level is None else grid.two_level.nbytes
     return total

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from .active_set_direct import few_enough, influence_matrix, solve_directly
 from .active_set_inverse import NearInverse
+from .active_set_patch import Patch
 from .active_set_two_level import TwoLevel
 from .convolve import Convolution
 
@@ -31,6 +32,7 @@ class Grid(NamedTuple):
     pressure, gap : maps in double precision
     exact : operator in double precision from `pressure` to `gap`; none on coarse grids
     quick : operator in single precision; its source is zero between uses
+    patch : the same around the moving pixels of a lone map; none if it repeats
     response : displacement under unit pressure on the first pixel; to the middle if periodic
     change : displacement gained since the last exact one, in single precision
     inverse : rough inverse of the operator on the moving pixels
@@ -43,6 +45,7 @@ class Grid(NamedTuple):
     gap: NDArray[np.float64]
     exact: Convolution | None
     quick: Convolution
+    patch: Patch | None
     response: NDArray[np.float64]
     change: Singles
     inverse: NearInverse
@@ -55,14 +58,17 @@ class Grid(NamedTuple):
     def reset(self) -> None:
         """Count from zero."""
         self.quick.count = 0
+        if self.patch is not None:
+            self.patch.count = 0
         if self.exact is not None:
             self.exact.count = 0
         if self.two_level is not None and self.two_level.blocks is not None:
             self.two_level.blocks.operator.count = 0
 
     def applications(self) -> int:
-        """Applications of the operator since the counters were reset."""
-        return self.quick.count + (self.exact.count if self.exact is not None else 0)
+        """Applications of the operator, on the whole map or on a patch of it, since `reset`."""
+        exact = self.exact.count if self.exact is not None else 0
+        return self.quick.count + exact + (self.patch.count if self.patch is not None else 0)
 
     def rough_inverse(self, moving: int) -> NearInverse | TwoLevel:
         """What approximates the inverse of the operator best for its price."""
@@ -97,7 +103,8 @@ class Correction:
 
     def __init__(self, grid: Grid, at: NDArray[np.intp], load_fixed: bool) -> None:
         self.grid, self.at, self.load_fixed = grid, at, load_fixed
-        self.source, self.target = grid.quick.source.ravel(), grid.quick.target.ravel()
+        self.operator, self.place = grid.quick, at
+        self.patch: Patch | None = None
 
     def solve(
         self, r: NDArray[np.float64], reduction: float, missing: float
@@ -108,22 +115,30 @@ class Correction:
             matrix = influence_matrix(grid.response, self.at, grid.pressure.shape)
             x = solve_directly(matrix, r, missing if self.load_fixed else None)
             if x is not None:
-                grid.loops.put(self.source, self.at, x.astype(np.float32))
-                grid.change[...] = grid.quick.run().ravel()
-                self.source[self.at] = 0.0
+                self._change_by(x.astype(np.float32))
                 return x
         return self._iterate(r.astype(np.float32), reduction, missing)
+
+    def _change_by(self, x: Singles) -> None:
+        """Displacement of the whole map under a correction."""
+        quick = self.grid.quick
+        self.grid.loops.put(quick.source.ravel(), self.at, x)
+        self.grid.change[...] = quick.run().ravel()
+        quick.source.ravel()[self.at] = 0.0
 
     def _iterate(self, r: Singles, reduction: float, missing: float) -> Singles:
         grid, loops = self.grid, self.grid.loops
         rough = grid.rough_inverse(self.at.size)
         rough.prepare(self.at, self.load_fixed)
+        small = None if grid.patch is None else grid.patch.take(self.at)
+        if grid.patch is not None and small is not None:
+            self.patch, self.operator, self.place = grid.patch, small, grid.patch.at
         x, d, q = (np.zeros_like(r) for _ in range(3))
         grid.change[...] = 0.0
         if missing:  # an even share first: the steps below leave the sum alone
             d += missing / r.size
             self._apply(d, q)
-            loops.accumulate(grid.change, self.target, 1.0)
+            self._gain(1.0)
             x += d
             d[...] = 0.0
             r -= q - q.mean(dtype=np.float64)
@@ -134,14 +149,23 @@ class Correction:
             rz = loops.turn(d, z, r, q, length, rz, self.load_fixed)
             self._apply(d, q)
             length, rr = loops.advance(x, r, d, q, self.load_fixed)
-            loops.accumulate(grid.change, self.target, length)
+            self._gain(length)
             if rr <= stop:
                 break
-        self.source[self.at] = 0.0
+        self.operator.source.ravel()[self.place] = 0.0
         rough.clean()
+        if self.patch is not None:
+            self._change_by(x)
         return x
 
     def _apply(self, d: Singles, q: Singles) -> None:
-        self.grid.loops.put(self.source, self.at, d)
-        self.grid.quick.run()
-        self.grid.loops.pick(self.target, self.at, q)
+        self.grid.loops.put(self.operator.source.ravel(), self.place, d)
+        self.operator.run()
+        self.grid.loops.pick(self.operator.target.ravel(), self.place, q)
+        if self.patch is not None:
+            self.patch.count += 1
+
+    def _gain(self, length: float) -> None:
+        """Add a step to the change of the whole map; on a patch that comes last, all at once."""
+        if self.patch is None:
+            self.grid.loops.accumulate(self.grid.change, self.operator.target.ravel(), length)

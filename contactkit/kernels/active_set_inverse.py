@@ -205,8 +205,20 @@ class NearInverse:
         """Rows of the table that belong to the patterns; new ones are solved first."""
         if self.keys.size > MOST_PATTERNS:
             self._forget()
-        unique, inverse = np.unique(keys, return_inverse=True)
-        new = np.setdiff1d(unique, self.keys, assume_unique=True)
+        at, there = self._look_up(keys)
+        if not there.all():
+            self._learn(np.unique(keys[~there]))
+            at, _ = self._look_up(keys)
+        return at
+
+    def _look_up(self, keys: NDArray[np.int64]) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+        """Places in the table, and whether the patterns are in it."""
+        if not self.keys.size:
+            return np.zeros(keys.size, np.int32), np.zeros(keys.size, bool)
+        at = np.minimum(np.searchsorted(self.keys, keys), self.keys.size - 1)
+        return at.astype(np.int32), self.keys[at] == keys
+
+    def _learn(self, new: NDArray[np.int64]) -> None:
         bits = 1 << np.arange(len(self.offsets))
         for level in np.unique(new >> 32):
             some = new[new >> 32 == level]
@@ -217,10 +229,8 @@ class NearInverse:
                 )
                 self.keys = np.append(self.keys, part)
                 self.rows = np.vstack([self.rows, rows.astype(np.float32)])
-        if new.size:
-            at = np.argsort(self.keys)
-            self.keys, self.rows = self.keys[at], self.rows[at]
-        return np.asarray(np.searchsorted(self.keys, unique)[inverse], dtype=np.int32)
+        at = np.argsort(self.keys)
+        self.keys, self.rows = self.keys[at], self.rows[at]
 
     def __call__(self, r: Singles) -> Singles:
         """Pressures that would displace the pixels by about `r`."""

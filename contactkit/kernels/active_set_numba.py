@@ -218,6 +218,14 @@ def rescale(p: Array, at: Array, cap: Array, load: float) -> None:
             p[at[a]] = min(p[at[a]] * (rest / share), cap[at[a] * many])
 
 
+@numba.njit(inline="always")
+def _around(i: int, size: int) -> int:
+    """Index in a row that repeats."""
+    if i < 0:
+        return i + size
+    return i - size if i >= size else i
+
+
 def neighbour_masks(
     order: Array, rank: Array, row: Array, column: Array, level: Array, strides: Array,
     offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool,
@@ -230,8 +238,8 @@ def neighbour_masks(
             if not allowed[n, k]:
                 continue
             y, x = row[a] + strides[n, 0] * offsets[k, 0], column[a] + strides[n, 1] * offsets[k, 1]
-            if periodic:
-                y, x = y % shape[0], x % shape[1]
+            if periodic:  # never farther than once around, and a division costs more than this
+                y, x = _around(y, shape[0]), _around(x, shape[1])
             elif y < 0 or y >= shape[0] or x < 0 or x >= shape[1]:
                 continue
             if 0 < order[y * shape[1] + x] < rank[a]:
@@ -250,8 +258,8 @@ def factor_rows(
         n, at = level[a], first[a]
         for k in range(offsets.shape[0]):
             if masks[a] & (1 << k):
-                y = (row[a] + strides[n, 0] * offsets[k, 0]) % shape[0]
-                x = (column[a] + strides[n, 1] * offsets[k, 1]) % shape[1]
+                y = _around(row[a] + strides[n, 0] * offsets[k, 0], shape[0])
+                x = _around(column[a] + strides[n, 1] * offsets[k, 1], shape[1])
                 columns[at] = (order[y * shape[1] + x] - 1) % rank.size
                 values[at] = rows[ids[a], k]
                 at += 1

@@ -29,6 +29,7 @@ BLURRED = 1e-5  # below it single precision displacements are no measure
 WARY = 1  # outer steps without progress after which few pixels may leave a bound at a time
 WORST = 0.8  # how far they are off, of the farthest
 CYCLE = 5  # outer steps without progress after which pixels that stop at a bound stay there
+REDUCTIONS = (0.05, 0.2), (0.01, 0.1), (3e-4, 0.03)  # share of pixels that come or go; how far then
 PATIENCE = 15  # outer steps within which the residual must have halved
 
 
@@ -59,6 +60,8 @@ class _Walk:
         self.capped = bool(np.isfinite(self.cap).any())
         self.missing = self.load - float(self.p.sum()) if self.load_fixed else 0.0
         self.clipped, self.added, self.scale = 0, 0, 0.0
+        rms = float(np.std(self.h))
+        self.as_rough = np.array([rms, -rms])  # two heights for the scale, instead of all again
         self.relative, self.stuck, self.wary = np.inf, False, False
         self.at = np.zeros(0, np.intp)
 
@@ -67,7 +70,7 @@ class _Walk:
         loops = self.grid.loops
         self.exact = self.relative <= ROUGH
         self.grid.displace(self.exact)
-        self.scale = height_scale(self.h, self.g, flat=1.0)
+        self.scale = height_scale(self.as_rough, self.g, flat=1.0)
         loops.reduce_gap(self.g, self.h)
         weight, weighted, free = loops.survey(self.p, self.g, self.cap)
         if self.problem.level is not None:
@@ -122,9 +125,10 @@ class _Walk:
         if self.stuck:
             return 0.03
         changed = (self.clipped + self.added) / self.at.size
-        if changed > 1e-3:
-            return 0.1
-        return 0.03 if changed > 1e-5 else min(0.03, max(0.4 * self.rtol / self.relative, 1e-5))
+        for share, reduction in REDUCTIONS:
+            if changed > share:
+                return reduction
+        return min(0.03, max(0.4 * self.rtol / self.relative, 1e-5))
 
     def _balance(self) -> None:
         """Restore the load by scaling; a cap in the way leaves it to the next correction."""

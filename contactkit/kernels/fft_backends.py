@@ -23,6 +23,8 @@ Transform = Callable[[Array, Array], None]
 Scale = Callable[[Array, Array], None]
 
 CHUNK_BYTES = 2**20  # of rows transformed at a time by scipy
+CACHED_BYTES = 12 * 2**20  # of a padded spectrum up to which ducc0 takes all columns at once
+STRIP = 32  # columns that each thread of ducc0 takes at a time beyond it
 
 
 def fast_transforms_installed() -> bool:
@@ -86,18 +88,35 @@ def _ducc_periodic(symbol: Array, threads: int, scale: Scale, spectrum: Array) -
 
 
 def _ducc_free(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Transform:
+    """Rows, then columns: all at once, or if they exceed the cache a strip of them forth and back.
+
+    What a strip copies costs more than it saves on small maps.
+    """
     fft: Any = importlib.import_module("ducc0").fft
     ny, nx = symbol.shape[0] // 2, symbol.shape[1] - 1
     top, rows = spectrum[:ny], np.zeros((ny, 2 * nx), symbol.dtype)
+    width = nx + 1 if spectrum.nbytes <= CACHED_BYTES else STRIP * threads
+    parts = [slice(i, min(i + width, nx + 1)) for i in range(0, nx + 1, width)]
+    symbols = [np.ascontiguousarray(symbol[:, part]) for part in parts]
+    strip = spectrum if len(parts) == 1 else np.zeros((2 * ny, width), spectrum.dtype)
+
+    def columns(part: slice, strip: Array, symbol: Array) -> None:
+        if strip is not spectrum:
+            strip[:ny] = top[:, part]
+        strip[ny:] = 0.0
+        fft.c2c(strip, axes=(0,), out=strip, nthreads=threads)
+        scale(strip, symbol)
+        fft.c2c(strip, axes=(0,), forward=False, out=strip, nthreads=threads)
+        if strip is not spectrum:
+            top[:, part] = strip[:ny]
 
     def transform(source: Array, target: Array) -> None:
         rows[:, :nx] = source
         rows[:, nx:] = 0.0
         fft.r2c(rows, axes=(1,), out=top, nthreads=threads)
-        spectrum[ny:] = 0.0
-        fft.c2c(spectrum, axes=(0,), out=spectrum, nthreads=threads)
-        scale(spectrum, symbol)
-        fft.c2c(spectrum, axes=(0,), forward=False, out=spectrum, nthreads=threads)
+        for part, s in zip(parts, symbols, strict=True):
+            last = part.stop - part.start
+            columns(part, strip if last == strip.shape[1] else strip[:, :last], s)
         fft.c2r(top, axes=(1,), lastsize=2 * nx, forward=False, out=rows, nthreads=threads)
         target[...] = rows[:, :nx]
 

@@ -37,7 +37,7 @@ def asked_for():
     ask.add_argument("--areas", type=int, nargs="+", default=[5], choices=[1, 5, 20])
     ask.add_argument("--boundaries", nargs="+", default=BOUNDARIES, choices=BOUNDARIES)
     ask.add_argument("--threads", type=int, nargs="+", default=[1, 2])
-    ask.add_argument("--budget", type=float, default=30.0, help="CPU seconds of a solver on a case")
+    ask.add_argument("--budget", type=float, default=8.0, help="CPU seconds of a solver on a case")
     ask.add_argument("--repeats", type=int, default=5, help="at least, of a short solve")
     ask.add_argument("--only", nargs="+", help="solvers to run; plain and fast are ours")
     ask.add_argument("--skip", nargs="+", default=[], metavar="NAME@SIZE",
