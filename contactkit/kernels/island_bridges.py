@@ -1,0 +1,194 @@
+r"""A bridge of its own on each island of a rough contact that holds liquid.
+
+An island is a connected part of the gap map that is thinner than the menisci are high; it is
+replaced by a sphere near a flat: with the summit gap of the island, and the curvature either of
+its summit or of the sphere whose cut at that height has its area. On it stands an axisymmetric
+bridge of the liquid of the island, or of a given pressure. Gaps [m] are positive where open,
+arrays ``[y, x]``, points (y, x); forces are over the surface tension [m], positive where they
+attract.
+
+==============  ====================================================  =======
+symbol          quantity                                              unit
+==============  ====================================================  =======
+A_i, A_c        area of an island, and of the contact in it           m2
+D_i             smallest gap of an island                             m
+h_m             gap up to which an island reaches                     m
+kappa_i         curvature of the sphere that stands for it            1/m
+==============  ====================================================  =======
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+__all__ = ["Islands", "curvature_of_area", "measure_islands", "overlapping", "summit_curvature"]
+
+Array = NDArray[np.float64]
+Labels = NDArray[np.int64]
+
+
+class Islands(NamedTuple):
+    """Islands of a map, n of them: what of each a bridge has to know."""
+
+    summit: NDArray[np.int64]
+    """Pixel of the smallest gap, or of the highest point in contact, (n, 2)."""
+    gap: Array
+    """Smallest gap D_i [m], 0 where it touches, (n,)."""
+    area: Array
+    """Area A_i [m2], contact included, (n,)."""
+    contact_area: Array
+    """Area of contact A_c [m2], (n,)."""
+
+
+def measure_islands(
+    names: Labels,
+    n: int,
+    gap: Array,
+    contact: NDArray[np.bool_],
+    heights: Array,
+    pixel_area: float,
+) -> Islands:
+    """Gap, area and summit of each island.
+
+    Parameters
+    ----------
+    names : ndarray of int (ny, nx)
+        Number of the island of each pixel, from 1 to `n`; 0 outside.
+    n : int
+        Number of islands.
+    gap, heights : ndarray (ny, nx)
+        Distance of the deformed surfaces, and heights before they were deformed [m].
+    contact : ndarray of bool (ny, nx)
+        Pixels in contact.
+    pixel_area : float
+        Area of a pixel [m2].
+
+    Examples
+    --------
+    >>> gap = np.array([[0.0, 1.0, 9.0, 2.0]])
+    >>> found = measure_islands(np.array([[1, 1, 0, 2]]), 2, gap, gap == 0.0, -gap, 1.0)
+    >>> found.gap.tolist(), found.area.tolist(), found.summit[1].tolist()
+    ([0.0, 2.0], [2.0, 1.0], [0, 3])
+    """
+    index = np.arange(1, n + 1)
+    flat = names.ravel()
+    area: Array = pixel_area * np.bincount(flat, minlength=n + 1)[1:].astype(np.float64)
+    touching = np.bincount(flat, weights=contact.ravel(), minlength=n + 1)[1:]
+    inside: Array = pixel_area * touching.astype(np.float64)
+    smallest = np.asarray(ndimage.minimum(gap, names, index), dtype=np.float64).reshape(n)
+    # Where it touches, the highest point before the deformation; elsewhere the smallest gap.
+    rank = np.where(contact, heights - heights.min(), -gap)
+    summit = np.asarray(ndimage.maximum_position(rank, names, index), dtype=np.int64)
+    smallest = np.where(inside > 0.0, 0.0, np.maximum(smallest, 0.0))
+    return Islands(summit.reshape(n, 2), smallest, area, inside)
+
+
+def curvature_of_area(islands: Islands, height: float) -> Array:
+    r"""Curvature [1/m] of the sphere whose cut at the height h_m has the area of the island.
+
+    .. math:: \kappa_i = 2\pi (h_m - D_i)/(A_i - A_c)
+
+    Parameters
+    ----------
+    islands : Islands
+        From `measure_islands`.
+    height : float
+        Gap h_m up to which the islands reach [m].
+
+    Notes
+    -----
+    A thin bridge on it pulls what Eq. (2.43) gives for its island, ``gamma c (A_i - A_c)/h_m``.
+    An area counted in pixels is off by a fraction of its perimeter. Infinite for an island that
+    is in contact all over, and has no room for liquid.
+
+    Examples
+    --------
+    >>> one = Islands(np.zeros((1, 2), int), np.array([0.0]), np.array([2 * math.pi]), np.zeros(1))
+    >>> curvature_of_area(one, 1.0).tolist()
+    [1.0]
+    """
+    open_area = islands.area - islands.contact_area
+    rise = 2.0 * math.pi * (height - islands.gap)
+    room = open_area > 0.0
+    return np.asarray(np.where(room, rise / np.where(room, open_area, 1.0), np.inf))
+
+
+def summit_curvature(
+    heights: Array, summit: NDArray[np.int64], pixel_size: tuple[float, float], periodic: bool
+) -> Array:
+    """Mean curvature [1/m] at pixels of a height map, from the four neighbours of each.
+
+    Parameters
+    ----------
+    heights : ndarray (ny, nx)
+        Heights [m], peaks positive.
+    summit : ndarray of int (n, 2)
+        Pixels (y, x).
+    pixel_size : (float, float)
+        Size (dy, dx) of a pixel [m].
+    periodic : bool
+        Whether the map goes on across its edges; otherwise pixels at an edge take the curvature
+        of their inner neighbours.
+
+    Notes
+    -----
+    Of the shortest wave that the grid has: on most rough surfaces it grows as the pixel shrinks.
+
+    Examples
+    --------
+    >>> y, x = np.mgrid[-2:3, -2:3]
+    >>> summit_curvature(-(x**2 + y**2) / 8.0, np.array([[2, 2]]), (1.0, 1.0), False).tolist()
+    [0.25]
+    """
+    shape, (dy, dx) = heights.shape, pixel_size
+    y, x = summit[:, 0], summit[:, 1]
+    if not periodic:
+        y, x = np.clip(y, 1, shape[0] - 2), np.clip(x, 1, shape[1] - 2)
+    here = heights[y, x]
+    along_y = heights[(y - 1) % shape[0], x] + heights[(y + 1) % shape[0], x] - 2.0 * here
+    along_x = heights[y, (x - 1) % shape[1]] + heights[y, (x + 1) % shape[1]] - 2.0 * here
+    return np.asarray(-0.5 * (along_y / dy**2 + along_x / dx**2))
+
+
+def overlapping(
+    points: Array, radii: Array, period: tuple[float, float] | None
+) -> NDArray[np.bool_]:
+    """Whether a circle overlaps with another one.
+
+    Parameters
+    ----------
+    points : ndarray (n, 2)
+        Centres (y, x) [m].
+    radii : ndarray (n,)
+        Radii [m].
+    period : (float, float) or None
+        Size (y, x) of a periodic window [m].
+
+    Examples
+    --------
+    >>> overlapping(np.array([[0.0, 0.0], [0.0, 1.5], [0.0, 9.0]]), np.ones(3), None).tolist()
+    [True, True, False]
+    >>> overlapping(np.array([[0.0, 0.5], [0.0, 9.0]]), np.ones(2), (10.0, 10.0)).tolist()
+    [True, True]
+    """
+    found = np.zeros(len(radii), dtype=bool)
+    if len(radii) < 2:
+        return found
+    tree = cKDTree(np.mod(points, period) if period else points, boxsize=period)  # type: ignore[arg-type]
+    order = np.argsort(-radii)
+    # Of a pair the larger circle looks for the smaller one, which is at most as large again.
+    for i in order:
+        near = np.asarray(tree.query_ball_point(tree.data[i], 2.0 * radii[i]))
+        apart = np.abs(tree.data[near] - tree.data[i])
+        if period:
+            apart = np.minimum(apart, np.asarray(period) - apart)
+        hits = near[np.hypot(apart[:, 0], apart[:, 1]) < radii[near] + radii[i]]
+        if len(hits) > 1:
+            found[hits] = True
+    return found

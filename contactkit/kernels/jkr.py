@@ -1,0 +1,82 @@
+r"""JKR: adhesion inside the contact only, for soft, large, sticky bodies.
+
+In the units of `adhesion_scales`, with a contact radius a, a load P (a pull is negative) and an
+approach delta (a gap is its negative):
+
+.. math:: P = a^3 - \sqrt{6 a^3}, \qquad \delta = a^2 - \tfrac{2}{3} \sqrt{6 a}
+
+The surfaces meet, or they do not attract at all: no force bridges a gap before touch. But once they
+have met, the contact draws out a neck and lives on at gaps up to `LAST_GAP`.
+
+Plain floats; nothing is checked.
+
+References
+----------
+.. [1] K. L. Johnson, K. Kendall and A. D. Roberts, Proc. R. Soc. A 324 (1971) 301.
+"""
+
+from __future__ import annotations
+
+import math
+
+__all__ = [
+    "LAST_FORCE", "LAST_GAP", "LAST_RADIUS", "PULL_OFF_FORCE", "PULL_OFF_RADIUS", "approach",
+    "load", "radius_at_gap", "radius_at_load",
+]  # fmt: skip
+
+PULL_OFF_FORCE = 1.5  # largest pull: where a dead weight tears the contact off
+PULL_OFF_RADIUS = 1.5 ** (1.0 / 3.0)
+LAST_RADIUS = 6.0 ** (-1.0 / 3.0)  # where it lets go of a stiff puller
+LAST_FORCE = 5.0 / 6.0
+LAST_GAP = 3.0 * LAST_RADIUS**2
+
+
+def load(contact_radius: float) -> float:
+    """Load on a contact of a radius.
+
+    Examples
+    --------
+    >>> round(load(PULL_OFF_RADIUS), 12), round(load(LAST_RADIUS) + LAST_FORCE, 12)
+    (-1.5, 0.0)
+    """
+    cube = float(contact_radius**3)
+    return cube - math.sqrt(6.0 * cube)
+
+
+def approach(contact_radius: float) -> float:
+    """Approach of a contact of a radius."""
+    return contact_radius**2 - 2.0 / 3.0 * math.sqrt(6.0 * contact_radius)
+
+
+def radius_at_load(load: float) -> float:
+    r"""Contact radius under a load of -1.5 or more, on the branch on which it can rest.
+
+    .. math:: a^{3/2} = \tfrac{1}{2} \left( \sqrt 6 + \sqrt{6 + 4 P} \right)
+    """
+    half = 0.5 * (math.sqrt(6.0) + math.sqrt(max(6.0 + 4.0 * load, 0.0)))
+    return float(half ** (2.0 / 3.0))
+
+
+def radius_at_gap(gap: float) -> float:
+    r"""Contact radius at a gap of at most `LAST_GAP`, on the branch a stiff puller follows.
+
+    The largest root of :math:`x^4 - \tfrac{2}{3} \sqrt 6 \, x + h` at :math:`x = \sqrt a`, by
+    Newton's method from above, where the quartic is convex: each step stays above the root.
+
+    Examples
+    --------
+    >>> round(radius_at_gap(0.0) ** 3 * 3.0, 12)  # touching as before adhesion acted
+    8.0
+    """
+    slope = 2.0 / 3.0 * math.sqrt(6.0)
+    x = max((2.0 * slope) ** (1.0 / 3.0), (2.0 * max(-gap, 0.0)) ** 0.25)
+    last = math.sqrt(LAST_RADIUS)
+    for _ in range(80):
+        gradient = 4.0 * x**3 - slope
+        if gradient <= 0.0:
+            return LAST_RADIUS
+        step = (x**4 - slope * x + gap) / gradient
+        if step <= 1e-16 * x:  # rounding has the better of it
+            break
+        x -= step
+    return float(max(x, last) ** 2)

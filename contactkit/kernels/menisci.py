@@ -1,0 +1,154 @@
+r"""Many equal menisci in place of one: how many are stable, and where they would overlap.
+
+A liquid volume V between two flats a distance h apart is shared out to N menisci of V/N. Without
+gravity shapes depend on V/h^3 alone, so the cube roots of volume carry the whole scaling. Floats
+or arrays; nothing is checked.
+
+==============  ==================================================  =======
+symbol          quantity                                            unit
+==============  ==================================================  =======
+N               number of equal menisci                             -
+x               radius of the larger contact circle of one          m
+h, h_lim        gap, and the largest gap of a stable bridge         m
+R, s, D         radius of a sphere, height of the film, gap         m
+==============  ==================================================  =======
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+__all__ = [
+    "DENSEST_COVER", "best_count_published", "cover", "critical_radius_published",
+    "largest_stable_count", "least_overlapping_split",
+]  # fmt: skip
+
+DENSEST_COVER = math.pi / math.sqrt(12.0)
+"""Share of a plane under equal circles in their densest order [-]; beyond it they overlap."""
+
+
+def cover(count: Any, contact_radius: Any, area: Any) -> Any:
+    r"""Sum of the contact circles over the area of the face, :math:`N \pi x^2/A` [-].
+
+    Beyond `DENSEST_COVER` neighbours overlap however they are placed (unless there is only one).
+
+    Examples
+    --------
+    >>> round(cover(4, 0.5, math.pi), 12)
+    1.0
+    """
+    return count * math.pi * contact_radius**2 / area
+
+
+def largest_stable_count(gap: float, limit_gap: float) -> int:
+    r"""Number of menisci into which a liquid can be shared out at a gap between flats.
+
+    .. math:: N_{max} = \lfloor (h_{lim}/h)^3 \rfloor
+
+    Parameters
+    ----------
+    gap, limit_gap : float
+        Gap [m], and the largest gap that the undivided liquid spans [m].
+
+    Returns
+    -------
+    int
+        0 if even the undivided liquid does not span the gap.
+
+    Notes
+    -----
+    Exact for free contact lines, since the limit grows as the cube root of the volume; at N_max
+    itself a meniscus stands at its limit and is left out.
+
+    Examples
+    --------
+    >>> largest_stable_count(6e-9, 258.11334458632575e-9)
+    79611
+    """
+    ratio = (limit_gap / gap) ** 3
+    return math.ceil(ratio * (1.0 - 1e-12)) - 1 if ratio > 1.0 else 0
+
+
+def least_overlapping_split(radius: Any, film_height: Any, gap: Any) -> Any:
+    r"""Number n to a side up to which n x n asperities of radius R/n hold separate menisci.
+
+    .. math:: n = \frac{R}{2 (s - D)}
+
+    from a contact radius :math:`\sqrt{2 (R/n)(s-D)}` of at most half the spacing 2R/n.
+
+    Notes
+    -----
+    Eq. (3.14) has no such bound, and is meaningless above it.
+
+    Examples
+    --------
+    A radius of 50 um under a film of 500 nm: 2500 asperities at most.
+
+    >>> round(least_overlapping_split(50e-6, 500e-9, 0.0) ** 2)
+    2500
+    """
+    return radius / (2.0 * (film_height - gap))
+
+
+def best_count_published(line_force: Any, viscous_force: Any) -> Any:
+    r"""Number of menisci with the least sum of Eqs. (3.33) and (3.34), not rounded.
+
+    .. math:: N = (2 F_v/F_l)^{2/3} \quad\text{minimises}\quad F_L + \sqrt{N} F_l + F_v/N
+
+    Parameters
+    ----------
+    line_force : float or ndarray, shape (...)
+        Line tension :math:`2\pi\gamma x\sin\theta` of the undivided meniscus [N].
+    viscous_force : float or ndarray, shape (...)
+        Mean viscous force of the undivided meniscus [N], far from its break.
+
+    Notes
+    -----
+    Below 1 the undivided meniscus is best. The exact force grows slower than the square root.
+
+    Examples
+    --------
+    >>> round(best_count_published(1.0, 500.0), 9)
+    100.0
+    """
+    return (2.0 * viscous_force / line_force) ** (2.0 / 3.0)
+
+
+def critical_radius_published(
+    gap: Any, surface_tension: Any, wetting: Any, sine: Any, viscosity: Any, time: Any
+) -> Any:
+    r"""Radius [m] of the meniscus for which Eqs. (3.11) and (3.19), far from the break, agree.
+
+    .. math::
+        \frac{3\eta x^3}{4 t_s h^2} = \frac{\gamma c\, x}{h} + 2\gamma\sin\theta
+
+    Parameters
+    ----------
+    gap : float or ndarray, shape (...)
+        Gap h at the start [m].
+    surface_tension, wetting, sine : float or ndarray, shape (...)
+        Surface tension [N/m], sum of the cosines of both contact angles, and the sine of that on
+        the pulled body [-].
+    viscosity, time : float or ndarray, shape (...)
+        Dynamic viscosity [Pa.s] and separation time t_s [s].
+
+    Notes
+    -----
+    Above it the viscous force is the larger one. As printed, with the radius kept while the gap
+    opens: with the volume kept the viscous force is half as large.
+
+    Examples
+    --------
+    >>> x = critical_radius_published(2e-9, 0.072, 1.0, math.sqrt(0.75), 0.89e-3, 1e-7)
+    >>> round(math.pi * x * x * 1e12, 9)
+    0.069353809
+    """
+    # x^3 - 3 p x - 2 q = 0 has one positive root.
+    viscous = 0.75 * viscosity / (time * gap * gap)
+    p = surface_tension * wetting / (3.0 * viscous * gap)
+    q = surface_tension * sine / viscous
+    x = 2.0 * (abs(p) ** 0.5 + q ** (1.0 / 3.0))
+    for _ in range(60):  # Newton from above: convex there, hence monotone
+        x = x - (x * x * x - 3.0 * p * x - 2.0 * q) / (3.0 * (x * x - p))
+    return x

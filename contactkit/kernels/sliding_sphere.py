@@ -1,0 +1,211 @@
+r"""A sphere that slides over a film at a held gap: drag over the lens of the wetted circles.
+
+As in `sliding`, with a film that is as thick as the sphere leaves room, h = D + r^2/2R at r from
+its axis, out to the rim where it is s high. A force is positive when it resists sliding. Nothing
+is checked.
+
+=========  ==========================================  =======
+symbol     quantity                                    unit
+=========  ==========================================  =======
+x          radius of the wetted circles                m
+L          travel                                      m
+D          gap under the apex of the sphere            m
+s          height of the film at its rim               m
+R          radius of the sphere                        m
+eta        dynamic viscosity                           Pa.s
+tau        shear stress on the walls                   Pa
+=========  ==========================================  =======
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+    Stress = Callable[[Any], Any]
+
+__all__ = ["sphere_drag", "sphere_impulse", "wetted_radius"]
+
+
+def wetted_radius(sphere_radius: ArrayLike, gap: ArrayLike, film_height: ArrayLike) -> Any:
+    r"""Radius [m] of the wetted circle under a sphere, :math:`x = \sqrt{2R(s-D)}`, Eq. (3.55).
+
+    Examples
+    --------
+    >>> round(float(wetted_radius(100e-9, 1e-9, 2e-9)) * 1e9, 6)
+    14.142136
+    """
+    depth = np.subtract(film_height, gap)
+    return np.sqrt(2.0 * np.asarray(sphere_radius) * np.maximum(depth, 0.0))
+
+
+def sphere_drag(
+    sphere_radius: float,
+    gap: float,
+    film_height: float,
+    travel: ArrayLike,
+    stress: Stress,
+    kink: float = 0.0,
+) -> Any:
+    r"""Drag [N] of the film under a sphere that has slid: shear stress over the lens.
+
+    .. math:: F = \int_{lens} \tau\bigl(h(r)\bigr)\,dA, \qquad h = D + \frac{r^2}{2R}
+
+    with r from the axis of the sphere. For Couette flow, tau = eta v/h, and L = 0 this is
+    :math:`2\pi\eta R v \ln(s/D)`.
+
+    Parameters
+    ----------
+    sphere_radius, gap, film_height : float
+        Radius R of the sphere, gap D under its apex, height s of the film at its rim [m].
+    travel : float or ndarray, shape (...)
+        Travel [m].
+    stress : callable
+        Shear stress [Pa] at a thickness [m], for arrays.
+    kink : float
+        Thickness [m] at which the slope of `stress` jumps; 0: none.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Force [N]; 0 from L = 2x on. Relative error below 1e-12 for s/D from 1 + 1e-9 to 1e6.
+
+    Notes
+    -----
+    Shear only. A sphere that drags liquid along also makes a pressure, high in front and low
+    behind, which adds 4 % at s/D = 2, 23 % at 10 and 39 % at 100: see `lubrication_factor`.
+
+    References
+    ----------
+    Eqs. (3.45)-(3.56) of Cai and Bhushan (2008b) with the film as thick as it is at each place.
+
+    Examples
+    --------
+    >>> force = sphere_drag(100e-9, 1e-9, 2e-9, 0.0, lambda h: 0.89e-3 / h)
+    >>> round(float(force) * 1e9, 9)
+    0.387610324
+    """
+    x = float(wetted_radius(sphere_radius, gap, film_height))
+    moved = np.minimum(np.asarray(travel, dtype=np.float64), 2.0 * x)[..., None]
+    near = np.abs(x - moved)
+    inner = np.maximum(x - moved, 0.0)
+    at_kink = min(max(2.0 * sphere_radius * (kink - gap), 0.0), x * x) ** 0.5
+
+    def ring(r: Any) -> Any:
+        return r * stress(gap + r * r / (2.0 * sphere_radius))
+
+    t, weight, rest = _DOUBLE_EXPONENTIAL
+    total = np.zeros(moved.shape[:-1])
+    for low, high in _pieces(np.zeros_like(inner), inner, at_kink):
+        span = high - low
+        total = total + 2.0 * math.pi * np.sum(span * weight * ring(low + span * t), axis=-1)
+    for low, high in _pieces(near, np.full_like(near, x), at_kink):
+        span = high - low
+        r, past, left = low + span * t, (low - near) + span * t, (x - high) + span * rest
+        half = _half_angle(x, moved, r, past, left)
+        total = total + 2.0 * np.sum(span * weight * half * ring(r), axis=-1)
+    return total
+
+
+def sphere_impulse(
+    sphere_radius: float,
+    gap: float,
+    film_height: float,
+    viscosity: float,
+    travel: ArrayLike = math.inf,
+) -> Any:
+    r"""Impulse [N.s] of the Newtonian drag of a sphere over a travel, whatever the path in time.
+
+    .. math:: I = 2\eta \int_0^x \frac{r}{h} \left[\phi L - r \sin\phi
+              + 2 x E(m) - x E(\phi | m)\right] dr, \qquad m = \frac{r^2}{x^2}
+
+    with phi the half-angle over which the ring of radius r is covered, and elliptic integrals E:
+    the drag at a place lasts as long as the other circle covers it.
+
+    Parameters
+    ----------
+    sphere_radius, gap, film_height : float
+        Radius R of the sphere, gap D under its apex, height s of the film at its rim [m].
+    viscosity : float
+        Dynamic viscosity [Pa.s].
+    travel : float or ndarray, shape (...)
+        Travel L [m]; inf for all of it.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Impulse [N.s]; stays at its value for L = 2x beyond.
+
+    Notes
+    -----
+    The integral of `sphere_drag` over the travel in the other order, with the same error.
+
+    Examples
+    --------
+    A film that is even has Eq. (3.52), 8/3:
+
+    >>> x = float(wetted_radius(1e3, 1.0, 1.0 + 1e-9))
+    >>> round(float(sphere_impulse(1e3, 1.0, 1.0 + 1e-9, 1.0)) / x**3, 7)
+    2.6666667
+    """
+    from scipy.special import ellipe, ellipeinc
+
+    x = float(wetted_radius(sphere_radius, gap, film_height))
+    moved = np.minimum(np.asarray(travel, dtype=np.float64), 2.0 * x)[..., None]
+    near = np.abs(x - moved)
+    t, weight, rest = _DOUBLE_EXPONENTIAL
+
+    def ring(r: Any) -> Any:
+        return r / (gap + r * r / (2.0 * sphere_radius))
+
+    # Inside of the rings that are cut: covered all the way, or in turn by all of the other circle.
+    r = near * t
+    whole = np.where(moved < x, math.pi * moved, 2.0 * x * ellipe((r / x) ** 2))
+    total = np.sum(near * weight * ring(r) * whole, axis=-1)
+    span = x - near
+    r = near + span * t
+    half, m = _half_angle(x, moved, r, span * t, span * rest), (r / x) ** 2
+    lasting = half * moved - r * np.sin(half) + x * (2.0 * ellipe(m) - ellipeinc(half, m))
+    total = total + np.sum(span * weight * ring(r) * lasting, axis=-1)
+    return 2.0 * viscosity * total
+
+
+def _pieces(low: Any, high: Any, cut: float) -> list[tuple[Any, Any]]:
+    """Cut intervals at a place, where it lies inside; a piece may be empty."""
+    if cut <= 0.0:
+        return [(low, high)]
+    middle = np.clip(cut, low, high)
+    return [(low, middle), (middle, high)]
+
+
+def _half_angle(x: float, moved: Any, r: Any, past: Any, left: Any) -> Any:
+    """Half of the angle over which a circle of radius r lies inside the other wetted circle.
+
+    Half-angle formula of the triangle of r, L and x; `past` is r less its smallest value and
+    `left` what is missing to x, which one of the factors is.
+    """
+    ahead = np.where(moved < x, past, r + (moved - x))  # r + L - x
+    behind = np.where(moved < x, r + (x - moved), past)  # r + x - L
+    above = moved + left  # L + x - r
+    with np.errstate(divide="ignore", invalid="ignore"):
+        tangent = np.sqrt(above * behind / (ahead * (r + moved + x)))
+    return 2.0 * np.arctan(np.where(np.isnan(tangent), 0.0, tangent))
+
+
+def _nodes(count: int, reach: float) -> tuple[Floats, Floats, Floats]:
+    """Double-exponential rule on 0 to 1: nodes, weights, and 1 minus the nodes, to rounding."""
+    u = np.linspace(-reach, reach, count)
+    inner = 0.5 * math.pi * np.sinh(u)
+    t, rest = 1.0 / (1.0 + np.exp(-2.0 * inner)), 1.0 / (1.0 + np.exp(2.0 * inner))
+    weight = (u[1] - u[0]) * math.pi * np.cosh(u) * t * rest
+    return t, weight, rest
+
+
+_DOUBLE_EXPONENTIAL = _nodes(181, 4.0)
