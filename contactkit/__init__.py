@@ -16,11 +16,14 @@ Examples
 ... )
 >>> print(ck.plan(scene))
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
-  on   meniscus-force  capillary force of the meniscus (profile='arc', pulled='lower')
-  on   viscous-force   viscous force of the film (Reynolds) (closure='volume-conserving')
-  on   tension-limit   the liquid cannot be pulled below a given pressure (tension=1000000.0, ambient_pressure=101325.0, cavity='clipped')
-  off  shear-limit     wall shear stress bounded by a limiting shear strength
-  off  rupture         the film breaks at a gap
+  on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower')
+  on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
+  on   tension-limit       the liquid cannot be pulled below a given pressure (tension=1000000.0, ambient_pressure=101325.0, cavity='clipped')
+  off  shear-limit         wall shear stress bounded by a limiting shear strength
+  off  rupture             the film breaks at a gap
+  off  van-der-waals-force van der Waals attraction of the solids
+  off  adhesive-contact    adhesion of a sphere that has touched
+  off  asperity-menisci    menisci at the summits of a rough face
 """
 
 from __future__ import annotations
@@ -28,15 +31,27 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .accuracy import Accuracy
+from .asperity_population import AsperityPopulation
 from .bodies import Body, ContactInterface, Pressing, Window
 from .contact_plan import ContactPlan
 from .contact_scene import ContactScene
-from .effects import MeniscusForce, Rupture, ShearLimit, TensionLimit, ViscousForce
+from .effects import (
+    AdhesiveContact,
+    AsperityMenisci,
+    MeniscusForce,
+    Rupture,
+    ShearLimit,
+    TensionLimit,
+    VanDerWaalsForce,
+    ViscousForce,
+)
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
 from .effects.film import FilmMeniscus
 from .effects.friction import FrictionCoupling, FrictionTraction
+from .effects.island_bridges import IslandBridges
 from .effects.plasticity import HardnessLimit, HardnessMap
 from .effects.registry import EFFECTS
+from .effects.sliding import ContactAngleHysteresis, CouetteForce
 from .effects.stress import SubsurfaceStress
 from .errors import (
     ContactkitError,
@@ -47,14 +62,14 @@ from .errors import (
     PlanError,
     ValidityWarning,
 )
-from .interface import Interface, Meniscus, Opening
+from .interface import Interface, Meniscus, Opening, Sliding, Vibration
 from .liquids import Liquid
 from .materials import Layer, Material, Stack
 from .motion import advance
 from .motion_state import FilmStatus, LimitKind, MotionState, Pull
 from .plan import Plan
 from .planner import plan
-from .scene import SeparationScene
+from .scene import SeparationScene, SlidingScene
 from .surfaces import Flat, Sphere
 from .topography import (
     CombinedSurface,
@@ -67,33 +82,49 @@ from .topography import (
 )
 
 if TYPE_CHECKING:
+    from .adhesion_curves import adhesion_curve
     from .archive import load_result, save_result
     from .contact import solve
+    from .divide import critical_meniscus, divide_meniscus
+    from .humidity_curves import humidity_curve
     from .io import load_liquid, load_material, load_scene, save_scene
     from .press_map import press
+    from .published_formulas import PUBLISHED, published
     from .separation import simulate
+    from .sliding_plan import SlidingPlan, divide_sliding
     from .studies import study
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "EFFECTS", "Accuracy", "Body", "CombinedSurface", "ContactInterface", "ContactPlan",
-    "ContactScene", "ContactkitError", "ConvergenceError", "DescriptionError", "FilmMeniscus",
+    "EFFECTS", "PUBLISHED", "Accuracy", "AdhesiveContact",
+    "AsperityMenisci", "AsperityPopulation", "Body", "CombinedSurface", "ContactAngleHysteresis", "ContactInterface", "ContactPlan",
+    "ContactScene", "ContactkitError", "ConvergenceError", "CouetteForce", "DescriptionError", "FilmMeniscus",
     "FilmStatus", "Flat", "FrictionCoupling", "FrictionTraction", "GaussianRoughness",
-    "HalfSpace", "HardnessLimit", "HardnessMap", "Heights", "InfeasibleError", "Interface",
+    "HalfSpace", "HardnessLimit", "HardnessMap", "Heights", "InfeasibleError", "Interface", "IslandBridges",
     "Layer", "LayeredHalfSpace", "LimitKind", "Liquid", "Material", "Measured", "Meniscus",
     "MeniscusForce", "MotionState", "NotSimulatedError", "Opening", "Paraboloid", "Plan",
     "PlanError", "Pressing", "Pull", "Rupture", "SelfAffineRoughness", "SeparationScene",
-    "ShearLimit", "Sphere", "Stack", "SubsurfaceStress", "TensionLimit", "ValidityWarning",
-    "ViscousForce", "Wave", "Window", "advance", "load_liquid", "load_material", "load_result",
-    "load_scene", "plan", "press", "save_result", "save_scene", "simulate", "solve", "study",
+    "ShearLimit", "Sliding", "SlidingPlan", "SlidingScene", "Sphere", "Stack", "SubsurfaceStress", "TensionLimit", "ValidityWarning",
+    "VanDerWaalsForce", "Vibration", "ViscousForce", "Wave", "Window", "adhesion_curve", "advance",
+    "critical_meniscus", "divide_meniscus", "divide_sliding", "humidity_curve", "load_liquid", "load_material", "load_result",
+    "load_scene", "plan", "press", "published", "save_result", "save_scene", "simulate", "solve",
+    "study",
 ]  # fmt: skip
 
 # What needs numpy or cattrs is imported when it is first asked for.
 _LATER = {
+    "adhesion_curve": "adhesion_curves",
+    "critical_meniscus": "divide",
+    "divide_meniscus": "divide",
+    "humidity_curve": "humidity_curves",
     "simulate": "separation",
+    "SlidingPlan": "sliding_plan",
+    "divide_sliding": "sliding_plan",
     "solve": "contact",
     "press": "press_map",
+    "PUBLISHED": "published_formulas",
+    "published": "published_formulas",
     "study": "studies",
     "load_liquid": "io",
     "load_material": "io",

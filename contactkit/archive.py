@@ -21,13 +21,18 @@ from .io import structure, unstructure, write_whole
 from .motion_state import MotionState
 from .plan import plan
 from .results import SeparationResult, Work
-from .scene import SeparationScene
+from .scene import SeparationScene, SlidingScene
+from .slide_curves import check_sliding
+from .sliding_plan import plan_sliding
+from .sliding_result import SlidingResult
 from .validity import check
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Arrays = dict[str, NDArray[Any]]
+
+Result = SeparationResult | SlidingResult | ContactResult
 
 __all__ = ["from_bytes", "load_result", "save_csv", "save_npz", "save_result", "to_bytes"]
 
@@ -46,12 +51,12 @@ def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, 
     return path
 
 
-def save_result(result: SeparationResult | ContactResult, path: str | Path) -> Path:
+def save_result(result: Result, path: str | Path) -> Path:
     """Write a result to an npz file without pickle, whole or not at all.
 
     Parameters
     ----------
-    result : SeparationResult or ContactResult
+    result : SeparationResult, SlidingResult or ContactResult
         What to write: its curves or maps as arrays, the arrays that its scene and its effects
         hold, and as ``header`` a JSON text with the scene, the accuracy, the status and the
         numbers.
@@ -67,7 +72,7 @@ def save_result(result: SeparationResult | ContactResult, path: str | Path) -> P
     return save_npz(path, columns, header)
 
 
-def load_result(path: str | Path) -> SeparationResult | ContactResult:
+def load_result(path: str | Path) -> Result:
     """Read a result written by `save_result`.
 
     A `ContactResult` answers ``of`` and ``scalars`` as the one that was saved did. What it was
@@ -86,7 +91,7 @@ def load_result(path: str | Path) -> SeparationResult | ContactResult:
         raise _no_result(str(path), error) from None
 
 
-def to_bytes(result: SeparationResult | ContactResult) -> bytes:
+def to_bytes(result: Result) -> bytes:
     """Return a result as `save_result` would write it, to send or to store."""
     header, columns = _pack(result)
     buffer = io.BytesIO()
@@ -94,7 +99,7 @@ def to_bytes(result: SeparationResult | ContactResult) -> bytes:
     return buffer.getvalue()
 
 
-def from_bytes(data: bytes) -> SeparationResult | ContactResult:
+def from_bytes(data: bytes) -> Result:
     """Read what `to_bytes` gave."""
     try:
         return _read(io.BytesIO(data), "result")
@@ -102,11 +107,13 @@ def from_bytes(data: bytes) -> SeparationResult | ContactResult:
         raise _no_result("result", error) from None
 
 
-def _pack(result: SeparationResult | ContactResult) -> tuple[dict[str, Any], Mapping[str, Any]]:
+def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
     from . import __version__
 
     if isinstance(result, ContactResult):
         header, columns = pack_contact(result)
+    elif isinstance(result, SlidingResult):
+        header, columns = _pack_sliding(result), dict(result.columns)
     else:
         header, columns = _pack_separation(result), dict(result.columns)
     return {"contactkit": __version__} | header, columns
@@ -120,7 +127,7 @@ def _no_result(where: str, error: Exception) -> ContactkitError:
     )
 
 
-def _read(source: IO[bytes], name: str) -> SeparationResult | ContactResult:
+def _read(source: IO[bytes], name: str) -> Result:
     with np.load(source, allow_pickle=False) as file:
         header = json.loads(str(file["header"]))
         columns = {key: file[key] for key in file.files if key != "header"}
@@ -128,6 +135,8 @@ def _read(source: IO[bytes], name: str) -> SeparationResult | ContactResult:
         column.flags.writeable = False
     if header.get("kind") == "contact":
         return unpack_contact(header, columns, name)
+    if header.get("kind") == "sliding":
+        return _unpack_sliding(header, columns, name)
     return _unpack_separation(header, columns, name)
 
 
@@ -141,6 +150,7 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
         "impulses": dict(result.impulses),
         "state": list(result.state) if result.state is not None else None,
         "work": result.work._asdict(),
+        "errata": [one._asdict() for one in result.errata],
     }
 
 
@@ -162,6 +172,27 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         check(made, path_taken),
         Work(**header["work"]),
     )
+
+
+def _pack_sliding(result: SlidingResult) -> dict[str, Any]:
+    return {
+        "kind": "sliding",
+        "scene": unstructure(result.plan.scene),
+        "accuracy": attrs.asdict(result.plan.accuracy),
+        "status": result.status,
+        "message": result.message,
+        "totals": dict(result.totals),
+        "work": result.work._asdict(),
+        "errata": [one._asdict() for one in result.errata],
+    }
+
+
+def _unpack_sliding(header: dict[str, Any], columns: Arrays, name: str) -> SlidingResult:
+    scene = structure(header["scene"], SlidingScene, name)
+    made = plan_sliding(scene, Accuracy(**header["accuracy"]))
+    said = (header["status"], header["message"])
+    work = Work(**header["work"])
+    return SlidingResult(made, *said, columns, header["totals"], check_sliding(made), work)
 
 
 def save_csv(path: str | Path, columns: Mapping[str, Any], headings: Mapping[str, str]) -> Path:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 
 from .effects import MeniscusForce, ViscousForce
+from .effects.base import SeparationForce
 from .effects.film_shape import FilmShape, film_shape
 from .effects.viscous import keeps_radius
+from .errors import PlanError
 from .kernels import constant_force
 from .plan import Plan
 
@@ -18,7 +20,19 @@ def constant_force_time(plan: Plan, pull: float) -> float:
 
     Thin film: the meniscus, where the scene has one, pulls with its Laplace pressure only; no
     inertia, no limits of the liquid. Closed form between flats, quadrature on a sphere.
+
+    Raises
+    ------
+    PlanError
+        If the scene has another force, which this does not know.
     """
+    known = (MeniscusForce, ViscousForce)
+    others = [e for e in plan.scene.effects if isinstance(e, SeparationForce)]
+    if more := ", ".join(type(e).__name__ for e in others if not isinstance(e, known)):
+        raise PlanError(
+            f"the time at a constant force knows the film and its meniscus, not {more}; impose "
+            f"the force, Opening(force=..., mass=...), to get the motion"
+        )
     meniscus, opening = plan.scene.interface.meniscus, plan.scene.opening
     state = meniscus.liquid.at(plan.scene.temperature)
     assert state.viscosity is not None  # plan() has asked lacks() first

@@ -18,6 +18,7 @@ from .converter import structure, unstructure, with_arrays
 from .effects.contact import CONTACT_EFFECTS
 from .effects.film import FilmPart
 from .effects.friction import FrictionPart
+from .effects.island_bridges import IslandPart
 from .effects.stress import StressPart
 from .topography import Grid
 
@@ -128,5 +129,5 @@ def _record(name: str) -> Any:
         from .kernels.stress_measures import Maximum
 
         return Maximum
-    kinds = (CouplingPart, FilmPart, FrictionPart, PlasticPart, StressPart)
+    kinds = (CouplingPart, FilmPart, FrictionPart, IslandPart, PlasticPart, StressPart)
     return {kind.__name__: kind for kind in kinds}[name]

@@ -13,6 +13,7 @@ from .contact_plan import ContactPlan
 from .effects.contact_base import ContactEffect
 from .effects.film import FilmMeniscus
 from .effects.friction import FrictionCoupling, FrictionTraction
+from .effects.island_bridges import IslandBridges, scalars_of
 from .effects.plasticity import HardnessLimit
 from .effects.stress import SubsurfaceStress
 from .errors import NotSimulatedError
@@ -246,5 +247,6 @@ _SCALARS: dict[type[ContactEffect], Any] = {
     FrictionTraction: lambda part, result: {"friction_force": (part.force, "N")},
     FrictionCoupling: _coupling_scalars,
     FilmMeniscus: _film_scalars,
+    IslandBridges: lambda part, result: scalars_of(part),
     SubsurfaceStress: lambda part, result: part.scalars(),
 }

@@ -67,6 +67,8 @@ def _tagged(tag: str, kinds: Mapping[str, type]) -> Callable[[Any, Any], Any]:
 def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any], Any]:
     unit, field = attribute.metadata["unit"], f"{kind.__name__}.{attribute.name}"
     cure = ARRAY_FIELDS.get((kind, attribute.name))
+    # Words that may stand in place of a number, such as "vapour".
+    words = [w for one in get_args(attribute.type) for w in get_args(one) if isinstance(w, str)]
 
     def hook(value: Any, target: Any) -> Any:
         if getattr(value, "ndim", 0):
@@ -77,7 +79,7 @@ def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any
             if "values" in value:
                 return _CONVERTER.structure(value, HardnessMap)
             return _law(value, TemperatureLaw)
-        if value == "vapour" or isinstance(value, bool) or (unit == "-" and isinstance(value, int)):
+        if value in words or isinstance(value, bool) or (unit == "-" and isinstance(value, int)):
             return value
         if isinstance(value, list | tuple):
             return tuple(hook(item, target) for item in value)

@@ -10,8 +10,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from .effects import MeniscusForce, ViscousForce
+from .effects import ViscousForce
 from .errors import PlanError
+from .film_laws import Film, impulse_name
 from .motion_state import LIMITS, FilmStatus
 from .plan import Plan
 from .results import SeparationResult, Work
@@ -28,14 +29,26 @@ def frozen(values: object) -> NDArray[np.float64]:
 
 
 def _grid(plan: Plan) -> list[float]:
-    """Gaps of a curve, closer where the film is thin, up to its end."""
-    opening = plan.scene.opening
-    low, high = opening.initial_gap, min(opening.final_gap, plan.film.end)
+    """Gaps of a curve, closer where the film is thin, up to the end of all forces.
+
+    Where something lets go before, the last gap that it spans is one of them.
+    """
+    opening, film = plan.scene.opening, plan.film
+    low, high = opening.initial_gap, opening.final_gap
+    if film.left(broken=True, detached=False) is None:  # no force of the solids is left
+        high = min(high, film.end)
     # An offset keeps the first step finite where the curve begins at a touching sphere.
     offset = 0.0 if low > 0.0 else 1e-3 * high
     gaps = np.geomspace(low + offset, high + offset, max(plan.accuracy.points, 2)) - offset
     gaps[0], gaps[-1] = low, high
-    return [float(gap) for gap in gaps]
+    ends = {end for end in (film.end, film.release) if low < end < high}
+    return sorted({*map(float, gaps), *ends})
+
+
+def acting(plan: Plan, gap: float) -> Film | None:
+    """What acts at a gap [m] of a plan that is opened once."""
+    film = plan.film
+    return plan.film_left(1.0, broken=gap > film.end, detached=gap > film.release)
 
 
 def at_speed(plan: Plan, begun: float) -> SeparationResult:
@@ -52,16 +65,19 @@ def at_speed(plan: Plan, begun: float) -> SeparationResult:
         "film_status": frozen([row["film_status"] for row in rows]),
     } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
     impulses = {}
-    if plan.has(MeniscusForce):
-        running = _running(plan.film.laws[MeniscusForce].force, speed, gaps)
-        impulses["meniscus_impulse"] = running[-1]
+    film = plan.film
+    for kind, law in film.laws.items():
+        if kind is not ViscousForce:
+            end = min(law.release, film.end if kind.needs_film else math.inf)
+            running = _running(law.force, speed, gaps, end)
+            impulses[impulse_name(kind.column)] = running[-1]
     if plan.has(ViscousForce):
-        running = _running(lambda gap, v: plan.film.viscous_force(gap, v)[0], speed, gaps)
+        running = _running(lambda gap, v: film.viscous_force(gap, v)[0], speed, gaps, film.end)
         columns["viscous_impulse"] = frozen(running)
         impulses |= newtonian_impulses(plan)
         if plan.film.limits:
             impulses["viscous_impulse"] = running[-1]
-    validity = check(plan, [(gap, speed) for gap in gaps if gap > 0.0])
+    validity = check(plan, [(gap, speed) for gap in gaps if 0.0 < gap <= film.end])
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
@@ -69,7 +85,7 @@ def at_speed(plan: Plan, begun: float) -> SeparationResult:
 
 def simulated(plan: Plan) -> list[str]:
     """Names of the curves that the effects of a plan give."""
-    names = ["meniscus_force"] if plan.has(MeniscusForce) else []
+    names = list(plan.film.static_columns)
     if plan.has(ViscousForce):
         names += ["viscous_force", "newtonian_force"]
     if plan.film.limits:
@@ -78,26 +94,34 @@ def simulated(plan: Plan) -> list[str]:
 
 
 def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
-    film = plan.film
-    static = film.static_force(gap)
-    viscous, acting = film.viscous_force(gap, speed)
-    row: dict[str, float] = {"pull": static + viscous, "meniscus_force": static}
-    row["viscous_force"] = viscous
-    if plan.has(ViscousForce):
-        row["newtonian_force"] = film.laws[ViscousForce].force(gap, speed)
-    row["limit"] = float(LIMITS[acting])
-    row["film_status"] = float(FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE)
+    film, broken = acting(plan, gap), gap > plan.film.end
+    row = dict.fromkeys(plan.film.static_columns, 0.0)
+    row |= film.static_forces(gap) if film is not None else {}
+    static = sum(row.values())
+    viscous, limit = film.viscous_force(gap, speed) if film is not None else (0.0, None)
+    row |= {"pull": static + viscous, "viscous_force": viscous, "newtonian_force": 0.0}
+    if plan.has(ViscousForce) and not broken:
+        row["newtonian_force"] = plan.film.laws[ViscousForce].force(gap, speed)
+    row["limit"] = float(LIMITS[limit])
+    whole = FilmStatus.FULL if gap <= plan.film.full_gap else FilmStatus.BRIDGE
+    row["film_status"] = float(FilmStatus.BROKEN if broken else whole)
     return row
 
 
 def _running(
-    force: Callable[[float, float], float], speed: float, gaps: list[float]
+    force: Callable[[float, float], float], speed: float, gaps: list[float], end: float
 ) -> list[float]:
-    """Time integral of a force [N.s] up to each gap of a curve, at an imposed speed."""
+    """Time integral of a force [N.s] up to each gap of a curve, at an imposed speed.
+
+    The force lasts to the gap `end` [m], which is one of the curve if it lies within.
+    """
     from scipy.integrate import quad
 
     total, found = 0.0, [0.0]
     for a, b in pairwise(gaps):
+        if a >= end:
+            found.append(total)
+            continue
         # Relative to the largest value there could be, as a force may change its sign.
         floor = 1e-13 * b * max(abs(force(a, speed)), abs(force(b, speed)))
         total += quad(force, a, b, (speed,), epsabs=floor, epsrel=1e-10, limit=500)[0] / speed
@@ -123,17 +147,19 @@ def within_time(plan: Plan, begun: float) -> SeparationResult:
         )
     gaps = _grid(plan)
     columns = {"gap": frozen(gaps)}
-    if plan.has(MeniscusForce):
-        columns["meniscus_force"] = frozen([plan.film.static_force(gap) for gap in gaps])
+    rows = [_forces(plan, gap, 0.0) for gap in gaps] if plan.film.static_columns else []
+    columns |= {name: frozen([row[name] for row in rows]) for name in plan.film.static_columns}
     impulses = {}
     if plan.has(ViscousForce):
         impulses = newtonian_impulses(plan)
         impulse = plan.film.laws[ViscousForce].impulse
         assert impulse is not None
-        columns["viscous_impulse"] = frozen([impulse(gaps[0], gap) for gap in gaps])
+        last = plan.film.end
+        columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
     opening = plan.scene.opening
     mean_speed = (gaps[-1] - gaps[0]) / (opening.time or math.inf)
-    validity = check(plan, [(gap, mean_speed) for gap in gaps if gap > 0.0])
+    wet = [gap for gap in gaps if 0.0 < gap <= plan.film.end]
+    validity = check(plan, [(gap, mean_speed) for gap in wet])
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {opening.time:g} s"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

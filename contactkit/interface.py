@@ -13,10 +13,7 @@ from typing import Literal
 from attrs import Attribute, field, frozen
 
 from .checks import (
-    angle,
-    count,
     finite,
-    fraction,
     non_negative,
     optional,
     part,
@@ -24,39 +21,12 @@ from .checks import (
     refuse,
 )
 from .errors import DescriptionError
-from .liquids import Liquid
+from .imposed import Sliding, Vibration
+from .meniscus import Meniscus
 from .surfaces import Flat, Sphere, Surface
 from .units import si
 
-__all__ = ["Interface", "Meniscus", "Opening"]
-
-
-@frozen(kw_only=True)
-class Meniscus:
-    """The liquid that joins the two bodies: how much, and how it wets them.
-
-    Parameters
-    ----------
-    liquid : Liquid
-        What it is.
-    volume : float, optional
-        Amount of liquid in all menisci together [m3]. None: the gap stands in a bath and stays
-        full to the rim however far it opens (flooded).
-    contact_angle_lower, contact_angle_upper : float
-        Contact angles on the two bodies [rad], 0 (wets) to pi (repels).
-    count : int
-        Number of equal menisci the liquid is divided into.
-    rewetting : float
-        Share of `volume` that is there again, at least, each time the bodies come back together
-        [-]. 0: what is lost by rupture stays lost.
-    """
-
-    liquid: Liquid = field(validator=part(Liquid))
-    volume: float | None = field(default=None, validator=optional(positive), metadata=si("m3"))
-    contact_angle_lower: float = field(default=0.0, validator=angle, metadata=si("rad"))
-    contact_angle_upper: float = field(default=0.0, validator=angle, metadata=si("rad"))
-    count: int = field(default=1, validator=count, metadata=si("-"))
-    rewetting: float = field(default=1.0, validator=fraction, metadata=si("-"))
+__all__ = ["Interface", "Meniscus", "Opening", "Sliding", "Vibration"]
 
 
 @frozen(kw_only=True)
@@ -136,6 +106,8 @@ class Opening:
         Gap at which asperities carry the bodies and closing stops [m]; 0: none.
     time_limit : float
         Longest time to wait for separation [s].
+    vibration : Vibration, optional
+        Shaking of the gap on top of an imposed speed.
     """
 
     initial_gap: float = field(validator=non_negative, metadata=si("m"))
@@ -149,6 +121,7 @@ class Opening:
     initial_speed: float = field(default=0.0, validator=finite, metadata=si("m/s"))
     rest_gap: float = field(default=0.0, validator=non_negative, metadata=si("m"))
     time_limit: float = field(default=3600.0, validator=positive, metadata=si("s"))
+    vibration: Vibration | None = field(default=None, validator=optional(part(Vibration)))
 
     def __attrs_post_init__(self) -> None:
         given = [name for name in _IMPOSED if getattr(self, name) is not None]
@@ -165,6 +138,34 @@ class Opening:
                 f"not exceed initial_gap = {self.initial_gap:g} m",
                 unit="m",
             )
+
+        if self.vibration is not None:
+            self._check_vibration(self.vibration)
+
+    def _check_vibration(self, vibration: Vibration) -> None:
+        if self.speed is None:
+            raise DescriptionError(
+                "Opening.vibration", vibration, "stand beside a speed [m/s]",
+                hint=f"with {self.imposed} imposed the path of the gap is not given",
+            )  # fmt: skip
+        room = self.initial_gap - self.rest_gap
+        if vibration.amplitude >= room:
+            rest = f" less rest_gap = {self.rest_gap:g} m" if self.rest_gap else ""
+            raise DescriptionError(
+                "Vibration.amplitude", vibration.amplitude,
+                f"be below initial_gap = {self.initial_gap:g} m{rest}", unit="m",
+                hint="the bodies would touch; shake less, or start from a larger gap",
+            )  # fmt: skip
+
+    @property
+    def smallest_gap(self) -> float:
+        """Smallest gap [m] of an imposed motion: the initial gap less the amplitude."""
+        return self.initial_gap - (self.vibration.amplitude if self.vibration else 0.0)
+
+    @property
+    def largest_gap(self) -> float:
+        """Largest gap [m] of an imposed motion: the final gap and the amplitude."""
+        return self.final_gap + (self.vibration.amplitude if self.vibration else 0.0)
 
     @property
     def imposed(self) -> Literal["speed", "force", "time"]:

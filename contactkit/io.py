@@ -13,7 +13,7 @@ from typing import Any
 from .contact_scene import ContactScene
 from .converter import FileError, load_liquid, load_material, nearest, structure, unstructure
 from .errors import DescriptionError
-from .scene import SeparationScene
+from .scene import SeparationScene, SlidingScene
 
 __all__ = [
     "load_liquid", "load_material", "load_scene", "nearest", "read_tables", "save_scene",
@@ -40,20 +40,25 @@ def read_tables(path: str | Path) -> dict[str, Any]:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
 
 
-def scene_kind(tables: Mapping[str, Any]) -> type[SeparationScene] | type[ContactScene]:
+def scene_kind(
+    tables: Mapping[str, Any],
+) -> type[SeparationScene] | type[SlidingScene] | type[ContactScene]:
     """Kind of scene that tables describe: what is pressed, or has a window, is a contact."""
+    if "sliding" in tables and "opening" not in tables:
+        return SlidingScene
     is_pressed = "pressing" in tables or ("window" in tables and "opening" not in tables)
     return ContactScene if is_pressed else SeparationScene
 
 
-def load_scene(path: str | Path) -> SeparationScene | ContactScene:
+def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScene:
     """Read a scene from a TOML file.
 
     Parameters
     ----------
     path : str or Path
         The file; its tables are the fields of `ContactScene` if there is one called
-        ``pressing``, else of `SeparationScene`. Quantities may carry a unit.
+        ``pressing``, of `SlidingScene` if there is one called ``sliding``, else of
+        `SeparationScene`. Quantities may carry a unit.
 
     Raises
     ------
@@ -64,7 +69,7 @@ def load_scene(path: str | Path) -> SeparationScene | ContactScene:
     return structure(tables, scene_kind(tables), Path(path).name)
 
 
-def save_scene(scene: SeparationScene | ContactScene, path: str | Path) -> Path:
+def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str | Path) -> Path:
     """Write a scene to a TOML file, in SI units; `load_scene` gives the same scene back."""
     import tomli_w
 

@@ -31,6 +31,7 @@ LAWS: tuple[type[TemperatureLaw], ...] = (
 """Every law a file can name, by its `kind`; which property it gives follows from its `unit`."""
 
 _MOST_TENSION = 10.0  # [N/m]
+_MOST_MOLAR_MASS = 10.0  # [kg/mol]
 
 
 class LiquidState(NamedTuple):
@@ -77,6 +78,14 @@ def _kinematic(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, expected, centistokes_hint(value))
 
 
+def _molar(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse what is not positive, and suspect g/mol; the heaviest oils have about 1 kg/mol."""
+    positive(owner, attribute, value)
+    if value > _MOST_MOLAR_MASS:
+        cure = f"was it given in g/mol? write '{value:g} g/mol' in a file, or {value:g}e-3"
+        raise refuse(owner, attribute, value, f"be at most {_MOST_MOLAR_MASS:g}", cure)
+
+
 @frozen(kw_only=True)
 class Liquid:
     """A Newtonian liquid; what no effect needs may be left out.
@@ -94,6 +103,8 @@ class Liquid:
         forces follow the dynamic viscosity, so a number in cSt alone says nothing about them.
     density : float or TemperatureLaw, optional
         Density [kg/m3].
+    molar_mass : float, optional
+        Mass of a mole [kg/mol], of a liquid that condenses from its vapour.
     source : str
         Where the constants come from; laws carry their own source.
 
@@ -141,6 +152,9 @@ class Liquid:
     density: float | TemperatureLaw | None = field(
         default=None, validator=optional(_constant_or_law), metadata=si("kg/m3")
     )
+    molar_mass: float | None = field(
+        default=None, validator=optional(_molar), metadata=si("kg/mol")
+    )
     source: str = ""
 
     def __attrs_post_init__(self) -> None:
@@ -182,6 +196,29 @@ class Liquid:
             viscosity = kinematic * density
         surface_tension = _value(self.surface_tension, temperature)
         return LiquidState(surface_tension, viscosity, density, float(temperature))
+
+    def molar_volume(self, temperature: float) -> float:
+        """Volume of a mole of the liquid [m3/mol] at `temperature` [K].
+
+        Raises
+        ------
+        DescriptionError
+            If molar mass or density is not given.
+
+        Examples
+        --------
+        >>> water = Liquid(name="water", density=998.2, molar_mass=0.018015)
+        >>> round(water.molar_volume(293.15) * 1e6, 3)
+        18.047
+        """
+        density = self.at(temperature).density
+        if self.molar_mass is None or density is None:
+            name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
+            raise DescriptionError(
+                f"Liquid.{name}", None, "be given for a liquid in equilibrium with its vapour",
+                unit=unit, hint="or give the meniscus a volume, or its pressure",
+            )  # fmt: skip
+        return self.molar_mass / density
 
 
 def _value(given: float | TemperatureLaw | None, temperature: float) -> float | None:

@@ -7,8 +7,10 @@ FMU calls it once per communication step; the state is one plain tuple of number
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from .errors import ConvergenceError, DescriptionError
+from .film_laws import impulse_name
 from .kernels.step_reading import highest, travel_integral
 from .kernels.stiff_step import WEIGHTS, Stage, Step
 from .motion_state import Drive, MotionState
@@ -63,7 +65,9 @@ def rest_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     """Rest on the asperities until the pull exceeds what holds the bodies together."""
     opening = plan.scene.opening
     holding = opening.stiffness * (state.gap - opening.initial_gap)
-    film = 0.0 if state.broken else plan.film_with(state.share).static_force(state.gap)
+    acting = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    forces = acting.static_forces(state.gap) if acting is not None else {}
+    film = sum(forces.values())
     leave, low = end, state.time
     if pull(low) - holding - film > 0.0:
         leave = low
@@ -77,9 +81,18 @@ def rest_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     return state._replace(
         time=leave,
         held=pull(leave) - holding - film <= 0.0,
-        meniscus_impulse=state.meniscus_impulse + film * elapsed,
         step=0.0,
+        **_grown(state, elapsed, {impulse_name(name): f for name, f in forces.items()}),
     )
+
+
+def _grown(state: MotionState, length: float, means: dict[str, float]) -> dict[str, Any]:
+    """Impulses of the state after a time [s] in which forces had these means [N]."""
+    return {
+        name: getattr(state, name) + length * mean
+        for name, mean in means.items()
+        if name in state._fields
+    }
 
 
 def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
@@ -89,7 +102,7 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     rest = plan.scene.opening.rest_gap
     if state.speed < 0.0 and state.gap <= rest * (1.0 + _SAME):
         return state._replace(held=True, gap=rest, speed=0.0)
-    film = None if state.broken else plan.film_with(state.share)
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
     problem = step_problem(plan, film, state, pull)
     left = end - state.time
     length = min(state.step or first_step(problem, left), left)
@@ -182,10 +195,11 @@ def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -
     marks = list(film.kinks) if film is not None else []
     if rising:
         marks += [opening.final_gap] if state.armed else []
-        marks += [film.end] if film is not None else []
+        marks += [film.end, film.release] if film is not None else []
     else:
         marks += [opening.rest_gap]
         marks += [opening.initial_gap] if state.broken else []
+        marks += [plan.film.rejoin] if state.detached else []
         marks += [] if state.armed else [_closed_gap(plan)]
     inside = [m for m in marks if low * (1.0 + _SAME) < m < high or m == gap]
     if not inside:
@@ -217,14 +231,15 @@ def _locate(problem: StepProblem, length: float, mark: float, taken: Step) -> tu
 
 def _accumulate(state: MotionState, film: Film | None, taken: Step, length: float) -> MotionState:
     """Add a step to the impulses, the work and the peak, by the quadrature of the method itself."""
-    viscous = meniscus = work = 0.0
+    viscous = work = 0.0
+    means: dict[str, float] = {}
     end = taken.stages[2]
     peak, at = state.peak_force, state.peak_time
     if film is not None:
         static = [film.static_force(stage.gap) for stage in taken.stages]
         forces = [film.viscous_force(stage.gap, stage.speed)[0] for stage in taken.stages]
         viscous = sum(w * f for w, f in zip(WEIGHTS, forces, strict=True))
-        meniscus = sum(w * f for w, f in zip(WEIGHTS, static, strict=True))
+        means = film.static_means([stage.gap for stage in taken.stages], WEIGHTS, static)
         first = film.viscous_force(state.gap, state.speed)[0]
         begin = Stage(state.time, state.gap, state.speed)
         work = travel_integral(begin, taken, first, forces)
@@ -239,10 +254,10 @@ def _accumulate(state: MotionState, film: Film | None, taken: Step, length: floa
         gap=end.gap,
         speed=end.speed,
         viscous_impulse=state.viscous_impulse + length * viscous,
-        meniscus_impulse=state.meniscus_impulse + length * meniscus,
         dissipated_work=state.dissipated_work + work,
         peak_force=peak,
         peak_time=at,
+        **_grown(state, length, means),
     )
 
 
@@ -260,10 +275,14 @@ def _event(plan: Plan, film: Film | None, state: MotionState, mark: float) -> Mo
         )
     if rising and film is not None and mark == film.end:
         state = state._replace(broken=True, break_time=state.time, n_breaks=state.n_breaks + 1)
+    if rising and film is not None and mark == film.release:
+        state = state._replace(detached=True)
     if rising:
         return state
     if mark <= _closed_gap(plan):
         state = state._replace(armed=True)
+    if mark <= plan.film.rejoin:
+        state = state._replace(detached=False)
     if mark > opening.initial_gap:
         return state
     wets = state.broken and meniscus.rewetting > 0.0

@@ -92,10 +92,17 @@ class MotionState(NamedTuple):
     n_steps: int = 0
     n_rejected: int = 0
     n_evaluations: int = 0
+    detached: bool = False  # the solids have let go of each other
+    van_der_waals_impulse: float = 0.0
+    adhesion_impulse: float = 0.0
+    asperity_impulse: float = 0.0
 
 
 class Outputs(NamedTuple):
-    """Forces [N] at a state, positive where they resist opening."""
+    """Forces [N] at a state, positive where they resist opening.
+
+    `static` is the sum of those that do not depend on speed: the meniscus, and the solids.
+    """
 
     film: float
     static: float
@@ -114,9 +121,9 @@ def start(plan: Plan) -> MotionState:
 def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
     """Forces at a state under a pull [N], and what they mean."""
     opening = plan.scene.opening
-    if state.broken:
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    if film is None:
         return Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
-    film = plan.film_with(state.share)
     static = film.static_force(state.gap)
     viscous, acting = film.viscous_force(state.gap, state.speed)
     net = pull - opening.stiffness * (state.gap - opening.initial_gap) - static
@@ -124,6 +131,8 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
         status = FilmStatus.STUCK
     elif state.held:
         status = FilmStatus.CONTACT
+    elif state.broken:
+        status = FilmStatus.BROKEN
     else:
         status = FilmStatus.FULL if state.gap <= film.full_gap else FilmStatus.BRIDGE
     return Outputs(static + viscous, static, viscous, status, LIMITS[acting])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from types import MappingProxyType
 
 from attrs import evolve, field, frozen
@@ -12,69 +12,13 @@ from .accuracy import Accuracy
 from .effects import SEPARATION_EFFECTS, Effect, SeparationEffect
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, SeparationForce
 from .effects.film_shape import film_shape
+from .effects.modes import mixed
 from .effects.viscous import ViscousForce
 from .errors import InfeasibleError, PlanError
+from .film_laws import Film
 from .scene import SeparationScene
 
 __all__ = ["Film", "Plan", "check_listed", "choices", "plan"]
-
-
-@frozen(eq=False)
-class Film:
-    """The forces of a film of one volume, ready to be evaluated at any gap and speed."""
-
-    laws: Mapping[type[SeparationEffect], ForceLaw]
-    limits: tuple[tuple[type[SeparationEffect], Limiter], ...]
-    kinks: tuple[float, ...]
-    end: float
-    full_gap: float
-    # The same laws, split once: these are called some ten times per internal step.
-    _viscous: ForceLaw | None = field(init=False, repr=False)
-    _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
-
-    @_viscous.default
-    def _find_viscous(self) -> ForceLaw | None:
-        return self.laws.get(ViscousForce)
-
-    @_static.default
-    def _find_static(self) -> tuple[Callable[[float, float], float], ...]:
-        return tuple(law.force for kind, law in self.laws.items() if kind is not ViscousForce)
-
-    def static_force(self, gap: float) -> float:
-        """Sum of the forces [N] that do not depend on speed, at a gap [m]."""
-        total = 0.0
-        for force in self._static:
-            total += force(gap, 0.0)
-        return total
-
-    def viscous_force(
-        self, gap: float, speed: float
-    ) -> tuple[float, type[SeparationEffect] | None]:
-        """Viscous force [N] that is left after the limits, and the limit that acts."""
-        if self._viscous is None:
-            return 0.0, None
-        newtonian = self._viscous.force(gap, speed)
-        found, acting = newtonian, None
-        for kind, limiter in self.limits:
-            left = limiter(gap, speed, newtonian)
-            if abs(left) < abs(found):
-                found, acting = left, kind
-        return found, acting
-
-    def force(self, gap: float, speed: float) -> float:
-        """Sum of all forces [N]; positive resists opening."""
-        total = self.viscous_force(gap, speed)[0]
-        for force in self._static:
-            total += force(gap, speed)
-        return total
-
-    def resistance(self, gap: float) -> float:
-        """Viscous force per speed [N.s/m] of the film without limits, at a gap [m]."""
-        return self._viscous.force(gap, 1.0) if self._viscous is not None else 0.0
-
-    def exponent(self, gap: float) -> float:
-        """Exponent n of the viscous force, which falls as gap^-n; 0 without one."""
-        return self._viscous.exponent(gap) if self._viscous is not None else 0.0
 
 
 @frozen(eq=False)
@@ -88,6 +32,7 @@ class Plan:
     accuracy: Accuracy
     film: Film = field(repr=False)
     _films: dict[float, Film] = field(factory=dict, repr=False)
+    _left: dict[tuple[float, bool, bool], Film | None] = field(factory=dict, repr=False)
 
     def film_with(self, share: float) -> Film:
         """Return the film with a share of the volume the scene gives."""
@@ -100,6 +45,15 @@ class Plan:
             interface = evolve(self.scene.interface, meniscus=less)
             self._films[share] = _prepare(evolve(self.scene, interface=interface), self.accuracy)
         return self._films[share]
+
+    def film_left(self, share: float, *, broken: bool, detached: bool) -> Film | None:
+        """Return what acts in a state: all, or what a broken film and parted solids leave."""
+        if not broken and not detached:
+            return self.film_with(share)
+        key = share, broken, detached
+        if key not in self._left:
+            self._left[key] = self.film_with(share).left(broken=broken, detached=detached)
+        return self._left[key]
 
     def has(self, kind: type[SeparationEffect]) -> bool:
         """Whether the scene calls for an effect."""
@@ -120,9 +74,12 @@ class Plan:
             f"{self.scene.name or 'separation'}: {opening.imposed} imposed, "
             f"gap {opening.initial_gap:g} m to {opening.final_gap:g} m"
         )
-        on = [f"  on   {e.name:15s} {choices(e)}" for e in self.scene.effects]
+        if opening.vibration is not None:
+            shaken = opening.vibration
+            title += f", shaken by {shaken.amplitude:g} m at {shaken.frequency:g} Hz"
+        on = [f"  on   {e.name:19s} {choices(e)}" for e in self.scene.effects]
         off = [
-            f"  off  {kind.name:15s} {kind.summary}"
+            f"  off  {kind.name:19s} {kind.summary}"
             for kind in SEPARATION_EFFECTS
             if not self.has(kind)
         ]
@@ -155,6 +112,8 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     """
     accuracy = accuracy or Accuracy.standard
     _check_effects(scene)
+    if mixture := mixed(scene):
+        raise PlanError(mixture)
     _check_gap(scene)
     return Plan(scene, accuracy, _prepare(scene, accuracy))
 
@@ -173,6 +132,13 @@ def _check_effects(scene: SeparationScene) -> None:
         for effect in scene.effects
         for item in effect.lacks(scene)
     ]
+    if scene.interface.meniscus.pressure is not None:
+        problems += [
+            f"{type(e).__name__} needs interface.meniscus.volume [m3] in place of its pressure: it "
+            "has no law at a fixed pressure"
+            for e in scene.effects
+            if not e.takes_pressure
+        ]
     if scene.opening.imposed == "force" and scene.opening.mass is None:
         problems += [
             f"{type(e).__name__} needs opening.mass [kg]: where the film lets go, nothing else "
@@ -231,8 +197,23 @@ def _check_gap(scene: SeparationScene) -> None:
         )
 
 
+def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
+    """Error that names the largest gap, and the largest number of menisci where that is known."""
+    gap, meniscus = scene.opening.initial_gap, scene.interface.meniscus
+    cure = "give more volume or a smaller initial_gap"
+    if scene.interface.is_flat and meniscus.volume is not None and meniscus.count > 1:
+        # Each has its part of the volume, and its limit is as the cube root of that.
+        most = math.ceil(meniscus.count * (end / gap) ** 3) - 1
+        if most >= 1:
+            cure += f", or divide the liquid into at most {most} menisci"
+    return InfeasibleError(
+        f"no meniscus spans the initial gap of {gap:g} m: this volume reaches {end:.6g} m at "
+        f"most; {cure}"
+    )
+
+
 def _prepare(scene: SeparationScene, accuracy: Accuracy) -> Film:
-    laws: dict[type[SeparationEffect], ForceLaw] = {}
+    laws: dict[type[SeparationForce], ForceLaw] = {}
     limits: list[tuple[type[SeparationEffect], Limiter]] = []
     end = math.inf
     for effect in scene.effects:
@@ -244,10 +225,5 @@ def _prepare(scene: SeparationScene, accuracy: Accuracy) -> Film:
             end = effect.prepare(scene, accuracy)
     end = min([end, *(law.end for law in laws.values())])
     if end <= scene.opening.initial_gap:
-        raise InfeasibleError(
-            f"no meniscus spans the initial gap of {scene.opening.initial_gap:g} m: this volume "
-            f"reaches {end:g} m at most; give more volume or a smaller initial_gap"
-        )
-    kinks = {kink for law in laws.values() for kink in law.kinks if 0.0 < kink < end}
-    full_gap = film_shape(scene).full_gap
-    return Film(MappingProxyType(laws), tuple(limits), tuple(sorted(kinks)), end, full_gap)
+        raise _too_wide(scene, end)
+    return Film(MappingProxyType(laws), tuple(limits), end, film_shape(scene).full_gap)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
 from .accuracy import Accuracy
 from .contact_plan import ContactPlan, plan_contact
 from .contact_scene import ContactScene
 from .plan import Plan
 from .plan import plan as plan_separation
-from .scene import SeparationScene
+from .scene import SeparationScene, SlidingScene
+
+if TYPE_CHECKING:
+    from .sliding_plan import SlidingPlan
 
 __all__ = ["plan"]
 
@@ -19,24 +22,28 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan: ...
 
 
 @overload
+def plan(scene: SlidingScene, accuracy: Accuracy | None = None) -> SlidingPlan: ...
+
+
+@overload
 def plan(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan: ...
 
 
 def plan(
-    scene: SeparationScene | ContactScene, accuracy: Accuracy | None = None
-) -> Plan | ContactPlan:
+    scene: SeparationScene | SlidingScene | ContactScene, accuracy: Accuracy | None = None
+) -> Plan | SlidingPlan | ContactPlan:
     """Check the effects of a scene against it, and its feasibility, before any work.
 
     Parameters
     ----------
-    scene : SeparationScene or ContactScene
+    scene : SeparationScene, SlidingScene or ContactScene
         What is there and which physics it calls for.
     accuracy : Accuracy, optional
         How well to solve; `Accuracy.standard` if not given.
 
     Returns
     -------
-    Plan or ContactPlan
+    Plan, SlidingPlan or ContactPlan
         To be run by `simulate` or `solve`; printed, it says what it will do and what not.
 
     Raises
@@ -48,4 +55,8 @@ def plan(
     """
     if isinstance(scene, ContactScene):
         return plan_contact(scene, accuracy)
+    if isinstance(scene, SlidingScene):
+        from .sliding_plan import plan_sliding
+
+        return plan_sliding(scene, accuracy)
     return plan_separation(scene, accuracy)

@@ -16,18 +16,19 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from .io import write_whole
 from .results import COLUMNS, SeparationResult
+from .sliding_result import SlidingResult
 from .workprecision import WorkPrecision
 
 __all__ = [
-    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "figure", "forces",
-    "label_axis", "legend", "motion", "plain_log", "save", "shared_legend", "title",
-    "work_precision",
+    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "closures", "cycles",
+    "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save", "shared_legend",
+    "slide", "title", "work_precision",
 ]  # fmt: skip
 
 COLORS = {
     "gap": "#1f4e79", "speed": "#7f7f7f", "meniscus": "#2a9d8f", "viscous": "#c1440e",
     "limit": "#e9c46a", "magnet": "#6a4c93", "spring": "#8d6b3d", "stop": "#444444",
-    "pull": "#6a4c93",
+    "pull": "#6a4c93", "solids": "#8d6e63",
 }  # fmt: skip
 """One colour for each quantity, the same in every figure."""
 
@@ -38,6 +39,7 @@ _STYLE: Any = {
     "figure.constrained_layout.use": True,
 }  # fmt: skip
 
+_THREE = ("#1f4e79", "#2a9d8f", "#c1440e")  # exact, arc, as published
 _LABELS = {column.name: column for column in COLUMNS}
 
 
@@ -107,7 +109,8 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     gap = result.gap * 1e6
     curves: Mapping[str, tuple[str, str]] = {
         "newtonian_force": ("viscous", ":"), "viscous_force": ("viscous", "-"),
-        "meniscus_force": ("meniscus", "-"), "pull": ("pull", "--"),
+        "meniscus_force": ("meniscus", "-"), "van_der_waals_force": ("solids", "-."),
+        "adhesion_force": ("solids", "-"), "pull": ("pull", "--"),
     }  # fmt: skip
     for name, (color, style) in curves.items():
         if name in result.columns:
@@ -129,19 +132,52 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     ax.set(xlabel=label_axis("gap", "um"), ylabel="force [N]", xscale="log")
     top = max(
         float(result.columns[n].max())
-        for n in ("viscous_force", "meniscus_force", "pull")
-        if n in result.columns
+        for n in curves
+        if n != "newtonian_force" and n in result.columns
     )
     bottom = min(
         0.0,
         *(
             float(result.columns[n].min())
-            for n in ("viscous_force", "meniscus_force")
-            if n in result.columns
+            for n in curves
+            if n not in ("newtonian_force", "pull") and n in result.columns
         ),
     )
     ax.set_ylim(1.1 * bottom, 1.15 * top)
     plain_log(ax.xaxis)
+    legend(ax)
+    return ax
+
+
+def cycles(result: SeparationResult, ax: Axes | None = None) -> Axes:
+    """Draw the pull over the cycles of a vibration, its mean, and the pull without vibration."""
+    ax = ax if ax is not None else figure()[1]
+    time = result.time * 1e3
+    ax.plot(time, result.pull, color=COLORS["speed"], lw=0.8, label=_LABELS["pull"].label)
+    ax.plot(time, result.mean_pull, color=COLORS["pull"], label=_LABELS["mean_pull"].label)
+    ax.plot(time, result.steady_pull, "--", color=COLORS["gap"], label=_LABELS["steady_pull"].label)
+    ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("pull"))
+    legend(ax)
+    return ax
+
+
+def slide(result: SlidingResult, ax: Axes | None = None) -> Axes:
+    """Draw the tangential forces over the travel, or the impulse where only a time is given."""
+    ax = ax if ax is not None else figure()[1]
+    travel = result.travel * 1e6
+    curves: Mapping[str, tuple[str, str]] = {
+        "couette_force": ("viscous", "-"), "hysteresis_force": ("meniscus", "-"),
+        "tangential_force": ("pull", "--"), "couette_impulse": ("viscous", ":"),
+    }  # fmt: skip
+    shown = [name for name in curves if name in result.columns]
+    if any(name.endswith("_force") for name in shown):
+        shown = [name for name in shown if name.endswith("_force")]
+    for name in shown:
+        color, style = curves[name]
+        ax.plot(travel, result.columns[name], style, color=COLORS[color], label=label_axis(name))
+    ax.set(xlabel=label_axis("travel", "um"), ylabel="force [N]", ylim=(0.0, None))
+    if shown == ["couette_impulse"]:
+        ax.set_ylabel(label_axis("couette_impulse"))
     legend(ax)
     return ax
 
@@ -154,6 +190,32 @@ def bars(names: Sequence[str], values: Sequence[float], ax: Axes, label: str) ->
     ax.invert_yaxis()
     ax.set_xlabel(label)
     ax.grid(visible=False, axis="y")
+    return ax
+
+
+def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
+    """Draw error against seconds for each gap: a colour for each closure, a sign for each bridge.
+
+    Full signs stand for whole curves or whole answers, open ones for one gap at a time.
+    """
+    colors = dict(zip(dict.fromkeys(p.method for p in found.points), _THREE, strict=False))
+    for p in found.points:
+        name = next(b for b in bridges if p.label.startswith(b))
+        full = "none" if "one gap" in p.label or "first" in p.label else colors[p.method]
+        ax.plot(
+            p.seconds, max(p.error, 1e-16), "osD^vP*X"[bridges.index(name)], ms=6.5,
+            color=colors[p.method], mfc=full, ls="none",
+        )  # fmt: skip
+    for method, color in colors.items():
+        ax.plot([], [], "-", lw=5, color=color, label=method)
+    for name, marker in zip(bridges, "osD^vP*X", strict=False):
+        ax.plot([], [], marker, color="0.3", ls="none", label=name)
+    ax.plot([], [], "o", color="0.3", mfc="none", ls="none", label="open: one gap, or first time")
+    low = 0.1 * min([found.floor, *(p.error for p in found.points if p.error > 0.0)])
+    ax.axhspan(max(low, 1e-16), found.floor, color="0.9", label="error of the reference")
+    each = "gap" if any("gap" in p.label for p in found.points) else "bridge"
+    ax.set(xscale="log", yscale="log", xlabel=f"seconds for each {each}")
+    ax.set_ylabel(f"relative error of the {found.quantity}")
     return ax
 
 

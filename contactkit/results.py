@@ -3,21 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attrs import field, frozen
 
 from .columns import COLUMNS, Column
-from .constant_force import constant_force_time
-from .effects import MeniscusForce, SeparationEffect, ShearLimit, TensionLimit, ViscousForce
+from .effects import (
+    SEPARATION_EFFECTS,
+    AdhesiveContact,
+    AsperityMenisci,
+    MeniscusForce,
+    SeparationEffect,
+    ShearLimit,
+    TensionLimit,
+    VanDerWaalsForce,
+    ViscousForce,
+)
+from .effects.base import SeparationForce
 from .errors import DescriptionError, NotSimulatedError
 from .motion_state import LimitKind, MotionState
 from .plan import Plan
+from .result_parts import (
+    AdhesionPart,
+    AsperityPart,
+    ForcePart,
+    LimitPart,
+    MeniscusPart,
+    ViscousPart,
+    known,
+)
 from .validity import ValidityNumber
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from .published_arguments import PublishedValue
 
     Curve = NDArray[np.float64]
 
@@ -25,7 +46,10 @@ _BY_NAME = {column.name: column for column in COLUMNS}
 
 __all__ = [
     "COLUMNS",
+    "AdhesionPart",
+    "AsperityPart",
     "Column",
+    "ForcePart",
     "LimitPart",
     "MeniscusPart",
     "SeparationResult",
@@ -41,106 +65,6 @@ class Work(NamedTuple):
     n_rejected: int
     n_evaluations: int
     seconds: float
-
-
-@frozen(eq=False)
-class MeniscusPart:
-    """What the meniscus force did: its curve [N], and its impulse [N.s] where time is known."""
-
-    force: Curve
-    impulse: float | None
-
-
-@frozen(eq=False)
-class ViscousPart:
-    """What the viscous force did. Four different things keep four names.
-
-    `force` is the instantaneous force [N] along the run, after the limits; `newtonian_force` what
-    it would be without them; `impulse` the time integral of the force over the whole opening
-    [N.s]; `newtonian_impulse` the same without limits, which no path in time changes.
-    """
-
-    plan: Plan = field(repr=False)
-    _force: Curve | None
-    _newtonian: Curve | None
-    impulse: float
-    newtonian_impulse: float
-
-    @property
-    def force(self) -> Curve:
-        """Instantaneous force [N]."""
-        return _known(self._force, "instantaneous viscous force", self.plan)
-
-    @property
-    def newtonian_force(self) -> Curve:
-        """Instantaneous force [N] of the film without limits."""
-        return _known(self._newtonian, "instantaneous viscous force", self.plan)
-
-    def mean_force(self, time: float | None = None) -> float:
-        """Time average [N] of the force over an opening that takes `time` [s]: impulse/time.
-
-        Raises
-        ------
-        DescriptionError
-            If no time is given, neither here nor with the scene.
-        """
-        time = time if time is not None else self.plan.scene.opening.time
-        if time is None or not time > 0.0:
-            raise DescriptionError(
-                "mean_force(time)", time, "be positive", unit="s",
-                hint="give the duration of the opening here, or as Opening(time=...)",
-            )  # fmt: skip
-        return self.impulse / time
-
-    def time_at_constant_force(self, force: float | None = None) -> float:
-        """Time [s] that a constant pull [N] takes to open the gap; inf if it never does.
-
-        Closed form for a massless body; the meniscus, where the scene has one, pulls with the
-        Laplace pressure of a thin film. Without the limits of the liquid.
-
-        Raises
-        ------
-        DescriptionError
-            If no force is given, neither here nor with the scene.
-        """
-        force = force if force is not None else self.plan.scene.opening.force
-        if force is None or not force > 0.0:
-            raise DescriptionError(
-                "time_at_constant_force(force)", force, "be positive", unit="N",
-                hint="give the pull here, or as Opening(force=...)",
-            )  # fmt: skip
-        return constant_force_time(self.plan, force)
-
-
-@frozen(eq=False)
-class LimitPart:
-    """Whether and when a limit of the liquid acted.
-
-    `acts` says it at each point of the run; `first` and `last` are the times [s] between which
-    it did, None if it never did.
-    """
-
-    acts: NDArray[np.bool_]
-    first: float | None
-    last: float | None
-
-    @property
-    def has_acted(self) -> bool:
-        """Whether the limit acted at all."""
-        return bool(self.acts.any())
-
-
-Part = MeniscusPart | ViscousPart | LimitPart
-_T = TypeVar("_T")
-
-
-def _known(value: _T | None, what: str, plan: Plan) -> _T:
-    if value is None:
-        raise NotSimulatedError(
-            f"no {what}: with {plan.scene.opening.imposed} imposed it is not determined; impose "
-            f"a speed or a force to get it"
-        )
-    return value
 
 
 @frozen(eq=False)
@@ -199,7 +123,7 @@ class SeparationResult:
                 "the scene does not call for a limit of the liquid: add TensionLimit() or "
                 "ShearLimit() to its effects"
             )
-        return _known(None, _BY_NAME[name].label, self.plan)
+        return known(None, _BY_NAME[name].label, self.plan)
 
     def _demand(self, kind: type[SeparationEffect]) -> None:
         if not self.plan.has(kind):
@@ -208,7 +132,7 @@ class SeparationResult:
             )
 
     def of(self, kind: type[SeparationEffect]) -> Any:
-        """Return what an effect did: `MeniscusPart`, `ViscousPart` or `LimitPart`.
+        """Return what an effect did: `ForcePart`, `ViscousPart` or `LimitPart`.
 
         Raises
         ------
@@ -220,19 +144,38 @@ class SeparationResult:
             raise NotSimulatedError(f"{kind.__name__} has no curve of its own; see result.state")
         return _PARTS[kind](self)
 
+    @property
+    def errata(self) -> tuple[PublishedValue, ...]:
+        """Printed equations this run took: value at the start, what is wrong, and the right one."""
+        from .errata_notes import scene_errata
+
+        return scene_errata(self.plan)
+
+    def _means_of_cycles(self) -> dict[str, tuple[float, str]]:
+        """Pull over the whole of a vibration: its mean, that without vibration, its extremes."""
+        if "pull_impulse" not in self.impulses:
+            return {}
+        duration, pull = float(self.columns["time"][-1]), self.columns["pull"]
+        return {
+            "mean_pull": (self.impulses["pull_impulse"] / duration, "N"),
+            "mean_steady_pull": (self.impulses["steady_pull_impulse"] / duration, "N"),
+            "highest_pull": (float(pull.max()), "N"),
+            "lowest_pull": (float(pull.min()), "N"),
+        }
+
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
         found = {name: (value, "N.s") for name, value in self.impulses.items()}
         if self.plan.has(ViscousForce) and self.plan.scene.opening.time is not None:
             found["mean_viscous_force"] = (self.of(ViscousForce).mean_force(), "N")
+        found |= _adhesion_numbers(self.plan)
         state = self.state
         if state is None:
-            total = [
-                self.columns[n] for n in ("meniscus_force", "viscous_force") if n in self.columns
-            ]
+            names = dict.fromkeys(kind.column for kind in _FORCES if self.plan.has(kind))
+            total = [self.columns[name] for name in names if name in self.columns]
             if total:
                 found["peak_force"] = (float(sum(total).max()), "N")  # type: ignore[union-attr]
-            return found
+            return found | self._means_of_cycles()
         found |= {
             "release_time": (state.release_time, "s"),
             "release_speed": (state.release_speed, "m/s"),
@@ -246,8 +189,50 @@ class SeparationResult:
         return found
 
 
+def _adhesion_numbers(plan: Plan) -> dict[str, tuple[float, str]]:
+    """Numbers of an adhesive contact, of one sphere, where the scene has one."""
+    effect = plan.scene.effect(AdhesiveContact)
+    if effect is None:
+        return {}
+    numbers = effect.numbers(plan.scene)
+    found = {
+        "pull_off_force": (numbers.pull_off_force, "N"),
+        "contact_release_gap": (numbers.release_gap, "m"),
+    }
+    if numbers.tabor_parameter is not None and numbers.transition_parameter is not None:
+        found["tabor_parameter"] = (numbers.tabor_parameter, "-")
+        found["transition_parameter"] = (numbers.transition_parameter, "-")
+    return found
+
+
 def _meniscus_part(result: SeparationResult) -> MeniscusPart:
     return MeniscusPart(result.meniscus_force, result.impulses.get("meniscus_impulse"))
+
+
+def _van_der_waals_part(result: SeparationResult) -> ForcePart:
+    impulse = result.impulses.get("van_der_waals_impulse")
+    return ForcePart(result.van_der_waals_force, impulse)
+
+
+def _adhesion_part(result: SeparationResult) -> AdhesionPart:
+    scene = result.plan.scene
+    effect = scene.effect(AdhesiveContact)
+    assert effect is not None  # of() has asked first
+    impulse = result.impulses.get("adhesion_impulse")
+    return AdhesionPart(result.adhesion_force, impulse, effect.numbers(scene))
+
+
+def _asperity_part(result: SeparationResult) -> AsperityPart:
+    import numpy as np
+
+    scene = result.plan.scene
+    effect = scene.effect(AsperityMenisci)
+    assert effect is not None  # of() has asked first
+    sums = [effect.sums(scene, gap) for gap in result.gap.tolist()]
+    columns = (np.array([s.n_wet for s in sums]), np.array([s.cover for s in sums]))
+    impulse = result.impulses.get("asperity_impulse")
+    law = f"{effect.law}, {effect.profile} bridges"
+    return AsperityPart(result.asperity_force, impulse, law, *columns)
 
 
 def _viscous_part(result: SeparationResult) -> ViscousPart:
@@ -271,15 +256,20 @@ def _limit_part(kind: LimitKind) -> Callable[[SeparationResult], LimitPart]:
     return part
 
 
-_PARTS: dict[type[SeparationEffect], Callable[[SeparationResult], Part]] = {
+_PARTS: dict[
+    type[SeparationEffect], Callable[[SeparationResult], ForcePart | ViscousPart | LimitPart]
+] = {
     MeniscusForce: _meniscus_part,
+    VanDerWaalsForce: _van_der_waals_part,
+    AdhesiveContact: _adhesion_part,
+    AsperityMenisci: _asperity_part,
     ViscousForce: _viscous_part,
     TensionLimit: _limit_part(LimitKind.TENSION),
     ShearLimit: _limit_part(LimitKind.SHEAR),
 }
+_FORCES = [kind for kind in SEPARATION_EFFECTS if issubclass(kind, SeparationForce)]
 _OWNERS: dict[str, type[SeparationEffect]] = {
-    "meniscus_force": MeniscusForce,
-    "viscous_force": ViscousForce,
+    **{kind.column: kind for kind in _FORCES},
     "newtonian_force": ViscousForce,
     "viscous_impulse": ViscousForce,
 }

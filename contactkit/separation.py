@@ -5,16 +5,21 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from .curves import at_speed, frozen, newtonian_impulses, simulated, within_time
-from .effects import MeniscusForce, ViscousForce
+from .effects import ViscousForce
 from .errors import ConvergenceError
+from .film_laws import impulse_name
 from .motion import advance, rest_once, step_once
 from .motion_state import MotionState, outputs, start
 from .plan import Plan
 from .results import SeparationResult, Work
+from .slide_curves import slide
+from .sliding_plan import SlidingPlan
+from .sliding_result import SlidingResult
 from .validity import check, warn
+from .vibration_curves import vibrating
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,14 +31,26 @@ Progress = Callable[[float], None]
 """Called now and then with the share of the run that is done, 0 to 1."""
 
 
+@overload
 def simulate(
     plan: Plan, *, throw: bool = True, progress: Progress | None = None
-) -> SeparationResult:
+) -> SeparationResult: ...
+
+
+@overload
+def simulate(
+    plan: SlidingPlan, *, throw: bool = True, progress: Progress | None = None
+) -> SlidingResult: ...
+
+
+def simulate(
+    plan: Plan | SlidingPlan, *, throw: bool = True, progress: Progress | None = None
+) -> SeparationResult | SlidingResult:
     """Run a plan.
 
     Parameters
     ----------
-    plan : Plan
+    plan : Plan or SlidingPlan
         What to run.
     throw : bool
         Raise where an integration does not reach its tolerance; otherwise return what was
@@ -43,7 +60,7 @@ def simulate(
 
     Returns
     -------
-    SeparationResult
+    SeparationResult or SlidingResult
         Curves, numbers, validity and cost.
 
     Raises
@@ -51,10 +68,16 @@ def simulate(
     ConvergenceError
         If no step of time meets the tolerance; carries the result so far.
     """
-    imposed = plan.scene.opening.imposed
     begun = clock.perf_counter()
+    if isinstance(plan, SlidingPlan):
+        slid = slide(plan, begun)
+        warn(slid.validity)
+        return slid
+    imposed = plan.scene.opening.imposed
     if imposed == "force":
         result = _motion(plan, begun, throw, progress)
+    elif plan.scene.opening.vibration is not None:
+        result = vibrating(plan, begun)
     elif imposed == "speed":
         result = at_speed(plan, begun)
     else:
@@ -114,11 +137,11 @@ def _share(plan: Plan, state: MotionState) -> float:
 def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:
     """Whether the pull, once risen, can never open the gap from here."""
     state, opening = states[-1], plan.scene.opening
-    if state.broken or len(states) < 2:
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    if film is None or len(states) < 2:
         return False
     if opening.rise_time and state.time < 40.0 * opening.rise_time:
         return False
-    film = plan.film_with(state.share)
     held = film.static_force(state.gap) + opening.stiffness * (state.gap - opening.initial_gap)
     return pull(state.time) <= held and state.speed <= 0.0 and state.gap <= opening.initial_gap
 
@@ -131,9 +154,8 @@ def _motion_result(
     problem: str | None,
 ) -> SeparationResult:
     last = states[-1]
-    impulses = {}
-    if plan.has(MeniscusForce):
-        impulses["meniscus_impulse"] = last.meniscus_impulse
+    named = [impulse_name(column) for column in plan.film.static_columns]
+    impulses = {name: getattr(last, name) for name in named if name in last._fields}
     if plan.has(ViscousForce):
         impulses |= newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
     status, message = _outcome(plan, last, pull(last.time), problem)
@@ -155,8 +177,8 @@ def _columns(
         "pull": frozen([pull(s.time) for s in states]),
         "film_status": frozen([row.status for row in rows]),
     }
-    curves = {
-        "meniscus_force": [row.static for row in rows],
+    static = [_static_forces(plan, state) for state in states]
+    curves = {name: [row[name] for row in static] for name in plan.film.static_columns} | {
         "viscous_force": [row.viscous for row in rows],
         "newtonian_force": [_newtonian_force(plan, s) for s in states],
         "limit": [row.limit for row in rows],
@@ -183,11 +205,19 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
             f"not released within Opening.time_limit = {limit:g} s; gap {last.gap:g} m",
         )
     held = outputs(plan, last, pull).static
+    what = " and ".join(name.removesuffix("_force") for name in plan.film.static_columns)
     return (
         "stuck",
-        f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the meniscus at "
-        f"{last.gap:g} m; pull harder, or start from a larger gap",
+        f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the "
+        f"{what.replace('_', ' ')} at {last.gap:g} m; pull harder, or start from a larger gap",
     )
+
+
+def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:
+    """Each force [N] that does not depend on speed, 0 where it has ended."""
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    none = dict.fromkeys(plan.film.static_columns, 0.0)
+    return none | (film.static_forces(state.gap) if film is not None else {})
 
 
 def _newtonian_force(plan: Plan, state: MotionState) -> float:

@@ -17,23 +17,20 @@ from .archive import from_bytes
 from .contact_scene import ContactScene
 from .errors import DescriptionError, InfeasibleError, PlanError, ValidityWarning
 from .planner import plan
-from .scene import SeparationScene
+from .scene import SeparationScene, SlidingScene
 from .study_paths import Axis, Scene, axes, changed
 from .study_run import Done, Piece, Task, put, run_here, run_in_processes, run_on_client
 from .study_store import Store, StudyPoint
 from .study_table import Study
 
 if TYPE_CHECKING:
-    from .contact_result import ContactResult
-    from .results import SeparationResult
-
-    Result = ContactResult | SeparationResult
+    from .archive import Result
 
 __all__ = ["Study", "StudyPoint", "study"]
 
 
 def study(
-    scene: ContactScene | SeparationScene,
+    scene: ContactScene | SeparationScene | SlidingScene,
     vary: Mapping[str, Iterable[Any]],
     accuracy: Accuracy | None = None,
     *,
@@ -47,7 +44,7 @@ def study(
 
     Parameters
     ----------
-    scene : ContactScene or SeparationScene
+    scene : ContactScene, SeparationScene or SlidingScene
         What is there, but for what is varied.
     vary : mapping of str to sequence
         Values by the dotted path of a field: ``pressing.pressure``,
@@ -106,8 +103,10 @@ def study(
             1e+09               0.28125  converged
             3e+09               0.46875  converged
     """
-    if not isinstance(scene, ContactScene | SeparationScene):
-        raise DescriptionError("scene", scene, "be a ContactScene or a SeparationScene")
+    if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
+        raise DescriptionError(
+            "scene", scene, "be a ContactScene, a SeparationScene or a SlidingScene"
+        )
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
         raise DescriptionError("workers", workers, "be a whole number of at least 1")
     accuracy = accuracy if accuracy is not None else Accuracy.standard

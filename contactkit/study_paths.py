@@ -13,11 +13,11 @@ from .contact_scene import ContactScene
 from .converter import field_value
 from .effects import Effect
 from .errors import DescriptionError
-from .scene import SeparationScene
+from .scene import SeparationScene, SlidingScene
 
 __all__ = ["Axis", "Scene", "axes", "changed"]
 
-Scene = SeparationScene | ContactScene
+Scene = SeparationScene | SlidingScene | ContactScene
 Tree = dict[str, Any]
 """Changes by the segments of their paths; a leaf is a value in `_Leaf`."""
 
@@ -39,7 +39,7 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) ->
 
     Parameters
     ----------
-    scene : ContactScene or SeparationScene
+    scene : ContactScene, SeparationScene or SlidingScene
         The scene that the paths lead into.
     accuracy : Accuracy
         What paths that begin with ``accuracy.`` lead into.

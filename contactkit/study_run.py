@@ -16,14 +16,13 @@ from typing import Any, NamedTuple
 from attrs import frozen
 
 from .accuracy import Accuracy
-from .archive import to_bytes
+from .archive import Result, to_bytes
 from .contact import solve
 from .contact_engine import Engine, interface_key
 from .contact_plan import ContactPlan
 from .contact_result import ContactResult
 from .errors import ContactkitError, ConvergenceError, InfeasibleError
 from .planner import plan
-from .results import SeparationResult
 from .separation import simulate
 from .study_paths import Scene, changed
 from .study_store import Store, StudyPoint
@@ -75,7 +74,7 @@ class _Chain:
         self._engine: Engine | None = None
         self._before: list[ContactResult] = []
 
-    def run(self, scene: Scene, accuracy: Accuracy) -> ContactResult | SeparationResult:
+    def run(self, scene: Scene, accuracy: Accuracy) -> Result:
         made = plan(scene, accuracy)
         if not isinstance(made, ContactPlan):
             return simulate(made)
@@ -114,12 +113,10 @@ def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> None:
         store.write(key, point, maps)
 
 
-def _solved(
-    chain: _Chain, piece: Piece, task: Task
-) -> tuple[StudyPoint, ContactResult | SeparationResult | None]:
+def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, Result | None]:
     scene, accuracy = changed(piece.scene, piece.accuracy, task.values)
     begun = time.perf_counter()
-    result: ContactResult | SeparationResult | None = None
+    result: Result | None = None
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

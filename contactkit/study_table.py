@@ -19,8 +19,7 @@ from .study_store import StudyPoint
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .contact_result import ContactResult
-    from .results import SeparationResult
+    from .archive import Result
 
 __all__ = ["Study"]
 
@@ -46,10 +45,10 @@ class Study:
     points: tuple[StudyPoint, ...] = field(repr=False)
     shape: tuple[int, ...]
     units: Mapping[str, str] = field(repr=False)
-    _results: tuple[ContactResult | SeparationResult | None, ...] | None = field(repr=False)
+    _results: tuple[Result | None, ...] | None = field(repr=False)
 
     @property
-    def results(self) -> tuple[ContactResult | SeparationResult | None, ...]:
+    def results(self) -> tuple[Result | None, ...]:
         """Results with their maps or curves; None where a point failed.
 
         Raises

@@ -11,6 +11,7 @@ import attrs
 from .effects import SEPARATION_EFFECTS
 from .effects.contact import CONTACT_EFFECTS
 from .effects.plasticity import HardnessMap
+from .effects.sliding import SLIDING_EFFECTS
 from .errors import DescriptionError
 from .liquids import LAWS
 from .surfaces import Flat, Sphere
@@ -45,7 +46,9 @@ SURFACE_KINDS: dict[str, type] = FACE_KINDS | {
     "heights": Heights,
     "combined": CombinedSurface,
 }
-OPENING_KINDS: dict[str, type] = {kind.name: kind for kind in SEPARATION_EFFECTS}
+OPENING_KINDS: dict[str, type] = {
+    kind.name: kind for kind in (*SEPARATION_EFFECTS, *SLIDING_EFFECTS)
+}
 PRESSING_KINDS: dict[str, type] = {kind.name: kind for kind in CONTACT_EFFECTS}
 LAW_KINDS: dict[str, type] = {kind.kind: kind for kind in LAWS}
 _TAGS: tuple[tuple[str, dict[str, type]], ...] = (

@@ -42,6 +42,7 @@ _SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
     "s": (1.0, {"s": 1}, True),
     "A": (1.0, {"A": 1}, True),
     "K": (1.0, {"K": 1}, True),
+    "mol": (1.0, {"mol": 1}, True),
     "rad": (1.0, {"rad": 1}, True),
     "deg": (deg, {"rad": 1}, False),
     "N": (1.0, {"kg": 1, "m": 1, "s": -2}, True),

@@ -8,10 +8,11 @@ from collections.abc import Iterable
 
 from attrs import field, frozen
 
-from .effects import MeniscusForce, ViscousForce
+from .effects import AdhesiveContact, AsperityMenisci, MeniscusForce, ViscousForce
 from .effects.film_shape import FilmShape, film_shape
 from .errors import ValidityWarning
 from .kernels import validity as numbers
+from .kernels.menisci import DENSEST_COVER
 from .plan import Plan
 from .units import nm
 
@@ -63,11 +64,47 @@ def check(plan: Plan, path: Iterable[tuple[float, float]]) -> tuple[ValidityNumb
     ]
     if plan.has(ViscousForce):
         found += _viscous(plan, film, pairs)
+    if plan.has(AsperityMenisci):
+        found.append(_cover(plan, gaps))
     if plan.has(MeniscusForce):
         found += _capillary(plan, film, gaps)
         if plan.has(ViscousForce):
             found += _both(plan, film, pairs)
+    if plan.has(AdhesiveContact):
+        found += _adhesion(plan)
     return tuple(found)
+
+
+def _adhesion(plan: Plan) -> list[ValidityNumber]:
+    """Whether the adhesion is as sharp, or as far, as the model takes it for."""
+    effect = plan.scene.effect(AdhesiveContact)
+    if effect is None or effect.model == "maugis-dugdale":  # right for all
+        return []
+    tabor = effect.numbers(plan.scene).tabor_parameter
+    is_sharp = effect.model == "jkr"
+    cure = "take model='maugis-dugdale', right for all"
+    return [
+        ValidityNumber(
+            name="Tabor parameter",
+            value=tabor,
+            low=5.0 if is_sharp else 0.0,
+            high=math.inf if is_sharp else 0.1,
+            detail=cure if tabor is not None else "AdhesiveContact.strength [Pa] is not given",
+            source="Johnson and Greenwood 1997",
+        )
+    ]
+
+
+def _cover(plan: Plan, gaps: list[float]) -> ValidityNumber:
+    effect = plan.scene.effect(AsperityMenisci)
+    assert effect is not None  # check() has asked
+    return ValidityNumber(
+        name="contact circles over the face",
+        value=max(effect.cover(plan.scene, gap) for gap in gaps),
+        high=DENSEST_COVER,
+        detail="above it the menisci of neighbouring asperities overlap",
+        source="densest order of equal circles, pi/sqrt(12)",
+    )
 
 
 def _viscous(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> list[ValidityNumber]:
@@ -133,7 +170,22 @@ def _capillary(plan: Plan, film: FilmShape, gaps: list[float]) -> list[ValidityN
                 source="stability of the cylinder at 90/90 degrees, pi^(1/3)",
             )
         )
+    if not plan.scene.interface.is_flat:
+        found.append(_lateral(plan, gaps, tension))
     return found
+
+
+def _lateral(plan: Plan, gaps: list[float], tension: float) -> ValidityNumber:
+    """Whether a bridge on a sphere stays in its middle: it does as long as it attracts."""
+    law, radius = plan.film.laws[MeniscusForce], plan.scene.interface.sphere_radius
+    least = min(law.force(gap, 0.0) for gap in gaps)
+    return ValidityNumber(
+        name="least meniscus force over 2 pi R gamma",
+        value=least / (2.0 * math.pi * radius * tension),
+        low=0.0,
+        detail="a bridge that repels a sphere is expelled sideways: it is laterally unstable",
+        source="an axisymmetric bridge is neutral sideways where its force is zero",
+    )
 
 
 def _both(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> list[ValidityNumber]:

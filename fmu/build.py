@@ -35,6 +35,7 @@ __all__ = ["FMUS", "build", "validate"]
 FMUS: dict[str, tuple[str, str]] = {
     "stiction-mass": ("stiction_mass", "StictionMass"),
     "valve-drive": ("valve_drive", "ValveDrive"),
+    "tip-contact": ("tip_contact", "TipContact"),
 }
 
 _SCRIPT = '''\

@@ -85,6 +85,11 @@ class Instance:
         values: list[float] = self._slave.getReal(references)
         return values
 
+    def get_integers(self, references: list[int]) -> list[int]:
+        """Read whole numbers and members of enumerations."""
+        values: list[int] = self._slave.getInteger(references)
+        return values
+
     def outputs(self) -> list[float]:
         """Read all outputs, in the order of `names`."""
         values = list(self._slave.getReal(self._real_references))

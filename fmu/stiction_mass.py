@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from enum import IntEnum
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 from ..accuracy import Accuracy
 from ..effects import (
@@ -43,6 +43,10 @@ class MeniscusLaw(IntEnum):
     ARC = 3
     PUBLISHED = 4
 
+
+_PROFILES: Mapping[MeniscusLaw, Literal["exact", "arc", "as-published"]] = {
+    MeniscusLaw.EXACT: "exact", MeniscusLaw.ARC: "arc", MeniscusLaw.PUBLISHED: "as-published",
+}  # fmt: skip
 
 _FILM = ("h0", "R", "V", "N")
 _MENISCUS = (*_FILM, "gamma", "theta1", "theta2", "meniscus_law")
@@ -106,7 +110,7 @@ PORTS = (
     _size("k_s", "N/m", "stiffness of a spring that pulls back towards h0", 0.0),
     _size("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
     _size("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
-    _size("h_break", "m", "gap at which the film breaks; 0: where its neck closes", 0.0, "um"),
+    _size("h_break", "m", "gap at which the film breaks; 0: where the bridge does", 0.0, "um"),
     _size("rewet", "-", "share of V that is there when the bodies return", 1.0, maximum=1.0),
     _size("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
     _size("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
@@ -120,7 +124,7 @@ PORTS = (
     ),
     Port(
         "meniscus_law", "-", causality="parameter", label="meniscus force that acts",
-        kind="enumeration", enumeration=MeniscusLaw, start=MeniscusLaw.ARC,
+        kind="enumeration", enumeration=MeniscusLaw, start=MeniscusLaw.EXACT,
     ),
     _size("dp_cav", "Pa", "tension the liquid bears; 0: no limit", 0.0, "bar"),
     _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
@@ -172,13 +176,8 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
 def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
     effects: list[SeparationEffect] = [ViscousForce()]
     law = MeniscusLaw(values["meniscus_law"])
-    if law is MeniscusLaw.EXACT:
-        raise DescriptionError(
-            "meniscus_law", "EXACT", "be NONE, ARC or PUBLISHED",
-            hint="the exact bridge is not part of this version; ARC approximates it",
-        )  # fmt: skip
     if law is not MeniscusLaw.NONE and values["gamma"] > 0.0:
-        effects.append(MeniscusForce(profile="arc" if law is MeniscusLaw.ARC else "as-published"))
+        effects.append(MeniscusForce(profile=_PROFILES[law]))
     if values["dp_cav"] > 0.0:
         effects.append(TensionLimit(tension=values["dp_cav"]))
     if values["tau_lim"] > 0.0:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from .adhesion import AdhesiveContact, VanDerWaalsForce
+from .asperities import AsperityMenisci
 from .base import Effect, SeparationEffect
 from .meniscus import MeniscusForce
 from .rupture import Rupture
 from .viscous import ShearLimit, TensionLimit, ViscousForce
 
 __all__ = [
-    "SEPARATION_EFFECTS", "Effect", "MeniscusForce", "Rupture", "SeparationEffect",
-    "ShearLimit", "TensionLimit", "ViscousForce",
+    "SEPARATION_EFFECTS", "AdhesiveContact", "AsperityMenisci", "Effect", "MeniscusForce",
+    "Rupture", "SeparationEffect", "ShearLimit", "TensionLimit", "VanDerWaalsForce", "ViscousForce",
 ]  # fmt: skip
 
 SEPARATION_EFFECTS: tuple[type[SeparationEffect], ...] = (
@@ -18,4 +20,7 @@ SEPARATION_EFFECTS: tuple[type[SeparationEffect], ...] = (
     TensionLimit,
     ShearLimit,
     Rupture,
+    VanDerWaalsForce,
+    AdhesiveContact,
+    AsperityMenisci,
 )

@@ -37,7 +37,8 @@ class ForceLaw(NamedTuple):
 
     `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
     slope jumps, `end` the gap beyond which it does not exist (inf: none), and `exponent` gives
-    n where the force falls as gap^-n, at a gap.
+    n where the force falls as gap^-n, at a gap. A contact of solids lets go where the gap exceeds
+    `release`, and is there again once it has closed to `rejoin`; the law goes on smoothly beyond.
     """
 
     force: Callable[[float, float], float]
@@ -46,6 +47,8 @@ class ForceLaw(NamedTuple):
     exponent: Callable[[float], float] = lambda gap: 0.0
     impulse: Callable[[float, float], float] | None = None
     """Time integral [N.s] of a force that is proportional to speed, between two gaps."""
+    release: float = float("inf")
+    rejoin: float = 0.0
 
 
 @frozen(kw_only=True)
@@ -65,6 +68,9 @@ class Effect(abc.ABC):
 class SeparationEffect(Effect):
     """An effect of a `SeparationScene`."""
 
+    takes_pressure: ClassVar[bool] = False
+    """Whether it knows a meniscus of fixed pressure; otherwise the plan refuses that."""
+
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
         """Sources of what this choice computes for a scene; all of them, unless it depends."""
         return self.sources
@@ -76,7 +82,14 @@ class SeparationEffect(Effect):
 
 @frozen(kw_only=True)
 class SeparationForce(SeparationEffect):
-    """A force F(h, h') between the bodies; any number may act."""
+    """A force F(h, h') between the bodies; any number may act.
+
+    `column` names its curve, one of `columns.COLUMNS`; a force that does not need the film stays
+    when that breaks.
+    """
+
+    column: ClassVar[str]
+    needs_film: ClassVar[bool] = True
 
     @abc.abstractmethod
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:

@@ -6,6 +6,7 @@ from .contact_base import ContactEffect
 from .elasticity import HalfSpace, LayeredHalfSpace
 from .film import FilmMeniscus
 from .friction import FrictionCoupling, FrictionTraction
+from .island_bridges import IslandBridges
 from .plasticity import HardnessLimit
 from .stress import SubsurfaceStress
 
@@ -19,4 +20,5 @@ CONTACT_EFFECTS: tuple[type[ContactEffect], ...] = (
     FrictionCoupling,
     SubsurfaceStress,
     FilmMeniscus,
+    IslandBridges,
 )

@@ -90,6 +90,8 @@ class FilmMeniscus(LoadTerm):
             lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("a film thickness, not interface.meniscus.volume [m3]: leave that out")
+        if meniscus.pressure is not None:
+            lacking.append("a film thickness, not interface.meniscus.pressure [Pa]: leave that out")
         return tuple(lacking)
 
     def _force(self, scene: ContactScene, area: float) -> float:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ConvergenceError, InfeasibleError
+from ..kernels.spline import cubic_spline
 from .base import ForceLaw
 from .film_shape import film_shape
+from .meniscus_flat import surface_tension
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,85 +21,154 @@ if TYPE_CHECKING:
     from ..accuracy import Accuracy
     from ..scene import SeparationScene
 
-__all__ = ["sphere_law"]
+__all__ = ["exact_end", "sphere_law"]
 
+_HIGHEST = 400  # degree of the polynomial
 _MOST_NODES = 4097
 
 
-def sphere_law(scene: SeparationScene, accuracy: Accuracy, *, as_published: bool) -> ForceLaw:
-    """Force of the arc meniscus of constant volume on a sphere, as a law of the gap.
+class _Bridges(NamedTuple):
+    """Force over surface tension [m] of one meniscus at gaps [m], up to an end.
 
-    The arc is solved on nodes in the logarithm of the gap, doubled until the spline between them
-    agrees with the arc at the midpoints to a tenth of the tolerance of time, and a spline is what
-    the loop calls: microseconds in place of milliseconds.
+    `thin` is a gap below which the force hardly depends on it. What is tabulated is the force
+    times `left`, a known factor that takes a pole away.
     """
-    import numpy as np
 
+    force: Callable[[Floats], Floats]
+    end: float
+    thin: float
+    left: Callable[[Any], Any] = lambda gap: 1.0
+
+
+def sphere_law(scene: SeparationScene, accuracy: Accuracy, profile: str) -> ForceLaw:
+    """Force of the meniscus on a sphere, as a law of the gap.
+
+    Some dozens of bridges are solved, until the curve through them is known to a tenth of the
+    tolerance of time, and a spline is what the loop calls: microseconds in place of milliseconds.
+    """
+    n, tension = scene.interface.meniscus.count, surface_tension(scene)
+    bridges = _exact(scene) if profile == "exact" else _arcs(scene, profile == "as-published")
+    top = min(scene.opening.final_gap * 2.0, bridges.end * (1.0 - 1e-9))
+    curve = _curve(bridges, top, 0.1 * accuracy.time_rtol)
+
+    def law(gap: float, speed: float) -> float:
+        gap = min(max(gap, 0.0), top)
+        return n * tension * curve(gap) / float(bridges.left(gap))
+
+    return ForceLaw(law, end=bridges.end)
+
+
+def _fixed(scene: SeparationScene) -> tuple[float, float, float, float]:
+    """Angles [rad] and curvatures [1/m] of the bodies."""
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    return (
+        meniscus.contact_angle_lower, meniscus.contact_angle_upper,
+        interface.lower.curvature, interface.upper.curvature,
+    )  # fmt: skip
+
+
+def exact_end(scene: SeparationScene) -> float:
+    """Gap [m] at which the exact bridge on a sphere ends."""
+    meniscus = scene.interface.meniscus
+    if meniscus.pressure is not None:
+        from ..kernels.bridge_pressure import longest_at_pressure
+
+        return longest_at_pressure(meniscus.pressure / surface_tension(scene), *_fixed(scene))
+    from ..kernels.bridge_limit import stability_limit
+
+    return float(stability_limit(film_shape(scene).volume, *_fixed(scene)).gap)
+
+
+def _exact(scene: SeparationScene) -> _Bridges:
+    pressure = scene.interface.meniscus.pressure
+    film, fixed, end = film_shape(scene), _fixed(scene), exact_end(scene)
+    if pressure is None:
+        from ..kernels.bridge_exact import bridge
+
+        thin = 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
+        return _Bridges(lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, thin)
+    from ..kernels.bridge_pressure import bridge_at_pressure
+
+    over = pressure / surface_tension(scene)
+    return _Bridges(
+        lambda gap: bridge_at_pressure(gap, over, *fixed, beyond="nan").force, end, 0.1 * end
+    )
+
+
+def _arcs(scene: SeparationScene, as_published: bool) -> _Bridges:
     from ..kernels import arc_sphere, published
 
-    interface, meniscus = scene.interface, scene.interface.meniscus
-    film = film_shape(scene)
-    volume, n = film.volume, film.menisci
-    tension = meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # plan() has asked lacks() first
-    lower, upper = meniscus.contact_angle_lower, meniscus.contact_angle_upper
-    curvatures = (interface.lower.curvature, interface.upper.curvature)
+    film, fixed = film_shape(scene), _fixed(scene)
     profile = "parabola" if as_published else "sphere"
-    end = float(arc_sphere.zero_neck_gap(volume, lower, upper, *curvatures, profile=profile))
-
-    def force(gap: Floats) -> Floats:
-        state = arc_sphere.solve(gap, volume, lower, upper, *curvatures, profile=profile)
-        if as_published:
-            return np.asarray(published.meniscus_sphere_3_12(state, tension, upper) * left(gap))
-        return np.asarray(tension * state.force)
+    end = float(arc_sphere.zero_neck_gap(film.volume, *fixed, profile=profile))
 
     # The printed force grows without bound as the neck closes; a curve of it would ring. What is
     # tabulated is the force times the share of the way to the end that is left.
     def left(gap: Any) -> Any:
         return 1.0 - gap / end if as_published else 1.0
 
-    # Lengths of the film: where it is thinner than this, the force hardly depends on the gap.
-    thin = 0.1 * math.sqrt(volume / (math.pi * film.sphere_radius))
-    top = min(scene.opening.final_gap * 2.0, end * (1.0 - 1e-9))
-    curve = _spline(force, thin, top, 0.1 * accuracy.time_rtol)
+    def force(gap: Floats) -> Floats:
+        state = arc_sphere.solve(gap, film.volume, *fixed, profile=profile)
+        if as_published:
+            return published.meniscus_sphere_3_12(state, 1.0, fixed[1]) * left(gap)  # type: ignore[no-any-return]
+        return state.force
 
-    def law(gap: float, speed: float) -> float:
-        gap = min(max(gap, 0.0), top)
-        return n * curve(gap) / float(left(gap))
-
-    return ForceLaw(law, end=end)
+    # Length of the film: where it is thinner than this, the force hardly depends on the gap.
+    thin = 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
+    return _Bridges(force, end, thin, left)
 
 
-def _spline(
-    force: Callable[[Floats], Floats], thin: float, top: float, rtol: float
-) -> Callable[[float], float]:
-    """Curve through a force on nodes in the logarithm of the gap, as many as it takes.
+def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], float]:
+    """Curve through a force: a polynomial through some dozens of bridges, as a spline.
+
+    It runs in the root of the logarithm of the gap's distance to the end, in which a force that
+    ends in a fold, with an infinite slope, is smooth too: a polynomial converges exponentially.
 
     Raises
     ------
     InfeasibleError
-        If there is no arc at a gap on the way.
+        If there is no bridge at a gap on the way.
     ConvergenceError
         If the force is not smooth enough for a curve.
     """
     import numpy as np
-    from scipy.interpolate import CubicSpline
+    from numpy.polynomial import Chebyshev
 
-    far = math.log1p(top / thin)
-    nodes, error = 33, math.inf
-    while error > max(rtol, 1e-12) and 2 * nodes - 1 <= _MOST_NODES:
-        x = np.linspace(0.0, far, 2 * nodes - 1)
-        gaps = np.minimum(thin * np.expm1(x), top)
-        f = force(gaps)
+    thin = bridges.thin
+    end = bridges.end if math.isfinite(bridges.end) else 2.0 * top
+    first, far = (math.sqrt(math.log((end + thin) / (gap + thin))) for gap in (top, 0.0))
+
+    def force(x: Floats) -> Floats:
+        gaps = np.clip((end + thin) * np.exp(-x * x) - thin, 0.0, top)
+        f = bridges.force(gaps)
         if not np.all(np.isfinite(f)):
             missing = float(gaps[~np.isfinite(f)][0])
-            raise InfeasibleError(f"no arc meniscus spans a gap of {missing:g} m on the way")
+            raise InfeasibleError(f"no meniscus spans a gap of {missing:g} m on the way")
+        return f
+
+    degree, tail = 24, math.inf
+    while tail > max(rtol, 1e-12) and degree <= _HIGHEST:
+        series = Chebyshev.interpolate(force, degree, [first, far])
+        tail = float(np.max(np.abs(series.coef[-4:])) / np.max(np.abs(series.coef)))
+        degree *= 2
+    if tail > 1e-6:
+        raise ConvergenceError(f"the meniscus force on the sphere is rough: {tail:.1e} off a curve")
+    fine = _splined(series, first, far, rtol)
+    return lambda gap: fine(math.sqrt(math.log((end + thin) / (gap + thin))))[0]
+
+
+def _splined(
+    series: Callable[[Floats], Floats], first: float, far: float, rtol: float
+) -> Callable[[float], tuple[float, float]]:
+    """Spline through a smooth function, quicker to call than a polynomial of high degree."""
+    import numpy as np
+    from scipy.interpolate import CubicSpline
+
+    nodes, error = 65, math.inf
+    while error > max(rtol, 1e-12) and nodes <= _MOST_NODES:
+        x = np.linspace(first, far, 2 * nodes - 1)
+        f = series(x)
         spline = CubicSpline(x[::2], f[::2])
         error = float(np.max(np.abs(spline(x[1::2]) - f[1::2])) / np.max(np.abs(f)))
         nodes = 2 * nodes - 1
-    if error > 1e-6:
-        raise ConvergenceError(
-            f"the meniscus force on the sphere is rough: {error:.1e} off a curve"
-        )
-    fine = CubicSpline(x, f)
-    return lambda gap: float(fine(math.log1p(gap / thin)))
+    return cubic_spline(x.tolist(), f.tolist())  # a float in and out: ten times as quick

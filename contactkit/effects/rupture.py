@@ -13,6 +13,7 @@ from ..kernels import arc_flat
 from ..units import si
 from .base import FilmEnd
 from .film_shape import film_shape
+from .meniscus_flat import exact_end
 
 if TYPE_CHECKING:
     from ..accuracy import Accuracy
@@ -29,29 +30,47 @@ class Rupture(FilmEnd):
     ----------
     gap : float, optional
         Break distance [m], for example measured. None: by `criterion`.
-    criterion : {"zero-neck"}
-        Where the neck of the arc vanishes, as published. This is an upper bound: the exact
-        bridge loses stability at a gap 1.4 to 15 times smaller.
+    criterion : {"limit", "zero-neck"}
+        ``"limit"``: where the exact bridge of this volume (or pressure) loses stability.
+        ``"zero-neck"``: where the neck of the arc vanishes, as published; 1.4 to 15 times too
+        far, for reproduction.
+
+    Notes
+    -----
+    The limit is that of a bridge in equilibrium whose contact lines are free to move. A film that
+    is drawn out fast, or pinned, breaks later. `MeniscusForce` ends there of itself; listed beside
+    a viscous force alone, this effect ends that too.
     """
 
     name: ClassVar[str] = "rupture"
     summary: ClassVar[str] = "the film breaks at a gap"
+    takes_pressure: ClassVar[bool] = True
 
     gap: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-    criterion: Literal["zero-neck"] = field(default="zero-neck", validator=choice("zero-neck"))
+    criterion: Literal["limit", "zero-neck"] = field(
+        default="limit", validator=choice("limit", "zero-neck")
+    )
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         if self.gap is not None:
             return ("break distance given with the scene",)
+        if self.criterion == "limit":
+            return (
+                "stability of the axisymmetric bridge: fold, tilt or detachment; Vogel 1987, "
+                "Lowry and Steen 1995",
+            )
         return ("zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
-        if self.gap is None and scene.interface.meniscus.volume is None:
-            return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
-        return ()
+        meniscus = scene.interface.meniscus
+        if self.gap is not None or meniscus.volume is not None:
+            return ()
+        if meniscus.pressure is not None and self.criterion == "limit":
+            return ()
+        return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> float:
         """See `FilmEnd.prepare`."""
@@ -64,15 +83,28 @@ class Rupture(FilmEnd):
                     unit="m",
                 )
             return self.gap
-        meniscus, film = scene.interface.meniscus, film_shape(scene)
-        angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-        if math.isinf(film.sphere_radius):
-            return float(arc_flat.zero_neck_gap(arc_flat.shape(*angles), film.volume))
-        from ..kernels import arc_sphere
+        return _limit(scene) if self.criterion == "limit" else _zero_neck(scene)
 
-        interface = scene.interface
-        return float(
-            arc_sphere.zero_neck_gap(
-                film.volume, *angles, interface.lower.curvature, interface.upper.curvature
-            )
+
+def _limit(scene: SeparationScene) -> float:
+    """Gap [m] at which the exact bridge ends."""
+    if scene.interface.is_flat:
+        return exact_end(scene)
+    from . import meniscus_sphere
+
+    return meniscus_sphere.exact_end(scene)
+
+
+def _zero_neck(scene: SeparationScene) -> float:
+    """Gap [m] at which the neck of the arc closes."""
+    interface, meniscus, film = scene.interface, scene.interface.meniscus, film_shape(scene)
+    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+    if math.isinf(film.sphere_radius):
+        return float(arc_flat.zero_neck_gap(arc_flat.shape(*angles), film.volume))
+    from ..kernels import arc_sphere
+
+    return float(
+        arc_sphere.zero_neck_gap(
+            film.volume, *angles, interface.lower.curvature, interface.upper.curvature
         )
+    )

@@ -9,6 +9,7 @@ from attrs import field, frozen
 
 from ..checks import choice, positive
 from ..kernels import film_limits, squeeze
+from ..scene import SlidingScene
 from ..units import si
 from .base import FilmLimit, ForceLaw, Limiter, SeparationForce
 from .film_shape import FilmShape, film_shape, needs_extent
@@ -32,10 +33,12 @@ class ViscousForce(SeparationForce):
 
     Parameters
     ----------
-    closure : {"volume-conserving", "flooded"}
+    closure : {"volume-conserving", "flooded", "as-published"}
         Whether the film draws in as the gap opens, so that its volume stays (a film without a
         given volume stands in a bath and stays full to the rim); or keeps the radius it has at
-        the start, as the published Eqs. (3.19) and (3.34) have it.
+        the start. ``"as-published"``: Eqs. (3.19) and (3.34) between flats, which keep the
+        radius though the volume is given, and Eq. (3.26) under a sphere; for reproduction only,
+        with what is wrong in ``result.errata``.
 
     Notes
     -----
@@ -44,9 +47,12 @@ class ViscousForce(SeparationForce):
 
     name: ClassVar[str] = "viscous-force"
     summary: ClassVar[str] = "viscous force of the film (Reynolds)"
+    column: ClassVar[str] = "viscous_force"
+    takes_pressure: ClassVar[bool] = True
 
-    closure: Literal["volume-conserving", "flooded"] = field(
-        default="volume-conserving", validator=choice("volume-conserving", "flooded")
+    closure: Literal["volume-conserving", "flooded", "as-published"] = field(
+        default="volume-conserving",
+        validator=choice("volume-conserving", "flooded", "as-published"),
     )
 
     @property
@@ -70,11 +76,13 @@ class ViscousForce(SeparationForce):
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
         """See `SeparationForce.prepare`."""
-        film = film_shape(scene, constant_radius=self.closure == "flooded")
+        film = film_shape(scene, constant_radius=keeps_radius(scene))
         viscosity = _viscosity(scene)
         kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
         if math.isinf(film.sphere_radius):
             return _disc_law(film, viscosity, kinks)
+        if math.isfinite(film.level):
+            return _level_law(film, viscosity, kinks)
         return _sphere_law(film, viscosity, kinks)
 
 
@@ -94,6 +102,31 @@ def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> Fo
         return impulse(start, full) + impulse(full, end)
 
     return ForceLaw(force, kinks, exponent=lambda gap: 3.0 if gap < full else 5.0, impulse=impulse)
+
+
+def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
+    """Force of a film under a sphere whose rim keeps its height, until the sphere leaves it."""
+    n, sphere, level, full = film.menisci, film.sphere_radius, film.level, film.full_gap
+
+    def force(gap: float, speed: float) -> float:
+        return n * float(squeeze.sphere_force(sphere, gap, film.height(gap), speed, viscosity))
+
+    def impulse(start: float, end: float) -> float:
+        if end < start:
+            return -impulse(end, start)
+        if start < full < end:
+            return impulse(start, full) + impulse(full, end)
+        if end <= full:
+            return n * float(
+                squeeze.sphere_impulse_flooded(sphere, film.rim, start, end, viscosity)
+            )
+        return n * squeeze.sphere_impulse_level(sphere, level, start, end, viscosity)
+
+    def exponent(gap: float) -> float:
+        # d ln c/d ln D of (1 - D/s)^2/D is 1 + 2 D/(s - D); it may not grow without bound.
+        return 1.0 + 2.0 * gap / max(level - gap, 0.5 * gap)
+
+    return ForceLaw(force, kinks, end=level, exponent=exponent, impulse=impulse)
 
 
 def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
@@ -146,6 +179,7 @@ class TensionLimit(FilmLimit):
 
     name: ClassVar[str] = "tension-limit"
     summary: ClassVar[str] = "the liquid cannot be pulled below a given pressure"
+    takes_pressure: ClassVar[bool] = True
 
     tension: float | Literal["vapour"] = field(default="vapour", metadata=si("Pa"))
     ambient_pressure: float = field(default=101_325.0, validator=positive, metadata=si("Pa"))
@@ -207,17 +241,33 @@ class ShearLimit(FilmLimit):
     ----------
     strength : float
         Limiting shear strength [Pa]; for oils about 1e6 to 1e8.
+    law : {"clipped", "bair-winer", "eyring"}
+        How the stress nears it. ``"clipped"``: Newtonian up to the strength. The others are for a
+        `SlidingScene`: tau_L (1 - exp(-eta g/tau_L)) of Bair and Winer, with the shear rate g, and
+        tau_E asinh(eta g/tau_E) of Eyring, for which `strength` is a scale and no bound.
     """
 
     name: ClassVar[str] = "shear-limit"
     summary: ClassVar[str] = "wall shear stress bounded by a limiting shear strength"
+    takes_pressure: ClassVar[bool] = True
 
     strength: float = field(validator=positive, metadata=si("Pa"))
+    law: Literal["clipped", "bair-winer", "eyring"] = field(
+        default="clipped", validator=choice("clipped", "bair-winer", "eyring")
+    )
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
+        if self.law == "eyring":
+            return ("shear stress as a process of rates, Eyring 1936",)
         return ("limiting shear strength, Bair and Winer 1979",)
+
+    def lacks(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+        """See `SeparationEffect.lacks`."""
+        if self.law != "clipped" and not isinstance(scene, SlidingScene):
+            return ('law="clipped": the others are for a SlidingScene',)
+        return ()
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
         """See `FilmLimit.prepare`."""
@@ -238,4 +288,7 @@ class ShearLimit(FilmLimit):
 def keeps_radius(scene: SeparationScene) -> bool:
     """Whether the viscous force of this scene keeps the radius of the film."""
     viscous = scene.effect(ViscousForce)
-    return viscous is not None and viscous.closure == "flooded"
+    if viscous is None:
+        return False
+    as_printed = viscous.closure == "as-published" and scene.interface.is_flat
+    return viscous.closure == "flooded" or as_printed

@@ -145,7 +145,7 @@ LAPLACE = ck.MeniscusForce(profile="as-published")
 
 
 def test_a_result_tells_the_time_of_a_pull(film_scene):
-    scene = injector(film_scene, LAPLACE, ck.ViscousForce(), time=1.0)
+    scene = injector(film_scene, ck.MeniscusForce(), ck.ViscousForce(), time=1.0)
     viscous = ck.simulate(ck.plan(scene)).of(ck.ViscousForce)
     assert viscous.time_at_constant_force(5.0) == approx(conserved(5.0), 1e-13)
     assert viscous.time_at_constant_force(0.5) == math.inf
@@ -164,7 +164,7 @@ def test_a_film_full_at_first_draws_in_later(film_scene):
 def test_each_of_many_menisci_carries_its_share(film_scene, count):
     """N films of V/N share the faces: each has the wetted area over N and takes F/N."""
     scene = film_scene(
-        LAPLACE,
+        ck.MeniscusForce(),
         ck.ViscousForce(),
         lower=ck.Flat(radius=FACE),
         upper=ck.Flat(radius=FACE),

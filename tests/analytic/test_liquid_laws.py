@@ -58,9 +58,15 @@ def law_of(table: dict[str, str]) -> TemperatureLaw:
 def liquids() -> dict[str, Liquid]:
     tables = tomllib.loads(DATA.read_text(encoding="utf-8"))
     return {
-        name: Liquid(**{k: law_of(v) if isinstance(v, dict) else v for k, v in table.items()})
+        name: Liquid(**{key: value_of(key, given) for key, given in table.items()})
         for name, table in tables.items()
     }
+
+
+def value_of(key: str, given: Any) -> Any:
+    if isinstance(given, dict):
+        return law_of(given)
+    return parse_quantity(given, "kg/mol", key) if key == "molar_mass" else given
 
 
 # Walther ------------------------------------------------------------------------------------

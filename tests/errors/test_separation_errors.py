@@ -43,6 +43,10 @@ def refuses_plan(*parts, error=ck.PlanError, **given):
 
 ACCURACY = ck.Accuracy()
 LIMIT, SHEAR, BREAK = ck.TensionLimit(tension=1e6), ck.ShearLimit(strength=1e6), ck.Rupture()
+ATTRACTION = ck.VanDerWaalsForce(hamaker_constant=1e-19)
+MOIST = ck.Meniscus(liquid=OIL, pressure=-1e6)
+SUMMITS = ck.AsperityPopulation(density=1e12, radius=1e-6)
+STICKY = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
 NEVER = [math.nan, math.inf, -math.inf, True, "1 um", (1.0,)]
 POSITIVE, NON_NEGATIVE = "be positive and finite", "be zero or positive, and finite"
 FINITE, BETWEEN = "be a finite number", "lie between 0 and 1"
@@ -52,6 +56,11 @@ FIELDS = [
     (ck.Flat(), "radius", "m", POSITIVE, [0.0, -1e-3]),
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
+    (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),
+    (SUMMITS, "density", "1/m2", POSITIVE, [0.0, -1e12, None]),
+    (SUMMITS, "radius", "m", POSITIVE, [0.0, -1e-6, None]),
+    (SUMMITS, "rms_height", "m", NON_NEGATIVE, [-1e-9, None]),
+    (ck.AsperityMenisci(asperities=SUMMITS), "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
     (FILM, "contact_angle_lower", "rad", "lie between 0 and pi", [-0.1, 3.2, None]),
     (FILM, "contact_angle_upper", "rad", "lie between 0 and pi", [-0.1, 181.0, None]),
     (FILM, "count", "", WHOLE, [0, -1, 1.0, 2.5, None]),
@@ -72,6 +81,12 @@ FIELDS = [
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
     (SHEAR, "strength", "Pa", POSITIVE, [0.0, -1e5, None]),
     (BREAK, "gap", "m", POSITIVE, [0.0, -1e-6]),
+    (ATTRACTION, "hamaker_constant", "J", POSITIVE, [0.0, -1e-19, None]),
+    (ATTRACTION, "cutoff", "m", POSITIVE, [0.0, -1e-10, None]),
+    (STICKY, "work_of_adhesion", "J/m2", POSITIVE, [0.0, -0.05, "wet", None]),
+    (STICKY, "reduced_modulus", "Pa", POSITIVE, [0.0, -1e9, None]),
+    (STICKY, "equilibrium_distance", "m", POSITIVE, [0.0, -1e-10, None]),
+    (STICKY, "strength", "Pa", POSITIVE, [0.0, -1e6]),
     (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),
     (ACCURACY, "points", "", WHOLE, [0, -5, 1.5, None]),
     (ACCURACY, "max_steps", "", WHOLE, [0, -5, 1.5, None]),
@@ -522,7 +537,7 @@ MISTAKES = {
     ),
     "nameless effect": (
         [('effect = "tension-limit"\n', "")],
-        ["effect must name a known kind, got None", "known: meniscus-force", "at effects[1]"],
+        ["effect must name a known kind, got None", "known: adhesive-contact", "at effects[1]"],
     ),
     "misspelt choice": (
         [('"viscous-force"', '"viscous-force"\nclosure = "floded"')],

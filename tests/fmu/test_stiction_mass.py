@@ -12,6 +12,8 @@ import pytest
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.fmu import build as building
 from contactkit.fmu.stiction_mass import PORTS, MeniscusLaw, StictionMass
+from contactkit.kernels.bridge_exact import bridge
+from contactkit.kernels.bridge_limit import stability_limit
 from contactkit.motion_state import FilmStatus, LimitKind
 
 OK, DISCARD = 0, 2
@@ -241,10 +243,27 @@ def test_contradicting_parameters_are_named(host):
     assert "h_rel must exceed h0" in host.errors[0]
 
 
-def test_the_exact_bridge_is_not_faked(host):
-    host.start(meniscus_law=MeniscusLaw.EXACT)
-    assert host.step() == DISCARD
-    assert "not part of this version" in host.errors[0]
+def test_the_exact_bridge_is_the_default(host):
+    """A drop that does not reach the rim, against the exact bridge of the kernel and the arc."""
+    drop = {"R": 1e-3, "V": 1e-12, "h0": 2e-5, "gamma": 0.03, "theta1": 0.5, "theta2": 1.2}
+    forces = {}
+    for law in (None, MeniscusLaw.EXACT, MeniscusLaw.ARC):
+        host.reset().start(**drop, **({} if law is None else {"meniscus_law": law}))
+        assert host.step(1e-9) == OK
+        forces[law] = host.get("F_m")
+    exact = 0.03 * float(bridge(2e-5, 1e-12, 0.5, 1.2).force)
+    assert forces[None] == forces[MeniscusLaw.EXACT] == pytest.approx(exact, rel=1e-8)
+    assert 1e-3 < abs(forces[MeniscusLaw.ARC] / exact - 1.0) < 0.05
+
+
+def test_the_film_breaks_at_the_limit_of_the_exact_bridge(host):
+    drop = {"R": 1e-3, "V": 1e-12, "h0": 2e-5, "h_rel": 3e-4, "gamma": 0.03, "eta": 1e-3}
+    host.start(**drop, theta1=0.5, theta2=1.2, F_ext=1e-3)
+    limit = float(stability_limit(1e-12, 0.5, 1.2).gap)
+    while host.get("t_break") < 0.0:
+        before = host.get("h")
+        assert host.step(2e-6) == OK
+    assert before < limit < host.get("h") < 1.2 * limit
 
 
 def test_two_builds_in_one_process_keep_their_own_numbers(tmp_path, open_fmu):

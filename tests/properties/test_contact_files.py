@@ -107,6 +107,13 @@ EFFECTS = {
         keep=st.sampled_from(["section", "planes"]),
         window=st.floats(1.0, 50.0),
     ),
+    ck.IslandBridges: st.builds(
+        ck.IslandBridges,
+        film_thickness=st.none() | lengths,
+        meniscus_height=st.none() | lengths,
+        curvature=st.sampled_from(["island", "summit"]),
+        connectivity=st.sampled_from([4, 8]),
+    ),
     ck.FilmMeniscus: st.builds(
         ck.FilmMeniscus,
         film_thickness=lengths,
@@ -257,6 +264,7 @@ CALLED = {
     ),
     "coupled friction": (FRICTION, ck.FrictionCoupling()),
     "film": (ck.FilmMeniscus(film_thickness=1e-9),),
+    "islands": (ck.IslandBridges(film_thickness=2e-10),),
     "section": (FRICTION, ck.SubsurfaceStress(depths=(0.0, 1e-8, 3e-8))),
     "planes": (ck.SubsurfaceStress(depths=(0.0, 1e-8), keep="planes"), ck.HardnessLimit()),
 }

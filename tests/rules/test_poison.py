@@ -19,6 +19,7 @@ from contactkit import separation
 from contactkit.contact import solve
 from contactkit.effects import SEPARATION_EFFECTS
 from contactkit.effects.contact import CONTACT_EFFECTS
+from contactkit.effects.modes import mixed
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -34,10 +35,19 @@ ARC_FLAT = {
 }  # fmt: skip
 ARC_SPHERE = {
     "arc_sphere.solve", "arc_sphere.zero_neck_gap", "arc_newton.*", "arc_segment.*",
-    "arc_shape.refuse_spreading",
+    "arc_shape.refuse_spreading", "spline.cubic_spline",
+}  # fmt: skip
+EXACT_FLAT_END = {
+    "flat_law.*", "flat_family.*", "delaunay.*", "arc_shape.*", "quadrature.gauss_legendre",
+    "roots.bracketed_root",
+}  # fmt: skip
+EXACT_FLAT = EXACT_FLAT_END | {"spline.cubic_spline"}
+EXACT_SPHERE = {
+    "bridge_*", "delaunay.*", "quadrature.gauss_legendre", *ARC_SPHERE,
 }  # fmt: skip
 OWNED = {
-    ck.MeniscusForce(): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
+    ck.MeniscusForce(): {"flats": EXACT_FLAT, "sphere": EXACT_SPHERE},
+    ck.MeniscusForce(profile="arc"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
     ck.MeniscusForce(profile="as-published"): {
         "flats": {"published.meniscus_flat_3_11", "published.meniscus_divided_3_33",
                   "arc_shape.wetting"},
@@ -51,6 +61,10 @@ OWNED = {
         "flats": {"squeeze.disc_force", "squeeze.disc_impulse_flooded"},
         "sphere": {"squeeze.sphere_force", "squeeze.sphere_impulse_flooded"},
     },
+    ck.ViscousForce(closure="as-published"): {
+        "flats": {"squeeze.disc_force", "squeeze.disc_impulse_flooded"},
+        "sphere": {"squeeze.sphere_force", "squeeze.sphere_impulse_*"},
+    },
     ck.TensionLimit(tension=1e4): {
         "flats": {"film_limits.disc_tension_clipped"},
         "sphere": {"film_limits.sphere_tension_clipped"},
@@ -62,12 +76,49 @@ OWNED = {
         "flats": {"film_limits.disc_shear_limited"},
         "sphere": {"film_limits.sphere_shear_limited", "roots.bracketed_root"},
     },
-    ck.Rupture(): {
+    ck.Rupture(): {"flats": EXACT_FLAT_END, "sphere": EXACT_SPHERE},
+    ck.Rupture(criterion="zero-neck"): {
         "flats": {"arc_flat.zero_neck_gap", "arc_shape.*", "quadrature.gauss_legendre"},
         "sphere": ARC_SPHERE - {"arc_sphere.solve"},
     },
     ck.Rupture(gap=5e-6): {"flats": set(), "sphere": set()},
 }  # fmt: skip
+# Forces of the solids stand beside those of the film: each is tried with a few of these.
+RUBBER = {"work_of_adhesion": 0.05, "reduced_modulus": 1e6, "strength": 1e4}
+ADHESION = {"adhesion_scales.*"}
+SOLIDS = {
+    ck.VanDerWaalsForce(hamaker_constant=1e-19): {
+        "flats": {"van_der_waals.pressure_between_flats"}, "sphere": {"van_der_waals.sphere_force"},
+    },
+    ck.VanDerWaalsForce(hamaker_constant=1e-19, closure="hamaker"): {
+        "flats": {"van_der_waals.pressure_between_flats"},
+        "sphere": {"van_der_waals.hamaker_sphere_force"},
+    },
+    ck.AdhesiveContact(model="jkr", **RUBBER): {"sphere": {"jkr.*", *ADHESION}},
+    ck.AdhesiveContact(model="dmt", **RUBBER): {"sphere": {"dmt.*", *ADHESION}},
+    ck.AdhesiveContact(**RUBBER): {
+        "sphere": {"maugis_dugdale.*", "dmt.reach", "roots.bracketed_root", *ADHESION},
+    },
+}  # fmt: skip
+# Menisci at asperities stand alone, in a film of a height or in the air of a humidity.
+SUMMITS = ck.AsperityPopulation(density=1e6, radius=1e-2, rms_height=1e-6)
+THIN = {"asperities.*", "kelvin.*", "arc_shape.wetting", "quadrature.gauss_legendre"}
+CONDENSED = {
+    "condensed.reach_at_pressure", "bridge_*", "delaunay.*", "roots.bracketed_root",
+    "arc_shape.*", "asperities.normal_tail", *THIN,
+}  # fmt: skip
+ROUGH = {
+    ck.AsperityMenisci(asperities=SUMMITS, meniscus_height=5e-6, **choices): {
+        "flats": THIN if choices["profile"] == "thin-film" else CONDENSED
+    }
+    for choices in (
+        {"law": "greenwood-williamson", "profile": "thin-film"},
+        {"law": "greenwood-williamson", "profile": "exact"},
+        {"law": "identical", "profile": "thin-film"},
+        {"law": "identical", "profile": "exact"},
+    )
+}
+BESIDE = [(), (ck.MeniscusForce(),), (ck.ViscousForce(), ck.Rupture(gap=5e-6))]
 
 # What is not an effect's: how far the film reaches, the motion, and the ranges of validity.
 EXTENT = {"flats": {"squeeze.disc_radius"}, "sphere": {"squeeze.sphere_film_height"}}
@@ -127,24 +178,29 @@ def _raising(name):
     return raises
 
 
-def run(effects, body, imposed):
+def scene_of(effects, body, imposed):
     motion = {
         "speed": {"speed": 1e-3},
         "time": {"time": 1.0},
         "force": {"force": 1.0, "mass": 1e-3},
     }[imposed]
-    film = ck.Meniscus(liquid=OIL, volume=6e-14, contact_angle_lower=0.3, contact_angle_upper=0.4)
-    scene = ck.SeparationScene(
+    volume = None if ROUGH.keys() & set(effects) else 6e-14
+    film = ck.Meniscus(liquid=OIL, volume=volume, contact_angle_lower=0.3, contact_angle_upper=0.4)
+    return ck.SeparationScene(
         interface=ck.Interface(lower=FACE, upper=BODIES[body], meniscus=film),
         opening=ck.Opening(initial_gap=1e-6, final_gap=1e-5, **motion),
         effects=effects,
     )
-    return separation.simulate(ck.plan(scene))
+
+
+def run(effects, body, imposed):
+    return separation.simulate(ck.plan(scene_of(effects, body, imposed)))
 
 
 def allowed(effects, body, imposed):
     kinds = {type(effect) for effect in effects}
-    names = set().union(EXTENT[body], *(OWNED[effect][body] for effect in effects))
+    owned = OWNED | SOLIDS | ROUGH
+    names = set().union(EXTENT[body], *(owned[effect][body] for effect in effects))
     names |= set().union(*(VALIDITY.get(kind, set()) for kind in kinds))
     names |= VALIDITY_OF_BOTH if VALIDITY.keys() <= kinds else set()
     return names | MOTION[imposed]
@@ -162,8 +218,15 @@ def cases():
         if limited and ck.ViscousForce not in has:
             continue
         for body, imposed in itertools.product(BODIES, ("speed", "time", "force")):
-            if all(body in OWNED[e] for e in effects) and not (limited and imposed == "time"):
+            if not all(body in OWNED[e] for e in effects) or (limited and imposed == "time"):
+                continue
+            if not mixed(scene_of(effects, body, imposed)):  # as published, and consistent
                 yield effects, body, imposed
+    for solid, film in itertools.product(SOLIDS, BESIDE):
+        for body, imposed in itertools.product(SOLIDS[solid], ("speed", "time", "force")):
+            yield (*film, solid), body, imposed
+    for rough, imposed in itertools.product(ROUGH, ("speed", "time", "force")):
+        yield (rough,), "flats", imposed
 
 
 def label(value):
@@ -193,8 +256,10 @@ def test_a_scene_runs_with_every_other_kernel_poisoned(monkeypatch, effects, bod
 
 
 HEARTS = [
-    ((ck.MeniscusForce(),), "flats", "speed", "arc_flat.force"),
-    ((ck.MeniscusForce(),), "sphere", "speed", "arc_sphere.solve"),
+    ((ck.MeniscusForce(),), "flats", "speed", "flat_law.flat_law"),
+    ((ck.MeniscusForce(),), "sphere", "speed", "bridge_exact.bridge"),
+    ((ck.MeniscusForce(profile="arc"),), "flats", "speed", "arc_flat.force"),
+    ((ck.MeniscusForce(profile="arc"),), "sphere", "speed", "arc_sphere.solve"),
     ((ck.MeniscusForce(profile="as-published"),), "flats", "time", "published.meniscus_flat_3_11"),
     ((ck.MeniscusForce(profile="as-published"),), "sphere", "speed",
      "published.meniscus_sphere_3_12"),
@@ -214,9 +279,19 @@ HEARTS = [
      "film_limits.disc_shear_limited"),
     ((ck.ViscousForce(), ck.ShearLimit(strength=1e3)), "sphere", "speed",
      "film_limits.sphere_shear_limited"),
-    ((ck.ViscousForce(), ck.Rupture()), "flats", "time", "arc_flat.zero_neck_gap"),
-    ((ck.ViscousForce(), ck.Rupture()), "sphere", "time", "arc_sphere.zero_neck_gap"),
+    ((ck.ViscousForce(), ck.Rupture()), "flats", "time", "flat_law.flat_end"),
+    ((ck.ViscousForce(), ck.Rupture()), "sphere", "time", "bridge_limit.stability_limit"),
+    ((ck.ViscousForce(), ck.Rupture(criterion="zero-neck")), "flats", "time",
+     "arc_flat.zero_neck_gap"),
+    ((ck.ViscousForce(), ck.Rupture(criterion="zero-neck")), "sphere", "time",
+     "arc_sphere.zero_neck_gap"),
     ((ck.ViscousForce(),), "flats", "force", "stiff_step.step"),
+    *(((rough,), "flats", "speed", heart) for rough, heart in zip(
+        ROUGH, ("asperities.greenwood_williamson", "condensed.reach_at_pressure",
+                "asperities.identical", "condensed.reach_at_pressure"), strict=True)),
+    *(((solid,), "sphere", "speed", heart) for solid, heart in zip(
+        SOLIDS, ("van_der_waals.sphere_force", "van_der_waals.hamaker_sphere_force",
+                 "jkr.radius_at_gap", "dmt.reach", "maugis_dugdale.at_gap"), strict=True)),
 ]  # fmt: skip
 
 
@@ -250,6 +325,10 @@ CONTACT_OWNED = {
     },
     ck.FilmMeniscus(film_thickness=1e-9): {"film_islands.*"},
     ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True): {"film_islands.*"},
+    ck.IslandBridges(film_thickness=1e-9): {
+        "film_islands.*", "island_bridges.*", "bridge_*", "delaunay.*", "roots.bracketed_root",
+        "arc_*", "quadrature.gauss_legendre",
+    },
 }  # fmt: skip
 
 # What is not an effect's: the compliance by the edges of the window, the heights, the solver.
@@ -403,9 +482,11 @@ def test_what_a_scene_does_not_call_for_is_not_transformed(monkeypatch, periodic
 
 def test_every_effect_and_every_choice_is_poisoned():
     """A new effect, or a new choice of one, needs its line in the table."""
-    assert {type(effect) for effect in OWNED} == set(SEPARATION_EFFECTS)
+    assert {type(effect) for effect in OWNED | SOLIDS | ROUGH} == set(SEPARATION_EFFECTS)
+    solids = [effect for effect in SOLIDS if isinstance(effect, ck.AdhesiveContact)]
+    assert {effect.model for effect in solids} == {"jkr", "dmt", "maugis-dugdale"}
     assert {effect.profile for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
-        "arc", "as-published",
+        "exact", "arc", "as-published",
     }  # fmt: skip
     assert {type(effect) for case in CASES for effect in case[0]} == set(SEPARATION_EFFECTS)
     assert {type(effect) for effect in CONTACT_OWNED} == set(CONTACT_EFFECTS)
@@ -416,7 +497,7 @@ def test_every_effect_and_every_choice_is_poisoned():
 
 def test_the_table_names_kernels_that_exist():
     patterns = set().union(VALIDITY_OF_BOTH, *MOTION.values(), *VALIDITY.values(), *EXTENT.values())
-    for bodies in OWNED.values():
+    for bodies in (*OWNED.values(), *SOLIDS.values(), *ROUGH.values()):
         patterns |= set().union(*bodies.values())
     patterns |= set().union(SOLVER, *CONTACT_OWNED.values(), *SHAPES.values(), *EDGES.values())
     assert [p for p in sorted(patterns) if not any(matches(name, {p}) for name in KERNELS)] == []
@@ -430,4 +511,4 @@ def test_the_scenes_of_the_devices_use_effects_that_are_poisoned_above():
             text = path.read_text(encoding="utf-8")
             used |= {kind for kind in ck.EFFECTS if f'"{kind.name}"' in text}
     assert used
-    assert used <= {type(effect) for effect in (*OWNED, *CONTACT_OWNED)}
+    assert used <= {type(effect) for effect in (*OWNED, *SOLIDS, *CONTACT_OWNED)}

@@ -37,6 +37,7 @@ ALL = (
     ck.FrictionCoupling(),
     ck.SubsurfaceStress(depths=(0.0, 2e-9, 5e-9, 2e-8)),
     ck.FilmMeniscus(film_thickness=1e-9),
+    ck.IslandBridges(film_thickness=2e-10),
 )
 
 
@@ -83,6 +84,7 @@ def test_every_effect_has_its_part_and_its_numbers(everything):
     assert set(numbers) >= {
         "hardness", "plastic_area", "friction_force", "coupling_pressure_change",
         "max_von_mises", "max_von_mises_depth", "meniscus_force", "n_menisci",
+        "island_force", "n_island_bridges", "island_cover",
     }  # fmt: skip
     assert all(math.isfinite(value) for value, _ in numbers.values())
     for kind in CONTACT_EFFECTS[2:]:

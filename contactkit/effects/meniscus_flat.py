@@ -1,0 +1,147 @@
+"""The meniscus force between flats: free at constant volume, or held by the rim of the faces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..kernels import arc_flat, flat_law
+from ..kernels.roots import bracketed_root
+from .base import ForceLaw
+from .film_shape import FilmShape, film_shape
+
+if TYPE_CHECKING:
+    from ..accuracy import Accuracy
+    from ..scene import SeparationScene
+
+__all__ = ["arc_law", "exact_end", "exact_law", "surface_tension"]
+
+Curve = Callable[[float], float]
+
+
+class _Film(NamedTuple):
+    """Force over surface tension [m] of one film in both its states, over the gap [m].
+
+    `pinned_volume` [m3] is that of the film which reaches the rim.
+    """
+
+    free: Curve
+    pinned: Curve
+    pinned_volume: Curve
+    free_end: float
+    pinned_end: float
+
+
+def surface_tension(scene: SeparationScene) -> float:
+    """Surface tension [N/m] of the liquid of a scene that has one."""
+    tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None  # plan() has asked lacks() first
+    return tension
+
+
+def _angles(scene: SeparationScene) -> tuple[float, float]:
+    meniscus = scene.interface.meniscus
+    return meniscus.contact_angle_lower, meniscus.contact_angle_upper
+
+
+def _nothing(gap: float) -> float:
+    raise AssertionError("a film without this state was asked for it")
+
+
+def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    """Force of the exact bridge, which ends where it loses stability."""
+    film, angles = film_shape(scene), _angles(scene)
+    rtol = max(0.1 * accuracy.time_rtol, 1e-11)
+    free: Curve = _nothing
+    pinned: Curve = _nothing
+    pinned_volume: Curve = _nothing
+    free_end = pinned_end = math.inf
+    if math.isfinite(film.volume):
+        bridges = flat_law.flat_law(*angles, rtol=rtol)
+        size = film.volume ** (1.0 / 3.0)
+        free, free_end = _sized(bridges.force, size, size), bridges.end * size
+    if math.isfinite(film.rim):
+        held = flat_law.flat_law(*angles, pinned=True, rtol=rtol)
+        pinned = _sized(held.force, film.rim, film.rim)
+        pinned_volume = _sized(held.volume, film.rim, film.rim**3)
+        pinned_end = held.end * film.rim
+    both = _Film(free, pinned, pinned_volume, free_end, pinned_end)
+    return _law(both, film, surface_tension(scene))
+
+
+def _sized(curve: Curve, length: float, factor: float) -> Curve:
+    """Curve of a pure number over a pure number, for a size."""
+    return lambda gap: factor * curve(gap / length)
+
+
+def exact_end(scene: SeparationScene) -> float:
+    """Gap [m] at which the exact bridge loses stability, without the forces on the way."""
+    film, angles = film_shape(scene), _angles(scene)
+    if math.isinf(film.rim):
+        return flat_law.flat_end(*angles)[0] * film.volume ** (1.0 / 3.0)
+    longest, volume = flat_law.flat_end(*angles, pinned=True)
+    if film.volume >= volume * film.rim**3:
+        return longest * film.rim
+    return flat_law.flat_end(*angles)[0] * film.volume ** (1.0 / 3.0)
+
+
+def arc_law(scene: SeparationScene) -> ForceLaw:
+    """Force of the arc, which ends where its neck closes."""
+    film = film_shape(scene)
+    arc = arc_flat.shape(*_angles(scene))
+    volume, rim = film.volume, film.rim
+    free, pinned = math.isfinite(volume), math.isfinite(rim)
+
+    def free_force(gap: float) -> float:
+        return float(arc_flat.force(arc, gap, arc_flat.contact_radius(arc, gap, volume)))
+
+    def pinned_force(gap: float) -> float:
+        return float(arc_flat.force(arc, gap, arc_flat.rim_contact_radius(arc, gap, rim)))
+
+    def pinned_volume(gap: float) -> float:
+        return float(arc_flat.volume(arc, gap, arc_flat.rim_contact_radius(arc, gap, rim)))
+
+    both = _Film(
+        free_force,
+        pinned_force,
+        pinned_volume,
+        float(arc_flat.zero_neck_gap(arc, volume)) if free else math.inf,
+        arc_flat.zero_neck_gap_at_rim(arc, rim) if pinned else math.inf,
+    )
+    return _law(both, film, surface_tension(scene))
+
+
+def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
+    """Join both states where the liquid just reaches the rim."""
+    n = film.menisci
+    free, pinned = math.isfinite(film.volume), math.isfinite(film.rim)
+    full_gap = _full_gap(both, film) if free and pinned else 0.0
+    if not free:
+        full_gap = math.inf
+    end = both.pinned_end if full_gap >= both.pinned_end else both.free_end
+    last = end * (1.0 - 1e-12)  # a trial step may look beyond the end: the force stays as there
+
+    def force(gap: float, speed: float) -> float:
+        gap = min(gap, last)
+        return n * tension * (both.pinned(gap) if gap < full_gap else both.free(gap))
+
+    kinks = (full_gap,) if 0.0 < full_gap < end else ()
+    return ForceLaw(force, kinks, end=end)
+
+
+def _full_gap(both: _Film, film: FilmShape) -> float:
+    """Gap [m] below which a film of this volume reaches the rim of the faces; inf for always."""
+
+    def excess(gap: float) -> float:
+        return both.pinned_volume(gap) / film.volume - 1.0
+
+    last = min(both.free_end, both.pinned_end) * (1.0 - 1e-9)
+    low = high = min(film.volume / (math.pi * film.rim * film.rim), last)
+    while excess(low) > 0.0:
+        low *= 0.5
+    while excess(high) < 0.0:
+        if high >= last:
+            return math.inf
+        high = min(2.0 * high, last)
+    return bracketed_root(excess, low, high)

@@ -1,0 +1,207 @@
+"""Mirror and tips: energy, momentum, and the coupling against one system by another method."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from attrs import evolve
+from scipy.integrate import solve_ivp
+
+from contactkit.models.mirror import acceleration, electrode_volts, root_height
+from contactkit.models.mirror_film import separation_energy, tip_law
+from contactkit.models.mirror_flight import Flight, Root, landing_time
+from contactkit.models.mirror_motion import couple
+from contactkit.models.mirror_plate import capacitance
+from contactkit.models.mirror_tip import advance_tip, free_start, landed_start, tip_force
+from contactkit.models.mirror_whole import simulate_whole
+from contactkit.models.scenes import open_scene
+
+PULSE = 34.0
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return open_scene("micromirror").scene
+
+
+@pytest.fixture(scope="module")
+def wet(scene):
+    return tip_law(scene.tip, 0.5, 1e-8)
+
+
+@pytest.fixture(scope="module")
+def dry(scene):
+    return tip_law(scene.tip, 0.0, 1e-9)
+
+
+def lossless(scene):
+    """The mirror let go by 0 V, and nothing that damps it."""
+    mirror = scene.first_flip(None)
+    wave = evolve(mirror.waveform, address_voltage=0.0)
+    hinge, tips = evolve(mirror.hinge, damping=0.0), evolve(mirror.tips, damping=0.0)
+    return evolve(mirror, waveform=wave, hinge=hinge, tips=tips)
+
+
+# One tip ------------------------------------------------------------------------------------
+
+
+def stored(made, state, height):
+    """Kinetic and elastic energy of a tip [J]."""
+    opening = made.scene.opening
+    bend = opening.initial_gap + height - state.gap
+    return 0.5 * (opening.mass * state.motion.speed**2 + opening.stiffness * bend**2)
+
+
+@pytest.mark.parametrize("law", ["wet", "dry"])
+def test_work_on_the_root_is_stored_or_spent(law, request):
+    """A root that rises steadily: the impulse times its speed is all the work there is."""
+    made, speed, span = request.getfixturevalue(law), 0.2, 6e-7
+    state, height = landed_start(made), -1e-8
+    before = stored(made, state, height)
+    state = advance_tip(made, 0.0, state, Root(height, speed), span)
+    assert state.free
+    left = stored(made, state, height + speed * span)
+    spent = separation_energy(made) + state.motion.dissipated_work
+    assert speed * state.impulse == pytest.approx(left - before + spent, rel=2e-5)
+    assert spent > 1e-3 * left
+
+
+def test_momentum_of_a_flight(wet):
+    """Once free, the root gives what the tip gains; damping included."""
+    state = free_start(wet, 2e-7, 0.3)
+    later = advance_tip(wet, 1e-9, state, Root(2e-7, 0.1, 1e6), 3e-7)
+    gained = wet.scene.opening.mass * (later.motion.speed - 0.3)
+    assert later.impulse - state.impulse == pytest.approx(gained, rel=1e-12)
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-9])
+def test_a_flight_is_what_an_integrator_gives(wet, damping):
+    opening = wet.scene.opening
+    root = Root(3e-7, -0.5, 2e5)
+
+    def rates(time, y):
+        moving = root.speed + root.acceleration * time
+        force = opening.stiffness * (opening.initial_gap + root.height_at(time) - y[0])
+        return [y[1], (force + damping * (moving - y[1])) / opening.mass]
+
+    def lands(time, y):
+        return y[0] - opening.initial_gap
+
+    lands.terminal, lands.direction = True, -1
+    start = opening.initial_gap + root.height + 5e-8
+    found = solve_ivp(
+        rates, (0.0, 1e-6), [start, 0.2], method="DOP853", events=lands, rtol=1e-12, atol=1e-18
+    )
+    state = free_start(wet, 5e-8 + root.height, 0.2)
+    state = advance_tip(wet, damping, state, root, 1.001 * found.t[-1])
+    assert found.status == 1
+    assert state.landing_time == pytest.approx(found.t[-1], rel=1e-9)
+    assert state.motion.held
+    speed = found.y[1, -1]
+    assert state.landing_loss == pytest.approx(0.5 * opening.mass * speed**2, rel=1e-7)
+
+
+def test_a_swing_that_dips_between_two_looks_is_seen():
+    """A tip that touches at the bottom of its swing only."""
+    flight = Flight(rest=0.0, decay=0.0, frequency=1e8, cosine=1e-8, sine=0.0)
+    assert landing_time(flight, Root(1.0001e-8), 1e-6) is None
+    touch = landing_time(flight, Root(0.99999e-8), 1e-6)
+    assert touch == pytest.approx(math.acos(-0.99999) / 1e8, rel=1e-9)
+
+
+def test_the_division_of_time_does_not_matter(wet):
+    root = Root(-2e-8, 0.05, 1e6)
+    whole = advance_tip(wet, 2e-10, landed_start(wet), root, 6e-7)
+    parts = landed_start(wet)
+    for i in range(60):
+        parts = advance_tip(wet, 2e-10, parts, root.after(i * 1e-8), 1e-8)
+    assert whole.free_time > 0.0
+    assert parts.free_time == pytest.approx(whole.free_time, rel=1e-8)
+    assert parts.gap == pytest.approx(whole.gap, rel=1e-5)
+    assert parts.impulse == pytest.approx(whole.impulse, rel=1e-6)
+
+
+def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
+    state = advance_tip(wet, 0.0, landed_start(wet), Root(-5e-8, 0.01), 1e-6)
+    assert state.motion.held
+    assert state.impulse == pytest.approx(1.0 * (-5e-8 + 0.5 * 1e-8) * 1e-6, rel=1e-12)
+    assert tip_force(wet, 0.0, state, -4e-8, 0.01) == pytest.approx(-4e-8, rel=1e-12)
+
+
+# Mirror and tips ----------------------------------------------------------------------------
+
+
+def test_without_losses_energy_stays(scene, wet):
+    """What bent tips and hinge stored is motion, or was spent on the menisci."""
+    mirror, opening, n = lossless(scene), scene.opening, scene.mirror.tips.per_side
+    tips, tilt = scene.tips(wet), scene.start[0]
+
+    def energy(tilt, rate):
+        hinge = mirror.hinge
+        total = 0.5 * (hinge.inertia * rate**2 + hinge.stiffness * tilt**2)
+        for tip, side in zip(tips, (1.0, -1.0), strict=True):
+            total += n * stored(wet, tip.state, root_height(mirror.tips, tilt, side))
+        return total
+
+    before = energy(tilt, 0.0)
+    found = couple(mirror, tips, opening.stiffness, scene.start, 1.5e-6, 5e-9)
+    state = tips[0].state
+    assert state.free
+    spent = n * (separation_energy(wet) + state.motion.dissipated_work)
+    after = energy(found["tilt"][-1], found["rate"][-1])
+    assert after + spent == pytest.approx(before, rel=1e-7)
+    assert spent > 0.01 * before
+
+
+def test_with_voltage_and_damping_it_balances_too(scene, dry):
+    """Work of the voltages by the capacitances, loss in the hinge by quadrature; on its tips."""
+    mirror = scene.first_flip(PULSE)
+    held = evolve(mirror.waveform, reset_time=1e-6)
+    mirror = evolve(mirror, waveform=held)
+    tips = scene.tips(dry)
+    found = couple(mirror, tips, scene.opening.stiffness, scene.start, 3e-7, 2e-9)
+    tilt, rate, volts = found["tilt"], found["rate"], electrode_volts(held, 1e-9)
+    work = sum(
+        0.5 * v**2 * (capacitance(mirror.electrode, s * tilt[-1])
+                      - capacitance(mirror.electrode, s * tilt[0]))
+        for v, s in zip(volts, (1.0, -1.0), strict=True)
+    )  # fmt: skip
+    lost = mirror.hinge.damping * np.trapezoid(rate**2, found["time"])
+    n, stiffness = mirror.tips.per_side, scene.opening.stiffness
+
+    def energy(i):
+        bend = root_height(mirror.tips, tilt[i], 1.0)
+        hinge = mirror.hinge
+        moving = 0.5 * hinge.inertia * rate[i] ** 2
+        return moving + 0.5 * hinge.stiffness * tilt[i] ** 2 + 0.5 * n * stiffness * bend**2
+
+    # The free tips of the other side swing with their roots: a part in a thousand.
+    assert energy(-1) - energy(0) + lost == pytest.approx(work, rel=5e-3)
+
+
+def test_the_coupling_converges_to_one_system(scene, wet):
+    """Third order in the communication step, on the way to one method's answer by another's."""
+    mirror = scene.first_flip(PULSE)
+    whole = simulate_whole(mirror, wet, scene.start, 8.4e-7, rtol=1e-10)
+    freed, errors = whole.first("is free"), []
+    assert whole.first("leaves") < whole.first("breaks") < freed
+    for step in (40e-9, 20e-9, 10e-9):
+        tips = scene.tips(wet)
+        couple(mirror, tips, scene.opening.stiffness, scene.start, 8.4e-7, step)
+        errors.append(abs(tips[0].state.free_time / freed - 1.0))
+    assert errors[1] < 1e-5
+    assert errors[2] < 2e-6
+    assert math.log2(errors[0] / errors[2]) / 2.0 > 1.8
+
+
+def test_the_start_is_at_rest(scene, wet):
+    """Forces balance at the start: nothing moves until a voltage changes."""
+    mirror, (tilt, rate) = scene.mirror, scene.start
+    volts = electrode_volts(mirror.waveform, 0.0)
+    force = scene.tips(wet)[0].read(root_height(mirror.tips, tilt, 1.0), 0.0)[1]
+    scale = acceleration(mirror, tilt, rate, volts, 0.0)
+    assert abs(acceleration(mirror, tilt, rate, volts, force)) < 1e-9 * scale
+    still = couple(mirror, scene.tips(wet), scene.opening.stiffness, scene.start, 1e-6, 5e-8)
+    assert np.ptp(still["tilt"]) < 1e-12
