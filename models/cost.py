@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import evolve
 
 from ..accuracy import Accuracy
-from ..effects import MeniscusForce, SeparationEffect, ViscousForce
+from ..effects import MeniscusForce, Rupture, SeparationEffect, ViscousForce
 from ..errors import InfeasibleError, PlanError, ValidityWarning
 from ..plan import plan
 from ..scene import SeparationScene
@@ -88,17 +88,11 @@ def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecisio
         )
         for rtol in _TOLERANCES[1::2]
     ]
-    published = _as_published(scene)
-    if published is not None:
-        settings += [
-            Setting(
-                "published meniscus, Eq. (3.11)",
-                f"rtol {rtol:.0e}",
-                partial(_release, published, rtol),
-                is_model=True,
-            )
-            for rtol in _TOLERANCES[::3]
-        ]
+    settings += [
+        Setting(name, f"rtol {rtol:.0e}", partial(_release, other, rtol), is_model=True)
+        for name, other in _other_menisci(scene).items()
+        for rtol in _TOLERANCES[::3]
+    ]
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
     return sweep(settings, exact.value, quantity="release time", floor=floor, progress=progress)
 
@@ -129,11 +123,18 @@ def _swap(scene: SeparationScene, new: SeparationEffect) -> SeparationScene:
     return evolve(scene, effects=effects)
 
 
-def _as_published(scene: SeparationScene) -> SeparationScene | None:
-    has_arc = any(isinstance(e, MeniscusForce) and e.profile == "arc" for e in scene.effects)
-    if not has_arc or not scene.interface.is_flat:
-        return None
-    return _swap(scene, MeniscusForce(profile="as-published"))
+def _other_menisci(scene: SeparationScene) -> dict[str, SeparationScene]:
+    """Scenes with the models of the meniscus that are cheaper than the one of this scene."""
+    profile = next((e.profile for e in scene.effects if isinstance(e, MeniscusForce)), None)
+    found = {}
+    if profile == "exact":
+        found["meniscus as an arc"] = _swap(scene, MeniscusForce(profile="arc"))
+    if profile in ("exact", "arc") and scene.interface.is_flat:
+        printed = _swap(scene, MeniscusForce(profile="as-published"))
+        if any(isinstance(e, Rupture) and e.gap is None for e in scene.effects):
+            printed = _swap(printed, Rupture(criterion="zero-neck"))  # its own, never mixed
+        found["published meniscus, Eq. (3.11)"] = printed
+    return found
 
 
 def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
@@ -168,9 +169,9 @@ def _injector_settings(
         ("FMU pair, pull a straight line", film, True, False),
         ("FMU pair, pull held", film, False, False),
     ]
-    published = _as_published(film)
-    if published is not None:
-        coupled.append(("FMU pair, published meniscus (3.11)", published, True, True))
+    coupled += [
+        (f"FMU pair, {name}", other, True, True) for name, other in _other_menisci(film).items()
+    ]
     flooded = _swap(film, ViscousForce(closure="flooded"))
     wholes.append(("published constant radius (3.19)", flooded, _TOLERANCES[:5:2], True))
     settings = [

@@ -155,7 +155,7 @@ class FuelInjector:
             f"  at   {degrees}: {meniscus.liquid.name}",
             f"  by   FMUs valve-drive and stiction-mass, communication step "
             f"{scene.study.communication_step:g} s",
-            f"  on   {'valve':15s} coil, return spring, opposite stop",
+            f"  on   {'valve':19s} coil, return spring, opposite stop",
         ]
         sources = ["sources:", *(f"  {line}" for line in made.cite().splitlines())]
         return "\n".join([*head, *str(made).splitlines()[1:], *sources])

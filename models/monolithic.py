@@ -69,13 +69,17 @@ def simulate(
     Raises
     ------
     PlanError
-        If the scene has no mass, or does not impose a force.
+        If the scene has no mass, does not impose a force, or has a force of the solids.
     ConvergenceError
         If the solver gives up.
     """
     opening = plan.scene.opening
     if opening.imposed != "force" or opening.mass is None:
         raise PlanError("a monolithic simulation needs opening.force [N] and opening.mass [kg]")
+    if not all(kind.needs_film for kind in plan.film.laws):
+        raise PlanError(
+            "a monolithic simulation knows forces of the film only; leave out those of the solids"
+        )
     run = _Run(plan, drive, opening.mass, rtol)
     switches = law.switching_times(drive.profile, 0.0, end) if isinstance(drive, Valve) else []
     for start, stop in pairwise([0.0, *switches, end]):

@@ -14,7 +14,7 @@ from ..contact_scene import ContactScene
 from ..errors import DescriptionError, PlanError
 from ..io import nearest, read_tables, scene_kind, structure
 from ..plan import Plan, plan
-from ..scene import SeparationScene
+from ..scene import SeparationScene, SlidingScene
 from .report import Report
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ __all__ = ["Report", "Runnable", "open_scene"]
 
 Progress = Callable[[float], None]
 
-DEVICES = {"fuel-injector": "injector"}
+DEVICES = {"fuel-injector": "injector", "micromirror": "micromirror", "bridges": "bridges"}
 """Modules of this package that run a scene with a ``device`` key."""
 
 _LIBRARIES = ("liquids", "materials")
@@ -67,6 +67,10 @@ def open_scene(name: str) -> Runnable:
         from .contact_report import open_contact
 
         return open_contact(tables, path.name)
+    if device is None and scene_kind(tables) is SlidingScene:
+        from .sliding_report import PlainSliding
+
+        return PlainSliding(structure(tables, SlidingScene, path.name))
     if device is None:
         return PlainScene(structure(tables, SeparationScene, path.name))
     if device not in DEVICES:
@@ -134,9 +138,13 @@ def _text(made: Plan, result: SeparationResult) -> str:
     width = max(len(name) for name in result.scalars())
     numbers = [f"  {n:{width}s}  {v:.6g} {u}" for n, (v, u) in result.scalars().items()]
     validity = [f"  {number}" for number in result.validity]
+    errata = [f"  {line}" for one in result.errata for line in str(one).splitlines()]
+    if errata:
+        errata = ["errata of what is taken as printed, at the start:", *errata]
     work = result.work
     cost = f"{work.n_steps} steps, {work.n_evaluations} force evaluations, {work.seconds:.3f} s"
-    return "\n".join([str(made), result.message, *numbers, "validity:", *validity, cost])
+    lines = [str(made), result.message, *numbers, "validity:", *validity, *errata, cost]
+    return "\n".join(lines)
 
 
 def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
@@ -149,11 +157,16 @@ def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
         save_result(result, out / "result"),
         save_csv(out / "result", result.columns, headings),
     ]
-    if "viscous_force" in result.columns or "meniscus_force" in result.columns:
+    if {"viscous_force", *result.plan.film.static_columns} & result.columns.keys():
         made, ax = plot.figure()
         plot.forces(result, ax)
         plot.title(ax, result.plan.scene.name)
         files.append(plot.save(made, out / "forces"))
+    if "mean_pull" in result.columns:
+        made, ax = plot.figure()
+        plot.cycles(result, ax)
+        plot.title(ax, result.plan.scene.name)
+        files.append(plot.save(made, out / "cycles"))
     if result.state is not None:
         made, ax = plot.figure()
         plot.motion(result, ax)
@@ -171,6 +184,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
         If the FMU cannot represent the scene; says what stands against it.
     """
     from ..effects import MeniscusForce, Rupture, ShearLimit, TensionLimit, ViscousForce
+    from ..effects.base import SeparationForce
 
     interface, opening, meniscus = scene.interface, scene.opening, scene.interface.meniscus
     liquid = meniscus.liquid.at(scene.temperature)
@@ -186,23 +200,31 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
             "two flats": interface.is_flat,
             "a face with a radius [m]": math.isfinite(interface.rim_radius),
             "opening.mass [kg]": opening.mass is not None,
+            "an opening without vibration": opening.vibration is None,
+            "no force of the solids": not any(
+                isinstance(e, SeparationForce) and not e.needs_film for e in scene.effects
+            ),
             "ViscousForce() with closure='volume-conserving'": viscous is not None
             and viscous.closure == "volume-conserving",
             "TensionLimit with cavity='clipped'": tension is None or tension.cavity == "clipped",
-            "Rupture with a gap [m]": rupture is None or rupture.gap is not None,
+            "Rupture with a gap [m]": rupture is None
+            or rupture.gap is not None
+            or (rupture.criterion == "limit" and film is not None and film.profile == "exact"),
             "MeniscusForce(profile='as-published') with pulled='lower'": film is None
-            or film.profile == "arc"
+            or film.profile != "as-published"
             or film.pulled == "lower",
         }.items()
         if not holds
     ]
     if against:
         raise PlanError(f"the FMU stiction-mass needs {'; '.join(against)}")
-    law = "NONE" if film is None else {"arc": "ARC", "as-published": "PUBLISHED"}[film.profile]
+    laws = {"exact": "EXACT", "arc": "ARC", "as-published": "PUBLISHED"}
+    law = "NONE" if film is None else laws[film.profile]
     return {
         "m": opening.mass, "h0": opening.initial_gap, "v0": opening.initial_speed,
         "k_s": opening.stiffness, "h_rel": opening.final_gap, "h_min": opening.rest_gap,
-        "h_break": rupture.gap if rupture is not None else 0.0, "rewet": meniscus.rewetting,
+        "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
+        "rewet": meniscus.rewetting,
         "R": interface.rim_radius, "eta": liquid.viscosity, "gamma": liquid.surface_tension or 0.0,
         "theta1": meniscus.contact_angle_lower, "theta2": meniscus.contact_angle_upper,
         "V": meniscus.volume or 0.0, "N": meniscus.count, "meniscus_law": law,

@@ -1,0 +1,102 @@
+"""A free spring tip about a root that is steadily accelerated: its swing, and where it lands.
+
+Heights are over the place where an unbent tip just touches its landing site, positive upwards.
+Plain floats only: this also runs inside an FMU.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+__all__ = ["Flight", "Root", "landing_time"]
+
+
+class Root(NamedTuple):
+    """Motion of the root: height [m] and speed [m/s] at a time [s], steady acceleration [m/s2]."""
+
+    height: float
+    speed: float = 0.0
+    acceleration: float = 0.0
+    time: float = 0.0
+
+    def after(self, elapsed: float) -> Root:
+        """Same motion, told from a later time."""
+        speed = self.speed + self.acceleration * elapsed
+        height = self.height + 0.5 * (self.speed + speed) * elapsed
+        return Root(height, speed, self.acceleration, self.time + elapsed)
+
+    def height_at(self, time: float) -> float:
+        """Height [m] at a time [s]."""
+        since = time - self.time
+        return self.height + since * (self.speed + 0.5 * self.acceleration * since)
+
+
+class Flight(NamedTuple):
+    """A free tip about its root: where it hangs [m], decay [1/s], frequency [rad/s], swing [m]."""
+
+    rest: float
+    decay: float
+    frequency: float
+    cosine: float
+    sine: float
+
+    def at(self, time: float) -> tuple[float, float]:
+        """Bend [m] and its rate [m/s] after a time [s]."""
+        d, w = self.decay, self.frequency
+        c, s, fade = math.cos(w * time), math.sin(w * time), math.exp(-d * time)
+        swing = fade * (self.cosine * c + self.sine * s)
+        rate = fade * w * (self.sine * c - self.cosine * s) - d * swing
+        return self.rest + swing, rate
+
+
+def landing_time(flight: Flight, root: Root, left: float) -> float | None:
+    """Time [s], at most `left`, after which a swinging tip first lands; None if it does not.
+
+    Examples
+    --------
+    A tip that hangs still, under a root that comes down from 1 um at 1 m/s:
+
+    >>> still = Flight(rest=0.0, decay=0.0, frequency=1e7, cosine=0.0, sine=0.0)
+    >>> round(landing_time(still, Root(1e-6, -1.0), 2e-6) * 1e6, 9)
+    1.0
+    """
+    swing = math.hypot(flight.cosine, flight.sine)
+    lowest = min(0.0, root.speed, root.speed + root.acceleration * left) * left
+    if root.height + lowest + flight.rest > swing:
+        return None
+
+    def over(time: float) -> float:
+        return root.after(time).height + flight.at(time)[0]
+
+    def sinks(time: float) -> float:
+        return -root.after(time).speed - flight.at(time)[1]
+
+    # A sixteenth of a swing at a time: between two of them there is at most one lowest point.
+    pieces = max(1, math.ceil(left * flight.frequency * 16.0 / (2.0 * math.pi)))
+    low, sinking = 0.0, sinks(0.0) > 0.0
+    for i in range(1, pieces + 1):
+        high = left * i / pieces
+        if over(high) <= 0.0 and (over(low) > 0.0 or sinking):
+            return _bisect(over, low, high)
+        falls = sinks(high) > 0.0
+        if sinking and not falls:  # the lowest point lies between
+            bottom = _bisect(sinks, low, high)
+            if over(bottom) <= 0.0:
+                return _bisect(over, low, bottom)
+        low, sinking = high, falls
+    return None
+
+
+def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where a falling function passes zero; `high` if it is still positive there."""
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        if function(middle) > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high

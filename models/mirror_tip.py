@@ -1,0 +1,227 @@
+r"""One spring tip between a moving root and its landing site: a mass, a spring, a film.
+
+.. math::
+    m\ddot h = F - F_{film}(h, \dot h), \qquad F = k\,(h_0 + z - h) + c\,(\dot z - \dot h)
+
+The root at height z belongs to somebody else (the mirror) and is steadily accelerated within a
+step; F is what the tip pulls it down with. The tip has four states of motion in turn:
+
+* landed: at the gap :math:`h_0` that roughness keeps open, until F exceeds the force of the film;
+* held by what acts between tip and site: stepped by `contactkit.motion.step_once`, without c,
+  since the liquid damps more than the metal;
+* free, once the film has broken and the gap is `free_gap`, where solids no longer attract: a
+  damped oscillator under a steady acceleration, in closed form;
+* landing again at :math:`h_0`: inelastic, and the film is there again, as it condenses.
+
+So a tip may have any mass, a film any stiffness, and a step any length: the internal steps follow
+their own error. Left out: attraction of a free tip before it lands, a bounce of its apex (its
+root bounces on the spring), and sliding along the site, some nanometres as the tip bends.
+Plain floats only: this also runs inside an FMU, though the law of a sphere needs numpy there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ..errors import ConvergenceError, DescriptionError
+from ..motion import rest_once, step_once
+from ..motion_state import MotionState, outputs
+from ..plan import Plan
+from .mirror_flight import Flight, Root, landing_time
+
+__all__ = [
+    "TipState", "advance_tip", "film_force", "free_gap", "free_start", "landed_start",
+    "tip_force",
+]  # fmt: skip
+
+_MOST_PIECES = 100_000
+_IMPULSES = tuple(
+    name for name in MotionState._fields if name.endswith("_impulse") and name != "given_impulse"
+)
+
+
+class TipState(NamedTuple):
+    """Everything a tip remembers; its impulse on the root [N.s], its losses [J], its events."""
+
+    motion: MotionState
+    free: bool = False
+    impulse: float = 0.0
+    landing_loss: float = 0.0
+    n_landings: int = 0
+    landing_time: float = -1.0
+    free_time: float = -1.0
+
+    @property
+    def time(self) -> float:
+        """Time [s]."""
+        return self.motion.time
+
+    @property
+    def gap(self) -> float:
+        """Gap under the tip [m]."""
+        return self.motion.gap
+
+
+def free_gap(plan: Plan) -> float:
+    """Gap [m] beyond which a tip is free: `Opening.final_gap`, or where the film breaks beyond."""
+    end = plan.film.end
+    return max(plan.scene.opening.final_gap, end if math.isfinite(end) else 0.0)
+
+
+def landed_start(plan: Plan, time: float = 0.0) -> TipState:
+    """State of a tip that rests on its landing site."""
+    return TipState(MotionState(time, plan.scene.opening.initial_gap, 0.0, held=True))
+
+
+def free_start(plan: Plan, height: float, speed: float = 0.0, time: float = 0.0) -> TipState:
+    """State of an unbent tip whose root is at a height [m] and moves at a speed [m/s]."""
+    gap = plan.scene.opening.initial_gap + height
+    return TipState(MotionState(time, gap, speed, broken=True, armed=False), free=True)
+
+
+def tip_force(plan: Plan, damping: float, state: TipState, height: float, speed: float) -> float:
+    """Force [N] with which a tip pulls its root down, that being at a height and a speed."""
+    opening, motion = plan.scene.opening, state.motion
+    force = opening.stiffness * (opening.initial_gap + height - motion.gap)
+    return force + damping * (speed - motion.speed) if state.free else force
+
+
+def film_force(plan: Plan, state: TipState) -> tuple[float, float]:
+    """Force on a tip from its site [N], and its viscous part; positive holds the tip down."""
+    if state.free:
+        return 0.0, 0.0
+    found = outputs(plan, state.motion, 0.0)
+    return found.film, found.viscous
+
+
+def advance_tip(plan: Plan, damping: float, state: TipState, root: Root, dt: float) -> TipState:
+    """Advance a tip by `dt` [s] while its root moves on.
+
+    Parameters
+    ----------
+    plan : Plan
+        Film of one tip; the mass and the stiffness of its `Opening` are those of the tip.
+    damping : float
+        Damping of the free tip [N.s/m].
+    state : TipState
+        Where it starts.
+    root : Root
+        How the root moves, from the time of `state` on.
+    dt : float
+        Length of the step [s].
+
+    Raises
+    ------
+    DescriptionError
+        If `dt` is negative or not finite.
+    ConvergenceError
+        If no internal step meets the tolerance of the plan.
+    """
+    if not (math.isfinite(dt) and dt >= 0.0):
+        raise DescriptionError("advance_tip(dt)", dt, "be zero or positive, and finite", unit="s")
+    root = root._replace(time=state.time)
+    end = state.time + dt
+    for _ in range(_MOST_PIECES):
+        left = end - state.time
+        if left <= 1e-13 * max(abs(end), dt):
+            return state._replace(motion=state.motion._replace(time=end))
+        if state.free:
+            state = _fly(plan, damping, state, root.after(state.time - root.time), left)
+        else:
+            state = _one(plan, state, root, end)
+    raise ConvergenceError(
+        f"{_MOST_PIECES} internal steps led from {root.time:g} s to {state.time:g} s, not to "
+        f"{end:g} s; loosen Accuracy.time_rtol",
+        state,
+    )
+
+
+def _one(plan: Plan, state: TipState, root: Root, end: float) -> TipState:
+    """Take one internal step while the tip has landed or its film acts."""
+    before, opening = state.motion, plan.scene.opening
+
+    def pull(time: float) -> float:
+        return opening.stiffness * root.height_at(time)
+
+    after = (rest_once if before.held else step_once)(plan, before, pull, end)
+    elapsed, origin = after.time - before.time, opening.initial_gap
+    first = pull(before.time) - opening.stiffness * (before.gap - origin)
+    last = pull(after.time) - opening.stiffness * (after.gap - origin)
+    impulse = 0.5 * elapsed * (first + last)
+    # What the trapezoid misses: the slopes at its ends differ by the spring times this speed.
+    bent, twelfth = root.acceleration * elapsed, elapsed * elapsed * opening.stiffness / 12.0
+    if before.held:
+        impulse -= twelfth * bent
+    else:
+        mass = opening.mass or 0.0
+        film = sum(getattr(after, name) - getattr(before, name) for name in _IMPULSES)
+        # Where it lands its speed is lost: the momentum says what it was.
+        speed = before.speed + (impulse - film) / mass if after.held else after.speed
+        impulse += twelfth * (speed - before.speed - bent)
+        if after.held:
+            speed = before.speed + (impulse - film) / mass
+            state = _landed(state, 0.5 * mass * speed * speed, after.time)
+    if after.speed > 0.0 and after.gap >= free_gap(plan) * (1.0 - 1e-9):
+        state = state._replace(free=True, free_time=after.time)
+    return state._replace(motion=after, impulse=state.impulse + impulse)
+
+
+def _landed(state: TipState, loss: float, time: float) -> TipState:
+    return state._replace(
+        landing_loss=state.landing_loss + loss,
+        n_landings=state.n_landings + 1,
+        landing_time=time,
+    )
+
+
+def _flight(plan: Plan, damping: float, state: TipState, root: Root) -> Flight:
+    opening, motion = plan.scene.opening, state.motion
+    assert opening.mass is not None  # the device gives one
+    decay = 0.5 * damping / opening.mass
+    square = opening.stiffness / opening.mass - decay * decay
+    if square <= 0.0:
+        critical = 2.0 * math.sqrt(opening.stiffness * opening.mass)
+        raise DescriptionError(
+            "SpringTips.damping", damping, f"be less than critical, {critical:g} N.s/m",
+            unit="N.s/m",
+        )  # fmt: skip
+    frequency, rest = math.sqrt(square), -opening.mass * root.acceleration / opening.stiffness
+    cosine = motion.gap - opening.initial_gap - root.height - rest
+    sine = (motion.speed - root.speed + decay * cosine) / frequency
+    return Flight(rest, decay, frequency, cosine, sine)
+
+
+def _fly(plan: Plan, damping: float, state: TipState, root: Root, left: float) -> TipState:
+    """Let a free tip swing for a time [s], or until it lands."""
+    opening, motion = plan.scene.opening, state.motion
+    flight = _flight(plan, damping, state, root)
+    lands = landing_time(flight, root, left)
+    elapsed = left if lands is None else lands
+    (bend, rate), there = flight.at(elapsed), root.after(elapsed)
+    gap, speed = opening.initial_gap + there.height + bend, there.speed + rate
+    mass = opening.mass or 0.0
+    impulse = mass * (speed - motion.speed)
+    state = state._replace(
+        motion=motion._replace(time=motion.time + elapsed, gap=gap, speed=speed, step=0.0),
+        impulse=state.impulse + impulse,
+    )
+    return state if lands is None else _touch(plan, state)
+
+
+def _touch(plan: Plan, state: TipState) -> TipState:
+    """Land after a flight: the tip stops, and its film is there again."""
+    opening, motion = plan.scene.opening, state.motion
+    share = plan.scene.interface.meniscus.rewetting
+    wets = share > 0.0
+    moved = motion._replace(
+        gap=opening.initial_gap,
+        speed=0.0,
+        held=True,
+        broken=not wets,
+        share=share if wets else motion.share,
+        armed=True,
+        detached=False,
+    )
+    loss = 0.5 * (opening.mass or 0.0) * motion.speed * motion.speed
+    return _landed(state, loss, motion.time)._replace(motion=moved, free=False)
