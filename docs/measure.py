@@ -15,12 +15,15 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from attrs import evolve
 
 import contactkit as ck
 from contactkit.fmu.build import build
 from contactkit.fmu.instance import Instance
 from contactkit.fmu.stiction_mass import MeniscusLaw
+from contactkit.kernels import bridge_film, bridge_limit, flat_family, flat_law
+from contactkit.kernels.bridge_exact import bridge, bridge_at_pressure
 from contactkit.models.monolithic import simulate as whole
 from contactkit.models.scenes import open_scene
 from contactkit.units import celsius
@@ -146,6 +149,92 @@ def step_cost(fmu: Path) -> str:
     return "\n".join(lines)
 
 
+def _forget() -> None:
+    """Drop what kernels remember of bridges, so that a plan is made as in a fresh process."""
+    for module in (flat_law, flat_family, bridge_limit, bridge_film):
+        for made in vars(module).values():
+            if hasattr(made, "cache_clear"):
+                made.cache_clear()
+
+
+def meniscus_scenes() -> dict[str, ck.SeparationScene]:
+    """Two films and two bridges on a sphere, each with the meniscus force alone."""
+    water, angles = ck.load_liquid("water"), (math.radians(60.0),) * 2
+    wets = dict(zip(("contact_angle_lower", "contact_angle_upper"), angles, strict=True))
+    face, tip = ck.Flat(radius=1e-6), ck.Sphere(radius=1e-7)
+    free = ck.Meniscus(liquid=water, volume=2e-21, **wets)
+    small = ck.Meniscus(liquid=water, volume=1e-24, **wets)
+    moist = ck.Meniscus.from_humidity(liquid=water, relative_humidity=0.5, **wets)
+    bodies = {
+        "flats, free": ck.Interface(meniscus=free),
+        "flats, first up to the rim": ck.Interface(
+            lower=face, upper=face, meniscus=evolve(free, volume=1e-20)
+        ),
+        "sphere, volume": ck.Interface(upper=tip, meniscus=small),
+        "sphere, humidity of 50 %": ck.Interface(upper=tip, meniscus=moist),
+    }
+    opening = ck.Opening(initial_gap=5e-10, final_gap=1e-7, speed=1e-6)
+    exact = (ck.MeniscusForce(),)
+    return {
+        name: ck.SeparationScene(interface=one, opening=opening, effects=exact)
+        for name, one in bodies.items()
+    }
+
+
+def _solved(scene: ck.SeparationScene, gaps: Any) -> Any:
+    """Exact forces [N] at gaps [m] by solving each of the bridges, of one free meniscus."""
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    tension = meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None
+    shape = (
+        meniscus.contact_angle_lower, meniscus.contact_angle_upper,
+        interface.lower.curvature, interface.upper.curvature,
+    )  # fmt: skip
+    if meniscus.pressure is not None:
+        return tension * bridge_at_pressure(gaps, meniscus.pressure / tension, *shape).force
+    return tension * bridge(gaps, meniscus.volume, *shape).force
+
+
+def _cpu_seconds(run: Callable[[], Any], repeats: int = 3) -> float:
+    """Least CPU time of a run [s]."""
+    best = math.inf
+    for _ in range(repeats):
+        begun = time.process_time()
+        run()
+        best = min(best, time.process_time() - begun)
+    return best
+
+
+def _law_row(name: str, scene: ck.SeparationScene, profile: str) -> str:
+    """One film by one profile: CPU seconds to make its law and to call it, and its error."""
+    one = evolve(scene, effects=(ck.MeniscusForce(profile=profile),))
+
+    def make() -> Any:
+        _forget()
+        return ck.plan(one)
+
+    made = _cpu_seconds(make)
+    law = ck.plan(one).film.laws[ck.MeniscusForce]
+    gaps = np.geomspace(5e-10, 0.999 * min(law.end, 1e-7), 200)
+    listed = gaps.tolist()
+    called = _cpu_seconds(lambda: [law.force(gap, 0.0) for gap in listed], 20) / len(gaps)
+    error = "-"
+    if profile == "exact" and not law.kinks:
+        found = np.array([law.force(gap, 0.0) for gap in listed])
+        error = f"{np.max(np.abs(found / _solved(scene, gaps) - 1.0)):.0e}"
+    return f"| {name} | {profile} | {made:.2g} | {called * 1e6:.1f} | {error} |"
+
+
+def law_table() -> str:
+    """Cost of the meniscus force in the loop, and its error against bridges solved one by one."""
+    lines = ["| film | profile | set-up [s] | one call [us] | error |", "|---|---|---|---|---|"]
+    for name, scene in meniscus_scenes().items():
+        at_pressure = scene.interface.meniscus.pressure is not None
+        for profile in ("exact",) if at_pressure else ("exact", "arc"):
+            lines.append(_law_row(name, scene, profile))
+    return "\n".join(lines)
+
+
 def tension_table() -> str:
     """Release delay of the injector over the tension the oil bears."""
     injector = open_scene("fuel-injector").scene
@@ -187,6 +276,7 @@ def main() -> int:
     warnings.simplefilter("ignore", ck.ValidityWarning)
     tables: list[tuple[str, Callable[[], str]]] = [
         ("release cases, Python", release_table),
+        ("meniscus force as a law of the gap", law_table),
         ("injector: release delay over the tension limit", tension_table),
         ("injector without rupture: how far short of the end cap the spool stays", healing_table),
     ]

@@ -18,6 +18,7 @@ from typing import Any
 
 import attrs
 from contact_tables import head_disk_table, material_table, surface_kinds
+from device_tables import assumption_table
 from validation_tables import (
     errata_table,
     exact_table,
@@ -39,12 +40,18 @@ from contactkit.effects.contact_base import (
     Observer,
     PressureCap,
 )
+from contactkit.effects.sliding import SLIDING_EFFECTS
+from contactkit.effects.sliding_base import SlidingForce
 from contactkit.fmu.ports import Port
 from contactkit.fmu.stiction_mass import StictionMass
+from contactkit.fmu.tip_contact import TipContact
 from contactkit.fmu.valve_drive import ValveDrive
 from contactkit.liquids import LAWS
 from contactkit.models.coil import Coil
 from contactkit.models.injector import Study
+from contactkit.models.micromirror_scene import MirrorStudy
+from contactkit.models.mirror import Hinge, SpringTips, Waveform
+from contactkit.models.mirror_plate import Electrode
 from contactkit.models.valve import DriveProfile, Spring, Stop
 from contactkit.units import celsius, cSt
 
@@ -57,6 +64,7 @@ ROLES: Mapping[type, str] = {
     SeparationForce: "force",
     FilmLimit: "limit",
     FilmEnd: "end of the film",
+    SlidingForce: "force along the bodies",
     Compliance: "compliance",
     PressureCap: "cap of the pressure",
     LoadTerm: "load",
@@ -119,11 +127,17 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
     return "\n\n".join(parts)
 
 
+# What an effect needs beside numbers, to be asked for its sources.
+NOUNS = {"asperities": ck.AsperityPopulation(density=1.0, radius=1.0)}
+PAIRS = {ck.ContactAngleHysteresis: {"advancing_lower": 1.0, "receding_lower": 1.0}}
+
+
 def effect_table(kinds: Iterable[type[Effect]]) -> str:
     """Effects a scene may call for."""
     rows = []
     for kind in kinds:
-        must = {f.name: 1.0 for f in attrs.fields(kind) if f.default is attrs.NOTHING}
+        needed = [f.name for f in attrs.fields(kind) if f.default is attrs.NOTHING]
+        must = PAIRS.get(kind, {name: NOUNS.get(name, 1.0) for name in needed})
         role = next(word for base, word in ROLES.items() if issubclass(kind, base))
         source = "; ".join(kind(**must).sources)
         rows.append((f"`{kind.name}`", f"`{kind.__name__}`", role, kind.summary, source))
@@ -201,29 +215,6 @@ def law_table() -> str:
     return grid(("what", "reference", "this code"), rows)
 
 
-def assumption_table() -> str:
-    """Numbers of the fuel injector with the reasons their file gives for them."""
-    text = Path(inspect.getfile(Coil)).with_name("fuel_injector.toml").read_text("utf-8")
-    rows: list[list[str]] = []
-    section, open_row = "", False
-    for line in text.partition('\ndevice = "')[2].splitlines()[1:]:
-        code, _, comment = line.partition("#")
-        code, comment = code.strip(), comment.strip()
-        if code.startswith("["):
-            section, open_row = code.strip("[]"), False
-        elif code:
-            key, _, value = (part.strip() for part in code.partition("="))
-            open_row = bool(comment) and key not in ("name", "shape")
-            if key == "effect":
-                section = value.strip('"')
-            name = f"{section}.{key}" if section else key
-            if open_row:
-                rows.append([f"`{name}`", value.strip('"'), comment])
-        elif comment and open_row:
-            rows[-1][2] += f" {comment}"
-    return grid(("key", "value", "where it comes from"), rows)
-
-
 TABLES: Mapping[str, Callable[[], str]] = {
     "scene": lambda: keys(ck.SeparationScene),
     "interface": lambda: keys(ck.Interface),
@@ -232,8 +223,13 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "liquid": lambda: keys(ck.Liquid),
     "laws": lambda: named([(law.kind, law) for law in LAWS], "law"),
     "opening": lambda: keys(ck.Opening),
+    "vibration": lambda: keys(ck.Vibration),
+    "sliding": lambda: keys(ck.Sliding),
+    "asperities": lambda: keys(ck.AsperityPopulation),
     "effect keys": lambda: named([(kind.name, kind) for kind in SEPARATION_EFFECTS], "effect"),
     "effects": lambda: effect_table(SEPARATION_EFFECTS),
+    "sliding effect keys": lambda: named([(kind.name, kind) for kind in SLIDING_EFFECTS], "effect"),
+    "sliding effects": lambda: effect_table(SLIDING_EFFECTS),
     "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
     "contact effects": lambda: effect_table(CONTACT_EFFECTS),
     "contact scene": lambda: keys(ck.ContactScene),
@@ -253,6 +249,11 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "stop": lambda: keys(Stop),
     "profile": lambda: keys(DriveProfile),
     "study": lambda: keys(Study),
+    "hinge": lambda: keys(Hinge),
+    "electrode": lambda: keys(Electrode),
+    "tips": lambda: keys(SpringTips),
+    "waveform": lambda: keys(Waveform),
+    "mirror study": lambda: keys(MirrorStudy),
     "liquids": liquid_table,
     "stiction-mass inputs": lambda: ports(StictionMass.ports, "input"),
     "stiction-mass outputs": lambda: ports(StictionMass.ports, "output"),
@@ -260,11 +261,15 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "valve-drive inputs": lambda: ports(ValveDrive.ports, "input"),
     "valve-drive outputs": lambda: ports(ValveDrive.ports, "output"),
     "valve-drive parameters": lambda: ports(ValveDrive.ports, "parameter"),
+    "tip-contact inputs": lambda: ports(TipContact.ports, "input"),
+    "tip-contact outputs": lambda: ports(TipContact.ports, "output"),
+    "tip-contact parameters": lambda: ports(TipContact.ports, "parameter"),
     "errata": errata_table,
     "nano": nano_table,
     "nano forces": nano_force_table,
     "temperature laws": law_table,
-    "assumptions": assumption_table,
+    "assumptions": lambda: assumption_table("fuel_injector.toml"),
+    "mirror assumptions": lambda: assumption_table("micromirror.toml"),
     "arc against exact": exact_table,
     "limits": limit_table,
 }

@@ -1,0 +1,33 @@
+"""Tables of devices: the numbers of a scene file with the reasons it gives for them."""
+
+from __future__ import annotations
+
+import inspect
+from pathlib import Path
+
+from validation_tables import grid
+
+from contactkit.models.coil import Coil
+
+
+def assumption_table(name: str) -> str:
+    """Numbers of a device with the reasons their file gives for them."""
+    text = Path(inspect.getfile(Coil)).with_name(name).read_text("utf-8")
+    rows: list[list[str]] = []
+    section, open_row = "", False
+    for line in text.partition('\ndevice = "')[2].splitlines()[1:]:
+        code, _, comment = line.partition("#")
+        code, comment = code.strip(), comment.strip()
+        if code.startswith("["):
+            section, open_row = code.strip("[]"), False
+        elif code:
+            key, _, value = (part.strip() for part in code.partition("="))
+            open_row = bool(comment) and key not in ("name", "shape")
+            if key == "effect":
+                section = value.strip('"')
+            label = f"{section}.{key}" if section else key
+            if open_row:
+                rows.append([f"`{label}`", value.strip('"'), comment])
+        elif comment and open_row:
+            rows[-1][2] += f" {comment}"
+    return grid(("key", "value", "where it comes from"), rows)
