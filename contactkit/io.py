@@ -13,6 +13,7 @@ from typing import Any
 from .contact_scene import ContactScene
 from .converter import FileError, load_liquid, load_material, nearest, structure, unstructure
 from .errors import DescriptionError
+from .humid_tables import without_humidity
 from .scene import SeparationScene, SlidingScene
 
 __all__ = [
@@ -58,7 +59,8 @@ def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScen
     path : str or Path
         The file; its tables are the fields of `ContactScene` if there is one called
         ``pressing``, of `SlidingScene` if there is one called ``sliding``, else of
-        `SeparationScene`. Quantities may carry a unit.
+        `SeparationScene`. Quantities may carry a unit. In place of its volume or pressure a
+        meniscus may have a ``relative_humidity``, taken at the temperature of the scene.
 
     Raises
     ------
@@ -66,7 +68,8 @@ def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScen
         Listing every mistake in the file and where it is.
     """
     tables = read_tables(path)
-    return structure(tables, scene_kind(tables), Path(path).name)
+    name = Path(path).name
+    return structure(without_humidity(tables, name), scene_kind(tables), name)
 
 
 def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str | Path) -> Path:

@@ -230,8 +230,8 @@ def law_table() -> str:
     lines = ["| film | profile | set-up [s] | one call [us] | error |", "|---|---|---|---|---|"]
     for name, scene in meniscus_scenes().items():
         at_pressure = scene.interface.meniscus.pressure is not None
-        for profile in ("exact",) if at_pressure else ("exact", "arc"):
-            lines.append(_law_row(name, scene, profile))
+        profiles = ("exact",) if at_pressure else ("exact", "arc")
+        lines += [_law_row(name, scene, profile) for profile in profiles]
     return "\n".join(lines)
 
 

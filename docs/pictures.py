@@ -28,6 +28,12 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
         name: name for name in ("tension-limit", "release-zoom", "delay-against-temperature")
     },
     ("fuel-injector", "cost"): {"cost": "cost"},
+    ("micromirror", "run"): {
+        "side-view": "mirror-side-view",
+        "lift-off": "mirror-lift-off",
+        "release-against-humidity": "mirror-release",
+        "force-gap": "mirror-force-gap",
+    },
     ("head-disk", "run"): {
         "contact": "head-disk-contact",
         "stress": "head-disk-stress",

@@ -20,6 +20,7 @@ import attrs
 from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from validation_tables import (
+    division_table,
     errata_table,
     exact_table,
     grid,
@@ -111,7 +112,7 @@ def keys(kind: type) -> str:
     told, rows = descriptions(kind), []
     for field in attrs.fields(kind):
         unit = field.metadata.get("unit", "")
-        text = re.sub(r" \[[^]]{1,8}\]", "", told[field.name])
+        text = re.sub(r" \[[^]]{1,10}\]", "", told[field.name])
         rows.append((f"`{field.alias}`", unit, default(field), text))
     return grid(("key", "unit", "default", "meaning"), rows)
 
@@ -266,6 +267,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "tip-contact parameters": lambda: ports(TipContact.ports, "parameter"),
     "errata": errata_table,
     "nano": nano_table,
+    "division": division_table,
     "nano forces": nano_force_table,
     "temperature laws": law_table,
     "assumptions": lambda: assumption_table("fuel_injector.toml"),

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+import contactkit as ck
 from contactkit.kernels import arc_sphere, bridge_arc, published, squeeze
 
 DOCS = Path(__file__).parent
@@ -29,6 +30,34 @@ def errata_table() -> str:
         ("equation", "what is wrong"),
         [(n if " " in n else f"({n})", text) for n, text in published.ERRATA.items()],
     )
+
+
+def division_table() -> str:
+    """Best and largest number of menisci, and the critical area, of the source's flat films."""
+    water = ck.Liquid(name="water", surface_tension=0.072, viscosity=0.89e-3)
+    rows = []
+    for height in (2, 3, 4, 5, 6):
+        gap, angle = height * 1e-9, math.pi / 3
+        film = ck.Meniscus(
+            liquid=water, volume=1e-12 * gap, contact_angle_lower=angle, contact_angle_upper=angle
+        )
+        scene = ck.SeparationScene(
+            interface=ck.Interface(meniscus=film),
+            opening=ck.Opening(initial_gap=gap, final_gap=1e-3, time=1e-7),
+            effects=(ck.MeniscusForce(), ck.ViscousForce()),
+        )
+        exact = ck.divide_meniscus(scene, (1,))
+        printed = ck.divide_meniscus(scene, (1,), law="as-published")
+        areas = [
+            ck.critical_meniscus(scene, law=law).area * 1e12 for law in ("as-published", "exact")
+        ]
+        rows.append(
+            (f"{height}", f"{printed.best_count}", f"{exact.best_count}",
+             f"{exact.largest_stable_count}", *(f"{area:.4f}" for area in areas))
+        )  # fmt: skip
+    head = ("h0 [nm]", "best N, as printed", "best N, exact", "largest stable N, exact",
+            "critical area, as printed [um2]", "critical area, exact [um2]")  # fmt: skip
+    return grid(head, rows)
 
 
 def nano_table() -> str:

@@ -12,6 +12,7 @@ from attrs import frozen
 
 from ..contact_scene import ContactScene
 from ..errors import DescriptionError, PlanError
+from ..humid_tables import without_humidity
 from ..io import nearest, read_tables, scene_kind, structure
 from ..plan import Plan, plan
 from ..scene import SeparationScene, SlidingScene
@@ -63,6 +64,8 @@ def open_scene(name: str) -> Runnable:
         path = _bundled(name)
     tables = read_tables(path)
     device = tables.pop("device", None)
+    if device is None:
+        tables = dict(without_humidity(tables, path.name))
     if device is None and scene_kind(tables) is ContactScene:
         from .contact_report import open_contact
 

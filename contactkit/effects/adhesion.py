@@ -41,7 +41,7 @@ class VanDerWaalsForce(SeparationForce):
     -----
     Flats attract by A/(6 pi D^3) on the smaller face, which needs a radius. Under a sphere each of
     `Meniscus.count` menisci has a sphere of its own. Rigid bodies, no retardation: right within a
-    tenth below some 2 nm; at 10 nm a third too much.
+    tenth below some 2 nm; at 10 nm half too much.
     """
 
     name: ClassVar[str] = "van-der-waals-force"

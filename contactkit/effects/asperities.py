@@ -130,8 +130,8 @@ class AsperityMenisci(SeparationForce):
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
         """See `SeparationForce.prepare`."""
         if self.profile == "thin-film":
-            kinks = (self.height(scene),) if self.law == "identical" else ()
-            return ForceLaw(lambda gap, speed: self.sums(scene, gap).force, kinks)
+            end = self.height(scene) if self.law == "identical" else math.inf
+            return ForceLaw(lambda gap, speed: self.sums(scene, gap).force, end=end)
         from .asperity_law import exact_law
 
         return exact_law(self, scene, accuracy, _wetting(scene))

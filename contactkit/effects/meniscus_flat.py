@@ -59,7 +59,7 @@ def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
     free_end = pinned_end = math.inf
     if math.isfinite(film.volume):
         bridges = flat_law.flat_law(*angles, rtol=rtol)
-        size = film.volume ** (1.0 / 3.0)
+        size = math.cbrt(film.volume)
         free, free_end = _sized(bridges.force, size, size), bridges.end * size
     if math.isfinite(film.rim):
         held = flat_law.flat_law(*angles, pinned=True, rtol=rtol)
@@ -79,11 +79,11 @@ def exact_end(scene: SeparationScene) -> float:
     """Gap [m] at which the exact bridge loses stability, without the forces on the way."""
     film, angles = film_shape(scene), _angles(scene)
     if math.isinf(film.rim):
-        return flat_law.flat_end(*angles)[0] * film.volume ** (1.0 / 3.0)
+        return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
     longest, volume = flat_law.flat_end(*angles, pinned=True)
     if film.volume >= volume * film.rim**3:
         return longest * film.rim
-    return flat_law.flat_end(*angles)[0] * film.volume ** (1.0 / 3.0)
+    return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
 
 
 def arc_law(scene: SeparationScene) -> ForceLaw:

@@ -55,6 +55,8 @@ ERRATA: Mapping[str, str] = MappingProxyType(
         "3.42": "It does not remove the initial gap, is infinite for theta1 + theta2 = 180 deg "
         "and turns repulsion positive.",
         "3.43": "With Eq. (3.19) as printed it tends to -1; with the volume kept to 1/2.",
+        "3.44": "Its right side lacks the speed: the shear stress is eta v / h0.",
+        "3.51": "Its D should read L, the offset of the two circles.",
         "3.53": "It is the impulse over the separation time, not a force at the break: the drag is "
         "largest at the start, 3 pi / 4 times as large, and falls with the overlap.",
         "3.56": "It takes the film for as thick everywhere as at its rim: 1 - D/s stands where "

@@ -241,11 +241,11 @@ def test_a_limit_needs_the_force_it_bounds():
 
 def test_a_limit_needs_a_path_in_time():
     opening = ck.Opening(initial_gap=1e-6, final_gap=1e-5, time=1.0)
-    made = ck.plan(scene(VISCOUS, LIMIT, SHEAR, opening=opening))
-    refuses(
-        lambda: ck.simulate(made),
-        "TensionLimit, ShearLimit needs a speed or a force imposed: with only the time given",
-        error=ck.PlanError,
+    refuses_plan(
+        "TensionLimit needs a speed or a force imposed: with only the time given",
+        "ShearLimit needs a speed or a force imposed",
+        effects=(VISCOUS, LIMIT, SHEAR),
+        opening=opening,
     )
 
 

@@ -50,6 +50,7 @@ CHAIN = [
     ["humidity_curves"],
     ["contact"],
     ["converter"],
+    ["humid_tables"],
     ["curves", "io", "workprecision", "press_map", "adhesion_curves"],
     ["vibration_curves"],
     ["separation"],

@@ -15,6 +15,8 @@ NUMBERS = {
     "coated_sphere": pytest.approx(0.6200, rel=2e-3),
     # Contact in proportion to the load, less on few summits: between Hertz's 2/3 and 1.
     "head_disk_load_curve": pytest.approx(0.83, abs=0.12),
+    # Reference bridge of pressure -100 gamma/R at touch, 0/0 degrees.
+    "humid_tip": pytest.approx(0.96032, abs=1e-5),
     # A layer of no thickness and one without end are no layers.
     "press_a_map": pytest.approx(0.0, abs=1e-4),
     # The closed form leaves out the mass: 4 % at 80 degC, where the spool is released in 2.4 ms.
