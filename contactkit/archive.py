@@ -25,7 +25,7 @@ from .scene import SeparationScene, SlidingScene
 from .slide_curves import check_sliding
 from .sliding_plan import plan_sliding
 from .sliding_result import SlidingResult
-from .validity import check
+from .validity import check, path_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -158,10 +158,6 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
     scene = structure(header["scene"], SeparationScene, name)
     made = plan(scene, Accuracy(**header["accuracy"]))
     state = header["state"]
-    speeds = columns.get("speed", np.zeros_like(columns["gap"]))
-    path_taken = [
-        (float(h), float(v)) for h, v in zip(columns["gap"], speeds, strict=True) if h > 0.0
-    ]
     return SeparationResult(
         made,
         header["status"],
@@ -169,7 +165,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         columns,
         header["impulses"],
         MotionState(*state) if state is not None else None,
-        check(made, path_taken),
+        check(made, path_of(made, columns)),
         Work(**header["work"]),
     )
 

@@ -11,12 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .effects import ViscousForce
-from .errors import PlanError
 from .film_laws import Film, impulse_name
 from .motion_state import LIMITS, FilmStatus
 from .plan import Plan
 from .results import SeparationResult, Work
-from .validity import check
+from .validity import check, path_of
 
 __all__ = ["at_speed", "frozen", "newtonian_impulses", "simulated", "within_time"]
 
@@ -77,7 +76,7 @@ def at_speed(plan: Plan, begun: float) -> SeparationResult:
         impulses |= newtonian_impulses(plan)
         if plan.film.limits:
             impulses["viscous_impulse"] = running[-1]
-    validity = check(plan, [(gap, speed) for gap in gaps if 0.0 < gap <= film.end])
+    validity = check(plan, path_of(plan, columns))
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
@@ -139,12 +138,6 @@ def newtonian_impulses(plan: Plan) -> dict[str, float]:
 
 def within_time(plan: Plan, begun: float) -> SeparationResult:
     """Impulse and mean force of an opening of which only the duration is given."""
-    limits = [kind.__name__ for kind, _ in plan.film.limits]
-    if limits:
-        raise PlanError(
-            f"{', '.join(limits)} needs a speed or a force imposed: with only the time given, the "
-            f"path on which the limit acts is not known"
-        )
     gaps = _grid(plan)
     columns = {"gap": frozen(gaps)}
     rows = [_forces(plan, gap, 0.0) for gap in gaps] if plan.film.static_columns else []
@@ -157,9 +150,7 @@ def within_time(plan: Plan, begun: float) -> SeparationResult:
         last = plan.film.end
         columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
     opening = plan.scene.opening
-    mean_speed = (gaps[-1] - gaps[0]) / (opening.time or math.inf)
-    wet = [gap for gap in gaps if 0.0 < gap <= plan.film.end]
-    validity = check(plan, [(gap, mean_speed) for gap in wet])
+    validity = check(plan, path_of(plan, columns))
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {opening.time:g} s"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

@@ -18,6 +18,10 @@ from .units import celsius, si
 __all__ = ["Meniscus"]
 
 
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
 def _negative(owner: object, attribute: Attribute[float], value: float) -> None:
     number = isinstance(value, int | float) and not isinstance(value, bool)
     if not (number and -math.inf < value < 0.0):
@@ -110,7 +114,7 @@ class Meniscus:
         """
         from .kernels.kelvin import laplace_pressure
 
-        if not 0.0 <= relative_humidity <= 1.0:
+        if not (_is_number(relative_humidity) and 0.0 <= relative_humidity <= 1.0):
             raise DescriptionError(
                 "Meniscus.from_humidity(relative_humidity)", relative_humidity,
                 "lie between 0 and 1", hint="it is a share, not per cent",
@@ -167,7 +171,7 @@ class Meniscus:
         """
         given = (("coverage", coverage, ""), ("area", area, "m2"), ("gap", gap, "m"))
         for name, value, unit in given:
-            if not (value > 0.0 and math.isfinite(value) and (unit or value <= 1.0)):
+            if not (_is_number(value) and value > 0.0 and (unit or value <= 1.0)):
                 expected = "be positive and finite" if unit else "lie above 0 and not above 1"
                 raise DescriptionError(
                     f"Meniscus.from_coverage({name})", value, expected, unit=unit

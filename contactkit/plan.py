@@ -139,6 +139,14 @@ def _check_effects(scene: SeparationScene) -> None:
             for e in scene.effects
             if not e.takes_pressure
         ]
+    problems += _lacks_of_limits(scene, kinds)
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]:
+    """What a film that lets go, and an imposed force or time, want besides."""
+    problems: list[str] = []
     if scene.opening.imposed == "force" and scene.opening.mass is None:
         problems += [
             f"{type(e).__name__} needs opening.mass [kg]: where the film lets go, nothing else "
@@ -156,8 +164,14 @@ def _check_effects(scene: SeparationScene) -> None:
             problems.append(
                 "an imposed force needs opening.mass [kg], or ViscousForce(), to set a speed"
             )
-    if problems:
-        raise PlanError("; ".join(problems))
+    if scene.opening.imposed == "time":
+        problems += [
+            f"{type(e).__name__} needs a speed or a force imposed: with only the time given, the "
+            "path on which the limit acts is not known"
+            for e in scene.effects
+            if isinstance(e, FilmLimit)
+        ]
+    return problems
 
 
 def check_listed(
@@ -200,14 +214,19 @@ def _check_gap(scene: SeparationScene) -> None:
 def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
     """Error that names the largest gap, and the largest number of menisci where that is known."""
     gap, meniscus = scene.opening.initial_gap, scene.interface.meniscus
-    cure = "give more volume or a smaller initial_gap"
+    reach, cure = "volume", "give more volume or a smaller initial_gap"
+    if meniscus.pressure is not None:
+        reach = f"pressure of {meniscus.pressure:g} Pa"
+        cure = "give one nearer to zero (a higher humidity) or a smaller initial_gap"
+    elif meniscus.volume is None:
+        reach, cure = "liquid", "give a smaller initial_gap"
     if scene.interface.is_flat and meniscus.volume is not None and meniscus.count > 1:
         # Each has its part of the volume, and its limit is as the cube root of that.
         most = math.ceil(meniscus.count * (end / gap) ** 3) - 1
         if most >= 1:
             cure += f", or divide the liquid into at most {most} menisci"
     return InfeasibleError(
-        f"no meniscus spans the initial gap of {gap:g} m: this volume reaches {end:.6g} m at "
+        f"no meniscus spans the initial gap of {gap:g} m: this {reach} reaches {end:.6g} m at "
         f"most; {cure}"
     )
 

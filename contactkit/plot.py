@@ -15,6 +15,7 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from .io import write_whole
+from .result_parts import known
 from .results import COLUMNS, SeparationResult
 from .sliding_result import SlidingResult
 from .workprecision import WorkPrecision
@@ -104,46 +105,42 @@ def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
 
 
 def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
-    """Draw the forces over the gap, and shade where a limit of the liquid acts."""
-    ax = ax if ax is not None else figure()[1]
-    gap = result.gap * 1e6
+    """Draw the forces over the gap, and shade where a limit of the liquid acts.
+
+    Raises
+    ------
+    NotSimulatedError
+        If the run has no force: with only a time imposed a viscous film has but its impulse.
+    """
     curves: Mapping[str, tuple[str, str]] = {
         "newtonian_force": ("viscous", ":"), "viscous_force": ("viscous", "-"),
-        "meniscus_force": ("meniscus", "-"), "van_der_waals_force": ("solids", "-."),
-        "adhesion_force": ("solids", "-"), "pull": ("pull", "--"),
+        "meniscus_force": ("meniscus", "-"), "asperity_force": ("meniscus", "-."),
+        "van_der_waals_force": ("solids", "-."), "adhesion_force": ("solids", "-"),
+        "pull": ("pull", "--"),
     }  # fmt: skip
-    for name, (color, style) in curves.items():
-        if name in result.columns:
-            ax.plot(
-                gap, result.columns[name], style, color=COLORS[color], label=_LABELS[name].label
-            )
+    drawn = [name for name in curves if name in result.columns]
+    if not drawn:
+        known(None, "force to draw", result.plan)
+    ax = ax if ax is not None else figure()[1]
+    gap = result.gap * 1e6
+    for name in drawn:
+        color, style = curves[name]
+        ax.plot(gap, result.columns[name], style, color=COLORS[color], label=_LABELS[name].label)
     if "limit" in result.columns:
         acts = result.columns["limit"] > 1.0
         ax.fill_between(
-            gap,
-            0,
-            1,
-            where=acts,
-            transform=ax.get_xaxis_transform(),
-            color=COLORS["limit"],
-            alpha=0.3,
-            label="limit of the liquid acts",
-        )
+            gap, 0, 1, where=acts, transform=ax.get_xaxis_transform(), color=COLORS["limit"],
+            alpha=0.3, label="limit of the liquid acts",
+        )  # fmt: skip
     ax.set(xlabel=label_axis("gap", "um"), ylabel="force [N]", xscale="log")
-    top = max(
-        float(result.columns[n].max())
-        for n in curves
-        if n != "newtonian_force" and n in result.columns
-    )
-    bottom = min(
-        0.0,
-        *(
-            float(result.columns[n].min())
-            for n in curves
-            if n not in ("newtonian_force", "pull") and n in result.columns
-        ),
-    )
-    ax.set_ylim(1.1 * bottom, 1.15 * top)
+    shown = [result.columns[name] for name in drawn if name != "newtonian_force"]
+    least = [
+        result.columns[name].min() for name in drawn if name not in ("newtonian_force", "pull")
+    ]
+    top = max([0.0, *(float(curve.max()) for curve in shown)])
+    bottom = min([0.0, *map(float, least)])
+    if top > bottom:  # else there is no force anywhere
+        ax.set_ylim(1.1 * bottom, 1.15 * top)
     plain_log(ax.xaxis)
     legend(ax)
     return ax

@@ -18,7 +18,7 @@ from .results import SeparationResult, Work
 from .slide_curves import slide
 from .sliding_plan import SlidingPlan
 from .sliding_result import SlidingResult
-from .validity import check, warn
+from .validity import check, path_of, warn
 from .vibration_curves import vibrating
 
 if TYPE_CHECKING:
@@ -159,9 +159,9 @@ def _motion_result(
     if plan.has(ViscousForce):
         impulses |= newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
     status, message = _outcome(plan, last, pull(last.time), problem)
-    validity = check(plan, [(s.gap, s.speed) for s in states])
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     columns = _columns(plan, states, pull)
+    validity = check(plan, path_of(plan, columns))
     return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from attrs import field, frozen
 
@@ -13,10 +14,11 @@ from .effects.film_shape import FilmShape, film_shape
 from .errors import ValidityWarning
 from .kernels import validity as numbers
 from .kernels.menisci import DENSEST_COVER
+from .motion_state import FilmStatus
 from .plan import Plan
 from .units import nm
 
-__all__ = ["ValidityNumber", "check", "warn"]
+__all__ = ["ValidityNumber", "check", "path_of", "warn"]
 
 _NO_DENSITY = "liquid.density [kg/m3] is not given"
 
@@ -46,6 +48,25 @@ class ValidityNumber:
             return f"{self.name}: not evaluated, {self.detail}"
         verdict = "ok" if self.is_valid else "OUT OF RANGE"
         return f"{self.name} = {self.value:.3g} ({bounds}): {verdict}; {self.detail}"
+
+
+def path_of(plan: Plan, columns: Mapping[str, Any]) -> list[tuple[float, float]]:
+    """Pairs (gap [m], speed [m/s]) of a run for `check`: where the film spans an open gap.
+
+    With only a time imposed the speed is the mean one.
+    """
+    gaps = columns["gap"]
+    if "film_status" in columns:
+        whole = columns["film_status"] != FilmStatus.BROKEN
+    else:
+        whole = gaps <= plan.film.end
+    if "speed" in columns:
+        speeds = columns["speed"]
+    else:
+        time = plan.scene.opening.time or math.inf
+        speeds = (gaps[-1] - gaps[0]) / time + 0.0 * gaps
+    wet = whole & (gaps > 0.0)
+    return list(zip(gaps[wet].tolist(), speeds[wet].tolist(), strict=True))
 
 
 def check(plan: Plan, path: Iterable[tuple[float, float]]) -> tuple[ValidityNumber, ...]:

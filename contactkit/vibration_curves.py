@@ -25,7 +25,7 @@ from .kernels.quadrature import gauss_legendre
 from .motion_state import LIMITS, FilmStatus
 from .plan import Plan
 from .results import SeparationResult, Work
-from .validity import check
+from .validity import check, path_of
 from .vibration_path import NODES, PANELS, VibrationPath, panels
 
 if TYPE_CHECKING:
@@ -75,11 +75,10 @@ def vibrating(plan: Plan, begun: float) -> SeparationResult:
         law = film.laws[ViscousForce].impulse
         assert law is not None  # a viscous force always has one
         impulses["newtonian_impulse"] = law(path.gap(0.0), path.gap(end))
-    pairs = list(zip(columns["gap"].tolist(), columns["speed"].tolist(), strict=True))
-    n = len(pairs) + len(cycles) * PANELS * NODES
+    n = len(columns["gap"]) + len(cycles) * PANELS * NODES
     return SeparationResult(
         plan, "curve", _message(path, end, breaks, len(cycles)), columns, impulses, None,
-        check(plan, pairs), Work(0, 0, n, clock.perf_counter() - begun),
+        check(plan, path_of(plan, columns)), Work(0, 0, n, clock.perf_counter() - begun),
     )  # fmt: skip
 
 
