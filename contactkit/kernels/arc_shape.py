@@ -19,7 +19,7 @@ from typing import NamedTuple
 from ..errors import InfeasibleError
 from .quadrature import gauss_legendre
 
-__all__ = ["SPREADING", "ArcShape", "refuse_spreading", "shape", "wetting"]
+__all__ = ["SPREADING", "ArcShape", "refuse_spreading", "shape", "wetting", "whole_angle"]
 
 _RIGHT = math.pi / 2.0
 _NODES = 20  # the integrand oscillates at most three half turns: exact to rounding
@@ -72,6 +72,15 @@ def wetting(angle_lower: float, angle_upper: float) -> float:
     """
     lower, upper = _RIGHT - angle_lower, _RIGHT - angle_upper
     return 2.0 * math.sin(0.5 * (lower + upper)) * math.cos(0.5 * (lower - upper))
+
+
+def whole_angle(angle: float) -> float:
+    """Contact angle [rad] in which two right angles stand for what is within 1e-6 of them.
+
+    A limit of stability moves by the square of that, 1e-11; without it the last digits of a
+    nearly closed contact circle would decide where a bridge ends.
+    """
+    return math.pi if math.pi - angle < 1e-6 else angle
 
 
 def refuse_spreading(angle_lower: float, angle_upper: float) -> None:

@@ -16,10 +16,19 @@ from numpy.typing import NDArray
 from ..errors import ConvergenceError
 from .bridge_chart import Pair, Point, point
 from .bridge_newton import rebind
-from .delaunay import Body, Ends
+from .delaunay import Body
 from .roots import bracketed_root
 
-__all__ = ["DETACHMENT", "FOLD", "PITCHFORK", "Branch", "along", "flat_branch", "march"]
+__all__ = [
+    "DETACHMENT",
+    "FOLD",
+    "PITCHFORK",
+    "Branch",
+    "along",
+    "drop_left",
+    "flat_branch",
+    "march",
+]
 
 Array = NDArray[np.float64]
 
@@ -27,6 +36,7 @@ FOLD, PITCHFORK, DETACHMENT = 0, 1, 2
 _INSIDE = 9  # nodes between which a fold is interpolated
 # closer and closer to zero, where the limit of nearly equal bodies has a cusp
 _FINE = 0.5 ** np.arange(1.0, 27.0)
+_STRAIGHT = np.concatenate((-(0.5 ** np.arange(44.0, 0.0, -1.0)), [-0.75, -1.0, -1.25]))
 _CHUNKS = (
     np.concatenate((np.arange(45.0, 12.0, -1.5), np.arange(12.0, 0.6, -0.5), _FINE, [0.0])),
     np.concatenate((-_FINE[::-1], [-0.75, -1.0, -1.25])),
@@ -48,15 +58,14 @@ class Branch(NamedTuple):
     kind: int
 
     @property
-    def ends(self) -> Ends:
-        """The bridge at the limit."""
-        last = point(self.bodies, self.waist[-1:], self.chart[-1:]).ends
-        if self.kind != DETACHMENT:
-            return last
-        # the contact circle has shrunk to a point, which the formulas of an end leave open
-        gone = last.binder._replace(radius=np.zeros(1))
-        other = last.other._replace(radius=np.nan_to_num(last.other.radius))
-        return last._replace(force=np.zeros(1), binder=gone, other=other)
+    def last(self) -> tuple[float, float, float, float]:
+        """Waist, shape and the two contact radii at the limit."""
+        a = math.exp(self.waist[-1])
+        ends = point(self.bodies, self.waist[-1:], self.chart[-1:]).ends
+        first, last = a * float(ends.binder.radius[0]), a * float(ends.other.radius[0])
+        if self.kind == DETACHMENT:  # a contact circle that is a point leaves the formulas open
+            first, last = 0.0, drop_left(self.bodies.other)[2]
+        return (a, float(ends.shape[0]), *((last, first) if self.flipped else (first, last)))
 
     @property
     def first(self) -> Array:
@@ -90,24 +99,43 @@ def along(
     """Waist, gap and slope of the gap by zeta at unit volume, or at a pressure; nan for none."""
     pairs = bodies.at(np.zeros(chart.size, dtype=np.intp))
     flat = bool(bodies.binder.curvature[0] == bodies.other.curvature[0] == 0.0)
+    if flat and pressure is None:
+        found = _along_flats(point(pairs, np.zeros_like(chart), chart))
+        return _gone(bodies, chart, *found)
     waist, step = waist.copy(), np.full(chart.shape, np.inf)
-    for _ in range(2 if flat else 20):
+    for _ in range(20):
         at = point(pairs, waist, chart)
         excess, by_waist, by_chart = _excess(at, waist, pressure)
         step = excess / by_waist
-        waist = waist - (step if flat else np.clip(step, -0.7, 0.7))
+        waist = waist - np.clip(step, -0.7, 0.7)
         if not (abs(step) > 1e-7).any():
             break
     at = point(pairs, waist, chart)
     _, by_waist, by_chart = _excess(at, waist, pressure)
-    good = (flat | (abs(step) < 1e-6)) & (at.volume > 0.0)
+    good = (abs(step) < 1e-6) & (at.volume > 0.0)
     good &= (at.ends.sine_other <= 1.0) & (at.ends.binder.radius > 0.0)
     slope = np.where(good, at.gap_chart - at.gap_waist * by_chart / by_waist, np.nan)
     gap = np.where(good, at.gap, np.nan)
-    if bodies.binder.cosine[0] == -1.0 and pressure is None:
+    return (waist, gap, slope) if pressure is not None else _gone(bodies, chart, waist, gap, slope)
+
+
+def _along_flats(at: Point) -> tuple[Array, Array, Array]:
+    """Waist, gap and slope at unit volume, from bridges of a waist of one between flats."""
+    good = (at.volume > 0.0) & (at.ends.sine_other <= 1.0)
+    waist = -np.log(np.where(good, at.volume, 1.0)) / 3.0
+    gap = np.where(good, at.gap, np.nan) * np.exp(waist)
+    slope = at.gap_chart * np.exp(waist) - gap * at.volume_chart / (3.0 * at.volume)
+    return waist, gap, slope
+
+
+def _gone(
+    bodies: Pair, chart: Array, waist: Array, gap: Array, slope: Array
+) -> tuple[Array, Array, Array]:
+    """The same, with the drop that is left where a body that repels lets go."""
+    if bodies.binder.cosine[0] == -1.0:
         gone = chart == 0.0
-        left, height = _drop(bodies.other)
-        waist[gone], gap[gone], slope[gone] = left, height, 0.0
+        left, height, _ = drop_left(bodies.other)
+        waist[gone], gap[gone], slope[gone] = math.log(left), height, 0.0
     return waist, gap, slope
 
 
@@ -147,21 +175,44 @@ def _closed(
             near = _places(bodies, nodes, np.full(7, inside[1, 0]), pressure)
             middle = _root(near[0], near[3], middle)
         top = _places(bodies, np.array([middle]), near[1, 3:4], pressure)
+        if not _is_top(top, places):  # no polynomial: a sharp turn, as next to a detachment
+            middle = _halved(bodies, inside, pressure)
+            top = _places(bodies, np.array([middle]), inside[1, :1], pressure)
+        if not top[2, 0] >= places[2, -2] * (1.0 - 1e-10):
+            raise ConvergenceError("the fold of the bridge was not found", places)
         top[3] = 0.0
         places = np.hstack((places[:, :-1], top))
     return Branch(bodies, flipped, places[0], places[1], places[2], places[3], kind)
 
 
+def _is_top(top: Array, places: Array) -> bool:
+    """Whether a place is the fold: no slope is left, and the gap is as large as before it."""
+    level = abs(top[3, 0]) <= 1e-6 * max(1.0, abs(places[3, -1]))
+    return bool(level and top[2, 0] >= places[2, -2])
+
+
+def _halved(bodies: Pair, inside: Array, pressure: float | None) -> float:
+    """Place between two at which the slope changes sign, or beyond which there is no bridge."""
+
+    def slope(chart: float) -> float:
+        found = float(_places(bodies, np.array([chart]), inside[1, :1], pressure)[3, 0])
+        return found if math.isfinite(found) else 1.0
+
+    low, high = float(inside[0, 0]), float(inside[0, 1])
+    if not slope(low) < 0.0 < slope(high):
+        return low
+    return bracketed_root(slope, low, high)
+
+
 def _root(x: Array, y: Array, near: float) -> float:
     """Root nearest to a place of the polynomial through values, or the place if it has none."""
     good = np.isfinite(y)
-    if good.sum() < 3:
-        return near
     half = 0.5 * (x[0] - x[-1])
-    fit = np.polynomial.Polynomial.fit(
-        (x[good] - near) / half, y[good], int(good.sum()) - 1, domain=[-1, 1]
-    )
-    roots = fit.roots()
+    if good.sum() < 3 or not half > 0.0:
+        return near
+    t = (x[good] - near) / half
+    powers = np.vander(t, int(good.sum()))
+    roots = np.roots(np.linalg.lstsq(powers, y[good] / abs(y[good]).max(), rcond=None)[0])
     real = roots[abs(roots.imag) < 1e-6].real
     return float(near + half * real[np.argmin(abs(real))]) if real.size else near
 
@@ -216,7 +267,7 @@ def flat_branch(bodies: Pair, flipped: bool) -> Branch:
     last = _last(bodies)
     straight = abs(bodies.binder.cosine[0] + bodies.other.cosine[0]) < 1e-14
     # a thin film between such plates is straight, and zeta vanishes with its gap
-    chunks = _CHUNKS[1:] if straight else _CHUNKS
+    chunks = (_STRAIGHT, *_CHUNKS[2:]) if straight else _CHUNKS
     columns = np.empty((4, 0))
     for nodes in chunks[:1] if last is not None else chunks:
         if last == DETACHMENT:  # the gap ends like zeta^2 log zeta, with nothing finer
@@ -232,19 +283,19 @@ def flat_branch(bodies: Pair, flipped: bool) -> Branch:
     return _closed(bodies, flipped, columns, last)
 
 
-def _drop(body: Body) -> tuple[float, float]:
-    """Logarithm of the radius, and height, of a drop of unit volume left on one body."""
+def drop_left(body: Body) -> tuple[float, float, float]:
+    """Radius, height and contact radius of a drop of unit volume left on one body."""
     angle = math.atan2(float(body.sine[0]), float(body.cosine[0]))
     curvature = float(body.curvature[0])
 
-    def shape(radius: float) -> tuple[float, float]:
+    def shape(radius: float) -> tuple[float, float, float]:
         k = curvature * radius
         slope = math.atan2(k * math.sin(angle), 1.0 - k * math.cos(angle))
         top = 2.0 * math.sin(0.5 * (angle + slope)) ** 2
         contact = math.sin(angle + slope)
         sag = contact * math.tan(0.5 * slope)
         cap = math.pi / 6.0 * sag * (3.0 * contact**2 + sag**2)
-        return top - sag, math.pi / 3.0 * top * top * (3.0 - top) - cap
+        return top - sag, math.pi / 3.0 * top * top * (3.0 - top) - cap, contact
 
     def excess(log_radius: float) -> float:
         return 3.0 * log_radius + math.log(shape(math.exp(log_radius))[1])
@@ -254,5 +305,6 @@ def _drop(body: Body) -> tuple[float, float]:
         low -= 1.0
     while excess(high) < 0.0:
         high += 1.0
-    log_radius = bracketed_root(excess, low, high)
-    return log_radius, math.exp(log_radius) * shape(math.exp(log_radius))[0]
+    radius = math.exp(bracketed_root(excess, low, high))
+    height, _, contact = shape(radius)
+    return radius, radius * height, radius * contact

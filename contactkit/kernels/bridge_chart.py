@@ -6,7 +6,6 @@ zeta. Everything about a bridge is explicit there.
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -128,30 +127,26 @@ def _real(found: Ends) -> Ends:
     )  # fmt: skip
 
 
-def integrals(found: Ends) -> Array:
+def integrals(e: Array, first: End, last: End) -> Array:
     """Height and volume over pi of the meridian between its ends, then their slopes by e."""
-    e = found.shape
     from_bulge = is_round(e)
     result = np.empty((4, e.size))
     for flag in (False, True):
         part = np.flatnonzero(from_bulge == flag)
         if part.size == e.size:
-            return _stretched(e, found.binder, found.other, flag)
-        first, last = (End(*(v[part] for v in end)) for end in (found.binder, found.other))
-        result[:, part] = _stretched(e[part], first, last, flag)
+            return _stretched(e, first, last, flag)
+        one, two = (End(*(value[part] for value in end)) for end in (first, last))
+        result[:, part] = _stretched(e[part], one, two, flag)
     return result
 
 
-def integrals_between(shape: float, low: float, high: float) -> Array:
-    """The integrals of one meridian between two arc lengths, see `integrals`."""
-    e, blank = np.array([shape]), np.zeros(1)
+def integrals_between(shape: Array, low: Array, high: Array) -> Array:
+    """The integrals of meridians between two arc lengths, see `integrals`."""
 
-    def end(arc: float) -> End:
-        tangent = math.tan(0.5 * (1.0 - shape) * arc)
-        return End(np.array([arc]), np.array([tangent]), blank, blank, blank, blank)
+    def end(arc: Array) -> End:
+        return End(arc, np.tan(0.5 * (1.0 - shape) * arc), arc, arc, arc, arc)
 
-    result: Array = _stretched(e, end(-low), end(high), bool(is_round(shape)))[:, 0]
-    return result
+    return integrals(shape, end(-low), end(high))
 
 
 def _stretched(e: Array, first: End, last: End, from_bulge: bool) -> Array:
@@ -174,7 +169,7 @@ def point(where: Pair, waist: Array, chart: Array) -> Point:
     a = np.exp(waist + 0.0 * directions if flat else waist + 1j * _DIRECTIONS[::-1])
     found = ends(ARRAYS, a, coordinate, where.binder, where.other, where.twin)
     real = _real(found)
-    height, content, height_e, content_e = integrals(real)
+    height, content, height_e, content_e = integrals(real.shape, real.binder, real.other)
     size = a[0].real
 
     def slope(value: NDArray[np.complex128]) -> Array:

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from ..errors import ConvergenceError, InfeasibleError
 from .bridge_branch import Branch, march
+from .bridge_chart import Pair
+from .bridge_march import FreeBranch, march_free
 from .bridge_newton import Problem, Solution, problem, solve
 from .bridge_start import from_waist
 
@@ -67,7 +69,7 @@ def from_film(given: Problem, angles: Two, curvatures: Two) -> tuple[Solution, F
 def branch_at_pressure(
     pressure: float, angle_lower: float, angle_upper: float,
     curvature_lower: float, curvature_upper: float,
-) -> Branch:  # fmt: skip
+) -> Branch | FreeBranch:  # fmt: skip
     """Curve of bridges of one pressure from touching bodies to its limit."""
     angles = np.array([angle_lower]), np.array([angle_upper])
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
@@ -95,19 +97,26 @@ def branch_at_pressure(
                 drop, found = trial, new
             elif ratio > 0.99:
                 if found.found.ends.sine_other[0] < -0.99:
-                    raise ConvergenceError(_LOST)
+                    raise InfeasibleError(_DROWNED)
                 raise InfeasibleError(_DRY)
             else:
                 ratio = math.sqrt(ratio)
+        return _followed(found, given(pressure).bodies, pressure)
+
+
+def _followed(found: Solution, bodies: Pair, pressure: float) -> Branch | FreeBranch:
+    try:
         return march(
             found.bodies, bool(found.flipped[0]), float(found.waist[0]), float(found.chart[0]),
             pressure,
         )  # fmt: skip
+    except ConvergenceError:
+        return march_free(bodies, found.unknowns[:, 0], 0.0, pressure)
 
 
-_LOST = (
-    "no bridge of this pressure was found between touching bodies: it holds more liquid than the "
-    "smaller sphere, and its ends cannot be followed there; give a volume instead"
+_DROWNED = (
+    "no bridge of this pressure was found between touching bodies: it would hold more liquid than "
+    "the smaller sphere and drown it; a smaller pressure (a lower humidity) may hold one"
 )
 _DRY = (
     "no bridge holds at this pressure even between touching bodies: it would dry up, or grow "

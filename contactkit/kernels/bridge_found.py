@@ -107,17 +107,15 @@ def from_chart(found: Solution, *, at_pressure: bool = False) -> Columns:
 
 
 def from_free(found: Free, flipped: bool) -> Columns:
-    """Columns of one bridge followed with free ends."""
-    x, pull = found.unknowns, 1.0 + found.unknowns[1]
-    a, shape, first, last = np.exp(x[:1]), x[1:2], x[2:3], x[3:4]
-    moved = np.linalg.solve(found.jacobian, np.array([1.0, 0.0, 0.0, 0.0]))
-    radii = tuple(np.array([radius]) for radius in found.radii)
-    columns = _columns(
-        a, shape, 1.0 + shape, (radii[0], radii[1]), (first, last), np.array([flipped])
-    )
-    return columns | {
-        "volume": np.array([found.volume]),
-        "stiffness": np.pi * a * (pull * moved[0] + moved[1]),
+    """Columns of bridges with free ends."""
+    waist, shape, first, last = found.unknowns
+    a = np.exp(waist)
+    moved = np.linalg.solve(found.jacobian, np.array([[1.0], [0.0], [0.0], [0.0]]))[..., 0]
+    flip = np.full(a.shape, flipped)
+    radii = (found.radii[0], found.radii[1])
+    return _columns(a, shape, 1.0 + shape, radii, (first, last), flip) | {
+        "volume": found.volume,
+        "stiffness": np.pi * a * ((1.0 + shape) * moved[:, 0] + moved[:, 1]),
     }
 
 

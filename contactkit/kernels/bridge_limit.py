@@ -16,6 +16,7 @@ Nothing is interpolated across equal bodies, where the limit has a cusp: 60/60 d
 
 from __future__ import annotations
 
+import itertools
 import math
 from functools import lru_cache
 from typing import NamedTuple
@@ -24,10 +25,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ConvergenceError, InfeasibleError
-from .arc_shape import refuse_spreading
+from .arc_shape import refuse_spreading, whole_angle
 from .bridge_arc import _checked
-from .bridge_branch import PITCHFORK, Branch, flat_branch, march
+from .bridge_branch import DETACHMENT, PITCHFORK, Branch, flat_branch, march
 from .bridge_chart import Pair, solids
+from .bridge_march import FreeBranch, march_free, unbend
 from .bridge_newton import Solution, problem, solve
 from .bridge_start import from_arc
 
@@ -39,6 +41,9 @@ Array = NDArray[np.float64]
 
 Key = tuple[float, float, float, float]  # two contact angles [rad], two curvatures
 LIMITS = ("fold", "pitchfork", "detachment")
+_FACTORS = (1.0, 0.5, 0.2, 0.1, 0.03, 0.01)  # on the curvatures: the flatter, the easier
+_FREE_STARTS = (0.05, 0.02, 0.01, 0.1, 0.2, 0.003)
+_MOST_LOST = 30  # each lost attempt takes about half a second
 _STARTS = (0.1, 0.03, 0.2, 0.01, 0.4, 0.003, 0.0)
 _CYLINDER = math.pi ** (1.0 / 3.0)
 
@@ -108,9 +113,10 @@ def contact(
 @lru_cache(maxsize=512)
 def branch(
     angle_lower: float, angle_upper: float, curvature_lower: float, curvature_upper: float
-) -> Branch:
+) -> Branch | FreeBranch:
     """Curve of bridges of unit volume up to its limit; not for two flats at right angles."""
     refuse_spreading(angle_lower, angle_upper)
+    angle_lower, angle_upper = whole_angle(angle_lower), whole_angle(angle_upper)
     with np.errstate(all="ignore"):
         if curvature_lower == curvature_upper == 0.0:
             angles = np.array([angle_lower]), np.array([angle_upper])
@@ -118,10 +124,40 @@ def branch(
             flip = bool(abs(upper.cosine[0]) > abs(lower.cosine[0]))
             twin = np.array([angle_lower == angle_upper])
             return flat_branch(Pair(upper, lower, twin) if flip else Pair(lower, upper, twin), flip)
-        start = _start(angle_lower, angle_upper, curvature_lower, curvature_upper)
+        return _curved(angle_lower, angle_upper, curvature_lower, curvature_upper)
+
+
+def _curved(lower: float, upper: float, below: float, above: float) -> Branch | FreeBranch:
+    try:
+        start = _start(lower, upper, below, above)
         return march(
             start.bodies, bool(start.flipped[0]), float(start.waist[0]), float(start.chart[0])
         )
+    except ConvergenceError:
+        return _free_branch(lower, upper, below, above)
+
+
+def _free_branch(lower: float, upper: float, below: float, above: float) -> FreeBranch:
+    """Curve of unit volume with free ends, from a bridge between bodies perhaps more curved."""
+    angles = np.array([lower]), np.array([upper])
+    one, curvatures = np.ones(1), (np.array([below]), np.array([above]))
+    lost: list[ConvergenceError] = []
+    for factor, gap in itertools.product(_FACTORS, _FREE_STARTS):
+        if len(lost) == _MOST_LOST:
+            break
+        more = (factor * curvatures[0], factor * curvatures[1])
+        found = from_arc(problem(np.array([gap]), one, None, angles, more), angles, more)
+        if found.good[0]:
+            bodies = problem(np.array([gap]), one, None, angles, curvatures).bodies
+            try:
+                start = found.unknowns[:, 0]
+                return march_free(bodies, unbend(bodies, factor, start, gap), gap)
+            except ConvergenceError as error:
+                lost.append(error)
+    raise ConvergenceError(
+        "no stable bridge was found between bodies so strongly curved; give less volume",
+        lost[-1] if lost else None,
+    )
 
 
 def _start(
@@ -160,15 +196,9 @@ def _limit(lower: float, upper: float, below: float, above: float) -> tuple[floa
         r = _CYLINDER / math.pi
         return _CYLINDER, PITCHFORK, math.pi * r, 1.0 / r, r, r
     curve = branch(lower, upper, below, above)
-    a = math.exp(curve.waist[-1])
-    ends = curve.ends
-    first, last = a * float(ends.binder.radius[0]), a * float(ends.other.radius[0])
-    if curve.flipped:
-        first, last = last, first
-    return (
-        float(curve.gap[-1]), curve.kind, math.pi * a * float(ends.force[0]),
-        float(ends.pressure[0]) / a, first, last,
-    )  # fmt: skip
+    a, shape, first, last = curve.last
+    force = 0.0 if curve.kind == DETACHMENT else math.pi * a * (1.0 + shape)
+    return float(curve.gap[-1]), curve.kind, force, (1.0 - shape) / a, first, last
 
 
 def stability_limit(
@@ -242,7 +272,8 @@ def stability_limit(
     size = np.cbrt(volumes)
     keys = np.stack((rest[0], rest[1], rest[2] * size, rest[3] * size))
     unique, which = np.unique(keys, axis=1, return_inverse=True)
-    found = np.array([_limit(*key) for key in unique.T.tolist()]).reshape(-1, 6)
+    with np.errstate(all="ignore"):  # what fails on the way is found out
+        found = np.array([_limit(*key) for key in unique.T.tolist()]).reshape(-1, 6)
     columns = found[which.reshape(-1)].T
     shape = arrays["volume"].shape
     kind = columns[1].astype(np.int64)

@@ -60,6 +60,14 @@ class Solution(NamedTuple):
         return result
 
     @property
+    def unknowns(self) -> Array:
+        """Logarithm of the waist, shape, and arc lengths at the lower and upper body, as rows."""
+        ends = self.found.ends
+        first, last = ends.binder.arc, ends.other.arc
+        arcs = np.where(self.flipped, last, first), np.where(self.flipped, first, last)
+        return np.stack((self.waist, ends.shape, *arcs))
+
+    @property
     def good(self) -> Flags:
         """Whether a bridge was found that is stable at fixed volume."""
         beyond = self.bodies.twin & (self.chart <= 0.0)

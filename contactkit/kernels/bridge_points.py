@@ -14,8 +14,9 @@ from ..errors import ConvergenceError
 from .bridge_branch import DETACHMENT, Branch
 from .bridge_film import branch_at_pressure, from_film, holds
 from .bridge_found import Columns, cylinders, from_chart, from_free
-from .bridge_free import descend
+from .bridge_free import descend, newton
 from .bridge_limit import Key, branch, is_cylinder
+from .bridge_march import FreeBranch
 from .bridge_newton import Problem, Solution, problem, solve
 from .bridge_start import from_arc
 
@@ -51,22 +52,40 @@ def _on_curve(curve: Branch, given: Problem, gap: Array) -> Solution:
 
 
 def _close(
-    key: Key, gap: Array, pressure: float | None, curve: Branch, columns: Columns, lost: Flags
-) -> None:
+    key: Key, gap: Array, pressure: float | None, curve: Branch | FreeBranch, columns: Columns,
+    lost: Flags,
+) -> None:  # fmt: skip
     """Follow bridges closer than the curve begins, whose ends no chart covers, into columns."""
-    first = curve.first
-    given = _given(key, gap[:1], pressure)
-    bodies = given.bodies.swapped(np.array([curve.flipped]))
+    is_flipped = isinstance(curve, Branch) and curve.flipped
+    bodies = _given(key, gap[:1], pressure).bodies.swapped(np.array([is_flipped]))
     where = np.flatnonzero(lost)
-    start = float(curve.gap[0])
-    for i, found in zip(where, descend(bodies, first, start, gap[where], pressure), strict=True):
+    first = curve.first
+    followed = descend(bodies, first[:4], float(curve.gap[0]), gap[where], pressure)
+    for i, found in zip(where, followed, strict=True):
         if found is None:
             raise ConvergenceError(
                 f"no bridge was found at a gap of {gap[i]:.6g} lengths, between "
                 f"contact angles of {key[0]:.6g} and {key[1]:.6g} rad; a larger gap may do"
             )
-        for name, value in from_free(found, curve.flipped).items():
+        for name, value in from_free(found, is_flipped).items():
             columns[name][i] = value[0]
+
+
+def _free(
+    key: Key, gap: Array, pressure: float | None, curve: FreeBranch, exists: Flags
+) -> Columns:
+    """Columns of bridges on a curve that was followed with free ends."""
+    near = np.minimum(np.maximum(gap, curve.gap[0]), curve.gap[-1])
+    found, good = newton(curve.bodies, curve.place(near), near, pressure)
+    columns = from_free(found, flipped=False)
+    if (exists & ~good).any():
+        raise ConvergenceError(
+            f"no bridge was found below its limit of {curve.gap[-1]:.6g} lengths"
+        )
+    closer = gap < curve.gap[0]
+    if closer.any():
+        _close(key, gap, pressure, curve, columns, closer)
+    return columns
 
 
 def _of_kind(key: Key, gap: Array, pressure: float | None) -> tuple[Columns, Flags, float]:
@@ -77,10 +96,14 @@ def _of_kind(key: Key, gap: Array, pressure: float | None) -> tuple[Columns, Fla
     curve = branch(*key) if pressure is None else branch_at_pressure(pressure, *key)
     limit = float(curve.gap[-1])
     exists = gap < limit if curve.kind == DETACHMENT else gap <= limit
+    if isinstance(curve, FreeBranch):
+        return _free(key, gap, pressure, curve, exists), exists, limit
     found = _on_curve(curve, _given(key, gap, pressure), np.minimum(gap, limit))
     columns = from_chart(found, at_pressure=pressure is not None)
     miss = abs(found.found.gap - np.minimum(gap, limit)) > _NEAR * limit
-    lost = exists & (miss | ~np.isfinite(found.found.gap) | (gap < curve.gap[0]) & ~found.good)
+    lost = exists & (miss | ~np.isfinite(found.found.gap))
+    if key[2:] != (0.0, 0.0):  # before the curve begins Newton may end elsewhere
+        lost |= exists & (gap < curve.gap[0]) & ~found.good
     if lost.any():
         if (gap[lost] >= curve.gap[0]).any():
             raise ConvergenceError(f"no bridge was found below its limit of {limit:.6g} lengths")

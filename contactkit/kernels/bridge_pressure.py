@@ -23,6 +23,7 @@ from .bridge_points import BeyondLimitError, columns_at
 
 __all__ = ["branch_at_pressure", "bridge_at_pressure", "longest_at_pressure"]
 
+_VAST = 1e12  # of pressure over curvature: a film of rounding errors
 _FLATS = (
     "no bridge between flats is stable at fixed pressure: the slit fills to its rim, or dries up; "
     "give a volume, or curve one of the bodies"
@@ -91,7 +92,10 @@ def bridge_at_pressure(
     """
     if beyond not in ("raise", "nan"):
         raise DescriptionError("bridge.beyond", beyond, "be 'raise' or 'nan'")
-    level = np.asarray(pressure, dtype=np.float64)
+    try:
+        level = np.asarray(pressure, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise DescriptionError("bridge.pressure", pressure, "be a number", unit="1/m") from None
     if not np.isfinite(level).all():
         bad = float(level[~np.isfinite(level)].flat[0])
         raise DescriptionError("bridge.pressure", bad, "be finite", unit="1/m")
@@ -109,6 +113,11 @@ def bridge_at_pressure(
     if beyond == "raise" and flat.any():
         raise InfeasibleError(_FLATS)
     size = 1.0 / np.where(flat, 1.0, bend)
+    if (vast := abs(pressures) * size > _VAST).any():
+        raise DescriptionError(
+            "bridge.pressure", float(pressures[vast][0]), "be at most 1e12 times the curvature",
+            unit="1/m", hint="so small a bridge is smaller than an atom; take its limit",
+        )  # fmt: skip
     spreading = np.cos(0.5 * (lower - upper)) < SPREADING
     if beyond == "raise" and spreading.any():
         i = int(np.argmax(spreading))

@@ -164,7 +164,9 @@ def _end(m: Elementary, solid: Body, k: Any, shape: Any, pull: Any, phase: Any) 
         (rest - 0.5 * k * p * w) / m.where(upright, cosine_beta, 1.0),
         (solid.cosine * cosine_beta - solid.sine * sine_beta) / shape,
     )  # cos(phi) / e
-    arc, z = _arc(m, radius * lean / (1.0 - 0.25 * p * p * w), p)
+    across, share = radius * lean, 0.25 * p * p * w  # sin(ps) / p and sin(ps/2)^2
+    late = share.real > 0.5
+    arc, z = _arc(m, m.where(late, w, across) / m.where(late, across, 1.0 - share), p)
     sag = k * radius * radius / (1.0 + cosine_beta)
     cap = math.pi / 6.0 * sag * (3.0 * radius * radius + sag * sag)
     return End(arc, z, radius, sag, cap, solid.sine * cosine_beta + solid.cosine * sine_beta)
@@ -210,10 +212,11 @@ def ends(
     rest_other = m.where(twin, rest, (other.cosine - k_other) / shape)
     sine_other = rest_other - k_other
     lead = (binder.cosine - other.cosine - (k - k_other) * pull) / shape
+    total = (binder.cosine + other.cosine - (k + k_other) * pull) / shape  # of the two sines
     square = m.where(
         abs(sine_other.real) < 0.9,
         1.0 - sine_other * sine_other,
-        cosine * cosine + lead * (sine + sine_other),
+        cosine * cosine + lead * total,
     )
     open_ = square.real > 0.0
     cosine_other = m.where(twin, cosine, m.sqrt(m.where(open_, square, _TINY)))

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import NamedTuple
 
+from .arc_shape import whole_angle
 from .delaunay import COMPLEX, NUMBERS, Body, Ends, body, ends, integrand, is_round, reach
 from .quadrature import gauss_legendre
 from .roots import bracketed_root
@@ -49,6 +50,7 @@ def last_member(angle_lower: float, angle_upper: float, pinned: bool) -> Member:
 
 def _bodies(angle_lower: float, angle_upper: float) -> tuple[Body, Body, bool]:
     """Binding and other body, and whether their ends are alike."""
+    angle_lower, angle_upper = whole_angle(angle_lower), whole_angle(angle_upper)
     lower, upper = body(NUMBERS, angle_lower, 0.0), body(NUMBERS, angle_upper, 0.0)
     if abs(lower.cosine) < abs(upper.cosine):
         lower, upper = upper, lower

@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from contactkit.kernels.bridge_exact import KINDS, bridge, bridge_at_pressure, laterally_stable, margin
+from contactkit.kernels.bridge_exact import (
+    KINDS,
+    bridge,
+    bridge_at_pressure,
+    laterally_stable,
+    margin,
+)
 from contactkit.kernels.bridge_limit import LIMITS, stability_limit
 from contactkit.kernels.bridge_pressure import longest_at_pressure
 from contactkit.kernels.bridge_profile import profile
@@ -40,7 +46,9 @@ def compare(state, case, rtol=RTOL):
         ("radius_upper", "r2"), ("neck", "neck"), ("bulge", "bulge"), ("volume", "V"),
     ):  # fmt: skip
         if key in case:
-            assert float(getattr(state, name)) == pytest.approx(case[key], rel=rtol, abs=1e-13), name
+            assert float(getattr(state, name)) == pytest.approx(case[key], rel=rtol, abs=1e-13), (
+                name
+            )
     if "kind" in case:
         assert KINDS[int(state.kind)] == case["kind"]
 
@@ -67,8 +75,10 @@ def test_reference_limits(case):
     limit = stability_limit(case["V"], *fixed(case))
     assert float(limit.gap) == pytest.approx(case["D_limit"], rel=1e-12)
     assert LIMITS[int(limit.kind)] == case["kind"]
-    for name, key in (("force", "F_over_gamma"), ("pressure", "P_over_gamma"), ("radius_lower", "r1"),
-                      ("radius_upper", "r2")):  # fmt: skip
+    for name, key in (
+        ("force", "F_over_gamma"), ("pressure", "P_over_gamma"), ("radius_lower", "r1"),
+        ("radius_upper", "r2"),
+    ):  # fmt: skip
         assert float(getattr(limit, name)) == pytest.approx(case[key], rel=1e-10), name
 
 
@@ -154,12 +164,14 @@ def test_the_meridian_obeys_young_and_laplace(case):
     slope = math.asin(below * start)
 
     def meridian(s, y):
-        r, z, phi, v = y
+        r, _, phi, _ = y
         sine = math.sin(phi)
         return [math.cos(phi), sine, pressure - sine / r, math.pi * r * r * sine]
 
     first = [float(start), 0.0, math.pi - one * DEG - slope, 0.0]
-    found = solve_ivp(meridian, (0.0, float(length)), first, method="DOP853", rtol=1e-12, atol=1e-14)
+    found = solve_ivp(
+        meridian, (0.0, float(length)), first, method="DOP853", rtol=1e-12, atol=1e-14
+    )
     r, z, phi, v = found.y[:, -1]
     lean = math.asin(above * r)
     sags = [x * math.tan(0.5 * b) for x, b in ((start, slope), (r, lean))]
