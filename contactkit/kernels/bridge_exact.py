@@ -151,7 +151,7 @@ def laterally_stable(
 ) -> NDArray[np.bool_]:
     r"""Whether a bridge stays where it is when it is moved sideways along the bodies.
 
-    Between flats it always does, for they offer no way out; with a curved body it does where it
+    Between flats it is neutral, as nothing there pushes it; with a curved body it stays where it
     attracts: the sideways mode changes its stability only where the interface is a sphere and
     the force is zero, so a bridge that repels is expelled from between the bodies.
 
