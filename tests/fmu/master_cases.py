@@ -1,0 +1,31 @@
+"""The release cases as the master takes them."""
+
+from __future__ import annotations
+
+import math
+
+from contactkit.fmu.master import Mass, couple
+
+
+def ramp(force, time):
+    """Pull that rises to a force with a time constant; a step for 0."""
+    return (lambda t: force) if time == 0.0 else lambda t: -force * math.expm1(-t / time)
+
+
+def film_values(case):
+    kept = ("h0", "R", "eta", "gamma", "V", "dp_cav", "tau_lim")
+    angles = {"theta1": case["theta"], "theta2": case["theta"]}
+    return {name: case[name] for name in kept} | angles | {"meniscus_law": "PUBLISHED"}
+
+
+def release(film, case, tolerance, until, **more):
+    return couple(
+        film,
+        Mass(mass=case["m"], stiffness=case["k_s"]),
+        ramp(case["F0"], case["tau"]),
+        until,
+        release_gap=case["h_rel"],
+        tolerance=tolerance,
+        film_start=film_values(case) | more.pop("film_start", {}),
+        **more,
+    )

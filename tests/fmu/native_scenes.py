@@ -1,0 +1,96 @@
+"""Scenes of the tests of native FMUs, and the C compiler that builds them."""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import contactkit as ck
+from contactkit.fmu.native_compile import fmi_headers, kernel_sources
+
+HERE = Path(__file__).parent
+CC = os.environ.get("CC", "cc").split()[0]
+HAS_CC = shutil.which(CC) is not None and importlib.util.find_spec("fmpy") is not None
+
+OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
+FACE = ck.Flat(radius=3.175e-3)
+FORCES = (ck.MeniscusForce(), ck.ViscousForce())
+
+
+def scene(
+    lower=FACE, upper=FACE, volume=None, angles=(0.2, 0.2), effects=FORCES, gap=5e-6, mass=0.02,
+    final=1e-4, rest=0.0, stiffness=5e3, **meniscus,
+):  # fmt: skip
+    liquid = ck.Meniscus(
+        liquid=OIL, volume=volume, contact_angle_lower=angles[0], contact_angle_upper=angles[1],
+        **meniscus,
+    )  # fmt: skip
+    opening = ck.Opening(
+        initial_gap=gap, final_gap=final, force=1.0, mass=mass, rest_gap=rest, stiffness=stiffness
+    )
+    return ck.SeparationScene(
+        interface=ck.Interface(lower=lower, upper=upper, meniscus=liquid),
+        opening=opening, effects=effects,
+    )  # fmt: skip
+
+
+DROP = math.pi * FACE.radius**2 * 5e-6
+SPHERE = {"lower": ck.Flat(), "upper": ck.Sphere(radius=1e-3), "volume": 1e-14, "gap": 1e-7}
+SPHERE |= {"mass": 1e-6, "final": 3e-5, "stiffness": 0.0}
+
+SCENES = {
+    "flooded": scene(gap=20e-6),
+    "drop": scene(volume=DROP),
+    "unequal angles": scene(volume=1e-11, angles=(1.0, 2.0)),
+    "arc, many": scene(volume=DROP, effects=(ck.MeniscusForce(profile="arc"), FORCES[1]), count=4),
+    "sphere": scene(**SPHERE, angles=(0.5, 0.7), effects=(*FORCES, ck.TensionLimit())),
+    "rewetting": scene(
+        volume=DROP, rest=4e-6, final=8e-4, effects=(*FORCES, ck.TensionLimit(tension=1e6)),
+        rewetting=0.5,
+    ),
+    "solids": scene(
+        volume=DROP, gap=1e-6, effects=(*FORCES, ck.VanDerWaalsForce(hamaker_constant=1e-19)),
+        final=1e-3,
+    ),
+    "stieber": scene(gap=5e-6, effects=(*FORCES, ck.TensionLimit(tension=1e5, cavity="reynolds"))),
+    "shear": scene(gap=1e-7, effects=(*FORCES, ck.ShearLimit(strength=1e5))),
+}  # fmt: skip
+
+
+TIP = {"lower": ck.Flat(), "upper": ck.Sphere(radius=1e-6), "gap": 1e-10, "mass": 1e-12}
+TIP |= {"final": 1e-7, "stiffness": 0.0}
+STUCK = ck.AdhesiveContact(model="jkr", work_of_adhesion=0.05, reduced_modulus=1e9)
+SUMMITS = ck.AsperityMenisci(
+    asperities=ck.AsperityPopulation(density=1e12, radius=1e-6, rms_height=5e-9),
+    profile="thin-film", meniscus_height=2e-8,
+)  # fmt: skip
+ROUGH = ck.Flat(radius=1e-4)
+
+SCENES |= {
+    "humid tip": scene(**TIP, pressure=-1e7),
+    "tip that sticks": scene(**TIP, volume=1e-20, effects=(*FORCES, STUCK)),
+    "rough": scene(
+        lower=ROUGH, upper=ROUGH, gap=1e-8, mass=1e-6, final=1e-6, stiffness=0.0,
+        effects=(SUMMITS,),
+    ),
+}  # fmt: skip
+
+
+def write_sources(folder):
+    """Write the sources of the kernel and the headers of FMI to a folder."""
+    folder.mkdir(exist_ok=True)
+    for name, content in (kernel_sources() | fmi_headers()).items():
+        (folder / name).write_bytes(content)
+    return folder
+
+
+def compile_c(sources, out, *flags):
+    """Compile files with the C compiler of this computer."""
+    common = ["-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
+    words = [CC, *common, *flags, *map(str, sources), "-o", str(out), "-lm", "-lpthread", "-ldl"]
+    subprocess.run(words, check=True, capture_output=True, text=True)
+    return out

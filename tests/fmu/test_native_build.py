@@ -1,0 +1,256 @@
+"""Native FMU files: what is in them, hosts without Python, misuse, sanitizers."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import subprocess
+import sys
+import zipfile
+
+import attrs
+import pytest
+from native_scenes import HAS_CC, HERE, SCENES, compile_c, scene, write_sources
+
+pytest.importorskip("pythonfmu")
+fmpy = pytest.importorskip("fmpy")
+if not HAS_CC:
+    pytest.skip("there is no C compiler", allow_module_level=True)
+
+import contactkit as ck  # noqa: E402
+from contactkit.errors import ContactkitError, DescriptionError, PlanError  # noqa: E402
+from contactkit.fmu.build import validate  # noqa: E402
+from contactkit.fmu.instance import Instance  # noqa: E402
+from contactkit.fmu.native_build import build_native, native_scene  # noqa: E402
+from contactkit.fmu.native_compile import (  # noqa: E402
+    PLATFORMS,
+    compile_kernel,
+    join_macs,
+    local,
+)
+from contactkit.fmu.stiction_mass import StictionMass  # noqa: E402
+
+ONE = {"platforms": [local()], "compiler": "cc"}
+linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="dlopen and ASan")
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory):
+    return build_native(SCENES["drop"], tmp_path_factory.mktemp("fmu") / "drop.fmu", **ONE)
+
+
+@pytest.fixture(scope="module")
+def unpacked(fmu, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("unpacked")
+    with zipfile.ZipFile(fmu) as packed:
+        packed.extractall(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def host(unpacked, tmp_path_factory):
+    """A host in C, called with the words that follow library, folder and GUID."""
+    out = tmp_path_factory.mktemp("host") / "host"
+    compile_c([HERE / "native_host.c"], out, f"-I{unpacked / 'sources'}")
+
+    def run(*words, library=None, program=out):
+        library = library or next((unpacked / "binaries" / PLATFORMS[local()].fmi2).iterdir())
+        text = (unpacked / "modelDescription.xml").read_text()
+        guid = re.search('guid="([^"]*)"', text)[1]
+        found = subprocess.run(
+            [str(program), str(library), (unpacked / "resources").as_uri(), guid, *words],
+            capture_output=True, text=True, check=False, timeout=100,
+        )  # fmt: skip
+        assert found.returncode == 0, found.stderr
+        return [float(word) for word in found.stdout.split()]
+
+    return run
+
+
+def test_fmpy_finds_no_problems(fmu):
+    assert validate(fmu) == []
+
+
+def test_it_holds_what_it_is_made_of(unpacked):
+    assert (unpacked / "sources" / "motion.c").exists()
+    assert (unpacked / "sources" / "fmi2Functions.h").exists()
+    assert (unpacked / "documentation" / "licenses" / "license.txt").exists()
+    page = (unpacked / "documentation" / "index.html").read_text()
+    assert "needs nothing else" in page
+    assert "Python interpreter" not in page
+
+
+def test_rebuild_is_byte_identical(fmu, tmp_path):
+    again = build_native(SCENES["drop"], tmp_path / "again.fmu", **ONE)
+    assert again.read_bytes() == fmu.read_bytes()
+    for i in (1, 2):
+        sources = write_sources(tmp_path / f"folder {i}")
+        compile_kernel(sources, local(), tmp_path / f"library {i}", "cc")
+    assert (tmp_path / "library 1").read_bytes() == (tmp_path / "library 2").read_bytes()
+
+
+def test_variables_are_those_of_the_python_fmu(fmu):
+    """Same names, units and causality; what the tables have fixed is gone."""
+    ports = {port.name: port for port in StictionMass.ports}
+    found = fmpy.read_model_description(str(fmu)).modelVariables
+    assert set(ports) - {v.name for v in found} == {
+        "R", "V", "N", "theta1", "theta2", "meniscus_law", "rewet",
+    }  # fmt: skip
+    for variable in found:
+        port = ports[variable.name]
+        assert (variable.unit or "-", variable.causality) == (port.unit, port.causality)
+
+
+def test_viscosity_and_surface_tension_are_free(fmu, tmp_path):
+    """The FMU of one liquid, told another, is that of the other."""
+    liquid = ck.Liquid(name="other", viscosity=0.02, surface_tension=0.05)
+    other = SCENES["drop"]
+    meniscus = attrs.evolve(other.interface.meniscus, liquid=liquid)
+    other = attrs.evolve(other, interface=attrs.evolve(other.interface, meniscus=meniscus))
+    built = build_native(other, tmp_path / "other.fmu", **ONE)
+    found = []
+    for path, given in ((fmu, {"eta": 0.02, "gamma": 0.05}), (built, {})):
+        with Instance(path) as host:
+            host.start(given, 1.0)
+            host.set(host.references("F_ext"), [40.0])
+            host.step(0.0, 0.01)
+            found.append(dict(zip(host.names, host.outputs(), strict=True)))
+    assert found[0] == pytest.approx(found[1], rel=1e-9)
+    assert found[0]["t_release"] > 0.0
+
+
+def test_a_rate_of_the_pull_is_taken_both_ways(fmu):
+    """By the variable dF_ext, and by the call of FMI for derivatives of inputs."""
+    found = []
+    for by_call in (False, True):
+        with Instance(fmu) as host:
+            host.start({}, 1.0)
+            if by_call:
+                host._slave.setRealInputDerivatives(host.references("F_ext"), [1], [4e4])
+            else:
+                host.set(host.references("dF_ext"), [4e4])
+            host.step(0.0, 1e-3)
+            found.append(host.outputs())
+    assert found[0] == found[1]
+
+
+@linux_only
+def test_a_host_in_c_gets_the_same_release(host, fmu):
+    release, peak, impulse = host("run", "40", "1e-4", "0.02")
+    with Instance(fmu) as here:
+        here.start({}, 1.0)
+        here.set(here.references("F_ext"), [40.0])
+        here.step(0.0, 0.02)
+        found = dict(zip(here.names, here.outputs(), strict=True))
+    assert release == pytest.approx(found["t_release"], rel=1e-8)
+    assert impulse == pytest.approx(found["J"], rel=1e-8)
+    assert peak == pytest.approx(40.0, rel=1e-4)
+
+
+@linux_only
+def test_no_misuse_ends_the_host(host):
+    host("misuse")
+
+
+@linux_only
+def test_sanitizers_find_nothing(host, unpacked, tmp_path):
+    flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+    sources = write_sources(tmp_path / "sources")
+    try:
+        library = compile_c(
+            sources.glob("*.c"), tmp_path / "checked.so", "-fPIC", "-shared", *flags
+        )
+    except subprocess.CalledProcessError as error:
+        pytest.skip(f"the compiler has no sanitizers: {error.stderr[:200]}")
+    program = compile_c([HERE / "native_host.c"], tmp_path / "host", f"-I{sources}", *flags)
+    host("misuse", library=library, program=program)
+    host("run", "40", "1e-4", "0.02", library=library, program=program)
+
+
+def test_a_damaged_file_is_refused(unpacked, tmp_path):
+    """Whatever is wrong with the tables, there is no instance of them."""
+    from fmpy import fmi2
+
+    content = (unpacked / "resources" / "film.bin").read_bytes()
+    description = fmpy.read_model_description(str(unpacked))
+    damaged = [b"", content[:100], content[:-8], content + b"x" * 8, b"x" + content[1:]]
+    damaged += [bytearray(content)]
+    damaged[-1][5000] ^= 1
+    for i, one in enumerate(damaged):
+        folder = tmp_path / str(i)
+        (folder / "resources").mkdir(parents=True)
+        (folder / "binaries").symlink_to(unpacked / "binaries")
+        (folder / "resources" / "film.bin").write_bytes(one)
+        slave = fmi2.FMU2Slave(
+            instanceName="x", guid=description.guid, unzipDirectory=str(folder),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )  # fmt: skip
+        if one == content + b"x" * 8:
+            slave.instantiate()  # what follows the tables is not read
+            slave.freeInstance()
+            continue
+        with pytest.raises(Exception, match="instantiate"):
+            slave.instantiate()
+
+
+def test_what_cannot_be_built_is_refused(tmp_path):
+    out = tmp_path / "x.fmu"
+    with pytest.raises(DescriptionError, match=r"end in \.fmu"):
+        build_native(SCENES["drop"], tmp_path / "x.zip", **ONE)
+    with pytest.raises(DescriptionError, match="platform"):
+        build_native(SCENES["drop"], out, platforms=["amiga"])
+    with pytest.raises(DescriptionError, match="h_rel"):
+        build_native(SCENES["drop"], out, start={"h_rel": "1 um"}, **ONE)
+    with pytest.raises(DescriptionError, match="is an output"):
+        build_native(SCENES["drop"], out, start={"F": 1.0}, **ONE)
+    massless = scene(mass=None)
+    with pytest.raises(DescriptionError, match=r"m must be given.*opening\.mass"):
+        build_native(massless, out, **ONE)
+    assert not out.exists()
+    with pytest.raises(PlanError, match="valve-drive has no native form"):
+        native_scene("valve-drive")
+
+
+def test_a_mass_can_be_given(tmp_path):
+    path = build_native(scene(mass=None), tmp_path / "x.fmu", start={"m": "20 g"}, **ONE)
+    read = {v.name: v.start for v in fmpy.read_model_description(str(path)).modelVariables}
+    assert float(read["m"]) == 0.02
+
+
+def test_macs_share_one_file():
+    one = bytes.fromhex("cffaedfe0700000103000000") + b"a" * 20
+    other = bytes.fromhex("cffaedfe0c00000100000000") + b"b" * 30
+    both = join_macs([one, other])
+    assert both[:8] == bytes.fromhex("cafebabe00000002")
+    assert both[16384 : 16384 + len(one)] == one
+    assert both[32768 : 32768 + len(other)] == other
+    with pytest.raises(ContactkitError, match="Mac"):
+        join_macs([b"\x7fELF" + b"\0" * 20])
+
+
+@pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, reason="needs ziglang")
+@pytest.mark.parametrize("name", PLATFORMS)
+def test_zig_compiles_for_every_platform(name, tmp_path):
+    sources = write_sources(tmp_path / "sources")
+    compile_kernel(sources, name, tmp_path / "library", "zig")
+    head = (tmp_path / "library").read_bytes()[:4]
+    assert head[:2] == b"MZ" or head in (b"\x7fELF", bytes.fromhex("cffaedfe"))
+
+
+def test_without_zig_only_this_platform_is_compiled(tmp_path):
+    other = "linux-aarch64" if local() != "linux-aarch64" else "linux-x86_64"
+    with pytest.raises(ContactkitError, match="ziglang"):
+        compile_kernel(write_sources(tmp_path / "sources"), other, tmp_path / "library", "cc")
+
+
+def test_the_command_line_builds_one(tmp_path, monkeypatch, capsys):
+    from contactkit import cli
+    from contactkit.fmu import native_build
+
+    monkeypatch.setattr(native_build, "has_zig", lambda: False)
+    out = tmp_path / "injector.fmu"
+    assert cli.main(["fmu", "build", "fuel-injector", "--native", "--out", str(out)]) == 0
+    assert "stiction-mass, native" in capsys.readouterr().out
+    assert "valid" in str(validate(out) or "valid")
+    with pytest.raises(SystemExit):
+        cli.main(["fmu", "build", "fuel-injector", "--fmi", "4", "--out", str(out)])

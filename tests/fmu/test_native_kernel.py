@@ -1,0 +1,182 @@
+"""The C kernel against the Python model: forces, slopes, and the motion with its events."""
+
+from __future__ import annotations
+
+import subprocess
+
+import attrs
+import numpy as np
+import pytest
+from native_scenes import HAS_CC, HERE, OIL, SCENES, compile_c, write_sources
+
+pytest.importorskip("pythonfmu")
+pytest.importorskip("fmpy")
+if not HAS_CC:
+    pytest.skip("there is no C compiler", allow_module_level=True)
+
+from contactkit.fmu.instance import Instance
+from contactkit.fmu.native_build import build_native
+from contactkit.fmu.native_compile import local
+from contactkit.fmu.native_data import data_file
+from contactkit.fmu.native_film import FINE, film_numbers, moving
+from contactkit.fmu.native_tables import tabulate
+from contactkit.motion import advance
+from contactkit.motion_state import Pull, outputs, start
+from contactkit.plan import plan
+
+
+@pytest.fixture(scope="module")
+def probe(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("kernel")
+    write_sources(folder)
+    files = [path for path in folder.glob("*.c") if not path.name.startswith("fmi2")]
+    return compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
+
+
+@pytest.fixture(scope="module")
+def numbers():
+    """Tables of the scenes, made once each."""
+    made = {}
+
+    def of(name):
+        if name not in made:
+            made[name] = film_numbers(moving(SCENES[name], None))
+        return made[name]
+
+    return of
+
+
+def kernel_forces(probe, film, folder, gaps, speeds, tension=0.0, strength=0.0):
+    """Fixed force, its slope, viscous force, its slopes, and the limit."""
+    (folder / "film.bin").write_bytes(data_file("g", [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.5, *film]))
+    words = [str(probe), str(folder), str(OIL.viscosity), str(OIL.surface_tension)]
+    said = subprocess.run(
+        [*words, repr(tension), repr(strength)], check=True, capture_output=True, text=True,
+        input="".join(f"{g!r} {v!r}\n" for g, v in zip(gaps, speeds, strict=True)),
+    ).stdout  # fmt: skip
+    return np.array([[float(word) for word in line.split()] for line in said.splitlines()]).T
+
+
+def slope(function, gap, share=2e-4):
+    """Central difference of order 4, as a slope by the logarithm of the gap."""
+    f = [function(gap * (1.0 + k * share)) for k in (-2, -1, 1, 2)]
+    return (8.0 * (f[2] - f[1]) - (f[3] - f[0])) / (12.0 * share)
+
+
+CLOSED = ("arc, many", "flooded", "drop")
+"""Scenes whose Python laws are smooth enough to take a difference of."""
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, tmp_path):
+    scene = moving(SCENES[name], None)
+    film = plan(scene, FINE).film
+    high = min(0.98 * film.end, 0.98 * film.release, 2.0 * scene.opening.final_gap)
+    gaps = np.geomspace(1.1 * numbers(name).lowest, high, 301).tolist()
+    speeds = np.linspace(-1e-3, 1.0, 301).tolist()
+    limits = {effect.name: effect for effect in scene.effects}
+    tension = getattr(limits.get("tension-limit"), "pressure_drop", 0.0)
+    strength = getattr(limits.get("shear-limit"), "strength", 0.0)
+    fixed, fixed_slope, viscous, _, by_speed, _ = kernel_forces(
+        probe, numbers(name).numbers, tmp_path, gaps, speeds, tension, strength
+    )
+    expected = np.array([film.static_force(gap) for gap in gaps])
+    nothing = 1e-12 * np.max(np.abs(expected))  # the tail of a bell curve is not followed further
+    of_speed = [film.viscous_force(gap, speed)[0] for gap, speed in zip(gaps, speeds, strict=True)]
+    np.testing.assert_allclose(fixed, expected, rtol=1e-9, atol=nothing)
+    np.testing.assert_allclose(viscous, of_speed, rtol=1e-9)
+    smooth = [all(abs(gap / kink - 1.0) > 1e-3 for kink in film.kinks) for gap in gaps]
+    share = 2e-5 if name == "rough" else 2e-4  # its force falls as a bell curve
+    differences = np.array([slope(film.static_force, gap, share) for gap in gaps])
+    size = np.abs(expected) + np.abs(differences) + nothing
+    # The laws of exact bridges are splines: their own slopes are right to some 1e-9.
+    rtol = 1e-9 if name in CLOSED else 5e-9
+    assert np.max((np.abs(fixed_slope * gaps - differences) / size)[smooth]) < rtol
+    if tension == strength == 0.0:
+        resistance = np.array([film.resistance(gap) for gap in gaps])
+        np.testing.assert_allclose(by_speed, resistance, rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["stieber", "shear", "sphere"])
+def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, tmp_path):
+    scene = moving(SCENES[name], None)
+    film = plan(scene, FINE).film
+    gap = 2.0 * scene.opening.initial_gap
+    speeds = np.geomspace(1e-3, 1.0, 9)
+    tension, strength = (
+        (0.0, 1e5) if name == "shear" else (1e5 if name == "stieber" else 101325.0, 0.0)
+    )
+    found = kernel_forces(
+        probe, numbers(name).numbers, tmp_path, [gap] * 9, speeds.tolist(), tension, strength
+    )
+    assert found[5].max() == (2.0 if name == "shear" else 1.0)
+    for speed, by_gap, by_speed in zip(speeds.tolist(), found[3], found[4], strict=True):
+        expected = slope(lambda h, v=speed: film.viscous_force(h, v)[0], gap) / gap
+        assert by_gap == pytest.approx(expected, rel=1e-5)
+        expected = slope(lambda v: film.viscous_force(gap, v)[0], speed) / speed
+        assert by_speed == pytest.approx(expected, rel=1e-5, abs=1e-9 * found[2].max() / speed)
+
+
+MOTIONS = {
+    "flooded": ([40.0] * 50 + [-40.0] * 100, 1e-5, {"h_min": 1e-6}),
+    "drop": ([40.0] * 26, 5e-4, {}),
+    "unequal angles": ([40.0] * 60, 1e-5, {}),
+    "sphere": ([1e-3] * 30 + [-1e-3] * 30, 1e-4, {"h_min": 5e-8}),
+    "rewetting": (([40.0] * 60 + [-40.0] * 60) * 2, 2e-5, {}),
+    "solids": ([40.0] * 20, 5e-2, {}),
+    "stieber": ([40.0] * 40, 2e-5, {}),
+    "shear": ([40.0] * 20, 2e-4, {}),
+    "humid tip": ([1e-5] * 5, 1e-6, {}),
+    "tip that sticks": ([2e-6] * 10, 1e-6, {}),
+    "rough": ([0.1] * 10, 1e-5, {}),
+}
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_motion_is_that_of_the_python_model(name, tmp_path):
+    """Rupture, release, rest, re-wetting and limits come at the same times."""
+    pulls, step, given = MOTIONS[name]
+    scene = SCENES[name]
+    path = build_native(
+        scene, tmp_path / "film.fmu", platforms=[local()], compiler="cc",
+        start=given | {"rtol": 1e-8},
+    )  # fmt: skip
+    opening = attrs.evolve(scene.opening, rest_gap=given.get("h_min", scene.opening.rest_gap))
+    prepared = plan(moving(attrs.evolve(scene, opening=opening), None), FINE)
+    # The laws behind the tables are finer than those of the tolerance of the motion.
+    prepared = type(prepared)(prepared.scene, attrs.evolve(FINE, time_rtol=1e-8), prepared.film)
+    state = start(prepared)
+    with Instance(path) as host:
+        host.start({}, 1.0)
+        pull, time = host.references("F_ext"), 0.0
+        for force in pulls:
+            host.set(pull, [force])
+            host.step(time, step)
+            state = advance(prepared, state._replace(time=time), Pull(force), step)
+            time += step
+            found = dict(zip(host.names, host.outputs(), strict=True))
+            forces = outputs(prepared, state, force)
+            assert found["h"] == pytest.approx(state.gap, rel=1e-6)
+            assert found["F"] == pytest.approx(forces.film, rel=1e-6, abs=1e-6 * abs(force))
+            assert found["J"] == pytest.approx(state.viscous_impulse, rel=1e-7)
+            assert found["W"] == pytest.approx(state.dissipated_work, rel=1e-7)
+            assert found["F_peak"] == pytest.approx(state.peak_force, rel=1e-6)
+            assert found["t_release"] == pytest.approx(state.release_time, rel=1e-7)
+            assert found["t_break"] == pytest.approx(state.break_time, rel=1e-7)
+            assert found["n_break"] == state.n_breaks
+            assert found["n_release"] == state.n_releases
+            assert (found["state"], found["limit"]) == (forces.status, forces.limit)
+    assert name in ("flooded", "shear") or state.n_breaks or state.n_releases
+
+
+def test_a_table_of_a_power_has_two_nodes():
+    table = tabulate(lambda gap: 3.0 * gap**-5, (1e-8, 1e-6, 1e-4))
+    assert [(piece.power, len(piece.x)) for piece in table.pieces] == [(5, 2), (5, 2)]
+
+
+def test_a_fold_is_followed_to_its_end():
+    """A force that ends with an infinite slope is smooth in the coordinate of the table."""
+    table = tabulate(lambda gap: 1.0 + np.sqrt(1e-4 - gap), (1e-8, 1e-4), folds=(1e-4,), stays=True)
+    piece = table.pieces[0]
+    assert piece.x[0] == 0.0
+    assert piece.y[0] == pytest.approx(1.0, abs=1e-11)
