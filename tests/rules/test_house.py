@@ -36,7 +36,8 @@ MOST_LINES, MOST_LINES_OF_A_FUNCTION = 300, 50
 
 NOUNS = [
     ck.Accuracy, ck.AsperityPopulation, ck.Body, ck.CombinedSurface, ck.ContactInterface,
-    ck.ContactScene, ck.Flat, ck.GaussianRoughness, ck.HardnessMap, ck.Heights, ck.Interface, ck.Layer, ck.Liquid,
+    ck.ContactScene, ck.Flat, ck.GaussianRoughness, ck.HardnessMap, ck.Heights, ck.Interface,
+    ck.Layer, ck.Liquid,
     ck.Material, ck.Measured, ck.Meniscus, ck.Opening, ck.Paraboloid, ck.Pressing,
     ck.SelfAffineRoughness, ck.SeparationScene, ck.Sliding, ck.SlidingScene, ck.Sphere, ck.Stack,
     ck.Vibration, ck.Wave, ck.Window,
