@@ -71,7 +71,9 @@ def _parser() -> argparse.ArgumentParser:
         "what", help="stiction-mass, valve-drive, or a scene whose values are baked in"
     )
     build.add_argument("--out", type=Path, required=True, help="FMU file to write, FILE.fmu")
-    build.add_argument("--native", action="store_true", help="not part of this version")
+    build.add_argument(
+        "--native", action="store_true", help="a stiction-mass in C, which needs no Python to run"
+    )
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
     build.set_defaults(command=_build)
     return parser
@@ -140,15 +142,18 @@ def _build(parsed: argparse.Namespace) -> None:
     from .errors import DescriptionError, PlanError
     from .fmu.build import FMUS, build, validate
 
-    if parsed.native or parsed.fmi != "2":
-        raise PlanError(
-            "only FMI 2.0 co-simulation FMUs that run in Python can be built by this version; "
-            "leave out --native and --fmi 3"
-        )
+    if parsed.fmi != "2":
+        raise PlanError("only FMUs of FMI 2.0 can be built by this version; leave out --fmi 3")
     if parsed.out.suffix != ".fmu":
         raise DescriptionError("--out", str(parsed.out), "end in .fmu")
-    name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
-    path = build(name, parsed.out, start=start)
+    if parsed.native:
+        from .fmu.native_build import build_native, native_scene
+
+        scene, start = native_scene(parsed.what if parsed.what in FMUS else _load(parsed.what))
+        name, path = "stiction-mass, native", build_native(scene, parsed.out, start=start)
+    else:
+        name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
+        path = build(name, parsed.out, start=start)
     problems = validate(path)
     print(
         f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")

@@ -16,19 +16,12 @@ from numpy.typing import NDArray
 from ..errors import ConvergenceError
 from .bridge_chart import Pair, Point, point
 from .bridge_newton import rebind
-from .delaunay import Body
+from .drop import drop_left
 from .roots import bracketed_root
 
 __all__ = [
-    "DETACHMENT",
-    "FOLD",
-    "PITCHFORK",
-    "Branch",
-    "along",
-    "drop_left",
-    "flat_branch",
-    "march",
-]
+    "DETACHMENT", "FOLD", "PITCHFORK", "Branch", "along", "flat_branch", "march",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -281,30 +274,3 @@ def flat_branch(bodies: Pair, flipped: bool) -> Branch:
     if last is None:
         raise ConvergenceError("no limit of the bridge was found between flats")
     return _closed(bodies, flipped, columns, last)
-
-
-def drop_left(body: Body) -> tuple[float, float, float]:
-    """Radius, height and contact radius of a drop of unit volume left on one body."""
-    angle = math.atan2(float(body.sine[0]), float(body.cosine[0]))
-    curvature = float(body.curvature[0])
-
-    def shape(radius: float) -> tuple[float, float, float]:
-        k = curvature * radius
-        slope = math.atan2(k * math.sin(angle), 1.0 - k * math.cos(angle))
-        top = 2.0 * math.sin(0.5 * (angle + slope)) ** 2
-        contact = math.sin(angle + slope)
-        sag = contact * math.tan(0.5 * slope)
-        cap = math.pi / 6.0 * sag * (3.0 * contact**2 + sag**2)
-        return top - sag, math.pi / 3.0 * top * top * (3.0 - top) - cap, contact
-
-    def excess(log_radius: float) -> float:
-        return 3.0 * log_radius + math.log(shape(math.exp(log_radius))[1])
-
-    low = high = 0.0
-    while excess(low) > 0.0:
-        low -= 1.0
-    while excess(high) < 0.0:
-        high += 1.0
-    radius = math.exp(bracketed_root(excess, low, high))
-    height, _, contact = shape(radius)
-    return radius, radius * height, radius * contact

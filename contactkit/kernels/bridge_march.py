@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
-from .bridge_branch import DETACHMENT, FOLD, drop_left
+from .bridge_branch import DETACHMENT, FOLD
 from .bridge_chart import Pair
 from .bridge_free import Free, bent, newton, tangent, weights_of
+from .drop import drop_left
 
 __all__ = ["FreeBranch", "march_free", "unbend"]
 

@@ -91,6 +91,8 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     size = np.abs(expected) + np.abs(differences) + nothing
     # The laws of exact bridges are splines: their own slopes are right to some 1e-9.
     rtol = 1e-9 if name in CLOSED else 5e-9
+    # The sum over summits is a quadrature, right to 1e-11, whose error is no smooth function.
+    rtol = 1e-7 if name == "rough" else rtol
     assert np.max((np.abs(fixed_slope * gaps - differences) / size)[smooth]) < rtol
     if tension == strength == 0.0:
         resistance = np.array([film.resistance(gap) for gap in gaps])

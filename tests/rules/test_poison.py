@@ -35,7 +35,7 @@ ARC_FLAT = {
 }  # fmt: skip
 ARC_SPHERE = {
     "arc_sphere.solve", "arc_sphere.zero_neck_gap", "arc_newton.*", "arc_segment.*",
-    "arc_shape.refuse_spreading", "spline.cubic_spline",
+    "arc_shape.refuse_spreading", "arc_shape.whole_angle", "spline.cubic_spline",
 }  # fmt: skip
 EXACT_FLAT_END = {
     "flat_law.*", "flat_family.*", "delaunay.*", "arc_shape.*", "quadrature.gauss_legendre",
@@ -43,7 +43,7 @@ EXACT_FLAT_END = {
 }  # fmt: skip
 EXACT_FLAT = EXACT_FLAT_END | {"spline.cubic_spline"}
 EXACT_SPHERE = {
-    "bridge_*", "delaunay.*", "quadrature.gauss_legendre", *ARC_SPHERE,
+    "bridge_*", "drop.drop_left", "delaunay.*", "quadrature.gauss_legendre", "roots.*", *ARC_SPHERE,
 }  # fmt: skip
 OWNED = {
     ck.MeniscusForce(): {"flats": EXACT_FLAT, "sphere": EXACT_SPHERE},
