@@ -36,6 +36,7 @@ FMUS: dict[str, tuple[str, str]] = {
     "stiction-mass": ("stiction_mass", "StictionMass"),
     "valve-drive": ("valve_drive", "ValveDrive"),
     "tip-contact": ("tip_contact", "TipContact"),
+    "stiction-force": ("stiction_force", "StictionForce"),
 }
 
 _SCRIPT = '''\

@@ -16,6 +16,7 @@ from ..errors import InfeasibleError, PlanError, ValidityWarning
 from ..plan import plan
 from ..scene import SeparationScene
 from ..workprecision import Outcome, Setting, WorkPrecision, sweep
+from .coupling_cost import coupling_picture, coupling_settings
 from .scenes import Report, mass_values
 
 if TYPE_CHECKING:
@@ -54,13 +55,16 @@ def _write(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
     from ..io import write_whole
 
     made, ax = plot.figure(size=(8.0, 5.2))
-    plot.work_precision(found, ax)
+    plot.work_precision(found, ax, "osD^vP*X<>hdp")
     plot.title(ax, f"{name}: what accuracy costs")
     table = out / "cost.csv"
     with write_whole(table) as temporary:
         rows = [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in found.points]
         temporary.write_text("\n".join(["method,setting,error [-],seconds [s]", *rows, ""]))
-    return plot.save(made, out / "cost"), table
+    written: tuple[Path, ...] = (plot.save(made, out / "cost"), table)
+    if any(p.method.startswith("film by impulse") for p in found.points):
+        written += (coupling_picture(found, out, name),)
+    return written
 
 
 def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecision:
@@ -138,7 +142,7 @@ def _other_menisci(scene: SeparationScene) -> dict[str, SeparationScene]:
 
 
 def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
-    """Error of the first release of the injector, by solver, by communication step, by closure."""
+    """Error of the first release of the injector, by solver, coupling, step and closure."""
     import tempfile
 
     scene = device.scene
@@ -147,7 +151,9 @@ def injector_sweep(device: FuelInjector, progress: Progress) -> WorkPrecision:
     exact, near = (_whole_release(film, scene.valve, end, rtol) for rtol in (1e-11, 1e-9))
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        settings = _injector_settings(scene, film, device.build(Path(folder)))
+        pair = device.build(Path(folder))
+        settings = _injector_settings(scene, film, pair)
+        settings += coupling_settings(scene, film, pair[0], Path(folder))
         return sweep(
             settings,
             exact.value,

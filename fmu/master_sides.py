@@ -1,0 +1,131 @@
+"""The two sides of the master's interface: a film that can be tried, and what pulls the mass.
+
+Both can be taken back to an earlier point, so that a step can be tried with another length or
+another end. A film is the FMU ``stiction-force``; a pull is a function of time, or an FMU such as
+``valve-drive`` that answers to the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple, Protocol
+
+from .instance import Instance
+
+__all__ = ["DrivePull", "FilmSide", "GivenPull", "Pulling", "Reaction"]
+
+Pulling = Callable[[float], float]
+"""Pull [N] at a time [s]."""
+
+
+class Reaction(NamedTuple):
+    """What a film answers at the end of a step."""
+
+    impulse: float  # viscous, since the start [N.s]
+    static: float  # force that does not depend on speed [N]
+    force: float  # all of it [N]
+    damping: float  # dF/dv [N.s/m]
+    above: float  # next gap above at which a force is not smooth [m]; 0: none
+    below: float  # next gap below [m]; 0: none
+    broken_at: float  # time of the latest rupture [s]; -1 before
+
+
+_ANSWERS = ("J", "F_m", "F", "c", "h_above", "h_below", "t_break")
+
+
+class _Restorable(Instance):
+    """An FMU that can be taken back."""
+
+    def save(self) -> Any:
+        """State of the FMU, to be given to `restore`, and at last to `forget`."""
+        return self._slave.getFMUState(), len(self.log)
+
+    def restore(self, state: Any) -> None:
+        """Go back to a state; what was said since then did not happen."""
+        self._slave.setFMUState(state[0])
+        del self.log[state[1] :]
+
+    def forget(self, state: Any) -> None:
+        """Free a state."""
+        self._slave.freeFMUState(state[0])
+
+
+class FilmSide(_Restorable):
+    """The FMU ``stiction-force`` as the master uses it; a context that cleans up."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self.calls = 0
+
+    def begin(
+        self, values: Mapping[str, float | str], mass: float, speed: float, exchange: str
+    ) -> Reaction:
+        """Initialize with start values; the gap is that of the film, the mass the master's."""
+        self._motion, self._answers = self.references("h", "v"), self.references(*_ANSWERS)
+        gap = float(values.get("h0", self.variables["h0"].start))
+        own: dict[str, float | str] = {"h": gap, "v": speed, "m_ref": mass, "exchange": exchange}
+        self.start({**values, **own}, 0.0)
+        self.first_gap = gap
+        self.has_limits = max(self.get(self.references("dp_cav", "tau_lim"))) > 0.0
+        return self.look()
+
+    def look(self) -> Reaction:
+        """Answers at the motion set last."""
+        return Reaction(*self.get(self._answers))
+
+    def move(self, time: float, length: float, gap: float, speed: float) -> Reaction:
+        """Take a step from `time` [s] that ends at a gap [m] with a speed [m/s]."""
+        self.calls += 1
+        self.set(self._motion, [gap, speed])
+        self.step(time, length)
+        return self.look()
+
+
+class Pull(Protocol):
+    """What pulls the mass, and can be taken back."""
+
+    def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
+        """Go over a step that begins at `time` [s]; gap [m] and speed [m/s] are those there."""
+
+    def save(self) -> Any:
+        """Point to go back to."""
+
+    def restore(self, state: Any) -> None:
+        """Go back to it."""
+
+    def forget(self, state: Any) -> None:
+        """Free it."""
+
+
+class GivenPull:
+    """A pull that is a function of time."""
+
+    def __init__(self, force: Pulling) -> None:
+        self.force = force
+
+    def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
+        """See `Pull.over`."""
+        return self.force
+
+    def save(self) -> None:
+        """See `Pull.save`: nothing changes."""
+
+    def restore(self, state: None) -> None:
+        """See `Pull.restore`."""
+
+    def forget(self, state: None) -> None:
+        """See `Pull.forget`."""
+
+
+class DrivePull(_Restorable):
+    """A drive FMU with the variables of ``valve-drive``; its pull is a line within a step."""
+
+    def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
+        """See `Pull.over`."""
+        pull, rate = self.references("F_ext"), self.references("dF_ext")
+        self.set(self.references("h", "v"), [gap, speed])
+        first = self.get(pull)[0]
+        self.step(time, length)
+        slope = self.get(rate)[0]
+        return lambda at: first + slope * (at - time)

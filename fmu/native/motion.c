@@ -1,0 +1,321 @@
+/* Internal steps, chosen by their error, and what happens at the gaps they meet. */
+
+#include "motion.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SAME 1e-11    /* two gaps closer than this, relatively, are one */
+#define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
+
+void ck_start(const ck_scene *scene, double time, ck_motion *state) {
+    memset(state, 0, sizeof *state);
+    state->time = time;
+    state->gap = scene->initial_gap;
+    state->held = scene->rest_gap >= scene->initial_gap && scene->initial_speed <= 0.0;
+    state->speed = state->held ? 0.0 : scene->initial_speed;
+    state->armed = 1;
+    state->break_time = state->release_time = state->peak_time = -1.0;
+}
+
+/* What acts in a state: all, or what a broken film and parted solids leave. */
+void ck_act(const ck_scene *scene, const ck_motion *state, ck_acting *acting) {
+    const ck_film *film = &scene->films[state->film];
+    int i;
+    acting->film = film;
+    acting->any = 0;
+    acting->release = HUGE_VAL;
+    for (i = 0; i < film->count; i++) {
+        const ck_law *law = &film->laws[i];
+        acting->acts[i] = !(state->broken && law->needs_film) &&
+                          !(state->detached && law->release < HUGE_VAL);
+        acting->any |= acting->acts[i];
+        if (acting->acts[i] && law->release < acting->release) acting->release = law->release;
+    }
+    acting->end = state->broken ? HUGE_VAL : scene->ends[state->film];
+    acting->limited = !state->broken && (scene->tension > 0.0 || scene->strength > 0.0);
+    acting->is_sphere = scene->is_sphere;
+    acting->reynolds = scene->reynolds;
+    acting->viscosity = scene->viscosity;
+    acting->surface_tension = scene->surface_tension;
+    acting->tension = scene->tension;
+    acting->strength = scene->strength;
+    acting->sphere_radius = scene->sphere_radius;
+    acting->menisci = scene->menisci;
+}
+
+int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *acting,
+              const ck_forces *forces, double pull) {
+    double net = pull - scene->stiffness * (state->gap - scene->initial_gap) - forces->fixed;
+    if (!acting->any) return CK_BROKEN;
+    if (pull > 0.0 && net <= 0.0 && state->speed <= 0.0) return CK_STUCK;
+    if (state->held) return CK_CONTACT;
+    if (state->broken) return CK_BROKEN;
+    return state->gap <= acting->film->full_gap ? CK_FULL : CK_BRIDGE;
+}
+
+/* Rest on the asperities until the pull exceeds what holds the bodies together. */
+static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end) {
+    ck_acting acting;
+    double holding = scene->stiffness * (state->gap - scene->initial_gap), film, low = state->time;
+    double leave = end, elapsed;
+    ck_act(scene, state, &acting);
+    film = ck_fixed_force(&acting, state->gap);
+    if (ck_pull_at(pull, low) - holding - film > 0.0) {
+        leave = low;
+    } else if (ck_pull_at(pull, end) - holding - film > 0.0) {
+        while (leave - low > 1e-15 * fabs(leave)) {
+            double middle = 0.5 * (low + leave);
+            if (!(low < middle && middle < leave)) break;
+            if (ck_pull_at(pull, middle) - holding - film > 0.0) leave = middle;
+            else low = middle;
+        }
+    }
+    elapsed = leave - state->time;
+    state->time = leave;
+    state->held = ck_pull_at(pull, leave) - holding - film <= 0.0;
+    state->step = 0.0;
+    state->fixed_impulse += elapsed * film;
+}
+
+/* Exponent n of the viscous force, which falls as gap^-n. */
+static double exponent_of(double gap, const ck_forces *forces) {
+    double found;
+    if (!(forces->resistance > 0.0)) return 0.0;
+    found = -gap * forces->resistance_by_gap / forces->resistance;
+    if (fabs(found - 3.0) < 1e-6) return 3.0; /* where q has a root in place of a power */
+    if (fabs(found - 5.0) < 1e-6) return 5.0;
+    return found > 0.0 ? (found < 5.0 ? found : 5.0) : 0.0;
+}
+
+static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
+                 const ck_pull *pull, ck_problem *p, ck_forces *first) {
+    double drive = ck_pull_at(pull, state->time), spring, crossing;
+    ck_forces_at(acting, state->gap, state->speed, 1, first);
+    spring = scene->stiffness * (state->gap - scene->initial_gap);
+    p->acting = acting;
+    p->pull = *pull;
+    p->mass = scene->mass, p->spring = scene->stiffness, p->rest = scene->initial_gap;
+    p->rtol = scene->rtol;
+    p->begin.time = state->time, p->begin.gap = state->gap, p->begin.speed = state->speed;
+    p->exponent = exponent_of(state->gap, first);
+    p->size = fabs(drive) + fabs(first->fixed) + fabs(spring) + 1e-300;
+    p->delivered = state->given_impulse + scene->mass * fabs(state->speed);
+    crossing = state->gap / (state->step > 0.0 ? state->step : 1e-6);
+    p->scale = first->resistance > 0.0 ? fmax(p->size / first->resistance, 1e-15 * crossing)
+                                       : crossing;
+    p->net = drive - spring - first->fixed - first->viscous;
+    p->net_by_gap = -scene->stiffness - first->fixed_by_gap - first->viscous_by_gap;
+    p->net_by_speed = -first->viscous_by_speed;
+}
+
+/* Time in which inertia alone would open a thousandth of the gap; a first guess. */
+static double first_step(const ck_problem *p, double left) {
+    double acceleration = fabs(p->net) / p->mass, still = left, moving = left;
+    if (acceleration > 0.0) still = sqrt(2e-3 * p->begin.gap / acceleration);
+    if (p->begin.speed != 0.0) moving = 1e-3 * p->begin.gap / fabs(p->begin.speed);
+    return fmin(fmin(still, moving), left);
+}
+
+static int limit_at(const ck_acting *acting, const ck_point *at) {
+    ck_forces found;
+    ck_forces_at(acting, at->gap, at->speed, 0, &found);
+    return found.limit;
+}
+
+/* Error of a step over its tolerance, with what the estimate inside the step cannot see. */
+static double judge(const ck_scene *scene, const ck_motion *state, const ck_pull *pull,
+                    const ck_problem *p, int limit, const ck_step *taken, double length) {
+    double error = ck_error(p, taken, length), rest = scene->rest_gap;
+    const ck_point *end = &taken->stages[2];
+    ck_problem second;
+    ck_forces ignored;
+    ck_step half, again;
+    ck_motion there;
+    if (error > 1.0) return error;
+    if (end->gap < rest * (1.0 - SAME) && state->gap <= rest * (1.0 + SAME))
+        return 16.0; /* a hop that begins and ends at the rest gap: there is no crossing to cut */
+    if (!p->acting->limited || !p->acting->any) return error;
+    /* Where a limit sets in or lets go, the slope of the force jumps: compare with two halves. */
+    if (limit_at(p->acting, &taken->stages[0]) == limit &&
+        limit_at(p->acting, &taken->stages[1]) == limit && limit_at(p->acting, end) == limit)
+        return error;
+    if (!ck_attempt(p, 0.5 * length, &half)) return 16.0;
+    there = *state;
+    there.time = half.stages[2].time, there.gap = half.stages[2].gap;
+    there.speed = half.stages[2].speed;
+    pose(scene, p->acting, &there, pull, &second, &ignored);
+    if (!ck_attempt(&second, 0.5 * length, &again)) return 16.0;
+    half = *taken;
+    half.gap_error = fabs(log(again.stages[2].gap / end->gap));
+    half.speed_error = fabs(again.stages[2].speed - end->speed);
+    return fmax(error, ck_error(p, &half, length));
+}
+
+/* Gap below which the bodies count as closed again, so that the next release is a new one. */
+static double closed_gap(const ck_scene *scene) {
+    return fmin(2.0 * scene->initial_gap, 0.5 * (scene->initial_gap + scene->release_gap));
+}
+
+typedef struct {
+    double low, high, end, found;
+    int rising;
+} marks;
+
+static void consider(marks *m, double mark) {
+    if (!((m->low * (1.0 + SAME) < mark && mark < m->high) || mark == m->end)) return;
+    if (m->found < 0.0 || (m->rising ? mark < m->found : mark > m->found)) m->found = mark;
+}
+
+/* First gap on the way to `gap` at which something happens; -1 if there is none. */
+static double first_mark(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
+                         double gap) {
+    marks m;
+    int i, k;
+    m.rising = gap > state->gap;
+    m.low = m.rising ? state->gap : gap, m.high = m.rising ? gap : state->gap;
+    m.end = gap, m.found = -1.0;
+    for (i = 0; i < acting->film->count; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].kink_count; k++)
+            if (acting->film->laws[i].kinks[k] < acting->end)
+                consider(&m, acting->film->laws[i].kinks[k]);
+    if (m.rising) {
+        if (state->armed) consider(&m, scene->release_gap);
+        if (acting->any) consider(&m, acting->end), consider(&m, acting->release);
+    } else {
+        consider(&m, scene->rest_gap);
+        if (state->broken) consider(&m, scene->initial_gap);
+        if (state->detached) consider(&m, scene->rejoin);
+        if (!state->armed) consider(&m, closed_gap(scene));
+    }
+    return m.found;
+}
+
+/* Step that ends at a gap: Newton on its length, kept inside the bracket. */
+static double locate(const ck_problem *p, double length, double mark, ck_step *taken) {
+    double low = 0.0, high = length;
+    int rising = mark > p->begin.gap, i;
+    for (i = 0; i < 60; i++) {
+        const ck_point *end = &taken->stages[2];
+        double miss = end->gap - mark, guess = -1.0;
+        ck_step again;
+        if (fabs(miss) <= 1e-13 * mark || high - low <= 1e-15 * high) break;
+        if ((miss > 0.0) == rising) high = length;
+        else low = length;
+        if (end->speed != 0.0) guess = length - miss / end->speed;
+        length = low < guess && guess < high ? guess : 0.5 * (low + high);
+        if (!ck_attempt(p, length, &again)) break;
+        *taken = again;
+    }
+    return length;
+}
+
+/* Add a step to the impulses, the work and the peak, by the quadrature of the method itself. */
+static void accumulate(const ck_problem *p, const ck_forces *first, const ck_step *taken,
+                       double length, ck_motion *state) {
+    double viscous[3], total[3], viscous_mean = 0.0, fixed_mean = 0.0, where, value;
+    int i;
+    for (i = 0; p->acting->any && i < 3; i++) {
+        ck_forces found;
+        ck_forces_at(p->acting, taken->stages[i].gap, taken->stages[i].speed, 0, &found);
+        viscous[i] = found.viscous;
+        total[i] = found.viscous + found.fixed;
+        viscous_mean += ck_weights[i] * found.viscous;
+        fixed_mean += ck_weights[i] * found.fixed;
+    }
+    if (p->acting->any) {
+        state->work += ck_travel_integral(&p->begin, taken, first->viscous, viscous);
+        value = ck_highest(first->viscous + first->fixed, total, &where);
+        if (value > state->peak_force) {
+            state->peak_force = value;
+            state->peak_time = state->time + where * length;
+        }
+    }
+    state->time += length;
+    state->gap = taken->stages[2].gap;
+    state->speed = taken->stages[2].speed;
+    state->viscous_impulse += length * viscous_mean;
+    state->fixed_impulse += length * fixed_mean;
+    state->given_impulse += length * p->size;
+}
+
+/* Apply what happens at a mark: release, rupture, rest or re-wetting. */
+static void happen(const ck_scene *scene, const ck_acting *acting, ck_motion *state, double mark) {
+    int rising = state->speed > 0.0, next = scene->film_count - 1;
+    state->gap = mark;
+    if (rising && mark == scene->release_gap) {
+        state->armed = 0;
+        state->release_time = state->time;
+        state->release_speed = state->speed;
+        state->releases++;
+        return;
+    }
+    if (rising && acting->any && mark == acting->end) {
+        state->broken = 1;
+        state->break_time = state->time;
+        state->breaks++;
+    }
+    if (rising && acting->any && mark == acting->release) state->detached = 1;
+    if (rising) return;
+    if (mark <= closed_gap(scene)) state->armed = 1;
+    if (mark <= scene->rejoin) state->detached = 0;
+    if (mark > scene->initial_gap) return;
+    if (state->broken && scene->rewetting > 0.0 && scene->ends[next] > mark)
+        state->broken = 0, state->film = next;
+    if (mark == scene->rest_gap) state->held = 1, state->speed = 0.0;
+}
+
+/* Take one internal step, shortened to the first event inside it. */
+static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end) {
+    ck_acting acting;
+    ck_problem p;
+    ck_forces first;
+    ck_step taken;
+    double left = end - state->time, length, error = HUGE_VAL, following, mark, asked;
+    int rejected = 0;
+    if (state->gap < NOTHING) return CK_NO_STEP;
+    if (state->speed < 0.0 && state->gap <= scene->rest_gap * (1.0 + SAME)) {
+        state->held = 1, state->gap = scene->rest_gap, state->speed = 0.0;
+        return CK_DONE;
+    }
+    ck_act(scene, state, &acting);
+    pose(scene, &acting, state, pull, &p, &first);
+    asked = state->step > 0.0 ? state->step : first_step(&p, left);
+    length = fmin(asked, left);
+    for (;;) {
+        error = HUGE_VAL;
+        if (ck_attempt(&p, length, &taken))
+            error = judge(scene, state, pull, &p, first.limit, &taken, length);
+        if (error <= 1.0) break;
+        rejected++;
+        length *= error < HUGE_VAL ? fmax(0.1, 0.9 * pow(error, -0.25)) : 0.25;
+        if (!(length >= 1e-15 * fmax(fabs(state->time), 1e-15)) || rejected > 60) return CK_NO_STEP;
+    }
+    following = length * fmin(8.0, 0.9 / sqrt(sqrt(fmax(error, 1e-12))));
+    if (!rejected && length < state->step) following = fmax(following, state->step);
+    mark = first_mark(scene, &acting, state, taken.stages[2].gap);
+    if (mark >= 0.0) length = locate(&p, length, mark, &taken);
+    accumulate(&p, &first, &taken, length, state);
+    state->step = following;
+    if (mark >= 0.0) happen(scene, &acting, state, mark);
+    return CK_DONE;
+}
+
+/* Advance by a time under a pull, however stiff the film. */
+int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt) {
+    double end = state->time + dt;
+    int i;
+    for (i = 0; i <= scene->max_steps; i++) {
+        if (end - state->time <= 1e-13 * fmax(fabs(end), dt)) {
+            state->time = end;
+            return CK_DONE;
+        }
+        if (state->held) {
+            rest_once(scene, state, pull, end);
+        } else {
+            int trouble = step_once(scene, state, pull, end);
+            if (trouble) return trouble;
+        }
+    }
+    return CK_TOO_MANY_STEPS;
+}

@@ -1,0 +1,206 @@
+/* The stages of a step and the estimate of its error. */
+
+#include "step.h"
+
+#include <math.h>
+
+#define R6 2.449489742783178098197284
+#define MOST_ITERATIONS 12
+
+const double ck_nodes[3] = {(4.0 - R6) / 10.0, (4.0 + R6) / 10.0, 1.0};
+const double ck_weights[3] = {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0};
+static const double A[3][3] = {
+    {(88.0 - 7.0 * R6) / 360.0, (296.0 - 169.0 * R6) / 1800.0, (-2.0 + 3.0 * R6) / 225.0},
+    {(296.0 + 169.0 * R6) / 1800.0, (88.0 + 7.0 * R6) / 360.0, (-2.0 - 3.0 * R6) / 225.0},
+    {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0}};
+/* 3 + 3^(2/3) - 3^(1/3), and the weights of the stage increments */
+static const double GAMMA0 = 3.6378342527444957;
+static const double E[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0};
+
+typedef struct {
+    double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
+    ck_point at;
+    double net, by_gap, by_speed;
+} stage;
+
+double ck_pull_at(const ck_pull *pull, double time) {
+    return pull->force + pull->rate * (time - pull->time);
+}
+
+/* Gap and its first two derivatives by q; 0 outside the range of q. */
+int ck_coordinate(double gap, double s, double q, double found[3]) {
+    double base = 1.0 - s * q, h;
+    if (!(base > 0.0)) return 0;
+    if (s == -1.0) h = gap * base;
+    else if (s == 0.0) h = gap * exp(q);
+    else if (s == 2.0) h = gap / sqrt(base);
+    else if (s == 4.0) h = gap / sqrt(sqrt(base));
+    else h = gap * pow(base, -1.0 / s);
+    if (!(h < HUGE_VAL)) return 0;
+    found[0] = h;
+    found[1] = h / base;
+    found[2] = (1.0 + s) * found[1] / base;
+    return 1;
+}
+
+/* Net force on the mass and its slopes, where asked for. */
+double ck_net(const ck_problem *p, const ck_point *at, double *by_gap, double *by_speed) {
+    ck_forces found;
+    ck_forces_at(p->acting, at->gap, at->speed, by_gap != NULL, &found);
+    if (by_gap) {
+        *by_gap = -p->spring - found.fixed_by_gap - found.viscous_by_gap;
+        *by_speed = -found.viscous_by_speed;
+    }
+    return ck_pull_at(&p->pull, at->time) - p->spring * (at->gap - p->rest) -
+           (found.viscous + found.fixed);
+}
+
+/* Solve a 3 by 3 system by Cramer's rule; 0 if it is singular. */
+static int solve3(double a[3][3], const double b[3], double x[3]) {
+    double m0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], m1 = a[1][2] * a[2][0] - a[1][0] * a[2][2];
+    double m2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
+    double det = a[0][0] * m0 + a[0][1] * m1 + a[0][2] * m2;
+    if (det == 0.0 || !isfinite(det)) return 0;
+    x[0] = (b[0] * m0 + a[0][1] * (a[1][2] * b[2] - b[1] * a[2][2]) +
+            a[0][2] * (b[1] * a[2][1] - a[1][1] * b[2])) / det;
+    x[1] = (a[0][0] * (b[1] * a[2][2] - a[1][2] * b[2]) + b[0] * m1 +
+            a[0][2] * (a[1][0] * b[2] - b[1] * a[2][0])) / det;
+    x[2] = (a[0][0] * (a[1][1] * b[2] - b[1] * a[2][1]) +
+            a[0][1] * (b[1] * a[2][0] - a[1][0] * b[2]) + b[0] * m2) / det;
+    return 1;
+}
+
+static int place_stages(const ck_problem *p, double dt, double s, const double rates[3],
+                        stage found[3]) {
+    int i;
+    for (i = 0; i < 3; i++) {
+        double where[3];
+        double q = dt * (A[i][0] * rates[0] + A[i][1] * rates[1] + A[i][2] * rates[2]);
+        if (!ck_coordinate(p->begin.gap, s, q, where) || !(where[0] > 1e-100)) return 0;
+        found[i].q = q;
+        found[i].first = where[1];
+        found[i].swing = rates[i] * where[2];
+        found[i].at.time = p->begin.time + ck_nodes[i] * dt;
+        found[i].at.gap = where[0];
+        found[i].at.speed = rates[i] * where[1];
+    }
+    return 1;
+}
+
+/* Residual m (v_i - v_0) - dt sum(a_ij G_j) of the stages, and its matrix. */
+static void build(const ck_problem *p, double dt, const stage at[3], double residual[3],
+                  double matrix[3][3]) {
+    double line[3][3];
+    int i, j, k;
+    for (j = 0; j < 3; j++) {
+        double both = (at[j].by_gap * at[j].first + at[j].by_speed * at[j].swing) * dt;
+        for (k = 0; k < 3; k++) line[j][k] = both * A[j][k];
+        line[j][j] += at[j].by_speed * at[j].first;
+    }
+    for (i = 0; i < 3; i++) {
+        double given = A[i][0] * at[0].net + A[i][1] * at[1].net + A[i][2] * at[2].net;
+        residual[i] = p->mass * (at[i].at.speed - p->begin.speed) - dt * given;
+        for (k = 0; k < 3; k++) {
+            double sum = A[i][0] * line[0][k] + A[i][1] * line[1][k] + A[i][2] * line[2][k];
+            matrix[i][k] = dt * (p->mass * at[i].swing * A[i][k] - sum);
+        }
+        matrix[i][i] += p->mass * at[i].first;
+    }
+}
+
+static double largest(const double values[3]) {
+    double a = fabs(values[0]), b = fabs(values[1]), c = fabs(values[2]);
+    a = a > b ? a : b;
+    return a > c ? a : c;
+}
+
+/* Whether the momentum left over is small against what the film and the mass take. */
+static int is_small(const ck_problem *p, double dt, const stage at[3], const double residual[3],
+                    double rtol) {
+    double momentum = 0.0;
+    int i;
+    for (i = 0; i < 3; i++) {
+        double speed = fabs(at[i].at.speed), carried = fabs(at[i].by_speed) * (speed + p->scale);
+        double one = p->mass * speed + dt * (fabs(at[i].net) + carried);
+        if (one > momentum) momentum = one;
+    }
+    return largest(residual) <= rtol * momentum;
+}
+
+static void estimate(const ck_problem *p, double g, double s, double rate, double acceleration,
+                     const double z[2], double error[2]) {
+    double h0 = p->begin.gap, j11 = -p->begin.speed * (1.0 + s) / h0, j12 = 1.0 / h0;
+    double j21 = p->net_by_gap * h0 / p->mass, j22 = p->net_by_speed / p->mass;
+    double det = (g - j11) * (g - j22) - j12 * j21, a = rate + z[0], b = acceleration + z[1];
+    error[0] = ((g - j22) * a + j12 * b) / det;
+    error[1] = (j21 * a + (g - j11) * b) / det;
+}
+
+static int finish(const ck_problem *p, double dt, double s, const double rates[3], ck_step *taken) {
+    stage at[3];
+    double z[2] = {0.0, 0.0}, error[2], where[3], h0 = p->begin.gap, v0 = p->begin.speed;
+    int i;
+    if (!place_stages(p, dt, s, rates, at)) return 0;
+    for (i = 0; i < 3; i++) {
+        z[0] += E[i] * at[i].q / dt;
+        z[1] += E[i] * (at[i].at.speed - v0) / dt;
+        taken->stages[i] = at[i].at;
+        taken->coordinates[i] = at[i].q;
+    }
+    estimate(p, GAMMA0 / dt, s, v0 / h0, p->net / p->mass, z, error);
+    if (ck_coordinate(h0, s, error[0], where) && where[0] > 0.0 && isfinite(where[0] + error[1])) {
+        /* The second estimate, from where the first one leads, ignores what decays at once. */
+        ck_point there;
+        there.time = p->begin.time, there.gap = where[0], there.speed = v0 + error[1];
+        estimate(p, GAMMA0 / dt, s, there.speed / where[1],
+                 ck_net(p, &there, NULL, NULL) / p->mass, z, error);
+    }
+    taken->exponent = s;
+    taken->gap_error = fabs(error[0]);
+    taken->speed_error = fabs(error[1]);
+    return isfinite(error[0]) && isfinite(error[1]);
+}
+
+/* Try a step; in terms of the viscous impulse where the film rules, else of the gap. 0 if the
+   stages cannot be solved and a smaller step is to be tried. */
+int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
+    int rules = -p->net_by_speed * dt > p->mass && p->exponent > 0.0, iteration, i;
+    double s = rules ? p->exponent - 1.0 : -1.0, size = HUGE_VAL, rates[3];
+    double floor = p->scale / p->begin.gap < 1e-6 / dt ? p->scale / p->begin.gap : 1e-6 / dt;
+    rates[0] = rates[1] = rates[2] = p->begin.speed / p->begin.gap;
+    for (iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
+        stage at[3];
+        double residual[3], matrix[3][3], change[3], previous = size;
+        double sure = 1.0; /* by how much the next change would be smaller than this one */
+        int met, stalled;
+        if (!place_stages(p, dt, s, rates, at)) return 0;
+        for (i = 0; i < 3; i++) {
+            at[i].net = ck_net(p, &at[i].at, &at[i].by_gap, &at[i].by_speed);
+            if (!isfinite(at[i].net)) return 0;
+        }
+        build(p, dt, at, residual, matrix);
+        if (!solve3(matrix, residual, change)) return 0;
+        for (i = 0; i < 3; i++) rates[i] -= change[i];
+        size = largest(change) / (largest(rates) + floor);
+        if (isnan(size)) return 0;
+        if (iteration > 0 && size < previous) sure = size / previous;
+        met = sure * size <= 0.03 * p->rtol && is_small(p, dt, at, residual, p->rtol / sure);
+        stalled = iteration > 1 && size < 1e-6 && size >= previous; /* at rounding */
+        if (met || (stalled && is_small(p, dt, at, residual, 1e-7)))
+            return finish(p, dt, s, rates, taken);
+        if (iteration > 5 && size > previous) return 0;
+    }
+    return 0;
+}
+
+/* Error of a step over its tolerance: of the gap, and of the momentum delivered so far. What the
+   nodes miss of the impulse of the pull is nothing, as that is linear in time. */
+double ck_error(const ck_problem *p, const ck_step *taken, double length) {
+    double end = fabs(taken->stages[2].speed), wrong, speed;
+    double momentum = p->mass * end + p->delivered + p->size * length, worst;
+    wrong = fmax(p->mass * taken->speed_error, -p->net_by_speed * p->begin.gap * taken->gap_error);
+    /* A mass that the film leads has no momentum to speak of; its speed is still asked for. */
+    speed = taken->speed_error / (end + p->scale);
+    worst = fmax(taken->gap_error, wrong / momentum);
+    return fmax(worst, 0.1 * speed) / p->rtol;
+}

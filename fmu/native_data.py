@@ -1,0 +1,55 @@
+"""The file ``resources/film.bin`` of a native FMU: variables and tables, for the C kernel."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping, Sequence
+
+from .ports import Port, Value
+
+__all__ = ["IDENTIFIERS", "data_file", "port_numbers"]
+
+# The same list, in the same order, as in native/model.h.
+IDENTIFIERS = (
+    "F_ext", "dF_ext",
+    "h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "state", "limit", "t_break",
+    "t_release", "F_peak", "n_break", "n_release",
+    "m", "h0", "v0", "k_s", "h_rel", "h_min", "h_break", "eta", "gamma", "dp_cav",
+    "tau_lim", "rtol",
+)  # fmt: skip
+_CAUSALITIES = ("input", "output", "parameter")
+_MAGIC = b"CKFILM01"
+
+
+def port_numbers(ports: Sequence[Port], start: Mapping[str, Value]) -> list[float]:
+    """Numbers of the variables of an FMU, in the order in which ``native/data.c`` reads them."""
+    numbers = [float(len(ports))]
+    for port in ports:
+        low, high = port.limits
+        numbers += [
+            float(IDENTIFIERS.index(port.name)), float(port.kind != "real"),
+            float(_CAUSALITIES.index(port.causality)), float(low), float(high),
+            float(start[port.name]),
+        ]  # fmt: skip
+    return numbers
+
+
+def data_file(guid: str, numbers: Sequence[float]) -> bytes:
+    """Bytes of the file.
+
+    Examples
+    --------
+    >>> len(data_file("8c4e810f", [1.0, 2.0]))
+    80
+    """
+    content = struct.pack(f"<{len(numbers)}d", *numbers)
+    name = guid.encode().ljust(40, b"\0")
+    return _MAGIC + struct.pack("<QQ", _fnv1a(content), len(numbers)) + name + content
+
+
+def _fnv1a(content: bytes) -> int:
+    """Checksum of bytes (FNV-1a, 64 bits)."""
+    found = 14695981039346656037
+    for byte in content:
+        found = ((found ^ byte) * 1099511628211) & 0xFFFFFFFFFFFFFFFF
+    return found

@@ -1,0 +1,194 @@
+r"""Functions of the gap as cubic Hermite tables, for the C kernel of a native FMU.
+
+A table has pieces that end where the slope of the function jumps. Along a piece runs
+:math:`x = \ln h`, or :math:`x = \sqrt{\ln(h_{end}/h)}` where the function ends: there it may
+fold over with an infinite slope, and is smooth in that root. What is tabulated is
+:math:`y = f h^p` with a whole p that takes the steepest fall away; y stays beyond the table.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..errors import ConvergenceError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["Piece", "Table", "tabulate"]
+
+_DEGREE = 14
+_NARROW = 0.05  # a stretch of x that is not divided further: what is left is noise of rounding
+_NOISE = 1e-7  # largest that is taken for noise
+_NOTHING = 1e-10  # of the largest value of a piece; less than this may be noise altogether
+_MOST_NODES = 60_000
+_STEEPEST = 8
+
+
+class Piece(NamedTuple):
+    """A stretch of a table between two gaps [m]; `folds` says which coordinate x is."""
+
+    low: float
+    high: float
+    folds: bool
+    power: int
+    x: list[float]
+    y: list[float]
+    slope: list[float]
+
+
+class Table(NamedTuple):
+    """A function of the gap; whether it stays what it was where the last piece ends."""
+
+    pieces: tuple[Piece, ...]
+    stays: bool
+
+    def numbers(self) -> list[float]:
+        """Return the table as the kernel reads it."""
+        found = [float(self.stays), float(len(self.pieces))]
+        for p in self.pieces:
+            end = p.high if p.folds else 1.0
+            found += [p.low, p.high, end, float(p.folds), float(p.power), float(len(p.x))]
+            found += [*p.x, *p.y, *p.slope]
+        return found
+
+
+def tabulate(
+    function: Callable[[float], float],
+    edges: Sequence[float],
+    *,
+    folds: Sequence[float] = (),
+    stays: bool = False,
+    rtol: float = 1e-11,
+) -> Table:
+    """Tabulate a function of the gap between edges, at which its slope may jump.
+
+    Parameters
+    ----------
+    function : callable
+        Value at a gap [m].
+    edges : sequence of float
+        Ascending gaps [m], the ends of the table among them.
+    folds : sequence of float
+        Those of the edges towards which the slope may grow without bound.
+    stays : bool
+        Whether the function keeps its value beyond the last edge; else it falls as before.
+    rtol : float
+        Error of the values [-], relative to the largest nearby; that of ``h f'`` is 10 times this.
+
+    Raises
+    ------
+    ConvergenceError
+        If the function is too rough for a table.
+
+    Examples
+    --------
+    >>> table = tabulate(lambda gap: 2.0 * gap**-3, (1e-7, 1e-4))
+    >>> [(piece.power, len(piece.x)) for piece in table.pieces]
+    [(3, 2)]
+    """
+    pieces = []
+    for low, high in pairwise(edges):
+        power = _power(function, low, high)
+        pieces.append(_piece(function, low, high, high in folds, power, rtol))
+    return Table(tuple(pieces), stays)
+
+
+def _power(function: Callable[[float], float], low: float, high: float) -> int:
+    """Whole power with which a function falls at the start of a stretch."""
+    a = low * (1.0 + 1e-9)
+    b = min(a * 1.01, 0.5 * (low + high))
+    first, second = function(a), function(b)
+    if first == 0.0 or second / first <= 0.0:
+        return 0
+    return min(max(round(-math.log(second / first) / math.log(b / a)), 0), _STEEPEST)
+
+
+def _piece(
+    function: Callable[[float], float],
+    low: float,
+    high: float,
+    folds: bool,
+    power: int,
+    rtol: float,
+) -> Piece:
+    import numpy as np
+
+    def scaled(places: Floats) -> Floats:
+        gaps = high * np.exp(-places * places) if folds else np.exp(places)
+        inside = np.clip(gaps, low * (1.0 + 1e-14), high * (1.0 - 1e-14))
+        return np.array([function(float(gap)) * gap**power for gap in inside])
+
+    first, last = (
+        (0.0, math.sqrt(math.log(high / low))) if folds else (math.log(low), math.log(high))
+    )
+    x, y, slope = [first], list[float](), list[float]()
+    whole = float(np.max(np.abs(scaled(np.linspace(first, last, 33)))))
+    waiting = [(first, last)]
+    while waiting:
+        a, b = waiting.pop()
+        series, is_good = _series(scaled, a, b, whole)
+        if not is_good:
+            waiting += [(0.5 * (a + b), b), (a, 0.5 * (a + b))]
+            continue
+        places = _places(series, a, b, rtol)
+        rate = series.deriv()
+        begin = 1 if y else 0  # the end of the stretch before is the same node
+        x += [float(place) for place in places[1:]]
+        y += [float(value) for value in series(places[begin:])]
+        slope += [float(value) for value in rate(places[begin:])]
+        if len(x) > _MOST_NODES:
+            raise ConvergenceError(
+                f"a force is too rough for a table between gaps of {low:g} m and {high:g} m", x
+            )
+    return Piece(low, high, folds, power, x, y, slope)
+
+
+def _series(
+    scaled: Callable[[Floats], Floats], a: float, b: float, whole: float
+) -> tuple[Any, bool]:
+    """Polynomial through a stretch, and whether it is as good as it gets."""
+    import numpy as np
+    from numpy.polynomial import Chebyshev
+
+    series = Chebyshev.interpolate(scaled, _DEGREE, [a, b])
+    if not np.all(np.isfinite(series.coef)):
+        raise ConvergenceError("a force is no finite number somewhere along its table", (a, b))
+    size = float(np.max(np.abs(series.coef)))
+    tail = float(np.max(np.abs(series.coef[-3:])))
+    if b - a <= _NARROW and tail > max(_NOISE * size, _NOTHING * whole):
+        raise ConvergenceError(f"a force is too rough for a table: {tail / size:.1e} off", (a, b))
+    # Where the values fall by orders of ten, the small ones are to be as good as the large ones.
+    first, last = np.abs(series(np.array([a, b])))
+    is_even = min(first, last) > 0.2 * size or size < _NOTHING * whole
+    return series, (is_even and tail <= 1e-13 * size) or b - a <= _NARROW
+
+
+def _places(series: Any, a: float, b: float, rtol: float) -> Floats:
+    """Nodes between which cubics follow a polynomial and its slope."""
+    import numpy as np
+
+    rate, count = series.deriv(), 1
+    size = float(np.max(np.abs(series.coef))) or 1.0
+    while True:
+        nodes = np.linspace(a, b, count + 1)
+        width = (b - a) / count
+        y, m = series(nodes), rate(nodes) * width
+        error = wrong = 0.0
+        for t in (0.2113, 0.5, 0.7887):
+            place = nodes[:-1] + t * width
+            rise = y[1:] - y[:-1]
+            c, d = 3.0 * rise - 2.0 * m[:-1] - m[1:], m[:-1] + m[1:] - 2.0 * rise
+            value = y[:-1] + t * (m[:-1] + t * (c + t * d))
+            by_place = (m[:-1] + t * (2.0 * c + 3.0 * d * t)) / width
+            error = max(error, float(np.max(np.abs(value - series(place)))))
+            wrong = max(wrong, float(np.max(np.abs(by_place - rate(place)))))
+        if (error <= rtol * size and wrong <= 10.0 * rtol * size) or count >= 128:
+            return nodes
+        count *= 2
