@@ -108,7 +108,7 @@ def test_an_fmu_is_built_from_a_scene(scene, tmp_path, capsys):
         (["run", "nothing.toml"], r"file must exist"),
         (["plan", "fuel-injctor"], r"did you mean 'fuel-injector'"),
         (["fmu", "build", "stiction-mass", "--out", "x.zip"], r"must end in \.fmu"),
-        (["fmu", "build", "stiction-mass", "--fmi", "3", "--out", "x.fmu"], r"only FMUs of FMI 2\.0"),
+        (["fmu", "build", "stiction-mass", "--fmi", "3", "--out", "x.fmu"], r"FMUs of FMI 2\.0"),
         (["fmu", "build", "stiction-mas", "--out", "x.fmu"], r"stiction-mas"),
     ],
 )
