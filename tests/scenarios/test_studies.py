@@ -357,11 +357,13 @@ def test_chains_are_spread_and_cut():
 # Interruption -------------------------------------------------------------------------------
 
 SLOW = """
-import sys, time
+import signal, sys, time
 sys.path.insert(0, sys.argv[1])
 import test_studies
 from contactkit import study_run
 
+# A job in the background of a shell is started deaf to it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 put = study_run.put
 
 def slowly(*arguments):
