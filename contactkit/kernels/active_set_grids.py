@@ -30,9 +30,9 @@ LEAST_THREADED = 200  # pixels along the shorter side from which threads pay
 LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are treated by blocks
 STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
 PLATE = 8.0  # decay from which no stencil and no block will do, as under a stiff plate
-BLURRED = 3.1  # decay of a half-space where pixels are pressed evenly: symbols of free maps
+BLURRED = 0.84  # decay of a half-space where pixels are pressed evenly: symbols of free maps
 FEW = 4000  # moving pixels up to which the better preconditioner is also the cheaper one
-FEW_STEEP = 1500  # the same if it looks at more neighbours
+SHARE_STEEP = 0.15  # the same as a share of all pixels if the symbol is steep: the other is poor
 
 
 def compiled_loops(fast: bool | None, threads: int) -> Any:
@@ -127,7 +127,7 @@ def _grid(maker: _Maker, shape: Shape, threads: int, fast: bool, loops: Any, fin
         change=np.zeros(shape[0] * shape[1], np.float32),
         inverse=NearInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
         two_level=two_level,
-        few=FEW if decay <= STEEP else FEW_STEEP,
+        few=FEW if decay <= STEEP else int(SHARE_STEEP * shape[0] * shape[1]),
         periodic=periodic,
         steepest=float(symbol.max()),
         loops=loops,
