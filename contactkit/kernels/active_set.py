@@ -34,6 +34,7 @@ PLAIN: dict[str, Callable[..., Iterate]] = {  # what finishes, or does, the work
     "quasi-newton": quasi_newton,
 }
 COARSE_RTOL = 2e-2  # on coarser grids, whose answer only starts the next
+MOST_CAPPED = 0.3  # share of the contact up to which an earlier solution is the better start
 
 
 class Press:
@@ -152,7 +153,8 @@ class Press:
             Largest violation of a contact condition to accept, over `kkt.height_scale`.
         start : ndarray (ny, nx) or sequence of (float, ndarray), optional
             Pressures to start from [Pa], instead of the nested grids; or pairs of mean pressure and
-            pressures of earlier solutions, newest first, to be extrapolated.
+            pressures of earlier solutions, newest first, to be extrapolated. Not taken where most
+            of the contact is at its cap: the nested grids are the better start there.
         max_iterations : int
             Steps of the fallback, or of a plain method, at most.
         progress : callable, optional
@@ -181,11 +183,11 @@ class Press:
             raise DescriptionError("rtol", rtol, "be positive and finite")
         problem = pose(heights, self.self_influence, mean_pressure, level, cap)
         self._refuse_closed_level(problem)
-        self._reset(problem, start, mean_pressure)
+        started = self._reset(problem, start, mean_pressure)
         p = known_pressure(problem)
         if p is not None:
             self.grids[0].pressure[...] = p
-        elif start is None:
+        elif not started:
             self._from_coarse_grids(problem)
         if method == "active-set":
             outcome = improve(self.grids[0], problem, rtol, progress)
@@ -210,13 +212,17 @@ class Press:
                 "periodic map is closed under any load; prescribe the load instead"
             )
 
-    def _reset(self, problem: Problem, start: Start | None, mean_pressure: float | None) -> None:
+    def _reset(self, problem: Problem, start: Start | None, mean_pressure: float | None) -> bool:
+        """Count from zero; whether there is a good start in the source of the finest grid."""
         for grid in self.grids:
             grid.reset()
-        if start is not None:
-            first = first_pressure(start, mean_pressure, self.shape)
-            p = fit(first.ravel() / problem.pressure, problem)
-            self.grids[0].pressure[...] = p.reshape(self.shape)
+        if start is None:
+            return False
+        first = first_pressure(start, mean_pressure, self.shape)
+        p = fit(first.ravel() / problem.pressure, problem)
+        self.grids[0].pressure[...] = p.reshape(self.shape)
+        # With few pixels left to take up the change of load, these overshoot.
+        return bool(np.count_nonzero(p >= problem.cap) <= MOST_CAPPED * np.count_nonzero(first))
 
     def _from_coarse_grids(self, problem: Problem) -> None:
         """Solve roughly on ever finer grids; leave the start in the source of the finest."""

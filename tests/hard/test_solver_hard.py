@@ -225,3 +225,17 @@ def test_a_tolerance_near_rounding_is_still_met_or_said_not_to_be(press):
     assert s.converged
     impossible = press.solve(HEIGHTS, mean_pressure=1e9, rtol=1e-30, max_iterations=20)
     assert not impossible.converged
+
+
+def test_a_start_almost_all_at_its_cap_is_worth_nothing(press):
+    """What is left to take up the load overshoots, and the steps would lead nowhere for long."""
+    elastic = press.solve(HEIGHTS, mean_pressure=1e8)
+    cap, before = 0.1 * elastic.pressure.max(), []
+    for load in np.geomspace(0.02, 0.6, 8) * cap:
+        cold = press.solve(HEIGHTS, mean_pressure=load, cap=cap)
+        warm = press.solve(HEIGHTS, mean_pressure=load, cap=cap, start=before or None)
+        assert warm.converged
+        assert not warm.fallback
+        assert warm.n_outer <= 1.5 * cold.n_outer + 1.0
+        assert warm.pressure == pytest.approx(cold.pressure, abs=1e-6 * cap)
+        before = [(load, warm.pressure), *before[:2]]
