@@ -7,16 +7,13 @@ compiler gives the same bytes.
 from __future__ import annotations
 
 import hashlib
-import io
 import os
 import sys
 import tempfile
-import zipfile
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from typing import Any, Literal
 
 from ..errors import DescriptionError, PlanError
 from ..scene import SeparationScene
@@ -32,49 +29,59 @@ from .native_compile import (
     local,
 )
 from .native_data import data_file, port_numbers
+from .native_description import CATEGORIES, description_files
 from .native_film import film_numbers, moving
 from .native_page import native_page
-from .native_ports import check_start, native_ports
+from .native_ports import MODELS, Model, check_start, native_ports
+from .packing import write_archive
 from .ports import Port, Value, find_port
+from .stiction_force import StictionForce
 from .stiction_mass import StictionMass, scene_of
-from .xml import Description, model_description
+from .terminals import terminal_files
+from .xml import Description
 
 __all__ = ["build_native", "native_scene"]
 
-_IDENTIFIER = "stiction_mass"
-_COMPILED: dict[tuple[str, ...], bytes] = {}  # the kernel is the same for all scenes
-_CATEGORIES = {
-    "logEvents": "What happened in the model, such as a release or a rupture.",
-    "logStatusWarning": "What is odd, but can be gone on with.",
-    "logStatusError": "Why the FMU refuses to go on, and what to do about it.",
-    "logAll": "Everything.",
+_SLAVES = {"stiction-mass": StictionMass, "stiction-force": StictionForce}
+_MASS = {"stiction-mass": "m", "stiction-force": "m_ref"}
+_SUMMARIES = {
+    "stiction-mass": StictionMass.summary,
+    "stiction-force": "Liquid film between two bodies: forces, impulses and doubts of coupling",
 }
+_COMPILED: dict[tuple[str, ...], bytes] = {}  # the kernel is the same for all scenes
 
 
 def build_native(
     scene: SeparationScene,
     out: str | os.PathLike[str],
     *,
+    model: Model = "stiction-mass",
     start: Mapping[str, Value | str] | None = None,
     platforms: Sequence[str] | None = None,
     compiler: str = "auto",
+    fmi: Literal[2, 3] = 2,
 ) -> Path:
-    """Write a ``stiction-mass`` of any scene that runs without Python (FMI 2.0, co-simulation).
+    """Write an FMU of any scene that runs without Python (co-simulation).
 
     Parameters
     ----------
     scene : SeparationScene
-        What is there; its forces are tabulated. What it imposes is left out: the pull is an input.
+        What is there; its forces are tabulated. What it imposes is left out: pull or motion are
+        inputs.
     out : path
         The file to write, ``*.fmu``.
+    model : {"stiction-mass", "stiction-force"}
+        A mass with its film, or the film for a tool that owns the mass.
     start : mapping, optional
-        Start values by variable; a text carries its unit (``"20 g"``). ``m`` must be among them
-        if the scene has no mass.
+        Start values by variable; a text carries its unit (``"20 g"``). The mass, ``m`` or
+        ``m_ref``, must be among them if the scene has none.
     platforms : sequence of str, optional
         Platforms to compile for, of `native_compile.PLATFORMS`. None: all if ziglang is
         installed, else this computer's.
     compiler : {"auto", "zig", "cc"}
         See `native_compile.compile_kernel`.
+    fmi : {2, 3}
+        Version of FMI. FMI 3.0 has event mode, with early return at a rupture.
 
     Returns
     -------
@@ -84,45 +91,58 @@ def build_native(
     Raises
     ------
     DescriptionError
-        If a name, a start value or a platform is not possible.
+        If a name, a start value, a platform or a version is not possible.
     ContactkitError
         If the scene cannot be planned or tabulated, or a compiler is missing.
     """
     target = Path(out)
     if target.suffix != ".fmu":
         raise DescriptionError("out", str(out), "end in .fmu")
+    if model not in MODELS:
+        raise DescriptionError("model", model, "be " + " or ".join(map(repr, MODELS)))
+    if fmi not in (2, 3):
+        raise DescriptionError("fmi", fmi, "be 2 or 3")
     given = dict(start or {})
-    mass = _mass(given.pop("m")) if "m" in given else None
+    name = _MASS[model]
+    mass = _mass(model, given.pop(name)) if name in given else None
+    if model == "stiction-force" and "h0" in given:
+        given.setdefault("h", given["h0"])
     scene = moving(scene, mass)
     film = film_numbers(scene)
-    ports = native_ports(scene, film.lowest)
+    ports = native_ports(scene, film.lowest, model)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     values |= {name: _start_value(ports, name, value) for name, value in given.items()}
     check_start(ports, values)
     names = (
         list(platforms) if platforms is not None else list(PLATFORMS) if has_zig() else [local()]
     )
-    sources = kernel_sources() | fmi_headers()
-    numbers = port_numbers(ports, values) + film.numbers
+    sources = kernel_sources(fmi) | fmi_headers(fmi)
+    numbers = port_numbers(model, ports, values) + film.numbers
     guid = _guid(sources, numbers, ports)
+    about = _about(model, guid, ports, values, scene)
     files = {
-        "modelDescription.xml": _description(guid, ports, values, scene, sources),
+        **description_files(fmi, about, sources, holds_mass=model == "stiction-mass"),
         "resources/film.bin": data_file(guid, numbers),
-        "documentation/index.html": native_page(scene, ports, values).encode(),
+        "documentation/index.html": native_page(
+            scene, ports, values, name=model, fmi=str(fmi)
+        ).encode(),
         "documentation/licenses/license.txt": _license().encode(),
+        **terminal_files(ports, fmi=str(fmi)),
         **{f"sources/{name}": content for name, content in sources.items()},
-        **_binaries(sources, names, compiler),
+        **_binaries(_identifier(model), fmi, sources, names, compiler),
     }
-    return _pack(files, target)
+    return write_archive(files, target)
 
 
-def native_scene(what: Any) -> tuple[SeparationScene, dict[str, Value]]:
+def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene, dict[str, Value]]:
     """Scene and start values of what the command line was given.
 
     Parameters
     ----------
     what : str or Runnable
         Name of an FMU, or an opened scene file.
+    model : {"stiction-mass", "stiction-force"}, optional
+        Model whose start values are meant, if not that of the FMU of the scene.
 
     Raises
     ------
@@ -133,21 +153,32 @@ def native_scene(what: Any) -> tuple[SeparationScene, dict[str, Value]]:
     if isinstance(scene, SeparationScene):
         return scene, {}
     name, given = (what, {}) if isinstance(what, str) else what.fmu_start()
-    if name != "stiction-mass":
+    if name not in _SLAVES:
         raise PlanError(
-            f"{name} has no native form in this version, only stiction-mass has; leave out --native"
+            f"{name} has no native form in this version, only {' and '.join(_SLAVES)} have; leave "
+            f"out --native"
         )
-    values = StictionMass.start_values()
-    values |= {key: _start_value(StictionMass.ports, key, value) for key, value in given.items()}
+    own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
+    slave = _SLAVES[own]
+    values = slave.start_values()
+    values |= {key: _start_value(slave.ports, key, value) for key, value in given.items()}
+    if own == "stiction-force":  # the mass is the tool's, and so is the end of the motion
+        rest: dict[str, Value] = {"v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 20.0 * values["h0"]}
+        values |= rest | {"m": values["m_ref"]}
     scene = scene_of(values)
-    kept = {port.name for port in native_ports(scene, 0.0)}
+    kept = {port.name for port in native_ports(scene, 0.0, model or own)}
     return scene, {key: value for key, value in values.items() if key in kept and key in given}
 
 
-def _mass(value: Value | str) -> float:
+def _identifier(model: str) -> str:
+    """Name of the library of a model, so that a host may load both."""
+    return model.replace("-", "_")
+
+
+def _mass(model: Model, value: Value | str) -> float:
     """Mass [kg], of a text with a unit too."""
-    port = find_port(StictionMass.ports, "m")
-    return float(_start_value((port,), "m", value))
+    name = _MASS[model]
+    return float(_start_value((find_port(MODELS[model], name),), name, value))
 
 
 def _start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Value:
@@ -173,35 +204,19 @@ def _guid(sources: Mapping[str, bytes], numbers: Sequence[float], ports: Sequenc
     return "-".join(build[i:j] for i, j in pairwise((0, 8, 12, 16, 20, 32)))
 
 
-def _description(
+def _about(
+    model: Model,
     guid: str,
     ports: Sequence[Port],
     values: Mapping[str, Value],
     scene: SeparationScene,
-    sources: Mapping[str, bytes],
-) -> bytes:
+) -> Description:
     title = f" ({scene.name})" if scene.name else ""
-    root = model_description(
-        Description(
-            identifier=_IDENTIFIER, guid=guid, tool="contactkit", ports=ports, start=values,
-            summary=StictionMass.summary + title, log_categories=_CATEGORIES,
-            experiment=StictionMass.experiment,
-        )
+    return Description(
+        identifier=_identifier(model), guid=guid, tool="contactkit", ports=ports, start=values,
+        summary=_SUMMARIES[model] + title, log_categories=CATEGORIES,
+        experiment=_SLAVES[model].experiment,
     )  # fmt: skip
-    kind = root.find("CoSimulation")
-    assert kind is not None
-    kind.attrib |= {
-        "needsExecutionTool": "false",
-        "canInterpolateInputs": "true",
-        "providesDirectionalDerivative": "true",
-    }
-    files: Element = SubElement(kind, "SourceFiles")
-    for name in sorted(sources):
-        if name.endswith(".c"):
-            SubElement(files, "File", name=name)
-    indent(root)
-    text: bytes = tostring(root, encoding="utf-8", xml_declaration=True)
-    return text + b"\n"
 
 
 def _license() -> str:
@@ -210,7 +225,7 @@ def _license() -> str:
 
 
 def _binaries(
-    sources: Mapping[str, bytes], names: Sequence[str], compiler: str
+    identifier: str, fmi: int, sources: Mapping[str, bytes], names: Sequence[str], compiler: str
 ) -> dict[str, bytes]:
     """Libraries of the platforms, by their path in the FMU."""
     found: dict[str, list[bytes]] = {}
@@ -224,28 +239,7 @@ def _binaries(
                 compile_kernel(Path(folder), name, library, compiler)
                 _COMPILED[key] = library.read_bytes()
             place = PLATFORMS[name]
-            path = f"binaries/{place.fmi2}/{_IDENTIFIER}{place.suffix}"
+            folder_in = place.fmi3 if fmi == 3 else place.fmi2
+            path = f"binaries/{folder_in}/{identifier}{place.suffix}"
             found.setdefault(path, []).append(_COMPILED[key])
     return {path: one[0] if len(one) == 1 else join_macs(one) for path, one in found.items()}
-
-
-def _pack(files: Mapping[str, bytes], target: Path) -> Path:
-    """Write an FMU so that equal content gives equal bytes, and never half a file."""
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed:
-        for path in sorted(files):
-            info = zipfile.ZipInfo(path, date_time=(1980, 1, 1, 0, 0, 0))
-            info.compress_type, info.create_system = zipfile.ZIP_DEFLATED, 3
-            info.external_attr = 0o100644 << 16
-            packed.writestr(info, files[path])
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, partial = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(stream.getvalue())
-        Path(partial).chmod(0o644)
-        Path(partial).replace(target)
-    except BaseException:
-        Path(partial).unlink(missing_ok=True)
-        raise
-    return target

@@ -16,18 +16,22 @@ IDENTIFIERS = (
     "t_release", "F_peak", "n_break", "n_release",
     "m", "h0", "v0", "k_s", "h_rel", "h_min", "h_break", "eta", "gamma", "dp_cav",
     "tau_lim", "rtol",
+    "c", "k", "F_mean", "coupling_error", "H_stable", "in_doubt", "n_doubt", "h_above", "h_below",
+    "m_ref", "exchange",
 )  # fmt: skip
+_MODELS = ("stiction-mass", "stiction-force")
+_TYPES = {"real": 1.0, "integer": 2.0, "enumeration": 4.0, "boolean": 8.0}
 _CAUSALITIES = ("input", "output", "parameter")
-_MAGIC = b"CKFILM01"
+_MAGIC = b"CKFILM03"
 
 
-def port_numbers(ports: Sequence[Port], start: Mapping[str, Value]) -> list[float]:
-    """Numbers of the variables of an FMU, in the order in which ``native/data.c`` reads them."""
-    numbers = [float(len(ports))]
+def port_numbers(model: str, ports: Sequence[Port], start: Mapping[str, Value]) -> list[float]:
+    """Numbers of the model and the variables of an FMU, as ``native/data.c`` reads them."""
+    numbers = [float(_MODELS.index(model)), float(len(ports))]
     for port in ports:
         low, high = port.limits
         numbers += [
-            float(IDENTIFIERS.index(port.name)), float(port.kind != "real"),
+            float(IDENTIFIERS.index(port.name)), _TYPES[port.kind],
             float(_CAUSALITIES.index(port.causality)), float(low), float(high),
             float(start[port.name]),
         ]  # fmt: skip

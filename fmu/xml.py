@@ -10,6 +10,7 @@ from __future__ import annotations
 import datetime
 import os
 from collections.abc import Mapping, Sequence
+from enum import IntEnum
 from math import isfinite
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
@@ -19,7 +20,10 @@ from attrs import field, frozen
 from ..units import parse_unit
 from .ports import Kind, Port, Value, display_conversion
 
-__all__ = ["Description", "model_description", "value_references"]
+__all__ = [
+    "Description", "details", "enumerations", "frame", "items", "model_description",
+    "unit_definitions", "value_references",
+]  # fmt: skip
 
 _TAGS = {
     "real": "Real", "integer": "Integer", "boolean": "Boolean", "enumeration": "Enumeration",
@@ -47,10 +51,24 @@ def value_references(ports: Sequence[Port]) -> dict[str, int]:
 
 def model_description(about: Description) -> Element:
     """Root element of ``modelDescription.xml``."""
+    able = _capabilities(about.identifier)
+    root = frame(about, "2.0", able, unit_definitions(about.ports), _types(about.ports))
+    variables = SubElement(root, "ModelVariables")
+    references = value_references(about.ports)
+    for port in about.ports:
+        variables.append(_variable(port, references[port.name], about.start))
+    root.append(_structure(about.ports))
+    return root
+
+
+def frame(
+    about: Description, version: str, able: Mapping[str, str], units: Element, types: Element
+) -> Element:
+    """Root element with all that comes before the variables, the same in both versions of FMI."""
     attributes = {
-        "fmiVersion": "2.0",
+        "fmiVersion": version,
         "modelName": about.identifier,
-        "guid": about.guid,
+        "guid" if version == "2.0" else "instantiationToken": about.guid,
         "description": about.summary,
         "license": "BSD-3-Clause",
         "generationTool": about.tool,
@@ -61,8 +79,8 @@ def model_description(about: Description) -> Element:
         date = datetime.datetime.fromtimestamp(int(epoch), datetime.UTC)
         attributes["generationDateAndTime"] = date.strftime("%Y-%m-%dT%H:%M:%SZ")
     root = Element("fmiModelDescription", attributes)
-    SubElement(root, "CoSimulation", _capabilities(about.identifier))
-    for part in (_units(about.ports), _types(about.ports)):
+    SubElement(root, "CoSimulation", dict(able))
+    for part in (units, types):
         if len(part):
             root.append(part)
     categories = SubElement(root, "LogCategories")
@@ -70,11 +88,6 @@ def model_description(about: Description) -> Element:
         SubElement(categories, "Category", name=name, description=meaning)
     if about.experiment:
         SubElement(root, "DefaultExperiment", {k: repr(v) for k, v in about.experiment.items()})
-    variables = SubElement(root, "ModelVariables")
-    references = value_references(about.ports)
-    for port in about.ports:
-        variables.append(_variable(port, references[port.name], about.start))
-    root.append(_structure(about.ports))
     return root
 
 
@@ -89,7 +102,8 @@ def _capabilities(identifier: str) -> dict[str, str]:
     }
 
 
-def _units(ports: Sequence[Port]) -> Element:
+def unit_definitions(ports: Sequence[Port]) -> Element:
+    """Units and display units, as both versions of FMI write them."""
     definitions = Element("UnitDefinitions")
     for unit in dict.fromkeys(port.unit for port in ports if port.unit != "-"):
         meaning = parse_unit(unit)
@@ -110,13 +124,20 @@ def _units(ports: Sequence[Port]) -> Element:
 
 def _types(ports: Sequence[Port]) -> Element:
     definitions = Element("TypeDefinitions")
-    for enumeration in dict.fromkeys(port.enumeration for port in ports):
-        if enumeration is not None:
-            entry = SubElement(definitions, "SimpleType", name=enumeration.__name__)
-            items = SubElement(entry, "Enumeration")
-            for member in enumeration:
-                SubElement(items, "Item", name=member.name, value=str(int(member)))
+    for enumeration in enumerations(ports):
+        entry = SubElement(definitions, "SimpleType", name=enumeration.__name__)
+        SubElement(entry, "Enumeration").extend(items(enumeration))
     return definitions
+
+
+def enumerations(ports: Sequence[Port]) -> list[type[IntEnum]]:
+    """Enumerations that variables are of, each once."""
+    return [e for e in dict.fromkeys(port.enumeration for port in ports) if e is not None]
+
+
+def items(enumeration: type[IntEnum]) -> list[Element]:
+    """Members of an enumeration, as both versions of FMI write them."""
+    return [Element("Item", name=member.name, value=str(int(member))) for member in enumeration]
 
 
 def _variable(port: Port, reference: int, start: Mapping[str, Value]) -> Element:
@@ -133,20 +154,22 @@ def _variable(port: Port, reference: int, start: Mapping[str, Value]) -> Element
     elif is_output:
         attributes["initial"] = "calculated"
     node = Element("ScalarVariable", attributes)
-    details: dict[str, Any] = {
+    SubElement(node, _TAGS[port.kind], details(port, start))
+    return node
+
+
+def details(port: Port, start: Mapping[str, Value]) -> dict[str, str]:
+    """Attributes of a variable that belong to its type, the same in both versions of FMI."""
+    found: dict[str, Any] = {
         "declaredType": port.enumeration and port.enumeration.__name__,
         "unit": port.unit if port.unit != "-" else None,
         "displayUnit": port.display_unit,
         "min": _finite(port.minimum),
         "max": _finite(port.maximum),
         "nominal": port.nominal,
-        "start": None if is_output else start[port.name],
+        "start": None if port.causality == "output" else start[port.name],
     }
-    written = {
-        name: _text(value, port.kind) for name, value in details.items() if value is not None
-    }
-    SubElement(node, _TAGS[port.kind], written)
-    return node
+    return {name: _text(value, port.kind) for name, value in found.items() if value is not None}
 
 
 def _finite(bound: float | None) -> float | None:

@@ -28,7 +28,7 @@ from .spline import cubic_spline
 __all__ = ["FlatLaw", "flat_end", "flat_law"]
 
 _THIN = 1e-8  # gap over radius below which a film is taken for its arc
-_LEAST, _MOST = 64, 1024  # members of the family along a law
+_LEAST, _MOST = 64, 2048  # members of the family along a law
 _FAR = 500.0  # chart coordinate of a film thinner than any
 _RIGHT_CLOSE = 1e-12  # cosine of two angles that make a cylinder
 

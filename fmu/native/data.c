@@ -28,7 +28,8 @@ uint64_t ck_checksum(const void *bytes, size_t count) {
 typedef struct {
     const double *next, *end;
     int fine;
-    int *hints; /* of the pieces still to come */
+    int *hints;     /* of the pieces still to come */
+    ck_cell *cells; /* of these, too */
 } stream;
 
 static double number(stream *s) {
@@ -65,8 +66,22 @@ static const double *column(stream *s, int count, int ascends) {
     return first;
 }
 
+/* Powers of the share t of the way from one node to the next; b, c slope and curvature times
+   width and its square. */
+static void fill(ck_cell *cell, double x0, double x1, const double y[2], const double slope[2],
+                 const double curve[2]) {
+    double w = x1 - x0, rise = y[1] - y[0], b0 = slope[0] * w, b1 = slope[1] * w;
+    double c0 = curve[0] * w * w, c1 = curve[1] * w * w;
+    cell->x = x0, cell->per_width = 1.0 / w;
+    cell->c[0] = y[0], cell->c[1] = b0, cell->c[2] = 0.5 * c0;
+    cell->c[3] = 10.0 * rise - 6.0 * b0 - 4.0 * b1 - 1.5 * c0 + 0.5 * c1;
+    cell->c[4] = -15.0 * rise + 8.0 * b0 + 7.0 * b1 + 1.5 * c0 - c1;
+    cell->c[5] = 6.0 * rise - 3.0 * (b0 + b1) - 0.5 * (c0 - c1);
+}
+
 static void read_table(stream *s, ck_table *table) {
-    int i;
+    const double *x, *y, *slope, *curve;
+    int i, k, nodes;
     table->stays = whole(s, 0, 1);
     table->count = whole(s, 1, CK_PIECES);
     for (i = 0; s->fine && i < table->count; i++) {
@@ -77,11 +92,17 @@ static void read_table(stream *s, ck_table *table) {
         piece->log_end = log(piece->end);
         piece->folds = whole(s, 0, 1);
         piece->power = whole(s, 0, 8);
-        piece->count = whole(s, 2, 1000000);
+        nodes = whole(s, 2, 1000000);
         piece->hint = s->hints++;
-        piece->x = column(s, piece->count, 1);
-        piece->y = column(s, piece->count, 0);
-        piece->slope = column(s, piece->count, 0);
+        x = column(s, nodes, 1);
+        y = column(s, nodes, 0);
+        slope = column(s, nodes, 0);
+        curve = column(s, nodes, 0);
+        if (!s->fine) return;
+        piece->count = nodes - 1;
+        piece->cells = s->cells;
+        for (k = 0; k < piece->count; k++)
+            fill(s->cells++, x[k], x[k + 1], &y[k], &slope[k], &curve[k]);
         if (!(piece->low < piece->high) || (i > 0 && piece->low != table->pieces[i - 1].high))
             s->fine = 0;
     }
@@ -109,16 +130,20 @@ static void read_film(stream *s, ck_film *film) {
 
 static void read_ports(stream *s, ck_data *data) {
     int i;
+    data->kind = whole(s, CK_STICTION_MASS, CK_STICTION_FORCE);
     data->port_count = whole(s, 1, CK_VARIABLES);
     for (i = 0; s->fine && i < data->port_count; i++) {
         ck_port *port = &data->ports[i];
         port->id = whole(s, 0, CK_VARIABLES - 1);
-        port->type = whole(s, CK_REAL, CK_INTEGER);
+        port->type = whole(s, CK_REAL, CK_BOOLEAN);
+        if (port->type & (port->type - 1)) s->fine = 0; /* one bit */
         port->causality = whole(s, CK_INPUT, CK_PARAMETER);
         port->low = number(s);
         port->high = number(s);
         port->start = number(s);
-        if (!(port->low <= port->high)) s->fine = 0;
+        if (!(port->low <= port->high) || !isfinite(port->start)) s->fine = 0;
+        if (port->causality != CK_OUTPUT && !(port->start >= port->low && port->start <= port->high))
+            s->fine = 0;
     }
 }
 
@@ -147,7 +172,7 @@ static FILE *open_file(const char *path) {
 static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
     char magic[8];
     uint64_t head[2];
-    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM01", 8) != 0)
+    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM03", 8) != 0)
         return "it is no file of this FMU";
     if (fread(head, 8, 2, file) != 2 || fread(data->guid, 1, 40, file) != 40)
         return "it is cut short";
@@ -177,6 +202,9 @@ const char *ck_data_read(const char *path, ck_data *data) {
     if (problem) return problem;
     s.next = data->numbers, s.end = data->numbers + count, s.fine = 1;
     s.hints = data->hints;
+    /* a node of a table has four numbers, and there are fewer cells than nodes */
+    data->cells = s.cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
+    if (!s.cells) return "there is no memory for it";
     read_ports(&s, data);
     read_scene(&s, &data->scene);
     return s.fine && s.next == s.end ? NULL : "what it says makes no sense";

@@ -7,9 +7,8 @@
 #define CK_PI 3.14159265358979323846
 
 static double power_of(double base, int power) {
-    double result = 1.0;
-    int i;
-    for (i = 0; i < power; i++) result *= base;
+    double result = power & 1 ? base : 1.0, square = base * base;
+    for (power >>= 1; power > 0; power--) result *= square;
     return result;
 }
 
@@ -31,27 +30,27 @@ static double place(const ck_piece *piece, double gap, double log_gap, double *b
     return root;
 }
 
-static int interval(const ck_piece *piece, double x) {
-    int low = *piece->hint, high = piece->count - 1;
-    if (piece->x[low] <= x && x < piece->x[low + 1]) return low;
+static const ck_cell *cell_at(const ck_piece *piece, double x) {
+    const ck_cell *cells = piece->cells;
+    int low = *piece->hint, high = piece->count;
+    if (cells[low].x <= x && (low + 1 == high || x < cells[low + 1].x)) return &cells[low];
     low = 0;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (piece->x[middle] <= x) low = middle;
+        if (cells[middle].x <= x) low = middle;
         else high = middle;
     }
     *piece->hint = low;
-    return low;
+    return &cells[low];
 }
 
-static double hermite(const ck_piece *piece, double x, double *by_x) {
-    int i = interval(piece, x);
-    double width = piece->x[i + 1] - piece->x[i], t = (x - piece->x[i]) / width;
-    double rise = piece->y[i + 1] - piece->y[i];
-    double a = piece->slope[i] * width, b = piece->slope[i + 1] * width;
-    double c = 3.0 * rise - 2.0 * a - b, d = a + b - 2.0 * rise;
-    *by_x = (a + t * (2.0 * c + 3.0 * d * t)) / width;
-    return piece->y[i] + t * (a + t * (c + t * d));
+static double value_at(const ck_piece *piece, double x, double *by_x) {
+    const ck_cell *cell = cell_at(piece, x);
+    const double *c = cell->c;
+    double t = (x - cell->x) * cell->per_width;
+    *by_x = (c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + t * (4.0 * c[4] + t * 5.0 * c[5])))) *
+            cell->per_width;
+    return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
 }
 
 /* Value at a gap whose logarithm is known, and its slope. Beyond the table y stays. */
@@ -75,11 +74,11 @@ double ck_table_at(const ck_table *table, double gap, double log_gap, double *by
     if (beyond) {
         double edge = gap < piece->low ? piece->low : piece->high;
         x = place(piece, edge, log(edge), &x_by_gap);
-        y = hermite(piece, x, &by_x);
+        y = value_at(piece, x, &by_x);
         by_x = 0.0;
     } else {
         x = place(piece, gap, log_gap, &x_by_gap);
-        y = hermite(piece, x, &by_x);
+        y = value_at(piece, x, &by_x);
     }
     factor = power_of(1.0 / gap, piece->power);
     y *= factor;
@@ -87,38 +86,42 @@ double ck_table_at(const ck_table *table, double gap, double log_gap, double *by
     return y;
 }
 
-static double limited(const ck_acting *a, double gap, double log_gap, double force, int opens,
-                      int *limit) {
-    double ignored, found = force, left, n = a->menisci;
-    double shape = ck_table_at(&a->film->shape, gap, log_gap, &ignored);
-    if (a->tension > 0.0 && opens) {
-        if (a->is_sphere) left = n * ck_sphere_tension(force / n, a->sphere_radius, gap, shape, a->tension);
-        else if (a->reynolds) left = ck_disc_tension_reynolds(force, n * CK_PI * shape, a->tension);
-        else left = ck_disc_tension(force, n * CK_PI * shape, a->tension);
-        if (fabs(left) < fabs(found)) found = left, *limit = 1;
+/* Take the smaller one; `menisci` and the area of a disc go into the slopes. */
+static void take(ck_left *found, ck_left *left, double menisci, double area, int kind,
+                 int *limit) {
+    if (!(fabs(menisci * left->value) < fabs(found->value))) return;
+    *found = *left;
+    found->value *= menisci, found->by_gap *= menisci, found->by_shape *= menisci * area;
+    *limit = kind;
+}
+
+/* What the limits leave of a viscous force. */
+static void limited(const ck_acting *a, double gap, double log_gap, double speed,
+                    ck_forces *found) {
+    double by_gap, n = a->menisci, force = found->viscous;
+    double shape = ck_table_at(&a->film->shape, gap, log_gap, &by_gap);
+    ck_left left, least = {force, 1.0, 0.0, 0.0};
+    if (a->tension > 0.0 && speed > 0.0) {
+        if (a->is_sphere) ck_sphere_tension(force / n, a->sphere_radius, gap, shape, a->tension, &left);
+        else if (a->reynolds) ck_disc_tension_reynolds(force / n, CK_PI * shape, a->tension, &left);
+        else ck_disc_tension(force / n, CK_PI * shape, a->tension, &left);
+        take(&least, &left, n, a->is_sphere ? 1.0 : CK_PI, 1, &found->limit);
     }
     if (a->strength > 0.0) {
-        if (a->is_sphere) left = n * ck_sphere_shear(force / n, a->sphere_radius, gap, shape, a->strength);
-        else left = n * ck_disc_shear(force / n, sqrt(shape), gap, a->strength);
-        if (fabs(left) < fabs(found)) found = left, *limit = 2;
+        if (a->is_sphere) ck_sphere_shear(force / n, a->sphere_radius, gap, shape, a->strength, &left);
+        else ck_disc_shear(force / n, shape, gap, a->strength, &left);
+        take(&least, &left, n, 1.0, 2, &found->limit);
     }
-    return found;
+    found->viscous = least.value;
+    found->viscous_by_gap = least.by_force * found->viscous_by_gap + least.by_gap + least.by_shape * by_gap;
+    found->viscous_by_speed = least.by_force * found->resistance;
 }
 
-static double limited_at(const ck_acting *a, double gap, double speed) {
-    double c = 0.0, log_gap = log(gap), ignored;
-    int i, limit;
-    for (i = 0; i < a->film->count; i++)
-        if (a->acts[i] && a->film->laws[i].scale == CK_VISCOSITY)
-            c = a->viscosity * ck_table_at(&a->film->laws[i].table, gap, log_gap, &ignored);
-    return limited(a, gap, log_gap, c * speed, speed > 0.0, &limit);
-}
-
-/* Forces at a gap and a speed; slopes of the viscous force only where asked for. */
-void ck_forces_at(const ck_acting *a, double gap, double speed, int slopes, ck_forces *found) {
+/* Forces at a gap and a speed, with their slopes. */
+void ck_forces_at(const ck_acting *a, double gap, double speed, ck_forces *found) {
     double log_gap = log(gap);
     int i;
-    const ck_forces nothing = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0};
+    const ck_forces nothing = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0};
     *found = nothing;
     for (i = 0; a->any && i < a->film->count; i++) {
         const ck_law *law = &a->film->laws[i];
@@ -137,19 +140,11 @@ void ck_forces_at(const ck_acting *a, double gap, double speed, int slopes, ck_f
     found->viscous = found->resistance * speed;
     found->viscous_by_gap = found->resistance_by_gap * speed;
     found->viscous_by_speed = found->resistance;
-    if (!a->limited || found->resistance == 0.0) return;
-    found->viscous = limited(a, gap, log_gap, found->viscous, speed > 0.0, &found->limit);
-    if (found->limit && slopes) { /* no closed form that is worth its lines */
-        double dh = 1e-5 * gap, dv = 1e-5 * fabs(speed);
-        found->viscous_by_gap =
-            (limited_at(a, gap + dh, speed) - limited_at(a, gap - dh, speed)) / (2.0 * dh);
-        found->viscous_by_speed =
-            (limited_at(a, gap, speed + dv) - limited_at(a, gap, speed - dv)) / (2.0 * dv);
-    }
+    if (a->limited && found->viscous != 0.0) limited(a, gap, log_gap, speed, found);
 }
 
 double ck_fixed_force(const ck_acting *a, double gap) {
     ck_forces found;
-    ck_forces_at(a, gap, 0.0, 0, &found);
+    ck_forces_at(a, gap, 0.0, &found);
     return found.fixed;
 }

@@ -1,7 +1,7 @@
 /* The forces of a film, read from tables that the Python model wrote.
 
    Conventions: SI units; a force is positive where it resists opening; the gap is the shortest
-   distance of the bodies. A table holds y over x, cubic Hermite, and stands for y h^-power; x is
+   distance of the bodies. A table holds y over x, quintic Hermite, and stands for y h^-power; x is
    ln h, or sqrt(ln(end/h)) where the law ends, in a fold or not, at a gap `end`. */
 
 #ifndef CK_FILM_H
@@ -14,10 +14,15 @@
 #define CK_PIECES 12 /* most pieces of one table */
 #define CK_FILMS 2   /* the film of the scene, and what is left of it after a rupture */
 
+/* Between two nodes: where the first is, one over the width, and powers of the share of it. */
+typedef struct {
+    double x, per_width, c[6];
+} ck_cell;
+
 typedef struct {
     double low, high, end, log_end; /* gaps; `end` only where x runs from it */
-    int folds, power, count;
-    const double *x, *y, *slope;
+    int folds, power, count;        /* of the cells */
+    const ck_cell *cells;
     int *hint; /* where the last search ended; it saves time and changes nothing */
 } ck_piece;
 
@@ -58,16 +63,32 @@ typedef struct {
     double viscous, viscous_by_gap, viscous_by_speed;
     double resistance, resistance_by_gap; /* viscous force per speed without limits */
     int limit;                            /* 0 none, 1 tension, 2 shear */
+    int padding;                          /* so that no byte of a saved state is left open */
 } ck_forces;
 
+/* What a limit leaves of a force, and how that follows the force, the gap and the shape. */
+typedef struct {
+    double value, by_force, by_gap, by_shape;
+} ck_left;
+
+/* Impulses along the way between two gaps. */
+typedef struct {
+    double viscous, fixed;
+} ck_impulse;
+
 double ck_table_at(const ck_table *table, double gap, double log_gap, double *by_gap);
-void ck_forces_at(const ck_acting *acting, double gap, double speed, int slopes, ck_forces *found);
+void ck_forces_at(const ck_acting *acting, double gap, double speed, ck_forces *found);
 double ck_fixed_force(const ck_acting *acting, double gap);
 
-double ck_disc_tension(double force, double area, double tension);
-double ck_disc_tension_reynolds(double force, double area, double tension);
-double ck_disc_shear(double force, double radius, double gap, double strength);
-double ck_sphere_tension(double force, double radius, double gap, double thickness, double tension);
-double ck_sphere_shear(double force, double radius, double gap, double thickness, double strength);
+/* Over a time in which the gap moves at one speed; kinks are where it is to be cut (path.c). */
+ck_impulse ck_along(const ck_acting *acting, double begin, double end, double length);
+
+void ck_disc_tension(double force, double area, double tension, ck_left *left);
+void ck_disc_tension_reynolds(double force, double area, double tension, ck_left *left);
+void ck_disc_shear(double force, double shape, double gap, double strength, ck_left *left);
+void ck_sphere_tension(double force, double radius, double gap, double shape, double tension,
+                       ck_left *left);
+void ck_sphere_shear(double force, double radius, double gap, double shape, double strength,
+                     ck_left *left);
 
 #endif

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define WHOLE (CK_INTEGER | CK_ENUMERATION)
+
 typedef struct {
     ck_model model; /* first: fmi2_state.c knows no more of an instance */
     fmi2CallbackLogger logger;
@@ -45,14 +47,9 @@ const char *fmi2GetVersion(void) { return fmi2Version; }
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n,
                                const fmi2String categories[]) {
-    size_t i;
     OWN(c);
     if (n > 0 && !categories) return fail(own, "setDebugLogging: categories are missing");
-    if (n == 0) own->wanted = on ? CK_LOG_ALL : 0;
-    else if (on) own->wanted = 0; /* those named, and no other */
-    for (i = 0; i < n; i++)
-        own->wanted = on ? own->wanted | ck_category(categories[i])
-                         : own->wanted & ~ck_category(categories[i]);
+    own->wanted = ck_wanted(own->wanted, on, n, categories);
     return fmi2OK;
 }
 
@@ -146,7 +143,7 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     if (n > 0 && (!vr || !value)) return fail(own, "getInteger: arguments are missing");
     for (i = 0; i < n; i++) {
         double found;
-        if (ck_model_get(&own->model, vr[i], CK_INTEGER, &found) != CK_OK) return fmi2Error;
+        if (ck_model_get(&own->model, vr[i], WHOLE, &found) != CK_OK) return fmi2Error;
         value[i] = (fmi2Integer)found;
     }
     return fmi2OK;
@@ -168,25 +165,37 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     OWN(c);
     if (n > 0 && (!vr || !value)) return fail(own, "setInteger: arguments are missing");
     for (i = 0; i < n; i++)
-        if (ck_model_set(&own->model, vr[i], CK_INTEGER, (double)value[i]) != CK_OK) return fmi2Error;
+        if (ck_model_set(&own->model, vr[i], WHOLE, (double)value[i]) != CK_OK) return fmi2Error;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                          fmi2Boolean value[]) {
+    size_t i;
+    OWN(c);
+    if (n > 0 && (!vr || !value)) return fail(own, "getBoolean: arguments are missing");
+    for (i = 0; i < n; i++) {
+        double found;
+        if (ck_model_get(&own->model, vr[i], CK_BOOLEAN, &found) != CK_OK) return fmi2Error;
+        value[i] = found != 0.0 ? fmi2True : fmi2False;
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                          const fmi2Boolean value[]) {
+    size_t i;
+    OWN(c);
+    if (n > 0 && (!vr || !value)) return fail(own, "setBoolean: arguments are missing");
+    for (i = 0; i < n; i++)
+        if (ck_model_set(&own->model, vr[i], CK_BOOLEAN, value[i] ? 1.0 : 0.0) != CK_OK)
+            return fmi2Error;
     return fmi2OK;
 }
 
 static fmi2Status no_such_type(fmi2Component c, size_t n) {
     OWN(c);
     return n == 0 ? fmi2OK : fail(own, "no variable of this FMU is of that type; reset the FMU");
-}
-
-fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                          fmi2Boolean value[]) {
-    (void)vr, (void)value;
-    return no_such_type(c, n);
-}
-
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                          const fmi2Boolean value[]) {
-    (void)vr, (void)value;
-    return no_such_type(c, n);
 }
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -226,21 +235,13 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
     return lacks(own, "derivatives of outputs are not provided");
 }
 
-/* While stepping no output follows an input without a step in between. */
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],
                                         size_t n, const fmi2ValueReference known[], size_t m,
                                         const fmi2Real seed[], fmi2Real value[]) {
-    size_t i;
     OWN(c);
     if ((n > 0 && (!unknown || !value)) || (m > 0 && (!known || !seed)))
         return fail(own, "getDirectionalDerivative: arguments are missing");
-    for (i = 0; i < m; i++)
-        if (!ck_model_port(&own->model, known[i], CK_REAL, "getDirectionalDerivative")) return fmi2Error;
-    for (i = 0; i < n; i++) {
-        if (!ck_model_port(&own->model, unknown[i], CK_REAL, "getDirectionalDerivative")) return fmi2Error;
-        value[i] = 0.0;
-    }
-    return fmi2OK;
+    return (fmi2Status)ck_model_derivative(&own->model, unknown, n, known, m, seed, value);
 }
 
 /* Stepping ------------------------------------------------------------------------------------ */

@@ -44,8 +44,10 @@ void *ck_handle_new(int kind, void *content) {
     for (i = first_free[kind]; i < SLOTS && slots[kind][i].content; i++) continue;
     first_free[kind] = i;
     if (i < SLOTS) {
-        uintptr_t next = slots[kind][i].generation + 1;
-        if (next > UINTPTR_MAX / (4u * SLOTS)) next = 1;
+        uintptr_t most = UINTPTR_MAX / (4u * SLOTS), next = slots[kind][i].generation + 1;
+        /* each library begins elsewhere, so that none takes a handle of another for its own */
+        if (next == 1) next += (uintptr_t)slots / 4096u % (most / 2u);
+        if (next > most) next = 1;
         STORE(slots[kind][i].generation, next);
         STORE(slots[kind][i].content, content);
         first_free[kind] = i + 1;

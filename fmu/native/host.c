@@ -41,7 +41,18 @@ int ck_category(const char *name) {
     if (strcmp(name, "logAll") == 0) return CK_LOG_ALL;
     if (strcmp(name, "logStatusError") == 0) return CK_LOG_ERROR;
     if (strcmp(name, "logStatusWarning") == 0) return CK_LOG_WARNING;
-    return strcmp(name, "logEvents") == 0 ? CK_LOG_EVENTS : 0;
+    if (strcmp(name, "logEvents") == 0) return CK_LOG_EVENTS;
+    return strcmp(name, "logCoupling") == 0 ? CK_LOG_COUPLING : 0;
+}
+
+/* Categories that are wanted once some, or all if none is named, are switched on or off. */
+int ck_wanted(int wanted, int on, size_t n, const char *const categories[]) {
+    size_t i;
+    if (n == 0) return on ? CK_LOG_ALL : 0;
+    if (on) wanted = 0; /* those named, and no other */
+    for (i = 0; i < n; i++)
+        wanted = on ? wanted | ck_category(categories[i]) : wanted & ~ck_category(categories[i]);
+    return wanted;
 }
 
 /* Hosts hand messages to printf. */

@@ -14,9 +14,15 @@ static const char *const NAMES[CK_VARIABLES] = {
     "h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "state", "limit", "t_break",
     "t_release", "F_peak", "n_break", "n_release",
     "m", "h0", "v0", "k_s", "h_rel", "h_min", "h_break", "eta", "gamma", "dp_cav",
-    "tau_lim", "rtol"};
+    "tau_lim", "rtol",
+    "c", "k", "F_mean", "coupling_error", "H_stable", "in_doubt", "n_doubt", "h_above", "h_below",
+    "m_ref", "exchange"};
 
 const char *ck_name(int id) { return NAMES[id]; }
+
+const ck_kind *ck_model_kind(const ck_model *model) {
+    return model->data.kind == CK_STICTION_FORCE ? &ck_stiction_force : &ck_stiction_mass;
+}
 
 int ck_model_fail(ck_model *model, const char *message) {
     if (!model->state.failed) { /* the first failure explains those that follow */
@@ -48,20 +54,22 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
 
 void ck_model_close(ck_model *model) {
     free(model->data.numbers);
-    model->data.numbers = NULL;
+    free(model->data.cells);
+    model->data.numbers = NULL, model->data.cells = NULL;
 }
 
 void ck_model_reset(ck_model *model) {
     int i;
     memset(&model->state, 0, sizeof model->state);
     model->state.checksum = model->data.checksum;
+    model->state.shown = 1;
     for (i = 0; i < model->data.port_count; i++)
         model->state.values[model->data.ports[i].id] = model->data.ports[i].start;
 }
 
 int ck_model_is_in(ck_model *model, int phase, const char *call) {
     static const char *const phases[] = {"instantiated", "in initialization", "stepping",
-                                         "terminated"};
+                                         "in event mode", "terminated"};
     char message[200];
     if (model->state.phase == phase) return 1;
     snprintf(message, sizeof message, "%s is for an FMU that is %s, this one is %s; reset it", call,
@@ -70,15 +78,16 @@ int ck_model_is_in(ck_model *model, int phase, const char *call) {
     return 0;
 }
 
-const ck_port *ck_model_port(ck_model *model, unsigned reference, int type, const char *call) {
+const ck_port *ck_model_port(ck_model *model, unsigned reference, int types, const char *call) {
+    const char *what = types & CK_REAL ? "a real" : types & CK_BOOLEAN ? "a boolean" : "an integer";
     char message[200];
     if (reference >= 1 && reference <= (unsigned)model->data.port_count &&
-        model->data.ports[reference - 1].type == type)
+        model->data.ports[reference - 1].type & types)
         return &model->data.ports[reference - 1];
     snprintf(message, sizeof message,
              "%s: value reference %u is not that of %s variable; reset the FMU and keep to the "
              "variables of its model description",
-             call, reference, type == CK_REAL ? "a real" : "an integer");
+             call, reference, what);
     ck_model_fail(model, message);
     return NULL;
 }
@@ -90,8 +99,8 @@ static int refuse(ck_model *model, const ck_port *port, double value, const char
     return ck_model_fail(model, message);
 }
 
-int ck_model_set(ck_model *model, unsigned reference, int type, double value) {
-    const ck_port *port = ck_model_port(model, reference, type, "set");
+int ck_model_set(ck_model *model, unsigned reference, int types, double value) {
+    const ck_port *port = ck_model_port(model, reference, types, "set");
     char expected[100];
     if (!port) return CK_ERROR;
     if (model->state.failed) return CK_ERROR;
@@ -99,30 +108,27 @@ int ck_model_set(ck_model *model, unsigned reference, int type, double value) {
         return refuse(model, port, value, "not be set, because it is an output");
     if (model->state.phase == CK_TERMINATED)
         return refuse(model, port, value, "not be set after the end");
-    if (port->causality == CK_PARAMETER && model->state.phase == CK_STEPPING)
+    if (port->causality == CK_PARAMETER && model->state.phase >= CK_STEPPING)
         return refuse(model, port, value, "be set before initialization ends");
     if (!(port->low <= value && value <= port->high)) { /* nan is not, either */
         snprintf(expected, sizeof expected, "lie between %.9g and %.9g", port->low, port->high);
         return refuse(model, port, value, expected);
     }
     model->state.values[port->id] = value;
-    if (port->causality == CK_PARAMETER || model->state.phase != CK_STEPPING)
-        model->state.stale = 1;
+    if (model->state.phase < CK_STEPPING) model->state.stale = 1;
+    else if (ck_model_kind(model)->follows) model->state.shown = 0;
     return CK_OK;
 }
 
-/* Put the parameters into the scene; the message says what is wrong with them. */
-static const char *apply(ck_model *model) {
+/* What both models take from their parameters; the message says what is wrong with them. */
+const char *ck_common_parameters(ck_model *model) {
     const double *v = model->state.values;
     ck_scene *scene = &model->scene;
     int i;
     *scene = model->data.scene;
-    if (v[CK_H_REL] <= v[CK_H0]) return "h_rel must exceed h0";
-    if (v[CK_H_MIN] > v[CK_H0]) return "h_min must not exceed h0";
+    scene->pauses = model->pauses;
     if (v[CK_H_BREAK] > 0.0 && v[CK_H_BREAK] <= v[CK_H0]) return "h_break must exceed h0, or be 0";
-    scene->mass = v[CK_M], scene->initial_gap = v[CK_H0], scene->initial_speed = v[CK_V0];
-    scene->stiffness = v[CK_K_S], scene->release_gap = v[CK_H_REL], scene->rest_gap = v[CK_H_MIN];
-    scene->rtol = v[CK_RTOL] > 1e-11 ? v[CK_RTOL] : 1e-11;
+    scene->initial_gap = v[CK_H0];
     scene->viscosity = v[CK_ETA], scene->surface_tension = v[CK_GAMMA];
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];
     for (i = 0; i < scene->film_count; i++) {
@@ -141,41 +147,48 @@ static const char *apply(ck_model *model) {
     return NULL;
 }
 
-static int show(ck_model *model, double pull) {
-    double *v = model->state.values;
-    const ck_motion *motion = &model->state.motion;
-    ck_acting acting;
-    ck_forces found;
-    ck_act(&model->scene, motion, &acting);
-    ck_forces_at(&acting, motion->gap, motion->speed, 0, &found);
-    if (!isfinite(found.fixed + found.viscous) || !isfinite(motion->work + motion->speed)) return 0;
-    v[CK_H] = motion->gap, v[CK_V] = motion->speed;
-    v[CK_F] = found.fixed + found.viscous, v[CK_F_M] = found.fixed, v[CK_F_V] = found.viscous;
-    v[CK_J] = motion->viscous_impulse, v[CK_J_M] = motion->fixed_impulse, v[CK_W] = motion->work;
-    v[CK_STATE] = ck_status(&model->scene, motion, &acting, &found, pull);
-    v[CK_LIMIT] = found.limit + 1;
-    v[CK_T_BREAK] = motion->break_time, v[CK_T_RELEASE] = motion->release_time;
-    v[CK_F_PEAK] = motion->peak_force;
-    v[CK_N_BREAK] = motion->breaks, v[CK_N_RELEASE] = motion->releases;
-    return 1;
-}
-
-/* Start the motion from the parameters. */
-static const char *prepare(ck_model *model) {
-    const char *problem = apply(model);
+/* Start from the parameters; the message says what is wrong with them. */
+const char *ck_model_prepare(ck_model *model) {
+    const ck_kind *kind = ck_model_kind(model);
+    const char *problem = kind->apply(model);
     model->state.stale = 0;
     if (problem) return problem;
-    ck_start(&model->scene, model->state.start_time, &model->state.motion);
-    return show(model, 0.0) ? NULL : "the forces at the start are no finite numbers";
+    kind->start(model);
+    if (!kind->show(model)) return "the forces at the start are no finite numbers";
+    model->state.shown = 1;
+    return NULL;
 }
 
-int ck_model_get(ck_model *model, unsigned reference, int type, double *value) {
-    const ck_port *port = ck_model_port(model, reference, type, "get");
-    if (!port) return CK_ERROR;
-    if (model->state.stale && !model->state.failed && model->state.phase == CK_INITIALIZATION) {
-        const char *problem = prepare(model); /* a tool may be half way through its parameters */
+static int show(ck_model *model) {
+    double seen[CK_HELD];
+    int fine;
+    ck_events_lift(model, seen);
+    fine = ck_model_kind(model)->show(model);
+    ck_events_hold(model, seen);
+    return fine;
+}
+
+/* Make the outputs that nobody has read yet. */
+void ck_model_follow(ck_model *model) {
+    ck_state *state = &model->state;
+    const ck_kind *kind = ck_model_kind(model);
+    if (state->stale) {
+        const char *problem = NULL;
+        if (!state->failed && state->phase == CK_INITIALIZATION) problem = ck_model_prepare(model);
+        /* a tool may be half way through its parameters */
         if (problem) model->say(model->host, CK_WARNING, "logStatusWarning", problem);
     }
+    if (state->shown || state->phase < CK_STEPPING || (state->failed && kind->follows)) return;
+    state->shown = 1;
+    if (!show(model))
+        ck_model_fail(model, "the forces there are no finite numbers; reset the FMU, or go back "
+                             "to an earlier state");
+}
+
+int ck_model_get(ck_model *model, unsigned reference, int types, double *value) {
+    const ck_port *port = ck_model_port(model, reference, types, "get");
+    if (!port) return CK_ERROR;
+    if (model->state.stale || !model->state.shown) ck_model_follow(model);
     *value = model->state.values[port->id];
     return CK_OK;
 }
@@ -192,49 +205,21 @@ int ck_model_initialize(ck_model *model) {
     const char *problem;
     if (!ck_model_is_in(model, CK_INITIALIZATION, "exitInitializationMode")) return CK_ERROR;
     if (model->state.failed) return CK_ERROR;
-    problem = prepare(model);
+    problem = ck_model_prepare(model);
     if (problem) {
         snprintf(message, sizeof message, "initialization: %s; reset the FMU, then set it so",
                  problem);
         return ck_model_fail(model, message);
     }
     model->state.phase = CK_STEPPING;
+    ck_events_note(model);
     return CK_OK;
-}
-
-static int no_step(ck_model *model, int trouble, const ck_motion *where) {
-    char message[400];
-    const char *cure = "loosen rtol";
-    if (where->gap < 1e-12)
-        cure = "the bodies are pressed together; give h_min [m], where asperities carry";
-    snprintf(message, sizeof message,
-             "%s from %.9g s, gap %.6g m, speed %.6g m/s; %s, then reset the FMU or go back to an "
-             "earlier state",
-             trouble == CK_NO_STEP ? "no step of time can be taken" : "too many internal steps led",
-             where->time, where->gap, where->speed, cure);
-    ck_model_fail(model, message);
-    return CK_DISCARD;
-}
-
-static void tell(ck_model *model, const ck_motion *before) {
-    const ck_motion *now = &model->state.motion;
-    char message[80];
-    if (now->releases > before->releases) {
-        snprintf(message, sizeof message, "released at t = %.9g s", now->release_time);
-        model->say(model->host, CK_OK, "logEvents", message);
-    }
-    if (now->breaks > before->breaks) {
-        snprintf(message, sizeof message, "film broke at t = %.9g s", now->break_time);
-        model->say(model->host, CK_OK, "logEvents", message);
-    }
 }
 
 int ck_model_step(ck_model *model, double time, double step) {
     ck_state *state = &model->state;
-    double nothing = ROUNDING * fmax(fabs(state->time), state->last_step);
-    ck_motion before = state->motion;
-    ck_pull pull;
-    int trouble;
+    double nothing = ROUNDING * ck_larger(fabs(state->time), state->last_step), seen[CK_HELD];
+    int status;
     if (state->failed || !ck_model_is_in(model, CK_STEPPING, "doStep")) return CK_DISCARD;
     if (!(fabs(time - state->time) <= nothing + 1e-6 * fabs(step) && isfinite(step)) ||
         step < -nothing) {
@@ -247,28 +232,34 @@ int ck_model_step(ck_model *model, double time, double step) {
         ck_model_fail(model, message);
         return CK_DISCARD;
     }
-    if (step <= nothing) return CK_OK; /* some masters end with a step of rounding size */
-    pull.force = state->values[CK_F_EXT], pull.time = time;
-    pull.rate = state->values[CK_DF_EXT] + state->rate;
-    state->motion.time = time;
-    trouble = ck_advance(&model->scene, &state->motion, &pull, step);
-    if (trouble || !show(model, ck_pull_at(&pull, time + step))) {
-        ck_motion where = state->motion;
-        state->motion = before;
-        return no_step(model, trouble ? trouble : CK_NO_STEP, &where);
+    if (state->event) {
+        ck_model_fail(model, "the last step ended with an event: enter event mode and update the "
+                             "discrete states before the next, or instantiate without event mode");
+        return CK_DISCARD;
     }
-    state->time = time + step, state->last_step = step, state->rate = 0.0;
-    tell(model, &before);
-    return CK_OK;
+    if (step <= nothing) return CK_OK; /* some masters end with a step of rounding size */
+    ck_events_lift(model, seen);
+    status = ck_model_kind(model)->step(model, time, step);
+    ck_events_hold(model, seen);
+    if (status != CK_OK) return status;
+    state->time = ck_model_pends(model) ? state->end : time + step;
+    state->last_step = step, state->rate = 0.0;
+    if (model->event_mode) {
+        ck_model_follow(model);
+        state->event = ck_events_lag(model);
+    }
+    return state->failed ? CK_DISCARD : CK_OK;
 }
 
 int ck_model_restore(ck_model *model, const ck_state *state) {
+    int count = model->data.scene.film_count;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
-        state->phase > CK_TERMINATED || state->motion.film < 0 ||
-        state->motion.film >= model->data.scene.film_count)
+        state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
+        state->memory.film < 0 || state->memory.film >= count)
         return ck_model_fail(model, "the FMU state is not one of this FMU; take it from this FMU, "
                                     "and keep its bytes unchanged");
     model->state = *state;
-    if (state->phase >= CK_STEPPING) apply(model);
+    if (state->phase >= CK_STEPPING) ck_model_kind(model)->apply(model);
+    ck_events_skip(model);
     return CK_OK;
 }

@@ -18,22 +18,21 @@ void ck_start(const ck_scene *scene, double time, ck_motion *state) {
     state->break_time = state->release_time = state->peak_time = -1.0;
 }
 
-/* What acts in a state: all, or what a broken film and parted solids leave. */
-void ck_act(const ck_scene *scene, const ck_motion *state, ck_acting *acting) {
-    const ck_film *film = &scene->films[state->film];
+/* What acts: all, or what a broken film and parted solids leave. */
+void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting) {
+    const ck_film *film = &scene->films[number];
     int i;
     acting->film = film;
     acting->any = 0;
     acting->release = HUGE_VAL;
     for (i = 0; i < film->count; i++) {
         const ck_law *law = &film->laws[i];
-        acting->acts[i] = !(state->broken && law->needs_film) &&
-                          !(state->detached && law->release < HUGE_VAL);
+        acting->acts[i] = !(broken && law->needs_film) && !(detached && law->release < HUGE_VAL);
         acting->any |= acting->acts[i];
         if (acting->acts[i] && law->release < acting->release) acting->release = law->release;
     }
-    acting->end = state->broken ? HUGE_VAL : scene->ends[state->film];
-    acting->limited = !state->broken && (scene->tension > 0.0 || scene->strength > 0.0);
+    acting->end = broken ? HUGE_VAL : scene->ends[number];
+    acting->limited = !broken && (scene->tension > 0.0 || scene->strength > 0.0);
     acting->is_sphere = scene->is_sphere;
     acting->reynolds = scene->reynolds;
     acting->viscosity = scene->viscosity;
@@ -59,7 +58,7 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     ck_acting acting;
     double holding = scene->stiffness * (state->gap - scene->initial_gap), film, low = state->time;
     double leave = end, elapsed;
-    ck_act(scene, state, &acting);
+    ck_act(scene, state->film, state->broken, state->detached, &acting);
     film = ck_fixed_force(&acting, state->gap);
     if (ck_pull_at(pull, low) - holding - film > 0.0) {
         leave = low;
@@ -78,31 +77,26 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     state->fixed_impulse += elapsed * film;
 }
 
-/* Exponent n of the viscous force, which falls as gap^-n. */
-static double exponent_of(double gap, const ck_forces *forces) {
-    double found;
-    if (!(forces->resistance > 0.0)) return 0.0;
-    found = -gap * forces->resistance_by_gap / forces->resistance;
-    if (fabs(found - 3.0) < 1e-6) return 3.0; /* where q has a root in place of a power */
-    if (fabs(found - 5.0) < 1e-6) return 5.0;
-    return found > 0.0 ? (found < 5.0 ? found : 5.0) : 0.0;
-}
-
 static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
                  const ck_pull *pull, ck_problem *p, ck_forces *first) {
     double drive = ck_pull_at(pull, state->time), spring, crossing;
-    ck_forces_at(acting, state->gap, state->speed, 1, first);
+    if (state->known) {
+        *first = state->here;
+        p->exponent = state->exponent;
+    } else {
+        ck_forces_at(acting, state->gap, state->speed, first);
+        p->exponent = ck_film_exponent(state->gap, first);
+    }
     spring = scene->stiffness * (state->gap - scene->initial_gap);
     p->acting = acting;
     p->pull = *pull;
     p->mass = scene->mass, p->spring = scene->stiffness, p->rest = scene->initial_gap;
     p->rtol = scene->rtol;
     p->begin.time = state->time, p->begin.gap = state->gap, p->begin.speed = state->speed;
-    p->exponent = exponent_of(state->gap, first);
     p->size = fabs(drive) + fabs(first->fixed) + fabs(spring) + 1e-300;
     p->delivered = state->given_impulse + scene->mass * fabs(state->speed);
     crossing = state->gap / (state->step > 0.0 ? state->step : 1e-6);
-    p->scale = first->resistance > 0.0 ? fmax(p->size / first->resistance, 1e-15 * crossing)
+    p->scale = first->resistance > 0.0 ? ck_larger(p->size / first->resistance, 1e-15 * crossing)
                                        : crossing;
     p->net = drive - spring - first->fixed - first->viscous;
     p->net_by_gap = -scene->stiffness - first->fixed_by_gap - first->viscous_by_gap;
@@ -114,13 +108,7 @@ static double first_step(const ck_problem *p, double left) {
     double acceleration = fabs(p->net) / p->mass, still = left, moving = left;
     if (acceleration > 0.0) still = sqrt(2e-3 * p->begin.gap / acceleration);
     if (p->begin.speed != 0.0) moving = 1e-3 * p->begin.gap / fabs(p->begin.speed);
-    return fmin(fmin(still, moving), left);
-}
-
-static int limit_at(const ck_acting *acting, const ck_point *at) {
-    ck_forces found;
-    ck_forces_at(acting, at->gap, at->speed, 0, &found);
-    return found.limit;
+    return ck_smaller(ck_smaller(still, moving), left);
 }
 
 /* Error of a step over its tolerance, with what the estimate inside the step cannot see. */
@@ -137,24 +125,24 @@ static double judge(const ck_scene *scene, const ck_motion *state, const ck_pull
         return 16.0; /* a hop that begins and ends at the rest gap: there is no crossing to cut */
     if (!p->acting->limited || !p->acting->any) return error;
     /* Where a limit sets in or lets go, the slope of the force jumps: compare with two halves. */
-    if (limit_at(p->acting, &taken->stages[0]) == limit &&
-        limit_at(p->acting, &taken->stages[1]) == limit && limit_at(p->acting, end) == limit)
+    if (taken->forces[0].limit == limit && taken->forces[1].limit == limit &&
+        taken->forces[2].limit == limit)
         return error;
     if (!ck_attempt(p, 0.5 * length, &half)) return 16.0;
     there = *state;
     there.time = half.stages[2].time, there.gap = half.stages[2].gap;
-    there.speed = half.stages[2].speed;
+    there.speed = half.stages[2].speed, there.known = 0;
     pose(scene, p->acting, &there, pull, &second, &ignored);
     if (!ck_attempt(&second, 0.5 * length, &again)) return 16.0;
     half = *taken;
     half.gap_error = fabs(log(again.stages[2].gap / end->gap));
     half.speed_error = fabs(again.stages[2].speed - end->speed);
-    return fmax(error, ck_error(p, &half, length));
+    return ck_larger(error, ck_error(p, &half, length));
 }
 
 /* Gap below which the bodies count as closed again, so that the next release is a new one. */
 static double closed_gap(const ck_scene *scene) {
-    return fmin(2.0 * scene->initial_gap, 0.5 * (scene->initial_gap + scene->release_gap));
+    return ck_smaller(2.0 * scene->initial_gap, 0.5 * (scene->initial_gap + scene->release_gap));
 }
 
 typedef struct {
@@ -216,12 +204,11 @@ static void accumulate(const ck_problem *p, const ck_forces *first, const ck_ste
     double viscous[3], total[3], viscous_mean = 0.0, fixed_mean = 0.0, where, value;
     int i;
     for (i = 0; p->acting->any && i < 3; i++) {
-        ck_forces found;
-        ck_forces_at(p->acting, taken->stages[i].gap, taken->stages[i].speed, 0, &found);
-        viscous[i] = found.viscous;
-        total[i] = found.viscous + found.fixed;
-        viscous_mean += ck_weights[i] * found.viscous;
-        fixed_mean += ck_weights[i] * found.fixed;
+        const ck_forces *found = &taken->forces[i];
+        viscous[i] = found->viscous;
+        total[i] = found->viscous + found->fixed;
+        viscous_mean += ck_weights[i] * found->viscous;
+        fixed_mean += ck_weights[i] * found->fixed;
     }
     if (p->acting->any) {
         state->work += ck_travel_integral(&p->begin, taken, first->viscous, viscous);
@@ -237,6 +224,21 @@ static void accumulate(const ck_problem *p, const ck_forces *first, const ck_ste
     state->viscous_impulse += length * viscous_mean;
     state->fixed_impulse += length * fixed_mean;
     state->given_impulse += length * p->size;
+    state->steps++;
+    state->rounds += taken->rounds;
+    state->here = taken->forces[2], state->exponent = taken->film_exponent;
+    state->known = 1;
+}
+
+void ck_resolve(const ck_scene *scene, ck_motion *state) {
+    if (state->pending == CK_RUPTURE) {
+        state->broken = 1;
+        state->break_time = state->time;
+        state->breaks++;
+    } else if (state->pending == CK_REWETTING) {
+        state->broken = 0, state->film = scene->film_count - 1;
+    }
+    state->pending = CK_NONE;
 }
 
 /* Apply what happens at a mark: release, rupture, rest or re-wetting. */
@@ -248,20 +250,15 @@ static void happen(const ck_scene *scene, const ck_acting *acting, ck_motion *st
         state->release_time = state->time;
         state->release_speed = state->speed;
         state->releases++;
-        return;
     }
-    if (rising && acting->any && mark == acting->end) {
-        state->broken = 1;
-        state->break_time = state->time;
-        state->breaks++;
-    }
+    if (rising && acting->any && mark == acting->end) state->pending = CK_RUPTURE;
     if (rising && acting->any && mark == acting->release) state->detached = 1;
     if (rising) return;
     if (mark <= closed_gap(scene)) state->armed = 1;
     if (mark <= scene->rejoin) state->detached = 0;
     if (mark > scene->initial_gap) return;
     if (state->broken && scene->rewetting > 0.0 && scene->ends[next] > mark)
-        state->broken = 0, state->film = next;
+        state->pending = CK_REWETTING;
     if (mark == scene->rest_gap) state->held = 1, state->speed = 0.0;
 }
 
@@ -275,41 +272,43 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     int rejected = 0;
     if (state->gap < NOTHING) return CK_NO_STEP;
     if (state->speed < 0.0 && state->gap <= scene->rest_gap * (1.0 + SAME)) {
-        state->held = 1, state->gap = scene->rest_gap, state->speed = 0.0;
+        state->held = 1, state->gap = scene->rest_gap, state->speed = 0.0, state->known = 0;
         return CK_DONE;
     }
-    ck_act(scene, state, &acting);
+    ck_act(scene, state->film, state->broken, state->detached, &acting);
     pose(scene, &acting, state, pull, &p, &first);
     asked = state->step > 0.0 ? state->step : first_step(&p, left);
-    length = fmin(asked, left);
+    length = ck_smaller(asked, left);
     for (;;) {
         error = HUGE_VAL;
         if (ck_attempt(&p, length, &taken))
             error = judge(scene, state, pull, &p, first.limit, &taken, length);
         if (error <= 1.0) break;
         rejected++;
-        length *= error < HUGE_VAL ? fmax(0.1, 0.9 * pow(error, -0.25)) : 0.25;
-        if (!(length >= 1e-15 * fmax(fabs(state->time), 1e-15)) || rejected > 60) return CK_NO_STEP;
+        length *= error < HUGE_VAL ? ck_larger(0.1, 0.9 * pow(error, -0.25)) : 0.25;
+        if (!(length >= 1e-15 * ck_larger(fabs(state->time), 1e-15)) || rejected > 60) return CK_NO_STEP;
     }
-    following = length * fmin(8.0, 0.9 / sqrt(sqrt(fmax(error, 1e-12))));
-    if (!rejected && length < state->step) following = fmax(following, state->step);
+    following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
+    if (!rejected && length < state->step) following = ck_larger(following, state->step);
     mark = first_mark(scene, &acting, state, taken.stages[2].gap);
     if (mark >= 0.0) length = locate(&p, length, mark, &taken);
     accumulate(&p, &first, &taken, length, state);
     state->step = following;
-    if (mark >= 0.0) happen(scene, &acting, state, mark);
+    if (mark >= 0.0) happen(scene, &acting, state, mark), state->known = 0;
+    if (state->pending && !scene->pauses) ck_resolve(scene, state);
     return CK_DONE;
 }
 
-/* Advance by a time under a pull, however stiff the film. */
+/* Advance by a time under a pull, however stiff the film; less if the motion pauses. */
 int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt) {
     double end = state->time + dt;
     int i;
     for (i = 0; i <= scene->max_steps; i++) {
-        if (end - state->time <= 1e-13 * fmax(fabs(end), dt)) {
+        if (end - state->time <= 1e-13 * ck_larger(fabs(end), dt)) {
             state->time = end;
             return CK_DONE;
         }
+        if (state->pending) return CK_DONE;
         if (state->held) {
             rest_once(scene, state, pull, end);
         } else {

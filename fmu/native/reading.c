@@ -4,24 +4,21 @@
 
 #include <math.h>
 
+#define SHORT 1e-2 /* change of the coordinate up to which the quadrature of the method does */
+
 /* Coefficients of a + b x + c x^2 + d x^3 through the start and the stages. */
 static void cubic(double first, const double stages[3], double found[4]) {
-    double x[4], f[4], d1[3], d2[2];
-    int i;
-    x[0] = 0.0, f[0] = first;
-    for (i = 0; i < 3; i++) x[i + 1] = ck_nodes[i], f[i + 1] = stages[i];
-    for (i = 0; i < 3; i++) d1[i] = (f[i + 1] - f[i]) / (x[i + 1] - x[i]);
-    for (i = 0; i < 2; i++) d2[i] = (d1[i + 1] - d1[i]) / (x[i + 2] - x[i]);
-    found[3] = (d2[1] - d2[0]) / x[3];
-    found[2] = d2[0] - found[3] * (x[0] + x[1] + x[2]);
-    found[1] = d1[0] - d2[0] * (x[0] + x[1]) + found[3] * (x[0] * x[1] + x[0] * x[2] + x[1] * x[2]);
-    found[0] = f[0];
+    double a = stages[0] - first, b = stages[1] - first, c = stages[2] - first;
+    found[0] = first;
+    found[1] = 10.0488093998274155625 * a - 1.38214273316074889579 * b + c / 3.0;
+    found[2] = -25.6295914470766393868 * a + 10.2962581137433060534 * b - 8.0 / 3.0 * c;
+    found[3] = 15.5807820472492238243 * a - 8.91411538058255715765 * b + 10.0 / 3.0 * c;
 }
 
 /* Whether a stiff film came up to its force at once, in a transient the step strode over. */
 static int jumps(double first, const double stages[3]) {
-    double high = fmax(fmax(first, stages[0]), fmax(stages[1], stages[2]));
-    double low = fmin(fmin(first, stages[0]), fmin(stages[1], stages[2]));
+    double high = ck_larger(ck_larger(first, stages[0]), ck_larger(stages[1], stages[2]));
+    double low = -ck_larger(ck_larger(-first, -stages[0]), ck_larger(-stages[1], -stages[2]));
     return stages[0] - first > 0.9 * (high - low);
 }
 
@@ -54,6 +51,14 @@ double ck_highest(double first, const double stages[3], double *where) {
     return value;
 }
 
+/* Integral of a force over the time of the stages, by the quadrature of the method. */
+static double by_stages(const ck_point *start, const ck_step *taken, const double values[3]) {
+    double dt = taken->stages[2].time - start->time, total = 0.0;
+    int i;
+    for (i = 0; i < 3; i++) total += ck_weights[i] * values[i] * taken->stages[i].speed;
+    return dt * total;
+}
+
 /* Integral of a force over the travel of a step; force and coordinate are cubics in time. */
 double ck_travel_integral(const ck_point *start, const ck_step *taken, double first,
                           const double values[3]) {
@@ -64,22 +69,18 @@ double ck_travel_integral(const ck_point *start, const ck_step *taken, double fi
                                      0.17132449237917034504};
     double f[4], q[4], total = 0.0;
     int i;
+    if (fabs(taken->coordinates[2]) < SHORT) return by_stages(start, taken, values);
     if (jumps(first, values)) {
         /* The jump takes no time: begin where the stages, as a parabola, say it ended. */
-        double a = ck_nodes[0], b = ck_nodes[1], c = ck_nodes[2];
-        first = values[0] * b * c / ((a - b) * (a - c)) + values[1] * a * c / ((b - a) * (b - c)) +
-                values[2] * a * b / ((c - a) * (c - b));
+        first = 1.55807820472492238243 * values[0] - 0.891411538058255715765 * values[1] +
+                values[2] / 3.0;
     }
     cubic(first, values, f);
     cubic(0.0, taken->coordinates, q);
     for (i = 0; i < 6; i++) {
         double x = 0.5 + (i < 3 ? -0.5 : 0.5) * node[i % 3], where[3], rate;
-        if (!ck_coordinate(start->gap, taken->exponent, ((q[3] * x + q[2]) * x + q[1]) * x, where)) {
-            double dt = taken->stages[2].time - start->time; /* the cubic overshoots */
-            total = 0.0;
-            for (i = 0; i < 3; i++) total += ck_weights[i] * values[i] * taken->stages[i].speed;
-            return dt * total;
-        }
+        if (!ck_coordinate(start->gap, taken->exponent, ((q[3] * x + q[2]) * x + q[1]) * x, where))
+            return by_stages(start, taken, values); /* the cubic overshoots */
         rate = (3.0 * q[3] * x + 2.0 * q[2]) * x + q[1];
         total += 0.5 * weight[i % 3] * (((f[3] * x + f[2]) * x + f[1]) * x + f[0]) * where[1] * rate;
     }

@@ -70,10 +70,12 @@ int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state)
     ck_state content;
     uint64_t sum;
     if (!from || !state || size < SIZE || memcmp(from, "CKSTATE1", 8) != 0)
-        return ck_model_fail(model, "deSerializeFMUstate: these are no bytes of an FMU state");
+        return ck_model_fail(model, "deSerializeFMUstate: these are no bytes of an FMU state; give those that "
+                                    "serializeFMUstate wrote, unchanged");
     memcpy(&sum, from + 8, 8);
     memcpy(&content, from + HEAD, sizeof content);
     if (sum != ck_checksum(&content, sizeof content))
-        return ck_model_fail(model, "deSerializeFMUstate: the bytes were changed");
+        return ck_model_fail(model, "deSerializeFMUstate: the bytes were changed; give those that "
+                                    "serializeFMUstate wrote");
     return keep(model, &content, state);
 }

@@ -1,4 +1,9 @@
-/* The stages of a step and the estimate of its error. */
+/* The stages of a step and the estimate of its error.
+
+   The forces are asked for as seldom as the accuracy allows, as that is what a step costs: the
+   stages are first found with the forces at the start and their slopes, which are known, and one
+   iteration with forces at the stages does for a short step. Forces at stages that moved once
+   more, by no more than what the iteration is allowed to leave, follow by their slopes. */
 
 #include "step.h"
 
@@ -6,6 +11,8 @@
 
 #define R6 2.449489742783178098197284
 #define MOST_ITERATIONS 12
+#define LINEAR 1e-4 /* relative change over which the slopes at the start are good enough */
+#define FAR 0.5     /* change of the coordinate over which they are no guess any more */
 
 const double ck_nodes[3] = {(4.0 - R6) / 10.0, (4.0 + R6) / 10.0, 1.0};
 const double ck_weights[3] = {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0};
@@ -20,6 +27,7 @@ static const double E[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, 
 typedef struct {
     double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
     ck_point at;
+    ck_forces forces;
     double net, by_gap, by_speed;
 } stage;
 
@@ -43,16 +51,36 @@ int ck_coordinate(double gap, double s, double q, double found[3]) {
     return 1;
 }
 
-/* Net force on the mass and its slopes, where asked for. */
-double ck_net(const ck_problem *p, const ck_point *at, double *by_gap, double *by_speed) {
-    ck_forces found;
-    ck_forces_at(p->acting, at->gap, at->speed, by_gap != NULL, &found);
-    if (by_gap) {
-        *by_gap = -p->spring - found.fixed_by_gap - found.viscous_by_gap;
-        *by_speed = -found.viscous_by_speed;
-    }
+/* Exponent n of the viscous force, which falls as gap^-n. */
+double ck_film_exponent(double gap, const ck_forces *forces) {
+    double found;
+    if (!(forces->resistance > 0.0)) return 0.0;
+    found = -gap * forces->resistance_by_gap / forces->resistance;
+    if (fabs(found - 3.0) < 1e-6) return 3.0; /* where q has a root in place of a power */
+    if (fabs(found - 5.0) < 1e-6) return 5.0;
+    return found > 0.0 ? (found < 5.0 ? found : 5.0) : 0.0;
+}
+
+static double net_of(const ck_problem *p, const ck_point *at, const ck_forces *forces) {
     return ck_pull_at(&p->pull, at->time) - p->spring * (at->gap - p->rest) -
-           (found.viscous + found.fixed);
+           (forces->viscous + forces->fixed);
+}
+
+/* Net force on the mass at a stage, and its slopes. */
+static void evaluate(const ck_problem *p, stage *one) {
+    ck_forces_at(p->acting, one->at.gap, one->at.speed, &one->forces);
+    one->by_gap = -p->spring - one->forces.fixed_by_gap - one->forces.viscous_by_gap;
+    one->by_speed = -one->forces.viscous_by_speed;
+    one->net = net_of(p, &one->at, &one->forces);
+}
+
+/* Forces a little way off, by their slopes. */
+static void carry(ck_forces *f, const ck_point *from, const ck_point *to) {
+    double dh = to->gap - from->gap;
+    f->fixed += f->fixed_by_gap * dh;
+    f->resistance += f->resistance_by_gap * dh;
+    if (f->limit) f->viscous += f->viscous_by_gap * dh + f->viscous_by_speed * (to->speed - from->speed);
+    else f->viscous = f->resistance * to->speed;
 }
 
 /* Solve a 3 by 3 system by Cramer's rule; 0 if it is singular. */
@@ -136,7 +164,21 @@ static void estimate(const ck_problem *p, double g, double s, double rate, doubl
     error[1] = (j21 * a + (g - j11) * b) / det;
 }
 
-static int finish(const ck_problem *p, double dt, double s, const double rates[3], ck_step *taken) {
+/* Net force where the first estimate leads; only far off it is asked for. */
+static double net_near(const ck_problem *p, double gap, double speed) {
+    double dh = gap - p->begin.gap, dv = speed - p->begin.speed;
+    ck_point there;
+    ck_forces found;
+    if (fabs(dh) <= LINEAR * p->begin.gap && (!p->acting->limited || fabs(dv) <= LINEAR * fabs(speed)))
+        return p->net + p->net_by_gap * dh + p->net_by_speed * dv;
+    there.time = p->begin.time, there.gap = gap, there.speed = speed;
+    ck_forces_at(p->acting, gap, speed, &found);
+    return net_of(p, &there, &found);
+}
+
+/* Estimate the error of stages that are found. `were` is where the forces were asked for. */
+static int finish(const ck_problem *p, double dt, double s, const double rates[3],
+                  const stage were[3], ck_step *taken) {
     stage at[3];
     double z[2] = {0.0, 0.0}, error[2], where[3], h0 = p->begin.gap, v0 = p->begin.speed;
     int i;
@@ -146,14 +188,15 @@ static int finish(const ck_problem *p, double dt, double s, const double rates[3
         z[1] += E[i] * (at[i].at.speed - v0) / dt;
         taken->stages[i] = at[i].at;
         taken->coordinates[i] = at[i].q;
+        taken->forces[i] = were[i].forces;
+        carry(&taken->forces[i], &were[i].at, &at[i].at);
     }
+    taken->film_exponent = ck_film_exponent(were[2].at.gap, &were[2].forces);
     estimate(p, GAMMA0 / dt, s, v0 / h0, p->net / p->mass, z, error);
     if (ck_coordinate(h0, s, error[0], where) && where[0] > 0.0 && isfinite(where[0] + error[1])) {
         /* The second estimate, from where the first one leads, ignores what decays at once. */
-        ck_point there;
-        there.time = p->begin.time, there.gap = where[0], there.speed = v0 + error[1];
-        estimate(p, GAMMA0 / dt, s, there.speed / where[1],
-                 ck_net(p, &there, NULL, NULL) / p->mass, z, error);
+        double speed = v0 + error[1];
+        estimate(p, GAMMA0 / dt, s, speed / where[1], net_near(p, where[0], speed) / p->mass, z, error);
     }
     taken->exponent = s;
     taken->gap_error = fabs(error[0]);
@@ -161,13 +204,40 @@ static int finish(const ck_problem *p, double dt, double s, const double rates[3
     return isfinite(error[0]) && isfinite(error[1]);
 }
 
+/* First guess of the rates: the stages of the problem that is linear at the start. Returns how far
+   it went, relatively; 0 if it is too far to be any good, and the rate at the start is the guess. */
+static double guess(const ck_problem *p, double dt, double s, double floor, double rates[3]) {
+    double h0 = p->begin.gap, v0 = p->begin.speed, first = v0 / h0, swing = (1.0 + s) * v0;
+    double residual[3], matrix[3][3], change[3], reach = 0.0, size;
+    stage at[3];
+    int i;
+    for (i = 0; i < 3; i++) {
+        double dq = ck_nodes[i] * dt * first, dv = swing * dq;
+        at[i].first = h0, at[i].swing = swing;
+        at[i].at.speed = v0 + dv;
+        at[i].by_gap = p->net_by_gap, at[i].by_speed = p->net_by_speed;
+        at[i].net = p->net + p->pull.rate * ck_nodes[i] * dt + p->net_by_gap * h0 * dq +
+                    p->net_by_speed * dv;
+    }
+    rates[0] = rates[1] = rates[2] = first;
+    build(p, dt, at, residual, matrix);
+    if (!solve3(matrix, residual, change)) return 0.0;
+    for (i = 0; i < 3; i++) reach = ck_larger(reach, dt * fabs(first - change[i]));
+    if (!(reach < FAR)) return 0.0;
+    for (i = 0; i < 3; i++) rates[i] = first - change[i];
+    size = largest(change) / (largest(rates) + floor);
+    return size + reach;
+}
+
 /* Try a step; in terms of the viscous impulse where the film rules, else of the gap. 0 if the
    stages cannot be solved and a smaller step is to be tried. */
 int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
     int rules = -p->net_by_speed * dt > p->mass && p->exponent > 0.0, iteration, i;
-    double s = rules ? p->exponent - 1.0 : -1.0, size = HUGE_VAL, rates[3];
+    double s = rules ? p->exponent - 1.0 : -1.0, size, rates[3];
     double floor = p->scale / p->begin.gap < 1e-6 / dt ? p->scale / p->begin.gap : 1e-6 / dt;
-    rates[0] = rates[1] = rates[2] = p->begin.speed / p->begin.gap;
+    int known;
+    size = guess(p, dt, s, floor, rates);
+    known = size > 0.0;
     for (iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         stage at[3];
         double residual[3], matrix[3][3], change[3], previous = size;
@@ -175,7 +245,7 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
         int met, stalled;
         if (!place_stages(p, dt, s, rates, at)) return 0;
         for (i = 0; i < 3; i++) {
-            at[i].net = ck_net(p, &at[i].at, &at[i].by_gap, &at[i].by_speed);
+            evaluate(p, &at[i]);
             if (!isfinite(at[i].net)) return 0;
         }
         build(p, dt, at, residual, matrix);
@@ -183,11 +253,18 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
         for (i = 0; i < 3; i++) rates[i] -= change[i];
         size = largest(change) / (largest(rates) + floor);
         if (isnan(size)) return 0;
-        if (iteration > 0 && size < previous) sure = size / previous;
+        if (known && size < previous) {
+            /* Where forces are smooth the iteration converges with its square. */
+            sure = size / previous;
+            if (!p->acting->limited && sure < 0.1) sure *= 10.0 * sure;
+        }
+        known = 1;
         met = sure * size <= 0.03 * p->rtol && is_small(p, dt, at, residual, p->rtol / sure);
         stalled = iteration > 1 && size < 1e-6 && size >= previous; /* at rounding */
-        if (met || (stalled && is_small(p, dt, at, residual, 1e-7)))
-            return finish(p, dt, s, rates, taken);
+        if (met || (stalled && is_small(p, dt, at, residual, 1e-7))) {
+            taken->rounds = iteration + 1;
+            return finish(p, dt, s, rates, at, taken);
+        }
         if (iteration > 5 && size > previous) return 0;
     }
     return 0;
@@ -198,9 +275,10 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
 double ck_error(const ck_problem *p, const ck_step *taken, double length) {
     double end = fabs(taken->stages[2].speed), wrong, speed;
     double momentum = p->mass * end + p->delivered + p->size * length, worst;
-    wrong = fmax(p->mass * taken->speed_error, -p->net_by_speed * p->begin.gap * taken->gap_error);
+    wrong = ck_larger(p->mass * taken->speed_error,
+                      -p->net_by_speed * p->begin.gap * taken->gap_error);
     /* A mass that the film leads has no momentum to speak of; its speed is still asked for. */
     speed = taken->speed_error / (end + p->scale);
-    worst = fmax(taken->gap_error, wrong / momentum);
-    return fmax(worst, 0.1 * speed) / p->rtol;
+    worst = ck_larger(taken->gap_error, wrong / momentum);
+    return ck_larger(worst, 0.1 * speed) / p->rtol;
 }

@@ -20,7 +20,7 @@
 #define EACH(DO)                                                                                 \
     DO(Instantiate) DO(FreeInstance) DO(SetupExperiment) DO(EnterInitializationMode)             \
     DO(ExitInitializationMode) DO(Terminate) DO(Reset) DO(GetReal) DO(GetInteger) DO(SetReal)    \
-    DO(SetInteger) DO(GetString) DO(SetBoolean) DO(GetFMUstate) DO(SetFMUstate) DO(FreeFMUstate) \
+    DO(SetInteger) DO(GetString) DO(GetBoolean) DO(SetBoolean) DO(GetFMUstate) DO(SetFMUstate) DO(FreeFMUstate) \
     DO(SerializedFMUstateSize) DO(SerializeFMUstate) DO(DeSerializeFMUstate) DO(DoStep)          \
     DO(CancelStep) DO(SetDebugLogging) DO(GetDirectionalDerivative) DO(SetRealInputDerivatives)  \
     DO(GetRealOutputDerivatives) DO(GetStatus) DO(GetRealStatus) DO(GetBooleanStatus)            \
@@ -105,7 +105,7 @@ static void torment(fmi2Component c) {
         GetReal(c, &wild[i], 1, &value);
         GetInteger(c, &wild[i], 1, &whole);
         SetInteger(c, &wild[i], 1, &whole);
-        SetBoolean(c, &wild[i], 1, &yes);
+        SetBoolean(c, &wild[i], 1, &yes), GetBoolean(c, &wild[i], 1, &yes);
         GetString(c, &wild[i], 1, &text);
         for (k = 0; k < 6; k++) {
             SetReal(c, &wild[i], 1, &odd[k]);
@@ -116,7 +116,7 @@ static void torment(fmi2Component c) {
         }
     }
     GetReal(c, NULL, 3, NULL), SetReal(c, NULL, 3, NULL), GetInteger(c, NULL, 1, NULL);
-    SetRealInputDerivatives(c, NULL, 1, NULL, NULL), SetDebugLogging(c, 1, 2, NULL);
+    GetBoolean(c, NULL, 1, NULL), SetRealInputDerivatives(c, NULL, 1, NULL, NULL), SetDebugLogging(c, 1, 2, NULL);
     GetRealOutputDerivatives(c, NULL, 0, NULL, NULL), CancelStep(c);
     GetStatus(c, fmi2DoStepStatus, &status), GetRealStatus(c, fmi2LastSuccessfulTime, NULL);
     GetBooleanStatus(c, fmi2Terminated, NULL), GetIntegerStatus(c, fmi2DoStepStatus, NULL);

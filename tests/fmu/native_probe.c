@@ -12,7 +12,6 @@
 int main(int count, char **words) {
     static ck_data data;
     static ck_scene scene;
-    ck_motion motion;
     ck_acting acting;
     double gap, speed;
     char path[1000];
@@ -30,11 +29,10 @@ int main(int count, char **words) {
     scene.tension = atof(words[4]), scene.strength = atof(words[5]);
     scene.initial_gap = 1.0;
     scene.ends[0] = scene.films[0].end;
-    ck_start(&scene, 0.0, &motion);
-    ck_act(&scene, &motion, &acting);
+    ck_act(&scene, 0, 0, 0, &acting);
     while (scanf("%lf %lf", &gap, &speed) == 2) {
         ck_forces f;
-        ck_forces_at(&acting, gap, speed, 1, &f);
+        ck_forces_at(&acting, gap, speed, &f);
         printf("%.17g %.17g %.17g %.17g %.17g %d\n", f.fixed, f.fixed_by_gap, f.viscous,
                f.viscous_by_gap, f.viscous_by_speed, f.limit);
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -48,17 +49,27 @@ def unpacked(fmu, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
+def unpacked_film(tmp_path_factory):
+    """The film alone, of the same scene."""
+    folder = tmp_path_factory.mktemp("film")
+    path = build_native(SCENES["drop"], folder / "x.fmu", model="stiction-force", **ONE)
+    with zipfile.ZipFile(path) as packed:
+        packed.extractall(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
 def host(unpacked, tmp_path_factory):
     """A host in C, called with the words that follow library, folder and GUID."""
     out = tmp_path_factory.mktemp("host") / "host"
     compile_c([HERE / "native_host.c"], out, f"-I{unpacked / 'sources'}")
 
-    def run(*words, library=None, program=out):
-        library = library or next((unpacked / "binaries" / PLATFORMS[local()].fmi2).iterdir())
-        text = (unpacked / "modelDescription.xml").read_text()
+    def run(*words, library=None, program=out, folder=unpacked):
+        library = library or next((folder / "binaries" / PLATFORMS[local()].fmi2).iterdir())
+        text = (folder / "modelDescription.xml").read_text()
         guid = re.search('guid="([^"]*)"', text)[1]
         found = subprocess.run(
-            [str(program), str(library), (unpacked / "resources").as_uri(), guid, *words],
+            [str(program), str(library), (folder / "resources").as_uri(), guid, *words],
             capture_output=True, text=True, check=False, timeout=100,
         )  # fmt: skip
         assert found.returncode == 0, found.stderr
@@ -80,13 +91,48 @@ def test_it_holds_what_it_is_made_of(unpacked):
     assert "Python interpreter" not in page
 
 
-def test_rebuild_is_byte_identical(fmu, tmp_path):
+def test_rebuild_is_byte_identical(fmu, unpacked, tmp_path):
     again = build_native(SCENES["drop"], tmp_path / "again.fmu", **ONE)
     assert again.read_bytes() == fmu.read_bytes()
-    for i in (1, 2):
-        sources = write_sources(tmp_path / f"folder {i}")
-        compile_kernel(sources, local(), tmp_path / f"library {i}", "cc")
-    assert (tmp_path / "library 1").read_bytes() == (tmp_path / "library 2").read_bytes()
+    compile_kernel(write_sources(tmp_path / "another folder"), local(), tmp_path / "library", "cc")
+    library = next(unpacked.glob("binaries/*/*"))
+    assert (tmp_path / "library").read_bytes() == library.read_bytes()
+
+
+def release_of(folder):
+    """Release under 40 N, of an FMU in a folder."""
+    description = fmpy.read_model_description(str(folder))
+    found = fmpy.simulate_fmu(
+        str(folder), model_description=description, start_values={"F_ext": 40.0},
+        stop_time=0.02, output_interval=1e-3, output=["t_release", "J"],
+    )  # fmt: skip
+    return found["t_release"][-1], found["J"][-1]
+
+
+def test_the_sources_inside_are_all_it_takes(fmu, tmp_path):
+    """Those the description names, compiled with nothing but what lies beside them."""
+    folder = tmp_path / "x"
+    fmpy.extract(str(fmu), str(folder))
+    before, library = release_of(folder), next(folder.glob("binaries/*/*"))
+    library.unlink()
+    text = (folder / "modelDescription.xml").read_text()
+    files = [folder / "sources" / name for name in re.findall('File name="([^"]*)"', text)]
+    assert len(files) == len([*(folder / "sources").glob("*.c")])
+    compile_c(files, library, "-fPIC", "-shared")
+    assert release_of(folder) == pytest.approx(before, rel=1e-10)
+
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="fmpy compiles with cmake")
+def test_fmpy_compiles_it(fmu, tmp_path):
+    build = pytest.importorskip("fmpy.build")
+    folder = tmp_path / "x"
+    fmpy.extract(str(fmu), str(folder))
+    library = next(folder.glob("binaries/*/*"))
+    library.unlink()
+    (tmp_path / "made").mkdir()
+    build.build_platform_binary(folder, tmp_path / "made", generator="Unix Makefiles")
+    assert library.exists()
+    assert release_of(folder)[0] > 0.0
 
 
 def test_variables_are_those_of_the_python_fmu(fmu):
@@ -148,12 +194,13 @@ def test_a_host_in_c_gets_the_same_release(host, fmu):
 
 
 @linux_only
-def test_no_misuse_ends_the_host(host):
+def test_no_misuse_ends_the_host(host, unpacked_film):
     host("misuse")
+    host("misuse", folder=unpacked_film)
 
 
 @linux_only
-def test_sanitizers_find_nothing(host, unpacked, tmp_path):
+def test_sanitizers_find_nothing(host, unpacked_film, tmp_path):
     flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     sources = write_sources(tmp_path / "sources")
     try:
@@ -164,6 +211,7 @@ def test_sanitizers_find_nothing(host, unpacked, tmp_path):
         pytest.skip(f"the compiler has no sanitizers: {error.stderr[:200]}")
     program = compile_c([HERE / "native_host.c"], tmp_path / "host", f"-I{sources}", *flags)
     host("misuse", library=library, program=program)
+    host("misuse", library=library, program=program, folder=unpacked_film)
     host("run", "40", "1e-4", "0.02", library=library, program=program)
 
 

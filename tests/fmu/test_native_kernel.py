@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 
 import attrs
 import numpy as np
 import pytest
+from master_cases import film_values
 from native_scenes import HAS_CC, HERE, OIL, SCENES, compile_c, write_sources
 
 pytest.importorskip("pythonfmu")
@@ -20,6 +22,7 @@ from contactkit.fmu.native_compile import local
 from contactkit.fmu.native_data import data_file
 from contactkit.fmu.native_film import FINE, film_numbers, moving
 from contactkit.fmu.native_tables import tabulate
+from contactkit.fmu.stiction_mass import PORTS, MeniscusLaw, scene_of
 from contactkit.motion import advance
 from contactkit.motion_state import Pull, outputs, start
 from contactkit.plan import plan
@@ -29,7 +32,7 @@ from contactkit.plan import plan
 def probe(tmp_path_factory):
     folder = tmp_path_factory.mktemp("kernel")
     write_sources(folder)
-    files = [path for path in folder.glob("*.c") if not path.name.startswith("fmi2")]
+    files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
     return compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
 
 
@@ -48,7 +51,9 @@ def numbers():
 
 def kernel_forces(probe, film, folder, gaps, speeds, tension=0.0, strength=0.0):
     """Fixed force, its slope, viscous force, its slopes, and the limit."""
-    (folder / "film.bin").write_bytes(data_file("g", [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.5, *film]))
+    (folder / "film.bin").write_bytes(
+        data_file("g", [0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.5, *film])
+    )
     words = [str(probe), str(folder), str(OIL.viscosity), str(OIL.surface_tension)]
     said = subprocess.run(
         [*words, repr(tension), repr(strength)], check=True, capture_output=True, text=True,
@@ -57,14 +62,10 @@ def kernel_forces(probe, film, folder, gaps, speeds, tension=0.0, strength=0.0):
     return np.array([[float(word) for word in line.split()] for line in said.splitlines()]).T
 
 
-def slope(function, gap, share=2e-4):
-    """Central difference of order 4, as a slope by the logarithm of the gap."""
-    f = [function(gap * (1.0 + k * share)) for k in (-2, -1, 1, 2)]
-    return (8.0 * (f[2] - f[1]) - (f[3] - f[0])) / (12.0 * share)
-
-
-CLOSED = ("arc, many", "flooded", "drop")
-"""Scenes whose Python laws are smooth enough to take a difference of."""
+def slope(function, gap, share=4e-4):
+    """Central difference of order 6, as a slope by the logarithm of the gap."""
+    f = [function(gap * math.exp(k * share)) for k in (-3, -2, -1, 1, 2, 3)]
+    return (45.0 * (f[3] - f[2]) - 9.0 * (f[4] - f[1]) + f[5] - f[0]) / (60.0 * share)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -77,26 +78,26 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     limits = {effect.name: effect for effect in scene.effects}
     tension = getattr(limits.get("tension-limit"), "pressure_drop", 0.0)
     strength = getattr(limits.get("shear-limit"), "strength", 0.0)
-    fixed, fixed_slope, viscous, _, by_speed, _ = kernel_forces(
+    fixed, fixed_slope, viscous, _, _, _ = kernel_forces(
         probe, numbers(name).numbers, tmp_path, gaps, speeds, tension, strength
     )
     expected = np.array([film.static_force(gap) for gap in gaps])
     nothing = 1e-12 * np.max(np.abs(expected))  # the tail of a bell curve is not followed further
     of_speed = [film.viscous_force(gap, speed)[0] for gap, speed in zip(gaps, speeds, strict=True)]
-    np.testing.assert_allclose(fixed, expected, rtol=1e-9, atol=nothing)
-    np.testing.assert_allclose(viscous, of_speed, rtol=1e-9)
-    smooth = [all(abs(gap / kink - 1.0) > 1e-3 for kink in film.kinks) for gap in gaps]
-    share = 2e-5 if name == "rough" else 2e-4  # its force falls as a bell curve
-    differences = np.array([slope(film.static_force, gap, share) for gap in gaps])
+    np.testing.assert_allclose(fixed, expected, rtol=1e-10, atol=nothing)
+    np.testing.assert_allclose(viscous, of_speed, rtol=1e-10)
+    smooth = [all(abs(gap / kink - 1.0) > 3e-3 for kink in film.kinks) for gap in gaps]
+    differences = np.array([slope(film.static_force, gap) for gap in gaps])
     size = np.abs(expected) + np.abs(differences) + nothing
-    # The laws of exact bridges are splines: their own slopes are right to some 1e-9.
-    rtol = 1e-9 if name in CLOSED else 5e-9
-    # The sum over summits is a quadrature, right to 1e-11, whose error is no smooth function.
-    rtol = 1e-7 if name == "rough" else rtol
-    assert np.max((np.abs(fixed_slope * gaps - differences) / size)[smooth]) < rtol
-    if tension == strength == 0.0:
-        resistance = np.array([film.resistance(gap) for gap in gaps])
-        np.testing.assert_allclose(by_speed, resistance, rtol=1e-9)
+    assert np.max((np.abs(fixed_slope * gaps - differences) / size)[smooth]) < 1e-9
+    _, _, viscous, by_gap, by_speed, _ = kernel_forces(
+        probe, numbers(name).numbers, tmp_path, gaps, speeds
+    )
+    resistance = np.array([film.resistance(gap) for gap in gaps])
+    np.testing.assert_allclose(by_speed, resistance, rtol=1e-10)
+    differences = np.array([slope(film.resistance, gap) for gap in gaps]) * speeds
+    wrong = np.abs(by_gap * gaps - differences) - 1e-9 * np.abs(viscous)
+    assert np.max(wrong[smooth]) <= 0.0
 
 
 @pytest.mark.parametrize("name", ["stieber", "shear", "sphere"])
@@ -114,9 +115,31 @@ def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, t
     assert found[5].max() == (2.0 if name == "shear" else 1.0)
     for speed, by_gap, by_speed in zip(speeds.tolist(), found[3], found[4], strict=True):
         expected = slope(lambda h, v=speed: film.viscous_force(h, v)[0], gap) / gap
-        assert by_gap == pytest.approx(expected, rel=1e-5)
+        assert by_gap == pytest.approx(expected, rel=1e-7)
         expected = slope(lambda v: film.viscous_force(gap, v)[0], speed) / speed
-        assert by_speed == pytest.approx(expected, rel=1e-5, abs=1e-9 * found[2].max() / speed)
+        assert by_speed == pytest.approx(expected, rel=1e-7, abs=1e-9 * found[2].max() / speed)
+
+
+@pytest.mark.parametrize(("tension", "strength"), [(0.0, 3e3), (0.0, 1e5), (2e4, 1e4)])
+@pytest.mark.parametrize("ratio", [1.2, 5.0, 60.0])
+def test_slopes_under_a_sphere_are_differences_of_the_kernel_itself(
+    tension, strength, ratio, probe, numbers, tmp_path
+):
+    """With a limiting shear strength, which the scenes do not have under a sphere."""
+    gap, share = ratio * SCENES["sphere"].opening.initial_gap, 1e-4
+    places = (-2, -1, 1, 2)
+    for speed in (-0.3, 1e-3, 0.3):
+        gaps = [gap] + [gap * (1.0 + k * share) for k in places] + [gap] * 4
+        speeds = [speed] * 5 + [speed * (1.0 + k * share) for k in places]
+        found = kernel_forces(
+            probe, numbers("sphere").numbers, tmp_path, gaps, speeds, tension, strength
+        )
+        if len(set(found[5])) > 1:
+            continue  # the limit sets in within the difference
+        weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * share)
+        size = abs(found[2][0])
+        assert found[3][0] * gap == pytest.approx(weights @ found[2][1:5], abs=3e-7 * size)
+        assert found[4][0] * speed == pytest.approx(weights @ found[2][5:], abs=3e-7 * size)
 
 
 MOTIONS = {
@@ -182,3 +205,22 @@ def test_a_fold_is_followed_to_its_end():
     piece = table.pieces[0]
     assert piece.x[0] == 0.0
     assert piece.y[0] == pytest.approx(1.0, abs=1e-11)
+
+
+@pytest.mark.parametrize("name", ["A", "D"])
+@pytest.mark.parametrize("steps", [1, 300])
+def test_releases_come_at_the_reference_times(name, steps, release_cases, tmp_path):
+    """Times of two other codes, whatever the number of communication steps."""
+    case, values = release_cases[name]["case"], release_cases[name]["values"]
+    film = {port.name: port.start for port in PORTS} | film_values(case)
+    film |= {"meniscus_law": MeniscusLaw.PUBLISHED, "m": case["m"], "k_s": case["k_s"]}
+    made = scene_of(film | {"h_rel": case["h_rel"]})
+    path = build_native(made, tmp_path / "x.fmu", platforms=[local()], compiler="cc")
+    length = 1.2 * values["t_rel"] / steps
+    with Instance(path) as host:
+        host.start({}, 10.0)
+        host.set(host.references("F_ext"), [case["F0"]])
+        for i in range(steps):
+            host.step(i * length, length)
+        found = host.get(host.references("t_release"))[0]
+    assert found == pytest.approx(values["t_rel"], rel=5e-10)

@@ -1,0 +1,103 @@
+/* Directional derivatives: exact where the tables are, differences elsewhere.
+
+   While stepping, no output of stiction-mass follows an input. Of stiction-force, F, F_m and F_v
+   by gap and speed are read off the tables; c, k and H_stable, slopes themselves, are differences.
+   Before the first step outputs follow the parameters too, through all that is prepared from them:
+   differences. Nothing here is remembered as a failure. */
+
+#include "model.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define SHARE 1e-5 /* of a value, by which it is moved */
+
+static int refuse(ck_model *model, int unknown, int known, const char *why) {
+    char message[300];
+    snprintf(message, sizeof message, "getDirectionalDerivative: of %s by %s: %s", ck_name(unknown),
+             ck_name(known), why);
+    model->say(model->host, CK_ERROR, "logStatusError", message);
+    return CK_ERROR;
+}
+
+/* Slope of an output of stiction-force by an input; 0 if the tables do not tell it. */
+static int is_read(const ck_model *model, int unknown, int known, double *slope) {
+    ck_forces f;
+    if (known != CK_H && known != CK_V) return 0;
+    if (unknown == CK_H_ABOVE || unknown == CK_H_BELOW) {
+        *slope = 0.0;
+        return 1;
+    }
+    if (unknown != CK_F && unknown != CK_F_M && unknown != CK_F_V) return 0;
+    ck_force_now(model, &f);
+    *slope = 0.0;
+    if (unknown != CK_F_V && known == CK_H) *slope += f.fixed_by_gap;
+    if (unknown != CK_F_M) *slope += known == CK_H ? f.viscous_by_gap : f.viscous_by_speed;
+    return 1;
+}
+
+/* An output with one value moved; 0 where that value cannot be. */
+static int moved(ck_model *model, int unknown, const ck_port *known, double at, double *found) {
+    ck_state saved = model->state;
+    int fine = known->low <= at && at <= known->high;
+    model->state.values[known->id] = at;
+    if (fine && saved.phase == CK_INITIALIZATION) fine = ck_model_prepare(model) == NULL;
+    else if (fine) fine = ck_model_kind(model)->show(model);
+    *found = model->state.values[unknown];
+    model->state = saved;
+    return fine;
+}
+
+static int difference(ck_model *model, int unknown, const ck_port *known, double *slope) {
+    double at = model->state.values[known->id], step = SHARE * (at != 0.0 ? fabs(at) : 1.0);
+    double up, down, high = at + step, low = at - step;
+    if (!moved(model, unknown, known, high, &up)) {
+        high = at;
+        if (!moved(model, unknown, known, high, &up)) return 0;
+    }
+    if (!moved(model, unknown, known, low, &down)) {
+        low = at;
+        if (low == high || !moved(model, unknown, known, low, &down)) return 0;
+    }
+    *slope = (up - down) / (high - low);
+    return isfinite(*slope);
+}
+
+/* Slope of one output by one value. */
+static int one(ck_model *model, int unknown, const ck_port *known, double *slope) {
+    int starts = model->state.phase == CK_INITIALIZATION, follows = ck_model_kind(model)->follows;
+    int id = known->id, done;
+    *slope = 0.0;
+    if (known->causality == CK_OUTPUT) return refuse(model, unknown, id, "that is an output, too");
+    if (known->causality == CK_PARAMETER && !starts)
+        return refuse(model, unknown, id, "a parameter does not change any more");
+    if (known->causality == CK_INPUT && !follows) return CK_OK;
+    if (known->causality == CK_INPUT && is_read(model, unknown, id, slope)) return CK_OK;
+    if ((id == CK_H_BREAK || id == CK_DP_CAV || id == CK_TAU_LIM) && model->state.values[id] == 0.0)
+        return refuse(model, unknown, id, "0 stands for none there, which has no slope");
+    done = difference(model, unknown, known, slope);
+    if (starts) ck_model_kind(model)->apply(model); /* back to the parameters that are set */
+    return done ? CK_OK : refuse(model, unknown, id, "there is no difference to take; correct the "
+                                                     "parameters first");
+}
+
+int ck_model_derivative(ck_model *model, const unsigned unknown[], size_t n,
+                        const unsigned known[], size_t m, const double seed[], double value[]) {
+    static const char call[] = "getDirectionalDerivative";
+    size_t i, k;
+    if (model->state.failed) return CK_ERROR;
+    ck_model_follow(model);
+    for (i = 0; i < n; i++) {
+        const ck_port *of = ck_model_port(model, unknown[i], CK_REAL, call), *by;
+        double sum = 0.0, slope;
+        if (!of) return CK_ERROR;
+        for (k = 0; k < m; k++) {
+            if (!(by = ck_model_port(model, known[k], CK_REAL, call))) return CK_ERROR;
+            if (of->causality != CK_OUTPUT) return refuse(model, of->id, by->id, "the first is no output");
+            if (one(model, of->id, by, &slope) != CK_OK) return CK_ERROR;
+            sum += seed[k] * slope;
+        }
+        value[i] = sum;
+    }
+    return CK_OK;
+}

@@ -1,0 +1,101 @@
+/* stiction-mass: a mass held by a film; a pull in, motion out. */
+
+#include "model.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char *apply(ck_model *model) {
+    const double *v = model->state.values;
+    ck_scene *scene = &model->scene;
+    const char *problem = ck_common_parameters(model);
+    if (v[CK_H_REL] <= v[CK_H0]) return "h_rel must exceed h0";
+    if (v[CK_H_MIN] > v[CK_H0]) return "h_min must not exceed h0";
+    scene->mass = v[CK_M], scene->initial_speed = v[CK_V0];
+    scene->stiffness = v[CK_K_S], scene->release_gap = v[CK_H_REL], scene->rest_gap = v[CK_H_MIN];
+    scene->rtol = v[CK_RTOL] > 1e-11 ? v[CK_RTOL] : 1e-11;
+    return problem;
+}
+
+static void start(ck_model *model) {
+    ck_start(&model->scene, model->state.start_time, &model->state.motion);
+    model->state.pull = 0.0;
+}
+
+static int show(ck_model *model) {
+    double *v = model->state.values;
+    const ck_motion *motion = &model->state.motion;
+    ck_acting acting;
+    ck_forces found;
+    ck_act(&model->scene, motion->film, motion->broken, motion->detached, &acting);
+    ck_forces_at(&acting, motion->gap, motion->speed, &found);
+    if (!isfinite(found.fixed + found.viscous) || !isfinite(motion->work + motion->speed)) return 0;
+    v[CK_H] = motion->gap, v[CK_V] = motion->speed;
+    v[CK_F] = found.fixed + found.viscous, v[CK_F_M] = found.fixed, v[CK_F_V] = found.viscous;
+    v[CK_J] = motion->viscous_impulse, v[CK_J_M] = motion->fixed_impulse, v[CK_W] = motion->work;
+    v[CK_STATE] = ck_status(&model->scene, motion, &acting, &found, model->state.pull);
+    v[CK_LIMIT] = found.limit + 1;
+    v[CK_T_BREAK] = motion->break_time, v[CK_T_RELEASE] = motion->release_time;
+    v[CK_F_PEAK] = motion->peak_force;
+    v[CK_N_BREAK] = motion->breaks, v[CK_N_RELEASE] = motion->releases;
+    return 1;
+}
+
+static int no_step(ck_model *model, int trouble, const ck_motion *where) {
+    char message[400];
+    const char *cure = "loosen rtol";
+    if (where->gap < 1e-12)
+        cure = "the bodies are pressed together; give h_min [m], where asperities carry";
+    snprintf(message, sizeof message,
+             "%s from %.9g s, gap %.6g m, speed %.6g m/s; %s, then reset the FMU or go back to an "
+             "earlier state",
+             trouble == CK_NO_STEP ? "no step of time can be taken" : "too many internal steps led",
+             where->time, where->gap, where->speed, cure);
+    ck_model_fail(model, message);
+    return CK_DISCARD;
+}
+
+static void tell(ck_model *model, const ck_motion *before) {
+    const ck_motion *now = &model->state.motion;
+    char message[80];
+    if (now->releases > before->releases) {
+        snprintf(message, sizeof message, "released at t = %.9g s", now->release_time);
+        model->say(model->host, CK_OK, "logEvents", message);
+    }
+    if (now->breaks > before->breaks) {
+        snprintf(message, sizeof message, "film broke at t = %.9g s", now->break_time);
+        model->say(model->host, CK_OK, "logEvents", message);
+    }
+}
+
+static int step(ck_model *model, double time, double length) {
+    ck_state *state = &model->state;
+    ck_motion before = state->motion, *now = &state->motion;
+    ck_pull pull;
+    int trouble;
+    pull.force = state->values[CK_F_EXT], pull.time = time;
+    pull.rate = state->values[CK_DF_EXT] + state->rate;
+    now->time = time;
+    trouble = ck_advance(&model->scene, now, &pull, length);
+    if (trouble || !isfinite(now->gap + now->speed + now->work)) {
+        ck_motion where = *now;
+        *now = before;
+        return no_step(model, trouble ? trouble : CK_NO_STEP, &where);
+    }
+    state->pull = ck_pull_at(&pull, now->time);
+    state->end = now->time;
+    if (now->pending && now->time < time + length) /* a ramp goes on from where it is */
+        state->values[CK_F_EXT] = state->pull;
+    state->shown = 0; /* outputs are made once they are read */
+    if (now->releases > before.releases || now->breaks > before.breaks) tell(model, &before);
+    return CK_OK;
+}
+
+/* What a step paused for happens. */
+static void resolve(ck_model *model) {
+    ck_motion before = model->state.motion;
+    ck_resolve(&model->scene, &model->state.motion);
+    tell(model, &before);
+}
+
+const ck_kind ck_stiction_mass = {apply, start, show, step, resolve, 0};

@@ -1,0 +1,88 @@
+"""What a doStep of a native stiction-mass costs in a host in C, and what it is spent on.
+
+Counts are asserted, nanoseconds only printed.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pythonfmu")
+pytest.importorskip("fmpy")
+
+from contactkit.fmu.native_build import build_native
+from contactkit.fmu.native_compile import fmi_headers, kernel_sources, local
+
+if shutil.which("cc") is None or not sys.platform.startswith("linux"):
+    pytest.skip("needs a C compiler and a linker that wraps", allow_module_level=True)
+
+HOST = Path(__file__).with_name("native_speed.c")
+FLAGS = (
+    "-std=c99", "-O3", "-DNDEBUG", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off",
+    "-fno-math-errno", "-Wl,--wrap=ck_forces_at",
+)  # fmt: skip
+ROUNDS = 200
+
+# case of release_cases, pull [N], communication step [s], steps, most evaluations per internal step
+RUNS = {
+    "A, 1 us": ("A", 40.0, 1e-6, 380, 4.5),
+    "A, 10 us": ("A", 40.0, 1e-5, 38, 4.5),
+    "A, quiet": ("A", 1e-3, 1e-6, 1000, 4.5),
+    "B, 1 us": ("B", 40.0, 1e-6, 1000, 4.5),
+    "E, 1 us": ("E", 40.0, 1e-6, 700, 6.0),
+}
+
+
+@pytest.fixture(scope="module")
+def host(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("host")
+    for name, content in (kernel_sources() | fmi_headers()).items():
+        (folder / name).write_bytes(content)
+    files = [str(HOST), *(path.name for path in folder.glob("*.c"))]
+    command = ["cc", *FLAGS, "-I.", *files, "-o", "host", "-lm"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    return folder / "host"
+
+
+@pytest.fixture(scope="module")
+def unpacked(release_scene, tmp_path_factory):
+    """Folder of an FMU, and its GUID, by the name of its case."""
+    made = {}
+
+    def of(name):
+        if name not in made:
+            folder = tmp_path_factory.mktemp(name)
+            path = build_native(release_scene(name), folder / "x.fmu", platforms=[local()])
+            with zipfile.ZipFile(path) as packed:
+                packed.extractall(folder)
+            text = (folder / "modelDescription.xml").read_text()
+            made[name] = folder, re.search('guid="([^"]*)"', text)[1]
+        return made[name]
+
+    return of
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_do_step_in_a_host_in_c(benchmark, host, unpacked, name):
+    case, pull, step, count, most = RUNS[name]
+    folder, guid = unpacked(case)
+    words = [host, folder / "resources", guid, pull, step, count, ROUNDS]
+    said = benchmark.pedantic(
+        subprocess.run, ([str(word) for word in words],),
+        {"check": True, "capture_output": True, "text": True}, rounds=3,
+    ).stdout  # fmt: skip
+    step_ns, exchange_ns, steps, iterations, evaluations, _ = map(float, said.split())
+    benchmark.extra_info |= {
+        "us per doStep": 1e-3 * step_ns, "us per set, doStep, get": 1e-3 * exchange_ns,
+        "internal steps per doStep": steps, "iterations per doStep": iterations,
+        "evaluations per doStep": evaluations,
+    }  # fmt: skip
+    assert evaluations <= most * steps
+    assert iterations <= 1.6 * steps
