@@ -7,12 +7,15 @@ FMU calls it once per communication step; the state is one plain tuple of number
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from .errors import ConvergenceError, DescriptionError
 from .film_laws import impulse_name
+from .kernels.short_step import Short
 from .kernels.step_reading import highest, travel_integral
-from .kernels.stiff_step import WEIGHTS, Stage, Step
+from .kernels.stiff_step import WEIGHTS, Step
+from .motion_events import first_mark, happen
 from .motion_state import Drive, MotionState
 from .plan import Film, Plan
 from .step_problem import StepProblem, first_step, step_problem
@@ -51,12 +54,18 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
     end = state.time + dt
     for _ in range(plan.accuracy.max_steps + 1):
         if end - state.time <= 1e-13 * max(abs(end), dt):
-            return state._replace(time=end)
+            return state if state.time == end else state._replace(time=end)
         one = rest_once if state.held else step_once
         state = one(plan, state, pull, end)
+    cure = "loosen Accuracy.time_rtol or raise Accuracy.max_steps"
+    if state.n_releases and plan.scene.opening.stiffness > 0.0:  # some hundred steps for a swing
+        cure = (
+            f"it was released at {state.release_time:g} s and swings on its spring since then, "
+            f"through the film each time: end there, or {cure}"
+        )
     raise ConvergenceError(
         f"{plan.accuracy.max_steps} internal steps led from {end - dt:g} s to {state.time:g} s, "
-        f"not to {end:g} s; loosen Accuracy.time_rtol or raise Accuracy.max_steps",
+        f"not to {end:g} s; {cure}",
         state,
     )
 
@@ -108,11 +117,12 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     length = min(state.step or first_step(problem, left), left)
     rejected, evaluations = 0, 3
     while True:
-        taken = problem.attempt(length)
+        short = problem.attempt_short(length)
+        taken = short.step if short is not None else problem.attempt(length)
         error = math.inf
         if taken is not None:
             evaluations += taken.evaluations
-            error = _judge(plan, film, state, pull, problem, taken, length)
+            error = _judge(plan, film, state, problem, taken, length)
             if error <= 1.0:
                 break
         rejected += 1
@@ -122,18 +132,23 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     following = length * min(_GROW, _SAFETY * max(error, 1e-12) ** -0.25)
     if not rejected and length < state.step:  # cut short by the end of the span only
         following = max(following, state.step)
-    mark = _first_mark(plan, film, state, taken.stages[2].gap)
+    mark = first_mark(plan, film, state, taken.stages[2].gap)
     if mark is not None:
         taken, length = _locate(problem, length, mark, taken)
-    state = _accumulate(state, film, taken, length)
-    state = state._replace(
-        given_impulse=state.given_impulse + length * problem.size,
-        step=following,
-        n_steps=state.n_steps + 1,
-        n_rejected=state.n_rejected + rejected,
-        n_evaluations=state.n_evaluations + evaluations,
-    )
-    return state if mark is None else _event(plan, film, state, mark)
+        short = None
+    changes: dict[str, Any] = {
+        "given_impulse": state.given_impulse + length * problem.size,
+        "step": following,
+        "n_steps": state.n_steps + 1,
+        "n_rejected": state.n_rejected + rejected,
+        "n_evaluations": state.n_evaluations + evaluations,
+    }
+    if film is not None:
+        changes |= _passed(state, film, problem, taken, length, short)
+    _, gap, speed = taken.stages[2]
+    time = end if length == left else state.time + length
+    state = state._replace(time=time, gap=gap, speed=speed, **changes)
+    return state if mark is None else happen(plan, film, state, mark)
 
 
 def _no_step(state: MotionState, rtol: float) -> ConvergenceError:
@@ -149,7 +164,6 @@ def _judge(
     plan: Plan,
     film: Film | None,
     state: MotionState,
-    pull: Drive,
     problem: StepProblem,
     taken: Step,
     length: float,
@@ -172,39 +186,13 @@ def _judge(
         return 16.0
     middle = half.stages[2]
     there = state._replace(time=middle.time, gap=middle.gap, speed=middle.speed)
-    rest_of_it = step_problem(plan, film, there, pull).attempt(0.5 * length)
+    rest_of_it = step_problem(plan, film, there, problem.holding.pull).attempt(0.5 * length)
     if rest_of_it is None:
         return 16.0
     again = rest_of_it.stages[2]
     gap_error, speed_error = abs(math.log(again.gap / end.gap)), abs(again.speed - end.speed)
     seen = taken._replace(gap_error=gap_error, speed_error=speed_error)
     return max(error, problem.error(seen, length))
-
-
-def _closed_gap(plan: Plan) -> float:
-    """Gap below which the bodies count as closed again, so that the next release is a new one."""
-    opening = plan.scene.opening
-    return min(2.0 * opening.initial_gap, 0.5 * (opening.initial_gap + opening.final_gap))
-
-
-def _first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) -> float | None:
-    """First gap on the way to `gap` at which something happens."""
-    opening = plan.scene.opening
-    low, high = sorted((state.gap, gap))
-    rising = gap > state.gap
-    marks = list(film.kinks) if film is not None else []
-    if rising:
-        marks += [opening.final_gap] if state.armed else []
-        marks += [film.end, film.release] if film is not None else []
-    else:
-        marks += [opening.rest_gap]
-        marks += [opening.initial_gap] if state.broken else []
-        marks += [plan.film.rejoin] if state.detached else []
-        marks += [] if state.armed else [_closed_gap(plan)]
-    inside = [m for m in marks if low * (1.0 + _SAME) < m < high or m == gap]
-    if not inside:
-        return None
-    return min(inside) if rising else max(inside)
 
 
 def _locate(problem: StepProblem, length: float, mark: float, taken: Step) -> tuple[Step, float]:
@@ -229,65 +217,41 @@ def _locate(problem: StepProblem, length: float, mark: float, taken: Step) -> tu
     return taken, length
 
 
-def _accumulate(state: MotionState, film: Film | None, taken: Step, length: float) -> MotionState:
-    """Add a step to the impulses, the work and the peak, by the quadrature of the method itself."""
-    viscous = work = 0.0
-    means: dict[str, float] = {}
-    end = taken.stages[2]
-    peak, at = state.peak_force, state.peak_time
-    if film is not None:
-        static = [film.static_force(stage.gap) for stage in taken.stages]
+def _passed(
+    state: MotionState,
+    film: Film,
+    problem: StepProblem,
+    taken: Step,
+    length: float,
+    short: Short | None,
+) -> dict[str, Any]:
+    """Impulses, work and peak after a step, by the quadrature of the method itself."""
+    gaps = [stage.gap for stage in taken.stages]
+    static: Sequence[float]
+    forces: Sequence[float]
+    if short is not None:
+        static, forces = short.static, short.viscous
+    else:
+        static = [film.static_force(gap) for gap in gaps]
         forces = [film.viscous_force(stage.gap, stage.speed)[0] for stage in taken.stages]
-        viscous = sum(w * f for w, f in zip(WEIGHTS, forces, strict=True))
-        means = film.static_means([stage.gap for stage in taken.stages], WEIGHTS, static)
-        first = film.viscous_force(state.gap, state.speed)[0]
-        begin = Stage(state.time, state.gap, state.speed)
-        work = travel_integral(begin, taken, first, forces)
-        first += film.static_force(state.gap)
-        totals = [a + b for a, b in zip(static, forces, strict=True)]
-        if max(first, *totals) > 0.99 * peak:
-            value, where = highest(first, totals)
-            if value > peak:
-                peak, at = value, state.time + where * length
-    return state._replace(
-        time=state.time + length,
-        gap=end.gap,
-        speed=end.speed,
-        viscous_impulse=state.viscous_impulse + length * viscous,
-        dissipated_work=state.dissipated_work + work,
-        peak_force=peak,
-        peak_time=at,
-        **_grown(state, length, means),
-    )
-
-
-def _event(plan: Plan, film: Film | None, state: MotionState, mark: float) -> MotionState:
-    """Apply what happens at a mark: release, rupture, rest or re-wetting."""
-    opening, meniscus = plan.scene.opening, plan.scene.interface.meniscus
-    rising = state.speed > 0.0
-    state = state._replace(gap=mark)
-    if rising and mark == opening.final_gap:
-        return state._replace(
-            armed=False,
-            release_time=state.time,
-            release_speed=state.speed,
-            n_releases=state.n_releases + 1,
-        )
-    if rising and film is not None and mark == film.end:
-        state = state._replace(broken=True, break_time=state.time, n_breaks=state.n_breaks + 1)
-    if rising and film is not None and mark == film.release:
-        state = state._replace(detached=True)
-    if rising:
-        return state
-    if mark <= _closed_gap(plan):
-        state = state._replace(armed=True)
-    if mark <= plan.film.rejoin:
-        state = state._replace(detached=False)
-    if mark > opening.initial_gap:
-        return state
-    wets = state.broken and meniscus.rewetting > 0.0
-    if wets and plan.film_with(meniscus.rewetting).end > mark:
-        state = state._replace(broken=False, share=meniscus.rewetting)
-    if mark == opening.rest_gap:
-        state = state._replace(held=True, speed=0.0)
-    return state
+    first = problem.viscous
+    work = short.work if short is not None else None
+    # A stiff film that came up to its force at once, in a transient the step strode over.
+    sprang = forces[0] - first > 0.9 * (max(first, *forces) - min(first, *forces))
+    if work is None or sprang:
+        work = travel_integral(problem.begin, taken, first, forces)
+    viscous = sum(w * f for w, f in zip(WEIGHTS, forces, strict=True))
+    found = {
+        "viscous_impulse": state.viscous_impulse + length * viscous,
+        "dissipated_work": state.dissipated_work + work,
+    }
+    found |= _grown(state, length, film.static_means(gaps, WEIGHTS, static))
+    first += problem.static
+    totals = [a + b for a, b in zip(static, forces, strict=True)]
+    top = max(first, *totals)
+    most = top + 0.25 * (top - min(first, *totals))  # that `highest` makes of it
+    if top > 0.99 * state.peak_force and most > state.peak_force:
+        value, where = highest(first, totals)
+        if value > state.peak_force:
+            found |= {"peak_force": value, "peak_time": state.time + where * length}
+    return found

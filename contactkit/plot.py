@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -229,7 +230,7 @@ def work_precision(
     """
     ax = ax if ax is not None else figure()[1]
     methods = list(dict.fromkeys(p.method for p in found.points))
-    for method, marker in zip(methods, markers, strict=False):
+    for method, marker in zip(methods, cycle(markers), strict=False):  # as many as there are
         points = [p for p in found.points if p.method == method]
         good = [p for p in points if p.error == p.error]
         style = "--" if any(p.is_model for p in points) else "-"

@@ -6,8 +6,9 @@ import math
 from typing import NamedTuple
 
 from .effects import ViscousForce
+from .kernels.short_step import Holding, Short, short_step
 from .kernels.stiff_step import NODES, WEIGHTS, NetForce, Stage, Step, slopes, step
-from .motion_state import Drive, MotionState
+from .motion_state import Drive, MotionState, Pull
 from .plan import Film, Plan
 
 __all__ = ["StepProblem", "first_step", "step_problem"]
@@ -16,8 +17,8 @@ __all__ = ["StepProblem", "first_step", "step_problem"]
 class StepProblem(NamedTuple):
     """What one internal step solves, from where, and the size its error is measured against."""
 
+    holding: Holding
     net: NetForce
-    pull: Drive
     mass: float
     begin: Stage
     rtol: float
@@ -26,13 +27,26 @@ class StepProblem(NamedTuple):
     delivered: float  # momentum delivered so far [N.s]
     scale: float  # speed at which the film balances the other forces [m/s]
     at_start: tuple[float, float, float]
+    static: float  # force at the start that does not depend on speed [N]
+    viscous: float  # and that which does [N]
+
+    def _coordinate(self, length: float) -> float:
+        """In terms of the viscous impulse where the film rules, else of the gap."""
+        is_film_ruled = -self.at_start[2] * length > self.mass
+        return self.exponent - 1.0 if is_film_ruled and self.exponent > 0.0 else -1.0
 
     def attempt(self, length: float) -> Step | None:
-        """Try a step; in terms of the viscous impulse where the film rules, else of the gap."""
-        is_film_ruled = -self.at_start[2] * length > self.mass
-        exponent = self.exponent - 1.0 if is_film_ruled and self.exponent > 0.0 else -1.0
+        """Try a step."""
         return step(
-            self.net, self.mass, self.begin, length, exponent, self.rtol, self.at_start, self.scale
+            self.net, self.mass, self.begin, length, self._coordinate(length), self.rtol,
+            self.at_start, self.scale,
+        )  # fmt: skip
+
+    def attempt_short(self, length: float) -> Short | None:
+        """Try a step that is expected to change little; if it does not, `attempt` has to."""
+        s = self._coordinate(length)
+        return short_step(
+            self.holding, self.mass, self.begin, length, s, self.rtol, self.at_start, self.scale
         )
 
     def error(self, taken: Step, length: float) -> float:
@@ -54,44 +68,62 @@ class StepProblem(NamedTuple):
 
         A stiff film hides a ramp of the pull from the estimates of gap and speed.
         """
-        start = self.begin.time
+        start, pull = self.begin.time, self.holding.pull
+        if type(pull) is Pull:  # a straight line, which both rules integrate exactly
+            return 0.0
         nodes = zip(WEIGHTS, NODES, strict=True)
-        seen = sum(weight * self.pull(start + node * length) for weight, node in nodes)
-        first, middle, last = (self.pull(start + x * length) for x in (0.0, 0.5, 1.0))
+        seen = sum(weight * pull(start + node * length) for weight, node in nodes)
+        first, middle, last = (pull(start + x * length) for x in (0.0, 0.5, 1.0))
         return length * (seen - (first + 4.0 * middle + last) / 6.0)
+
+
+def _no_static(gap: float) -> float:
+    return 0.0
+
+
+def _no_viscous(gap: float, speed: float) -> tuple[float, None]:
+    return 0.0, None
 
 
 def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> StepProblem:
     """Pose the step from a state, with a film or, where it is broken, without one."""
     opening = plan.scene.opening
     mass, spring, rest = _mass(plan), opening.stiffness, opening.initial_gap
-
-    def net(time: float, gap: float, speed: float) -> float:
-        held = film.force(gap, speed) if film is not None else 0.0
-        return pull(time) - spring * (gap - rest) - held
-
-    begin = Stage(state.time, state.gap, state.speed)
-    static = film.static_force(state.gap) if film is not None else 0.0
-    size = abs(pull(state.time)) + abs(static) + spring * abs(state.gap - rest) + 1e-300
-    exponent = film.exponent(state.gap) if film is not None else 0.0
-    delivered = state.given_impulse + mass * abs(state.speed)
-    resistance = film.resistance(state.gap) if film is not None else 0.0
-    crossing = state.gap / (state.step or 1e-6)
+    time, gap, speed = begin = Stage(state.time, state.gap, state.speed)
+    if film is None:
+        holding = Holding(pull, _no_static, _no_viscous, spring, rest)
+        static = viscous = resistance = exponent = 0.0
+    else:
+        holding = Holding(pull, film.static_force, film.viscous_force, spring, rest)
+        static = film.static_force(gap)
+        resistance, exponent = film.resistance(gap), film.exponent(gap)
+        viscous = film.viscous_force(gap, speed)[0] if film.limits else resistance * speed
+    pulled = pull(time)
+    size = abs(pulled) + abs(static) + spring * abs(gap - rest) + 1e-300
+    delivered = state.given_impulse + mass * abs(speed)
+    crossing = gap / (state.step or 1e-6)
     # Where no force acts yet, a film still has a scale: the differences need not be zero.
     scale = max(size / resistance, 1e-15 * crossing) if resistance > 0.0 else crossing
-    at_start = slopes(net, *begin, scale)
+    net = _net(holding)
+    if film is not None and film.limits:
+        at_start = slopes(net, time, gap, speed, scale)
+    else:
+        force, dh = pulled - spring * (gap - rest) - (viscous + static), 1e-7 * gap
+        at_start = force, (net(time, gap + dh, speed) - force) / dh, -resistance
     return StepProblem(
-        net,
-        pull,
-        mass,
-        begin,
-        plan.accuracy.time_rtol,
-        exponent,
-        size,
-        delivered,
-        scale,
-        at_start,
-    )
+        holding, net, mass, begin, plan.accuracy.time_rtol, exponent, size, delivered, scale,
+        at_start, static, viscous,
+    )  # fmt: skip
+
+
+def _net(holding: Holding) -> NetForce:
+    """Net force [N] on the mass at a time [s], a gap [m] and a speed [m/s]."""
+    pull, static, viscous, spring, rest = holding
+
+    def net(time: float, gap: float, speed: float) -> float:
+        return pull(time) - spring * (gap - rest) - (viscous(gap, speed)[0] + static(gap))
+
+    return net
 
 
 def _mass(plan: Plan) -> float:

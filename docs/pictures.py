@@ -27,7 +27,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("fuel-injector", "run"): {
         name: name for name in ("tension-limit", "release-zoom", "delay-against-temperature")
     },
-    ("fuel-injector", "cost"): {"cost": "cost"},
+    ("fuel-injector", "cost"): {"cost": "cost", "coupling": "coupling"},
     ("micromirror", "run"): {
         "side-view": "mirror-side-view",
         "lift-off": "mirror-lift-off",

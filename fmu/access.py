@@ -23,6 +23,7 @@ class PortAccess(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
 
     ports: ClassVar[tuple[Port, ...]] = ()
     baked: ClassVar[Mapping[str, Value]] = {}
+    data: ClassVar[Mapping[str, Any]] = {}  # tables of this build
     log_categories: ClassVar[dict[str, str]] = Fmi2Slave.log_categories | {
         "logEvents": "What happened in the model, such as a release or a rupture.",
         "logCoupling": "Doubts about the coupling, such as steps that are too long.",

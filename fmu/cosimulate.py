@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from attrs import field, frozen
 
 from ..errors import ConvergenceError, DescriptionError, InfeasibleError
-from .instance import Instance
+from .cosimulate_steps import DriveSide, MassSide, Steps
 from .ports import Port
 
 if TYPE_CHECKING:
@@ -44,8 +44,8 @@ class CoSimulation:
         What each column is, with its unit.
     log : tuple of str
         What the FMUs said.
-    n_steps : int
-        Communication steps.
+    n_steps, n_rejected : int
+        Communication steps, and those that were taken again, shorter.
     seconds : float
         Time spent in the steps [s].
     """
@@ -56,6 +56,7 @@ class CoSimulation:
     log: tuple[str, ...] = field(repr=False)
     n_steps: int
     seconds: float
+    n_rejected: int = 0
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """Return the output of a name."""
@@ -66,8 +67,9 @@ def cosimulate(
     drive: str | Path,
     mass: str | Path,
     stop_time: float,
-    step: float,
+    step: float | None = None,
     *,
+    tolerance: float | None = None,
     drive_start: Mapping[str, float | str] | None = None,
     mass_start: Mapping[str, float | str] | None = None,
     linear: bool = True,
@@ -81,8 +83,12 @@ def cosimulate(
         FMUs with the variables of ``valve-drive`` and ``stiction-mass``.
     stop_time : float
         Where to end [s].
-    step : float
+    step : float, optional
         Communication step [s]; shortened so that a whole number of them fits.
+    tolerance : float, optional
+        In place of a step: choose the steps by their error, so that a release is met to about
+        this, relative to its delay. Both FMUs are taken back where a step was too long. The mass
+        integrates its film to a hundredth of that, unless its start values say otherwise.
     drive_start, mass_start : mapping, optional
         Start values by variable name, in SI units; those baked into the FMUs if not given.
     linear : bool
@@ -102,32 +108,83 @@ def cosimulate(
     """
     import numpy as np
 
-    for name, value in (("stop_time", stop_time), ("step", step)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise DescriptionError(name, value, "be positive and finite", unit="s")
-    n = max(1, math.ceil(stop_time / step - 1e-9))
-    length = stop_time / n
-    with Instance(Path(drive)) as one, Instance(Path(mass)) as other:
+    _check(stop_time, step, tolerance)
+    with DriveSide(Path(drive)) as one, MassSide(Path(mass)) as other:
         one.start(drive_start or {}, stop_time)
-        other.start(mass_start or {}, stop_time)
-        _check_step(one, other, length)
-        table = np.empty((n + 1, len(one.names) + len(other.names)))
-        table[0] = one.outputs() + other.outputs()
+        inner = {"rtol": 1e-2 * tolerance} if tolerance and "rtol" in other.variables else {}
+        other.start({**inner, **(mass_start or {})}, stop_time)
+        told = progress or _nothing
         begun = clock.perf_counter()
-        time = 0.0
-        for i in range(n):
-            _exchange(one, other, time, length, linear)
-            time = (i + 1) * length
-            table[i + 1] = one.outputs() + other.outputs()
-            if progress is not None and i % 200 == 0:
-                progress(i / n)
+        if tolerance is None:
+            assert step is not None  # checked above
+            length = stop_time / max(1, math.ceil(stop_time / step - 1e-9))
+            _check_step(one, other, length)
+            times, rows, rejected = *_fixed(one, other, stop_time, length, linear, told), 0
+        else:
+            times, rows, rejected = _chosen(one, other, stop_time, tolerance, told)
         seconds = clock.perf_counter() - begun
-        if abs(time - stop_time) > 1e-9 * stop_time:
-            raise ConvergenceError(f"co-simulation ended at {time!r} s, not at {stop_time!r} s")
+        if abs(times[-1] - stop_time) > 1e-9 * stop_time:
+            raise ConvergenceError(
+                f"co-simulation ended at {times[-1]!r} s, not at {stop_time!r} s"
+            )
         names, log = one.names + other.names, tuple(one.log + other.log)
+    table = np.array(rows)
     table.flags.writeable = False
     columns = {name: table[:, k] for k, name in enumerate(names)}
-    return CoSimulation(np.linspace(0.0, stop_time, n + 1), columns, _ports(), log, n, seconds)
+    return CoSimulation(
+        np.array(times), columns, _ports(), log, len(times) - 1, seconds, rejected
+    )  # fmt: skip
+
+
+def _nothing(share: float) -> None:
+    """Tell nobody."""
+
+
+def _check(stop_time: float, step: float | None, tolerance: float | None) -> None:
+    if (step is None) == (tolerance is None):
+        raise DescriptionError("step", step, "be given, or else a tolerance", unit="s")
+    for name, value in (("stop_time", stop_time), ("step", 1.0 if step is None else step)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise DescriptionError(name, value, "be positive and finite", unit="s")
+    if tolerance is not None and not 1e-8 <= tolerance <= 0.1:
+        raise DescriptionError("tolerance", tolerance, "be between 1e-8 and 0.1")
+
+
+def _fixed(
+    drive: DriveSide,
+    mass: MassSide,
+    stop_time: float,
+    length: float,
+    linear: bool,
+    progress: Progress,
+) -> tuple[list[float], list[list[float]]]:
+    """Times and outputs at steps of one length."""
+    n = round(stop_time / length)
+    times, rows = [0.0], [drive.outputs() + mass.outputs()]
+    for i in range(n):
+        pull = drive.tell(*mass.motion())
+        slope = drive.go(times[-1], length)
+        mass.go(times[-1], length, pull, slope if linear else 0.0)
+        times.append((i + 1) * length)
+        rows.append(drive.outputs() + mass.outputs())
+        if i % 200 == 0:
+            progress(i / n)
+    return times, rows
+
+
+def _chosen(
+    drive: DriveSide, mass: MassSide, stop_time: float, tolerance: float, progress: Progress
+) -> tuple[list[float], list[list[float]], int]:
+    """Times and outputs at steps chosen by their error, and how often one was taken back."""
+    steps = Steps(drive, mass, stop_time, tolerance, _longest(drive, mass))
+    times, rows = [0.0], [drive.outputs() + mass.outputs()]
+    while steps.time < stop_time:
+        steps.step()
+        times.append(steps.time)
+        rows.append(drive.outputs() + mass.outputs())
+        if len(times) % 50 == 0:
+            progress(steps.time / stop_time)
+    return times, rows, steps.n_rejected
 
 
 def coupling_error(coupled: Sequence[float], whole: Sequence[float]) -> float:
@@ -160,27 +217,20 @@ def coupling_error(coupled: Sequence[float], whole: Sequence[float]) -> float:
     return worst
 
 
-def _check_step(drive: Instance, mass: Instance, length: float) -> None:
-    """Refuse a step at which a blow on the stop would feed on itself, and look like an answer."""
+def _longest(drive: DriveSide, mass: MassSide) -> float:
+    """Longest step [s] with which the stop can be coupled to the mass."""
     m = mass.get(mass.references("m"))[0]
-    stiffness = drive.get(drive.references("k_stop"))[0]
-    longest = 2.0 * math.sqrt(m / stiffness)
+    return 2.0 * math.sqrt(m / drive.known("k_stop", 1e-300))
+
+
+def _check_step(drive: DriveSide, mass: MassSide, length: float) -> None:
+    """Refuse a step at which a blow on the stop would feed on itself, and look like an answer."""
+    longest = _longest(drive, mass)
     if length > longest:
         raise InfeasibleError(
             f"the communication step of {length:g} s exceeds {longest:.3g} s = 2 sqrt(m/k_stop), "
             f"the longest with which the stop can be coupled to the mass; take a tenth of that"
         )
-
-
-def _exchange(drive: Instance, mass: Instance, time: float, length: float, linear: bool) -> None:
-    """One communication step: the drive with the motion so far, the mass with the pull found."""
-    motion, pull = mass.references("h", "v"), mass.references("F_ext", "dF_ext")
-    drive.set(drive.references("h", "v"), mass.get(motion))
-    before = drive.get(drive.references("F_ext"))[0]
-    drive.step(time, length)
-    rate = drive.get(drive.references("dF_ext"))[0] if linear else 0.0
-    mass.set(pull, [before, rate])
-    mass.step(time, length)
 
 
 def _ports() -> dict[str, Port]:

@@ -23,12 +23,13 @@ _GAUSS = ((0.1127016653792583, 5 / 18), (0.5, 8 / 18), (0.8872983346207417, 5 / 
 class Travel(NamedTuple):
     """Viscous and other impulse [N.s], and the share of the step after which the film is broken.
 
-    `broken` is 1 if it is not.
+    `broken` is 1 if it is not; `last` is the static force at the end [N].
     """
 
     viscous: float
     static: float
     broken: float
+    last: float = 0.0
 
 
 def travel(
@@ -53,8 +54,9 @@ def travel(
         end, length = film.end, length * share
     first = film.static_force(begin) if first is None else first
     middle = film.static_force(0.5 * (begin + end))
-    static = length * (first + 4.0 * middle + film.static_force(end)) / 6.0
-    return Travel(_viscous(film, begin, end, length), static, share)
+    last = film.static_force(end)
+    static = length * (first + 4.0 * middle + last) / 6.0
+    return Travel(_viscous(film, begin, end, length), static, share, last)
 
 
 def _viscous(film: Film, begin: float, end: float, length: float) -> float:

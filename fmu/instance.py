@@ -1,16 +1,44 @@
-"""One FMU in fmpy, driven by the names of its variables."""
+"""One FMU in fmpy, driven by the names of its variables.
+
+fmpy loads, instantiates and checks. What is called in every step goes to the functions of the
+library itself, with arrays that are made once: fmpy makes new ones in each call, which costs more
+than many an FMU does.
+"""
 
 from __future__ import annotations
 
+import ctypes
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
 
 from ..errors import ConvergenceError, DescriptionError
 
 __all__ = ["Instance"]
+
+
+_ARRAY = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
+_FUNCTIONS: Mapping[str, tuple[Any, ...]] = {
+    "fmi2GetReal": _ARRAY,
+    "fmi2SetReal": _ARRAY,
+    "fmi2GetInteger": _ARRAY,
+    "fmi2GetBoolean": _ARRAY,
+    "fmi2DoStep": (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int),
+}
+_KINDS: Mapping[str, Any] = {
+    "Real": ctypes.c_double,
+    "Integer": ctypes.c_int,
+    "Boolean": ctypes.c_int,
+}
+_WARNING = 1  # the status up to which a call was answered
+
+
+def _function(library: Any, name: str, *types: Any) -> Any:
+    found = library[name]  # an object of our own: fmpy's are left as they are
+    found.argtypes, found.restype = types, ctypes.c_int
+    return found
 
 
 class Instance:
@@ -38,10 +66,18 @@ class Instance:
             modelIdentifier=description.coSimulation.modelIdentifier,
         )
         self._slave.instantiate(callbacks=self._callbacks(), loggingOn=True)
+        self._functions = {
+            name: _function(self._slave.dll, name, *types) for name, types in _FUNCTIONS.items()
+        }
+        self._step = self._functions["fmi2DoStep"]
+        self._me = self._slave.component
+        self._arrays: dict[tuple[str, tuple[int, ...]], tuple[Any, Any]] = {}
         outputs = [v for v in description.modelVariables if v.causality == "output"]
         self._reals = [v for v in outputs if v.type == "Real"]
-        self._integers = [v for v in outputs if v.type != "Real"]
-        self.names = [v.name for v in (*self._reals, *self._integers)]
+        self._integers = [v for v in outputs if v.type in ("Integer", "Enumeration")]
+        booleans = [v for v in outputs if v.type == "Boolean"]
+        self.names = [v.name for v in (*self._reals, *self._integers, *booleans)]
+        self._boolean_references = [v.valueReference for v in booleans]
         self._real_references = [v.valueReference for v in self._reals]
         self._integer_references = [v.valueReference for v in self._integers]
 
@@ -76,25 +112,43 @@ class Instance:
         """Value references of variables."""
         return [self.variables[name].valueReference for name in names]
 
-    def set(self, references: list[int], values: list[float]) -> None:
+    def _call(self, name: str, references: Sequence[int], values: Sequence[float] | None) -> Any:
+        """Read or, if there are values, write variables; the array that holds them then."""
+        key = name, tuple(references)
+        if key not in self._arrays:
+            n, kind = len(references), _KINDS[name[7:]]
+            self._arrays[key] = (ctypes.c_uint * n)(*references), (kind * n)()
+        numbers, array = self._arrays[key]
+        if values is not None:
+            array[:] = values
+        status = self._functions[name](self._me, numbers, len(array), array)
+        if status > _WARNING:
+            from fmpy.fmi1 import FMICallException
+
+            raise FMICallException(name, status)
+        return array
+
+    def set(self, references: Sequence[int], values: Sequence[float]) -> None:
         """Set real inputs."""
-        self._slave.setReal(references, values)
+        self._call("fmi2SetReal", references, values)
 
-    def get(self, references: list[int]) -> list[float]:
+    def get(self, references: Sequence[int]) -> list[float]:
         """Read real outputs."""
-        values: list[float] = self._slave.getReal(references)
-        return values
+        found: list[float] = self._call("fmi2GetReal", references, None)[:]
+        return found
 
-    def get_integers(self, references: list[int]) -> list[int]:
+    def get_integers(self, references: Sequence[int]) -> list[int]:
         """Read whole numbers and members of enumerations."""
-        values: list[int] = self._slave.getInteger(references)
-        return values
+        found: list[int] = self._call("fmi2GetInteger", references, None)[:]
+        return found
 
     def outputs(self) -> list[float]:
         """Read all outputs, in the order of `names`."""
-        values = list(self._slave.getReal(self._real_references))
+        values = self.get(self._real_references)
         if self._integer_references:
-            values += self._slave.getInteger(self._integer_references)
+            values += self.get_integers(self._integer_references)
+        if self._boolean_references:
+            values += self._call("fmi2GetBoolean", self._boolean_references, None)[:]
         return values
 
     def step(self, time: float, length: float) -> None:
@@ -105,16 +159,12 @@ class Instance:
         ConvergenceError
             If the FMU does not accept it; the message is the last the FMU logged.
         """
-        from fmpy.fmi1 import FMICallException
-
-        try:
-            self._slave.doStep(time, length)
-        except FMICallException as error:
+        status = self._step(self._me, time, length, 1)
+        if status > _WARNING:
             said = self.log[-1] if self.log else "it logged nothing"
             raise ConvergenceError(
-                f"{self._slave.instanceName} stopped at t = {time:g} s with status "
-                f"{error.status}: {said}"
-            ) from None
+                f"{self._slave.instanceName} stopped at t = {time:g} s with status {status}: {said}"
+            )
 
     def __enter__(self) -> Self:
         return self

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..errors import ConvergenceError
+from .master_force import forced
 from .master_sides import FilmSide, Pull, Pulling, Reaction
 from .master_step import Body, Doubled, Point, doubled, given
 
@@ -50,8 +51,10 @@ class Walk:
         self._length = 1e-3 * (goal.stop_time - first.time)
         self._held = first.gap <= body.floor and first.speed <= 0.0
         self._share = 0.5 * goal.tolerance
+        self._power = -1.0 / 3.0
         if film.has_limits:  # without extrapolation errors add up from step to step
-            self._share *= 0.2 * min(1.0, goal.tolerance / 1e-3) ** 0.3
+            self._share *= 0.5
+            self._power = -1.0 / 4.0
 
     @property
     def is_done(self) -> bool:
@@ -73,14 +76,14 @@ class Walk:
             if found is not None and error <= 1.0:
                 break
             rejected += 1
-            length *= 0.25 if math.isinf(error) else max(_SHRINK, _SAFETY * error ** (-1.0 / 3.0))
+            length *= 0.5 if math.isinf(error) else max(_SHRINK, _SAFETY * error**self._power)
             if rejected > _MOST_REJECTED or length < 1e-15 * max(point.time, 1e-12):
                 raise ConvergenceError(
                     f"no step can be taken from {point.time:g} s, gap {point.gap:g} m, that meets "
                     f"the tolerance of {goal.tolerance:g}; loosen it, or use the FMU stiction-mass"
                 )
         self.n_rejected += rejected
-        following = length * min(_GROW, _SAFETY * max(error, 1e-9) ** (-1.0 / 3.0))
+        following = length * min(_GROW, _SAFETY * max(error, 1e-9) ** self._power)
         cut_short = not rejected and length < self._length
         self._length = max(following, self._length) if cut_short else following
         mark = self._mark(point, found.gap)
@@ -122,7 +125,8 @@ class Walk:
         self.points.append(point)
 
     def _try(self, length: float) -> Doubled | None:
-        return doubled(self.film, self.pull, self.body, self.points[-1], length, self._share)
+        attempt = forced if self.film.has_limits else doubled
+        return attempt(self.film, self.pull, self.body, self.points[-1], length, self._share)
 
     def _judge(self, found: Doubled, length: float) -> float:
         """Error over tolerance: of the gap, and of the momentum against all that was given.
@@ -184,6 +188,8 @@ class Walk:
         gap, speed, there = self._settle(found, length, mark)
         impulse = abs(given(pulling, point.time, time)) + abs(there.static) * length
         left = found.total - (there.impulse - point.film.impulse)
+        if self.film.has_limits:
+            left = self.body.mass * speed
         if mark == self.body.floor and gap < point.gap:
             speed, left, self._held = 0.0, 0.0, True
         self._add(Point(time, gap, speed, left, point.given + impulse, there), pulling, end)
@@ -201,9 +207,11 @@ class Walk:
         point, mass = self.points[-1], self.body.mass
         gap, speed = found.gap if mark is None else mark, found.speed
         if self.film.has_limits:
-            half = 0.5 * length
-            self.film.move(point.time, half, *found.middle)
-            return gap, speed, self.film.move(point.time + half, half, gap, speed)
+            since = 0.0
+            for until, *motion in found.way:
+                self.film.move(point.time + since, until - since, *motion)
+                since = until
+            return gap, speed, self.film.move(point.time + since, length - since, gap, speed)
         start = self.film.save()
         there = self.film.move(point.time, length, gap, speed)
         for _ in range(4):

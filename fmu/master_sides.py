@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Protocol
 
 from .instance import Instance
 
-__all__ = ["DrivePull", "FilmSide", "GivenPull", "Pulling", "Reaction"]
+__all__ = ["DrivePull", "FilmSide", "Force", "GivenPull", "Pulling", "Reaction", "Restorable"]
 
 Pulling = Callable[[float], float]
 """Pull [N] at a time [s]."""
@@ -31,38 +31,60 @@ class Reaction(NamedTuple):
     broken_at: float  # time of the latest rupture [s]; -1 before
 
 
+class Force(NamedTuple):
+    """What a film answers to a gap and a speed, without a step."""
+
+    force: float  # all of it [N]
+    static: float  # what does not depend on speed [N]
+    damping: float  # dF/dv [N.s/m]
+    stiffness: float  # dF/dh [N/m]
+
+
+_FORCES = ("F", "F_m", "c", "k")
 _ANSWERS = ("J", "F_m", "F", "c", "h_above", "h_below", "t_break")
 
 
-class _Restorable(Instance):
+class Restorable(Instance):
     """An FMU that can be taken back."""
+
+    _now: Any = None  # the state in which it is, if it has not moved since
 
     def save(self) -> Any:
         """State of the FMU, to be given to `restore`, and at last to `forget`."""
-        return self._slave.getFMUState(), len(self.log)
+        self._now = self._slave.getFMUState(), len(self.log)
+        return self._now
 
     def restore(self, state: Any) -> None:
         """Go back to a state; what was said since then did not happen."""
-        self._slave.setFMUState(state[0])
-        del self.log[state[1] :]
+        if self._now is not state:
+            self._slave.setFMUState(state[0])
+            del self.log[state[1] :]
+            self._now = state
+
+    def step(self, time: float, length: float) -> None:
+        """See `Instance.step`."""
+        self._now = None
+        super().step(time, length)
 
     def forget(self, state: Any) -> None:
         """Free a state."""
         self._slave.freeFMUState(state[0])
 
 
-class FilmSide(_Restorable):
+class FilmSide(Restorable):
     """The FMU ``stiction-force`` as the master uses it; a context that cleans up."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
-        self.calls = 0
+        self.calls = self.asked = 0
+        self.power = 3.0  # with which the damping fell last
 
     def begin(
         self, values: Mapping[str, float | str], mass: float, speed: float, exchange: str
     ) -> Reaction:
         """Initialize with start values; the gap is that of the film, the mass the master's."""
         self._motion, self._answers = self.references("h", "v"), self.references(*_ANSWERS)
+        self._forces, self._limit = self.references(*_FORCES), self.references("limit")
         gap = float(values.get("h0", self.variables["h0"].start))
         own: dict[str, float | str] = {"h": gap, "v": speed, "m_ref": mass, "exchange": exchange}
         self.start({**values, **own}, 0.0)
@@ -73,6 +95,16 @@ class FilmSide(_Restorable):
     def look(self) -> Reaction:
         """Answers at the motion set last."""
         return Reaction(*self.get(self._answers))
+
+    def feel(self, gap: float, speed: float) -> Force:
+        """Forces at a gap [m] and a speed [m/s]; nothing else in the film changes."""
+        self.asked += 1
+        self.set(self._motion, [gap, speed])
+        return Force(*self.get(self._forces))
+
+    def limit(self) -> int:
+        """Which limit acts at what was felt last."""
+        return self.get_integers(self._limit)[0]
 
     def move(self, time: float, length: float, gap: float, speed: float) -> Reaction:
         """Take a step from `time` [s] that ends at a gap [m] with a speed [m/s]."""
@@ -118,7 +150,7 @@ class GivenPull:
         """See `Pull.forget`."""
 
 
-class DrivePull(_Restorable):
+class DrivePull(Restorable):
     """A drive FMU with the variables of ``valve-drive``; its pull is a line within a step."""
 
     def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:

@@ -22,13 +22,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from .master_root import Known, root
 from .master_sides import FilmSide, Pull, Pulling, Reaction
 
 __all__ = ["Body", "Doubled", "Point", "doubled", "given", "single"]
 
 _GAMMA = 1.0 - math.sqrt(0.5)
 _SOLVED = 1e-4  # share of the tolerance that a stage may miss its root by
-_REACH = 3.0  # factor by which a first guess may change the gap
 _GAUSS = (
     (0.04691007703066802, 0.11846344252809454), (0.23076534494715845, 0.23931433524968324),
     (0.5, 0.28444444444444444), (0.7692346550528415, 0.23931433524968324),
@@ -56,14 +56,6 @@ class Point(NamedTuple):
     film: Reaction
 
 
-class _Answer(NamedTuple):
-    """Gap of a stage [m], the force that holds there beside the film's J [N], and dF/dv."""
-
-    gap: float
-    held: float
-    damping: float
-
-
 class _Stage(NamedTuple):
     """End of a base step; `total` is the momentum of mass and film [N.s]."""
 
@@ -80,7 +72,7 @@ class Doubled(NamedTuple):
     speed: float
     total: float
     damping: float
-    middle: tuple[float, float]  # gap and speed half way
+    way: tuple[tuple[float, float, float], ...]  # times since the start, gaps, speeds between
     gap_error: float
     total_error: float
     speed_error: float
@@ -125,7 +117,7 @@ def doubled(
         if second is None:
             return None
         delivered = second.total + there.impulse - point.film.impulse
-        return _together(whole, first, second._replace(total=delivered), film.has_limits)
+        return _together(whole, second._replace(total=delivered))
     finally:
         _restore(film, pull, marks)
         film.forget(marks[0])
@@ -137,20 +129,16 @@ def _restore(film: FilmSide, pull: Pull, marks: tuple[object, object]) -> None:
     pull.restore(marks[1])
 
 
-def _together(whole: _Stage, first: _Stage, halves: _Stage, as_halves: bool) -> Doubled:
-    """Extrapolate: the error of the halves is a third of the difference.
-
-    Where a limit acts the impulse belongs to its way, and the halves are kept as they are.
-    """
+def _together(whole: _Stage, halves: _Stage) -> Doubled:
+    """Extrapolate: the error of the halves is a third of the difference."""
     gap = math.log(halves.gap / whole.gap) / 3.0
     total, speed = (halves.total - whole.total) / 3.0, (halves.speed - whole.speed) / 3.0
-    more = 0.0 if as_halves else 1.0
     return Doubled(
-        halves.gap * math.exp(more * gap),
-        halves.speed + more * speed,
-        halves.total + more * total,
+        halves.gap * math.exp(gap),
+        halves.speed + speed,
+        halves.total + total,
         min(whole.damping, halves.damping),
-        (first.gap, first.speed),
+        (),
         abs(gap),
         abs(total),
         abs(speed),
@@ -168,17 +156,25 @@ class _Problem(NamedTuple):
     part: float  # weight of the stage itself [s]
     base: float  # gap from which the speed of the stage counts [m]
     known: float  # momentum that is delivered in any case [N.s]
+    may_fly: bool  # whether the gap may multiply within the step
 
-    def at(self, gap: float) -> tuple[float, float, _Answer]:
-        """Momentum that is missing at a gap, its slope [N.s/m], and what holds there."""
+    @property
+    def mass(self) -> float:
+        """See `master_root.Stage`."""
+        return self.body.mass
+
+    def at(self, gap: float) -> Known:
+        """Ask the film for what holds at a gap."""
         body, speed = self.body, (gap - self.base) / self.part
         self.film.restore(self.mark)
         there = self.film.move(self.point.time, self.span, gap, speed)
         held = there.static + body.stiffness * (gap - body.rest)
-        taken = there.impulse - self.point.film.impulse
-        miss = body.mass * speed + taken + self.part * held - self.known
-        slope = body.mass / self.part + there.damping + self.part * body.stiffness
-        return miss, slope, _Answer(gap, held, there.damping)
+        return Known(gap, there.impulse - self.point.film.impulse, there.damping, held)
+
+    def missing(self, gap: float, taken: float, held: float) -> float:
+        """Momentum that is missing at a gap [N.s]."""
+        speed = (gap - self.base) / self.part
+        return self.body.mass * speed + taken + self.part * held - self.known
 
 
 def single(
@@ -188,7 +184,9 @@ def single(
     mark = film.save()
     try:
         steady = impulse / length
-        return _stages(film, body, point, length, rtol, (mark, steady * _GAMMA * length, impulse))
+        return _stages(
+            film, body, point, length, rtol, (mark, steady * _GAMMA * length, impulse), may_fly=True
+        )
     finally:
         film.restore(mark)
         film.forget(mark)
@@ -211,6 +209,8 @@ def _stages(
     length: float,
     rtol: float,
     pulled: tuple[object, float, float],
+    *,
+    may_fly: bool = False,
 ) -> _Stage | None:
     """Two stages; `pulled` is the film's state, and the impulse of the pull to each [N.s]."""
     mark, early, impulse = pulled
@@ -218,8 +218,11 @@ def _stages(
     # As good as the step has to be, but never better than the sums can be.
     size = abs(impulse) + abs(point.film.static) * length
     enough = _SOLVED * rtol, _SOLVED * rtol * size + 1e-15 * abs(point.film.impulse)
-    problem = _Problem(film, mark, body, point, part, part, point.gap, point.momentum + early)
-    first = _root(problem, point.gap + part * point.speed, enough)
+    known = point.momentum + early
+    problem = _Problem(film, mark, body, point, part, part, point.gap, known, may_fly)
+    held = point.film.static + body.stiffness * (point.gap - body.rest)
+    here = Known(point.gap, 0.0, point.film.damping, held, film.power)
+    first = root(problem, here, point.gap + part * point.speed, enough)
     if first is None:
         return None
     speed = (first.gap - point.gap) / part
@@ -228,36 +231,9 @@ def _stages(
         base=point.gap + (length - part) * speed,
         known=point.momentum + impulse - (length - part) * first.held,
     )
-    last = _root(problem, first.gap + (length - part) * speed, enough)
+    last = root(problem, here, first.gap + (length - part) * speed, enough)
     if last is None:
         return None
+    film.power = last.power
     speed, total = (last.gap - problem.base) / part, problem.known - part * last.held
     return _Stage(last.gap, speed, total, last.damping)
-
-
-def _root(problem: _Problem, guess: float, enough: tuple[float, float]) -> _Answer | None:
-    """Solve a stage: Newton in ln h, kept in a bracket.
-
-    `enough` is what may be left of ln h and of the momentum [N.s].
-    """
-    start = problem.point.gap
-    gap = min(max(guess, start / _REACH), start * _REACH)
-    low, high, before = 0.0, math.inf, math.inf
-    for _ in range(80):
-        miss, slope, answer = problem.at(gap)
-        change = -miss / (slope * gap)
-        if (abs(miss) <= enough[1] and abs(change) <= enough[0]) or abs(change) <= 1e-15:
-            return answer
-        if miss < 0.0:
-            low = gap
-        else:
-            high = gap
-        if high <= low * (1.0 + 4e-16):
-            return answer
-        slow = abs(miss) > 0.5 * before
-        before = abs(miss)
-        following = gap * math.exp(min(max(change, -1.0), 1.0))
-        if low > 0.0 and math.isfinite(high) and (slow or not low < following < high):
-            following = math.sqrt(low * high)
-        gap = following
-    return None

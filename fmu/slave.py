@@ -205,7 +205,7 @@ class PortSlave(PortAccess):
         state = Snapshot(
             build=self._identity(), phase=str(self._phase), prepared=self._prepared is not None,
             stale=self._stale, failure=self.failure, time=self.time, start_time=self.start_time,
-            values=plain(self.values), hidden={},
+            values=self.values.copy(), hidden={},  # numbers all: `check_outputs` has seen to it
         )  # fmt: skip
         try:
             if self._prepared is not None:
@@ -245,7 +245,7 @@ class PortSlave(PortAccess):
 
     @staticmethod
     def _fmu_state_to_bytes(state: Mapping[str, Any]) -> bytes:
-        return to_bytes(state)
+        return to_bytes(plain(state))
 
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:

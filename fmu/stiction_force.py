@@ -124,6 +124,10 @@ class StictionForce(PortSlave):
 
     def refresh(self) -> None:
         """See `PortSlave.refresh`: forces follow the motion at once."""
+        self._evaluate(None)
+
+    def _evaluate(self, static: float | None) -> None:
+        """Forces at the motion that is set; the static one, if it is known already."""
         values = self.values
         gap, speed = values["h"], values["v"]
         film = self._film()
@@ -134,7 +138,7 @@ class StictionForce(PortSlave):
                 h_below=values["h0"] if values["h0"] < gap and values["rewet"] > 0.0 else 0.0,
             )  # fmt: skip
             return
-        static = film.static_force(gap)
+        static = film.static_force(gap) if static is None else static
         viscous, acting = film.viscous_force(gap, speed)
         damping = _damping(film, gap, speed, limited=acting is not None)
         whole = gap <= film.full_gap * (1.0 + _SAME)
@@ -154,7 +158,7 @@ class StictionForce(PortSlave):
         if film is not None:
             done = travel(film, before.gap, values["h"], step, before.static)
         self.memory = self._remember(film, time, step, done)
-        self.refresh()
+        self._evaluate(self.memory.static if self._film() is film else None)
         values["J"] += done.viscous
         values["J_m"] += done.static
         values["F_mean"] = (done.viscous + done.static) / step
@@ -178,7 +182,8 @@ class StictionForce(PortSlave):
         if broken:
             return _Memory(gap, 0.0, 0.0, share, True)
         now = self.plan.film_with(share)
-        return _Memory(gap, now.resistance(gap), now.static_force(gap), share, False)
+        static = done.last if now is film else now.static_force(gap)
+        return _Memory(gap, now.resistance(gap), static, share, False)
 
     def _doubt(self, step: float, damping: float) -> None:
         """Compare the force at the end with that on the way, and the step with m/c."""

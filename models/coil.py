@@ -16,10 +16,12 @@ only: this also runs inside an FMU.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from attrs import field, frozen
 
 from ..checks import count, optional, positive
+from ..errors import ConvergenceError
 from ..units import si
 
 __all__ = [
@@ -28,6 +30,7 @@ __all__ = [
 
 _MU0 = 4e-7 * math.pi  # [N/A2]
 _KNEE = 8  # how sharply the iron saturates
+_MOST_STEPS = 100_000  # some seconds of steady voltage; then the motion given is no motion
 _FLUX_RTOL = 1e-11  # far below what the extrapolated gap of a co-simulation is worth
 
 
@@ -117,14 +120,27 @@ def magnet_force(coil: Coil, flux: float) -> float:
     return flux * flux / _pole(coil)
 
 
+def _rate(coil: Coil, applied: float) -> Callable[[float, float], float]:
+    """`flux_rate` over flux and gap, with what stays the same worked out once."""
+    fall = coil.resistance / _pole(coil)
+    air, iron = 2.0 * coil.air_gap, coil.iron_gap
+    knee = math.inf if coil.saturation is None else coil.turns * coil.pole_area * coil.saturation
+
+    def rate(flux: float, gap: float) -> float:
+        reluctance = max(air - 2.0 * gap, 0.0) + iron * (1.0 + (flux / knee) ** _KNEE)
+        return applied - fall * flux * reluctance
+
+    return rate
+
+
 def _runge_kutta(
-    coil: Coil, flux: float, gap: float, speed: float, applied: float, step: float
+    rate: Callable[[float, float], float], flux: float, gap: float, speed: float, step: float
 ) -> float:
     half, middle = 0.5 * step, gap + 0.5 * speed * step
-    k1 = flux_rate(coil, flux, gap, applied)
-    k2 = flux_rate(coil, flux + half * k1, middle, applied)
-    k3 = flux_rate(coil, flux + half * k2, middle, applied)
-    k4 = flux_rate(coil, flux + step * k3, gap + speed * step, applied)
+    k1 = rate(flux, gap)
+    k2 = rate(flux + half * k1, middle)
+    k3 = rate(flux + half * k2, middle)
+    k4 = rate(flux + step * k3, gap + speed * step)
     return flux + step * (k1 + 2.0 * (k2 + k3) + k4) / 6.0
 
 
@@ -147,17 +163,26 @@ def advance_flux(
     -----
     Classical Runge-Kutta steps, halved and extrapolated, to about 1e-11 of the flux. Where the
     diode blocks, the flux is zero from there to the end, as nothing but a voltage can raise it.
+
+    Raises
+    ------
+    ConvergenceError
+        If the end is not reached in 100 000 steps, as of a motion that leads out of all bounds.
     """
     if flux <= 0.0 and applied <= 0.0:
         return 0.0
     # No first try beyond what an explicit method can stand; a step grows at most fourfold.
     time, length = 0.0, 0.5 * inductance(coil, gap) / coil.resistance
 
+    rate = _rate(coil, applied)
+
     def rk4(value: float, at: float, step: float) -> float:
-        return _runge_kutta(coil, value, gap + speed * at, speed, applied, step)
+        return _runge_kutta(rate, value, gap + speed * at, speed, step)
 
     scale = _FLUX_RTOL * (flux + abs(applied) * duration)
-    while time < duration:
+    for _ in range(_MOST_STEPS):
+        if time >= duration:
+            return flux
         length = min(length, duration - time)
         whole, half = rk4(flux, time, length), 0.5 * length
         halves = rk4(rk4(flux, time, half), time + half, half)
@@ -169,4 +194,9 @@ def advance_flux(
         if not error < 1e300:
             error = 1e5
         length *= min(4.0, max(0.1, 0.9 * max(error, 1e-12) ** -0.2))
-    return flux
+        if time + length == time:
+            break
+    raise ConvergenceError(
+        f"the flux of the coil did not follow a gap of {gap:g} m that moves at {speed:g} m/s for "
+        f"{duration:g} s: it got to {time:g} s; give a smaller speed or shorter steps"
+    )

@@ -84,6 +84,22 @@ def test_bad_times_are_refused(pair, name, value):
         cosimulate(*pair, **times)
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_steps_chosen_by_their_error_meet_the_tolerance(pair, first_release, tolerance):
+    found = cosimulate(*pair, 2e-3, tolerance=tolerance)
+    assert found["t_release"][-1] == pytest.approx(first_release, rel=tolerance)
+    assert found.time[-1] == 2e-3
+    assert found.n_steps < 400
+    assert 1e-3 in found.time  # a voltage that jumps ends a step
+
+
+def test_a_step_or_a_tolerance_is_given(pair):
+    with pytest.raises(DescriptionError, match="step must be given, or else a tolerance"):
+        cosimulate(*pair, 1e-3)
+    with pytest.raises(DescriptionError, match="tolerance must be between"):
+        cosimulate(*pair, 1e-3, tolerance=1.0)
+
+
 def test_an_fmu_that_stops_says_why(pair):
     with pytest.raises(ConvergenceError, match=r"stiction-mass stopped at t = 0 s.*eta"):
         cosimulate(*pair, 1e-3, 1e-5, mass_start={"eta": -1.0})

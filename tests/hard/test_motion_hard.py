@@ -530,3 +530,12 @@ def test_a_pull_that_starts_from_nothing_moves_the_stiffest_film(film_scene, vol
     # The gap has hardly moved: what was given, the film has taken.
     given_impulse = 100.0 * (0.01 + 1e-3 * math.expm1(-10.0))
     assert state.viscous_impulse == approx(given_impulse, 1e-7)
+
+
+def test_a_film_may_break_at_the_very_gap_of_release(film_scene):
+    """Two things happen at one gap; the first must not hide the second."""
+    pull = {"force": 1.0, "mass": 0.02, "initial_gap": 1e-6, "final_gap": 1e-5}
+    state = run(film_scene(PUBLISHED, VISCOUS, ck.Rupture(gap=1e-5), **pull)).state
+    assert state.broken
+    assert state.n_releases == state.n_breaks == 1
+    assert state.release_time == state.break_time > 0.0

@@ -125,7 +125,7 @@ EXTENT = {"flats": {"squeeze.disc_radius"}, "sphere": {"squeeze.sphere_film_heig
 MOTION = {
     "speed": {"quadrature.gauss_legendre"},
     "time": set(),
-    "force": {"stiff_step.*", "step_reading.*", "quadrature.gauss_legendre"},
+    "force": {"stiff_step.*", "short_step.*", "step_reading.*", "quadrature.gauss_legendre"},
 }
 VALIDITY = {
     ck.ViscousForce: {"validity.reynolds_number", "validity.slenderness"},

@@ -1,0 +1,134 @@
+"""What coupling costs. Counts are asserted, seconds only printed."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from contactkit.fmu import build as building
+from contactkit.fmu.cosimulate import cosimulate
+from contactkit.fmu.instance import Instance
+from contactkit.fmu.master import Mass, couple
+from contactkit.fmu.stiction_mass import StictionMass
+from contactkit.models.scenes import open_scene
+
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+
+CYCLE = 11e-3  # [s]: the delay before the first energising, and one period
+RELEASE = json.loads(
+    (Path(__file__).parents[1] / "data" / "release.json").read_text(encoding="utf-8")
+)
+PHASES = {  # start values and pull [N] of a mass that rests, one that a film holds, one that flies
+    "resting": ({"h_min": 5e-6}, -15.0),
+    "film": ({"V": 1.58e-10}, 40.0),
+    "no meniscus": ({"meniscus_law": "NONE"}, 40.0),
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("coupling")
+
+
+@pytest.fixture(scope="module")
+def film(folder):
+    return building.build("stiction-force", folder)
+
+
+@pytest.fixture(scope="module")
+def mass(folder):
+    return building.build("stiction-mass", folder / "mass.fmu")
+
+
+@pytest.fixture(scope="module")
+def pair(folder):
+    return open_scene("fuel-injector").build(folder)
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_do_step_in_fmpy(benchmark, mass, phase):
+    """One doStep of 0.1 us, and nothing else."""
+    values, pull = PHASES[phase]
+    with Instance(mass) as one:
+        one.start(values, 1.0)
+        one.set(one.references("F_ext"), [pull])
+        one.step(0.0, 1e-5)
+        time = [1e-5]
+
+        def step():
+            one.step(time[0], 1e-7)
+            time[0] += 1e-7
+
+        benchmark.pedantic(step, rounds=2000)
+
+
+def test_do_step_in_process(benchmark):
+    """The same without fmpy and pythonfmu, with a film."""
+    slave = StictionMass(instance_name="bench")
+    slave.values["V"], slave.values["F_ext"] = 1.58e-10, 40.0
+    slave.setup_experiment(0.0)
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert slave.do_step(0.0, 1e-5)
+    before = slave.state
+    benchmark.pedantic(lambda: slave.do_step(slave.time, 1e-7), rounds=2000)
+    steps = slave.state.n_steps - before.n_steps
+    evaluations = (slave.state.n_evaluations - before.n_evaluations) / steps
+    benchmark.extra_info |= {"evaluations per step": evaluations}
+    assert slave.failure == ""
+    assert evaluations < 12
+
+
+def test_state_in_fmpy(benchmark, mass):
+    """Take a state, go back to it, free it."""
+    with Instance(mass) as one:
+        one.start({}, 1.0)
+        one.step(0.0, 1e-6)
+        fmu = one._slave
+
+        def there_and_back():
+            state = fmu.getFMUState()
+            fmu.setFMUState(state)
+            fmu.freeFMUState(state)
+
+        benchmark.pedantic(there_and_back, rounds=2000)
+
+
+@pytest.mark.parametrize(("name", "most"), [("A", 200), ("B", 300), ("D", 500), ("E", 1200)])
+def test_release_by_impulses(benchmark, film, name, most):
+    """A release case at the tolerance 1e-3."""
+    case, values = RELEASE[name]["case"], RELEASE[name]["values"]
+    kept = ("h0", "R", "eta", "gamma", "V", "dp_cav", "tau_lim")
+    start = {k: case[k] for k in kept} | {"theta1": case["theta"], "theta2": case["theta"]}
+    tau, force = case["tau"], case["F0"]
+
+    def run():
+        return couple(
+            film, Mass(mass=case["m"], stiffness=case["k_s"]),
+            lambda t: force if tau == 0.0 else -force * math.expm1(-t / tau),
+            2.0 * values["t_rel"], release_gap=case["h_rel"],
+            film_start=start | {"meniscus_law": "PUBLISHED"},
+        )  # fmt: skip
+
+    found = benchmark.pedantic(run, rounds=5)
+    benchmark.extra_info |= {
+        "steps": found.n_steps, "rejected": found.n_rejected, "film calls": found.n_calls,
+        "seconds in the steps": found.seconds,
+        "error": found.release_time / values["t_rel"] - 1.0,
+    }  # fmt: skip
+    assert found.n_calls < most
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+def test_injector_cycle_by_the_pair(benchmark, pair, tolerance):
+    """One firing cycle, steps by their error; the monolithic one is in test_motion_bench."""
+    found = benchmark.pedantic(cosimulate, (*pair, CYCLE), {"tolerance": tolerance}, rounds=3)
+    benchmark.extra_info |= {
+        "steps": found.n_steps, "rejected": found.n_rejected,
+        "seconds in the steps": found.seconds,
+    }  # fmt: skip
+    assert found.n_steps < 900
+    assert found["n_release"][-1] == 1
