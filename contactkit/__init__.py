@@ -92,6 +92,7 @@ if TYPE_CHECKING:
     from .published_formulas import PUBLISHED, published
     from .separation import simulate
     from .sliding_plan import SlidingPlan, divide_sliding
+    from .stop_curves import stop_curve
     from .studies import study
 
 __version__ = "0.1.0"
@@ -109,7 +110,7 @@ __all__ = [
     "VanDerWaalsForce", "Vibration", "ViscousForce", "Wave", "Window", "adhesion_curve", "advance",
     "critical_meniscus", "divide_meniscus", "divide_sliding", "humidity_curve", "load_liquid", "load_material", "load_result",
     "load_scene", "plan", "press", "published", "save_result", "save_scene", "simulate", "solve",
-    "study",
+    "stop_curve", "study",
 ]  # fmt: skip
 
 # What needs numpy or cattrs is imported when it is first asked for.
@@ -122,6 +123,7 @@ _LATER = {
     "SlidingPlan": "sliding_plan",
     "divide_sliding": "sliding_plan",
     "solve": "contact",
+    "stop_curve": "stop_curves",
     "press": "press_map",
     "PUBLISHED": "published_formulas",
     "published": "published_formulas",

@@ -17,16 +17,20 @@ import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import ContactkitError, DescriptionError
 from ..units import parse_quantity
-from .document import index_page, license_text
+from .document import Page, external_dependencies, index_page, license_text
+from .guard import protect
 from .integrity import RECORD, content_hash, package_name
+from .packing import write_archive
 from .ports import Port, Value, find_port
+from .terminals import terminal_files
 from .vendor import Closure, fallback_attrs, find_closure
 
 if TYPE_CHECKING:
+    from ..scene import SeparationScene
     from .slave import PortSlave
 
 __all__ = ["FMUS", "build", "validate"]
@@ -37,7 +41,10 @@ FMUS: dict[str, tuple[str, str]] = {
     "valve-drive": ("valve_drive", "ValveDrive"),
     "tip-contact": ("tip_contact", "TipContact"),
     "stiction-force": ("stiction_force", "StictionForce"),
+    "contact-stop": ("contact_stop", "ContactStop"),
 }
+# name: module in contactkit.fmu whose `bake` makes tables of what is given beside start values
+BAKERS = dict.fromkeys(("contact-stop", "valve-drive", "tip-contact"), "stop_bake")
 
 _SCRIPT = '''\
 """Main script of this FMU: contactkit wrote it, pythonfmu loads it."""
@@ -63,7 +70,8 @@ class {class_name}(Model):
     # The class needs a method of its own: pythonfmu 0.7 gives back a reference to this module's
     # namespace that it never took, each time it instantiates, and only a function renews one.
     def __init__(self, **kwargs):
-        verify(kwargs["resources"], self.build)
+        record = verify(kwargs["resources"], self.build)
+        type(self).data = record["data"]  # tables, under the hash of the build
         super().__init__(**kwargs)
 '''
 
@@ -77,7 +85,7 @@ FmuBuilder.build_FMU(script, dest, project_files, documentation)
 
 
 def build(
-    name: str, out: str | os.PathLike[str], *, start: Mapping[str, Value | str] | None = None
+    name: str, out: str | os.PathLike[str], *, start: Mapping[str, Any] | None = None
 ) -> Path:
     """Write an FMU (FMI 2.0, co-simulation).
 
@@ -89,6 +97,8 @@ def build(
         The file to write, or a folder to write ``<name>.fmu`` to.
     start : mapping, optional
         Start values to bake in, by variable; a text carries its unit (``"2.5 um"``).
+        ``contact-stop``, ``valve-drive`` and ``tip-contact`` also take a ``curve``, a
+        `StopCurve`; that of ``tip-contact`` is of one tip.
 
     Returns
     -------
@@ -103,15 +113,20 @@ def build(
         If pythonfmu is not installed, or the FMU could not be made.
     """
     slave = _slave_class(name)
-    baked = {key: _start_value(slave.ports, key, value) for key, value in (start or {}).items()}
+    given, data = dict(start or {}), dict[str, Any]()
+    if name in BAKERS:
+        data = importlib.import_module(f"{__package__}.{BAKERS[name]}").bake(name, given)
+    baked = {key: _start_value(slave.ports, key, value) for key, value in given.items()}
     target = Path(out)
     if target.is_dir():
         target /= f"{name}.fmu"
     if target.suffix != ".fmu":
         raise DescriptionError("out", str(out), "end in .fmu or be a folder that exists")
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        fmu = _pack(slave, name, dict(sorted(baked.items())), Path(folder))
-        return _repack(fmu, target)
+        fmu = _pack(slave, name, dict(sorted(baked.items())), Path(folder), data)
+        with zipfile.ZipFile(fmu) as packed:
+            files = {path: packed.read(path) for path in packed.namelist()}
+    return write_archive(protect(files) | terminal_files(slave.ports), target)
 
 
 def validate(path: str | os.PathLike[str]) -> list[str]:
@@ -145,13 +160,17 @@ def _start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Valu
     return port.read(value)
 
 
-def _pack(slave: type[PortSlave], name: str, baked: Mapping[str, Value], folder: Path) -> Path:
+def _pack(
+    slave: type[PortSlave], name: str, baked: Mapping[str, Value], folder: Path,
+    data: Mapping[str, Any],
+) -> Path:  # fmt: skip
     """Lay out the files of an FMU in a folder and let pythonfmu pack them."""
     closure = find_closure(slave.__module__, f"{__package__}.integrity")
     record = {
         "fmu": name,
         "class": slave.__name__,
         "start": baked,
+        "data": data,
         "script": _SCRIPT,
         "requires": sorted(closure.requires),
         "pythonfmu": importlib.metadata.version("pythonfmu"),
@@ -169,27 +188,40 @@ def _pack(slave: type[PortSlave], name: str, baked: Mapping[str, Value], folder:
     if closure.requires & {"attr", "attrs"}:
         files |= {f"vendor/{path}": text for path, text in fallback_attrs().items()}
     _write(folder / "resources", files)
-    _write(folder / "documentation", _documentation(slave, baked, closure))
+    _write(folder / "documentation", _documentation(slave, name, baked, closure))
     top = sorted({path.partition("/")[0] for path in files} - {main})
     return _run_builder(folder, main, top, name)
 
 
 def _documentation(
-    slave: type[PortSlave], baked: Mapping[str, Value], closure: Closure
+    slave: type[PortSlave], name: str, baked: Mapping[str, Value], closure: Closure
 ) -> dict[str, bytes]:
     start = slave.start_values() | dict(baked)
     # What is imported only when called for, such as numpy by a sphere, this model does without.
     needed = find_closure(slave.__module__, at_once=True).requires
     requires = (closure.requires & needed) - {"attr", "attrs"}
-    page = index_page(slave.__name__, slave.summary, slave.ports, start, requires)
+    page = Page.of_python(
+        requires, name=name, title=slave.__name__, summary=slave.summary, ports=slave.ports,
+        start=start, scene=_scene(slave, start),
+    )  # fmt: skip
     package = sys.modules[(__package__ or "").partition(".")[0]]
     own = Path(package.__path__[0]).parent / "LICENSE"
     return {
-        "index.html": page.encode(),
+        "index.html": index_page(page).encode(),
+        "externalDependencies.txt": external_dependencies(requires).encode(),
         "licenses/license.txt": license_text("contactkit", own).encode(),
         "licenses/attrs.txt": license_text("attrs").encode(),
         "licenses/pythonfmu.txt": license_text("pythonfmu").encode(),
     }
+
+
+def _scene(slave: type[PortSlave], start: Mapping[str, Value]) -> SeparationScene | None:
+    """Scene that the start values describe, for the documentation, if the model is made of one."""
+    scene_of = getattr(sys.modules[slave.__module__], "scene_of", None)
+    try:
+        return scene_of(start) if scene_of is not None else None
+    except ContactkitError:  # they contradict each other; the host may yet set others
+        return None
 
 
 def _write(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -211,26 +243,3 @@ def _run_builder(folder: Path, main: str, others: list[str], name: str) -> Path:
     if done.returncode or not fmu.exists():
         raise ContactkitError(f"pythonfmu could not build {name!r}:\n{done.stderr.strip()}")
     return fmu
-
-
-def _repack(fmu: Path, target: Path) -> Path:
-    """Copy an FMU so that equal content gives equal bytes, and never leave half a file."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, partial = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    try:
-        with (
-            os.fdopen(handle, "wb") as stream,
-            zipfile.ZipFile(fmu) as source,
-            zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed,
-        ):
-            for entry in sorted(source.namelist()):
-                info = zipfile.ZipInfo(entry, date_time=(1980, 1, 1, 0, 0, 0))
-                info.compress_type, info.create_system = zipfile.ZIP_DEFLATED, 3
-                info.external_attr = 0o100644 << 16
-                packed.writestr(info, source.read(entry))
-        Path(partial).chmod(0o644)
-        Path(partial).replace(target)
-    except BaseException:
-        Path(partial).unlink(missing_ok=True)
-        raise
-    return target

@@ -43,7 +43,7 @@ def package_name(build: str) -> str:
     return f"contactkit_{build[:12]}"
 
 
-def verify(resources: str, build: str) -> None:
+def verify(resources: str, build: str) -> dict[str, Any]:
     """Check the files of an FMU against the hash it was built with.
 
     Parameters
@@ -53,6 +53,11 @@ def verify(resources: str, build: str) -> None:
     build : str
         The hash in the code that is running.
 
+    Returns
+    -------
+    dict
+        How the FMU was built: what `content_hash` was given.
+
     Raises
     ------
     ContactkitError
@@ -60,7 +65,7 @@ def verify(resources: str, build: str) -> None:
     """
     folder = Path(resources) / package_name(build)
     try:
-        record = json.loads((Path(resources) / RECORD).read_bytes())
+        record: dict[str, Any] = json.loads((Path(resources) / RECORD).read_bytes())
         sources = {
             path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.py")
         }
@@ -72,6 +77,7 @@ def verify(resources: str, build: str) -> None:
             "FMU was built; build it again"
         )
     _relocate(folder)
+    return record
 
 
 def _relocate(folder: Path) -> None:

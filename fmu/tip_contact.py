@@ -8,6 +8,9 @@ acceleration of the root at the start of a step and takes the mean force over th
 impulse without loss; the force at the end, which follows height and speed at once, serves a host
 that cannot.
 
+Built with a ``curve``, a `StopCurve` of one apex on its site, the site gives: tips strike it,
+bounce and leave a dent. Without one they land for good on a rigid site.
+
 The tips start landed where the root starts at height 0 or below, else free and unbent. The law of
 the meniscus under a sphere is prepared with numpy, so the host's Python needs numpy (and scipy),
 unless V is 0.
@@ -29,6 +32,7 @@ from ..meniscus import Meniscus
 from ..models.mirror_flight import Root
 from ..models.mirror_tip import (
     TipState,
+    TipStop,
     advance_tip,
     film_force,
     free_start,
@@ -38,6 +42,7 @@ from ..models.mirror_tip import (
 from ..motion_state import MotionState
 from ..plan import Plan, plan
 from ..scene import SeparationScene
+from ..stop_tables import StopCurve
 from ..surfaces import Flat, Sphere
 from .ports import Port
 from .slave import PortSlave
@@ -102,6 +107,12 @@ PORTS = (
     _output("t_land", "s", "time of the latest landing, -1 before", (), start=-1.0),
     _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
     _output("n_land", "-", "number of landings so far", (), kind="integer"),
+    _output("d", "m", "approach of apex and site, or the dent they left; 0 if rigid", _START,
+            display_unit="nm", nominal=1e-9),
+    _output("d_max", "m", "largest approach of a tip so far; 0 if rigid", (), display_unit="nm"),
+    _output("F_max", "N", "largest force of the site on a tip so far; 0 if rigid", (),
+            display_unit="nN"),
+    _output("W_plastic", "J", "work that yielding took, of all tips", (), nominal=1e-17),
     Port("N", "-", causality="parameter", label="number of equal tips", kind="integer", start=2,
          minimum=1),
     _size("m", "kg", "mass of one tip", 4e-16, exclusive=True),
@@ -120,6 +131,7 @@ PORTS = (
     _size("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
     Port("profile", "-", causality="parameter", label="profile of the meniscus",
          kind="enumeration", enumeration=TipLaw, start=TipLaw.EXACT),
+    _size("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     _size("rtol", "-", "tolerance of an internal step", 1e-7, exclusive=True, maximum=0.1),
 )  # fmt: skip
 
@@ -187,19 +199,34 @@ class TipContact(PortSlave):
 
     plan: Plan
     state: TipState
+    stop: TipStop | None
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         values = self.values
         tolerance = max(values["rtol"], 1e-11)
         self.plan = plan(tip_scene(values), Accuracy(time_rtol=tolerance))
+        self.stop = self._site()
         if values["z"] <= 0.0:
-            self.state = landed_start(self.plan, self.start_time)
+            start = self.start_time
+            self.state = landed_start(self.plan, start, stop=self.stop, height=values["z"])
         else:
             self.state = free_start(self.plan, values["z"], values["vz"], self.start_time)
         values["F_mean"] = 0.0
         self.refresh()
         self._show()
+
+    def _site(self) -> TipStop | None:
+        """Faces of apex and site, if the build has a curve of them."""
+        damping = self.values["d_stop"]
+        if "curve" in self.data:
+            return TipStop(StopCurve.from_data(self.data["curve"]), damping)
+        if damping > 0.0:
+            raise DescriptionError(
+                "d_stop", damping, "be 0 on a rigid site", unit="s/m",
+                hint="build the FMU with a curve",
+            )  # fmt: skip
+        return None
 
     def refresh(self) -> None:
         """See `PortSlave.refresh`: the springs answer to height and speed at once."""
@@ -215,7 +242,7 @@ class TipContact(PortSlave):
         values, before = self.values, self.state
         before = before._replace(motion=before.motion._replace(time=time))
         root = Root(values["z"], values["vz"], values["az"], time)
-        self.state = advance_tip(self.plan, values["c"], before, root, step)
+        self.state = advance_tip(self.plan, values["c"], before, root, step, self.stop)
         values["F_mean"] = values["N"] * (self.state.impulse - before.impulse) / step
         there = root.after(step)
         self._pull_root(there.height, there.speed)
@@ -227,13 +254,16 @@ class TipContact(PortSlave):
 
     def _show(self) -> None:
         state, motion, n = self.state, self.state.motion, self.values["N"]
+        stop = self.stop
+        taken = stop.curve.lost(state.largest) if stop is not None else 0.0
         status = TipStatus.FREE if state.free else TipStatus.HELD
         self.values.update(
-            h=motion.gap, v=motion.speed, F_film=film_force(self.plan, state)[0],
+            h=state.gap, v=motion.speed, F_film=film_force(self.plan, state)[0],
             J=n * state.impulse, W_visc=n * motion.dissipated_work, W_land=n * state.landing_loss,
-            state=int(TipStatus.LANDED if motion.held else status), t_break=motion.break_time,
+            state=int(TipStatus.LANDED if state.on_site else status), t_break=motion.break_time,
             t_free=state.free_time, t_land=state.landing_time, n_break=motion.n_breaks,
-            n_land=state.n_landings,
+            n_land=state.n_landings, d=state.depth, d_max=state.largest, F_max=state.peak,
+            W_plastic=n * taken,
         )  # fmt: skip
 
     def hidden_state(self) -> Mapping[str, Any]:

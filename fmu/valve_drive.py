@@ -6,15 +6,19 @@ the gap running on at the speed it has, so a step may be as long as that is a fa
 left is the error of the coupling: spring and stop answer to a gap that is one step old, which is
 stable for steps below ``2 sqrt(m/k_stop)`` and good to some per cent of a blow on the stop at a
 tenth of that.
+
+The stop is a spring, or, where the build was given a ``curve``, the rough faces of that curve
+with the spring ``k_stop`` behind them; such a stop remembers how far it was pressed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ..models import valve as law
+from ..stop_tables import StopCurve
 from .ports import Port
 from .slave import PortSlave
 
@@ -96,6 +100,9 @@ class ValveDrive(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         self.valve = _valve(self.values)
+        faces = self.data.get("curve")
+        self.faces = StopCurve.from_data(faces) if faces is not None else None
+        self.largest = 0.0
         self.values |= {"flux": 0.0, "dF_ext": 0.0, "F_mag": 0.0}
         self.values["u"] = law.voltage(self.valve.profile, self.start_time)
         self.refresh()
@@ -104,19 +111,28 @@ class ValveDrive(PortSlave):
         """See `PortSlave.refresh`: spring, stop and current answer to gap and speed at once."""
         self._follow_gap(self.values["h"], self.values["v"])
 
+    def _stop(self, gap: float, speed: float) -> tuple[float, float]:
+        """Force of the stop [N], and the approach of its faces [m] if it has any."""
+        if self.faces is None:
+            return law.stop_force(self.valve.stop, gap, speed), 0.0
+        return law.rough_stop_force(self.valve.stop, self.faces, self.largest, gap, speed)
+
     def _follow_gap(self, gap: float, speed: float) -> None:
         values, valve = self.values, self.valve
         flux = values["flux"]
         values["i"] = law.current(valve.coil, flux, gap)
         values["F_spring"] = law.spring_force(valve.spring, gap)
-        values["F_stop"] = law.stop_force(valve.stop, gap, speed)
-        values["F_ext"] = law.pull(valve, flux, gap, speed)
+        values["F_stop"] = self._stop(gap, speed)[0]
+        values["F_ext"] = law.pull(valve, flux, gap, speed, values["F_stop"])
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`: the gap runs on at its speed."""
         values, valve = self.values, self.valve
         gap, speed, flux = values["h"], values["v"], values["flux"]
-        before, end = law.pull(valve, flux, gap, speed), time + step
+        stopping, faces = self._stop(gap, speed)
+        before, end = law.pull(valve, flux, gap, speed, stopping), time + step
+        # What is remembered is where the spool was, not where it may be at the end of the step.
+        self.largest = max(self.largest, faces)
         for start, stop in pairwise([time, *law.switching_times(valve.profile, time, end), end]):
             applied = law.voltage(valve.profile, 0.5 * (start + stop))
             here = gap + speed * (start - time)
@@ -125,6 +141,14 @@ class ValveDrive(PortSlave):
         values["u"] = law.voltage(valve.profile, end)
         self._follow_gap(gap + speed * step, speed)
         values["dF_ext"] = (values["F_ext"] - before) / step
+
+    def hidden_state(self) -> Mapping[str, Any]:
+        """See `PortSlave.hidden_state`."""
+        return {"largest": self.largest}
+
+    def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
+        """See `PortSlave.restore_hidden_state`."""
+        self.largest = hidden["largest"]
 
 
 def _valve(values: dict[str, float]) -> law.Valve:

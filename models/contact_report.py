@@ -13,7 +13,7 @@ from ..contact_scene import ContactScene
 from ..converter import structure
 from ..effects.film import FilmMeniscus
 from ..effects.stress import SubsurfaceStress
-from ..errors import DescriptionError, PlanError
+from ..errors import DescriptionError
 from ..planner import plan
 from .report import Report
 
@@ -70,7 +70,9 @@ class PlainContact:
 
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
         """See `Runnable.fmu_start`."""
-        raise PlanError("a contact scene has no FMU in this version; separations have one")
+        from ..stop_curves import stop_curve
+
+        return "contact-stop", {"curve": stop_curve(self.scene, accuracy=self.accuracy)}
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `Runnable.run`."""

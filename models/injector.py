@@ -23,9 +23,13 @@ from .valve import Valve
 
 if TYPE_CHECKING:
     from ..fmu.cosimulate import CoSimulation
+    from ..stop_tables import StopCurve
     from .monolithic_result import MonolithicResult
 
-__all__ = ["FuelInjector", "InjectorScene", "Run", "Study", "open_device"]
+__all__ = [
+    "FuelInjector", "InjectorScene", "Run", "Study", "drive_values", "open_device",
+    "stop_curve_of",
+]  # fmt: skip
 
 Progress = Callable[[float], None]
 
@@ -219,8 +223,8 @@ class FuelInjector:
             mass_start=mass_values(scene), progress=progress,
         )  # fmt: skip
         seconds = perf_counter() - begun
-        made = plan(scene)
-        whole = simulate(made, self.scene.valve, self.scene.stop_time)
+        made, valve = plan(scene), self.scene.valve
+        whole = simulate(made, valve, self.scene.stop_time, faces=stop_curve_of(valve))
         return Run(temperature, limited, made, coupled, whole, seconds)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
@@ -238,6 +242,7 @@ def _share(progress: Progress, i: int, n: int, share: float) -> None:
 def drive_values(valve: Valve) -> dict[str, Any]:
     """Parameters of the FMU ``valve-drive`` for a valve."""
     coil, spring, stop, profile = valve.coil, valve.spring, valve.stop, valve.profile
+    faces = stop_curve_of(valve)
     return {
         "R_coil": coil.resistance, "N_turns": coil.turns, "A_pole": coil.pole_area,
         "g_air": coil.air_gap, "g_iron": coil.iron_gap, "B_sat": coil.saturation or 0.0,
@@ -246,4 +251,14 @@ def drive_values(valve: Valve) -> dict[str, Any]:
         "t_delay": profile.start_delay, "T_period": profile.period, "t_on": profile.on_time,
         "U_boost": profile.boost_voltage, "t_boost": profile.boost_time,
         "U_hold": profile.hold_voltage, "U_off": profile.off_voltage, "n_cycles": profile.cycles,
+        **({"curve": faces} if faces is not None else {}),
     }  # fmt: skip
+
+
+def stop_curve_of(valve: Valve) -> StopCurve | None:
+    """Curve of the rough faces of the stop, if it has any."""
+    if valve.stop.faces is None:
+        return None
+    from .stop_solve import solved
+
+    return solved(valve.stop.faces)

@@ -20,6 +20,7 @@ from ..validity import check
 from .injector import InjectorScene, Run
 from .monolithic import simulate
 from .scenes import Report
+from .stop_report import valve_numbers
 from .valve import energising_times
 
 __all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report", "run_error", "stem"]
@@ -152,7 +153,7 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
             f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
             f"{_held_by(run, found, dry)}"
         )
-        key = f"{stem(run.temperature)}_{'limited' if run.limited else 'unlimited'}"
+        key = f"{stem(run.temperature)}_{_limited(run)}"
         scalars |= {
             f"release_delay_{key}": (delay, "s"),
             f"sticking_time_{key}": (delay - dry, "s"),
@@ -163,9 +164,16 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
             f"coupling_error_{key}": (error, "-"),
             f"seconds_{key}": (run.seconds, "s"),
         }
-    lines += [*spread, *_validity(runs)]
+    keys = [f"{stem(run.temperature)}_{_limited(run)}" for run in runs]
+    told, numbers = valve_numbers(scene, runs, keys)
+    scalars |= numbers
+    lines += [*spread, *told, *_validity(runs)]
     files = _write(scene, runs, out, dry) if out is not None else ()
     return Report(scalars, "\n".join(lines), files)
+
+
+def _limited(run: Run) -> str:
+    return "limited" if run.limited else "unlimited"
 
 
 def _spread(run: Run, delays: Sequence[float]) -> str:

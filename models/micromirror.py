@@ -20,6 +20,7 @@ from .mirror_motion import FmuTip, Motion, couple
 from .report import Report
 
 if TYPE_CHECKING:
+    from ..fmu.instance import Instance
     from .mirror_whole import Whole
 
 __all__ = ["FmuRun", "Micromirror", "MicromirrorScene", "MirrorRun", "MirrorStudy", "open_device"]
@@ -35,6 +36,7 @@ class MirrorRun(NamedTuple):
     whole: Whole
     seconds: float
     log: tuple[str, ...]
+    sites: tuple[Mapping[str, float], ...] = ()
 
 
 class FmuRun(NamedTuple):
@@ -44,6 +46,7 @@ class FmuRun(NamedTuple):
     seconds: float
     log: tuple[str, ...]
     free_time: float
+    sites: tuple[Mapping[str, float], ...] = ()
 
 
 def open_device(tables: Mapping[str, Any], origin: str) -> Micromirror:
@@ -121,8 +124,10 @@ class Micromirror:
         made = tip_law(self.scene.tip, self.scene.study.humidity)
         end = self.first_landing(done.motion)
         times = done.motion["time"]
-        whole = simulate_whole(mirror, made, self.scene.start, end, times=times[times <= end])
-        return MirrorRun(made, done.motion, whole, done.seconds, done.log)
+        whole = simulate_whole(
+            mirror, made, self.scene.start, end, times=times[times <= end], stop=self.scene.stop
+        )
+        return MirrorRun(made, done.motion, whole, done.seconds, done.log, done.sites)
 
     def couple_fmus(
         self, fmu: Path, mirror: Mirror, stop_time: float, step: float,
@@ -144,9 +149,9 @@ class Micromirror:
                 stop_time, step, progress=progress,
             )  # fmt: skip
             seconds = perf_counter() - begun
-            return FmuRun(
-                motion, seconds, tuple(plus.log + minus.log), plus.get(plus.references("t_free"))[0]
-            )
+            sites = tuple(_site(one) for one in (plus, minus))
+            free_time = plus.get(plus.references("t_free"))[0]
+            return FmuRun(motion, seconds, tuple(plus.log + minus.log), free_time, sites)
 
     def first_landing(self, coupled: Motion) -> float:
         """Time [s] up to which runs are compared: the first touch of the other side, or its end."""
@@ -160,6 +165,13 @@ class Micromirror:
         from .micromirror_cost import mirror_sweep
 
         return cost_report(mirror_sweep(self, progress), out, error, self.name)
+
+
+def _site(tips: Instance) -> dict[str, float]:
+    """What the landing sites of a side have had, from the outputs of its FMU."""
+    names = ("d_max", "F_max", "W_land", "W_plastic")
+    found = dict(zip(names, tips.get(tips.references(*names)), strict=True))
+    return found | {"n_land": float(tips.get_integers(tips.references("n_land"))[0])}
 
 
 def _share(progress: Progress, low: float, high: float, share: float) -> None:

@@ -40,14 +40,18 @@ def mirror_sweep(device: Micromirror, progress: Callable[[float], None]) -> Work
     mirror = scene.first_flip(pulse if scene.mirror.waveform.reset_time > 0.0 else None)
     law = tip_law(scene.tip, scene.study.humidity, 1e-9)
     first = mirror.waveform.reset_time + mirror.waveform.release_time
-    exact = simulate_whole(mirror, law, scene.start, first, rtol=1e-10).first("is free")
+    exact = simulate_whole(mirror, law, scene.start, first, rtol=1e-10, stop=scene.stop).first(
+        "is free"
+    )
     if math.isnan(exact):
         raise PlanError(
             f"cost needs a pulse that releases; {pulse:g} V do not at a relative humidity of "
             f"{scene.study.humidity:g}: raise Waveform.reset_voltage"
         )
     end = 1.02 * exact
-    near = simulate_whole(mirror, law, scene.start, end, rtol=1e-8).first("is free")
+    near = simulate_whole(mirror, law, scene.start, end, rtol=1e-8, stop=scene.stop).first(
+        "is free"
+    )
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         fmu = device.build(Path(folder))
         settings = _settings(device, mirror, law, fmu, end)
@@ -95,7 +99,7 @@ def _settings(
 
 
 def _whole(scene: MicromirrorScene, mirror: Mirror, law: Plan, end: float, rtol: float) -> Outcome:
-    whole = simulate_whole(mirror, law, scene.start, end, rtol=rtol)
+    whole = simulate_whole(mirror, law, scene.start, end, rtol=rtol, stop=scene.stop)
     counts = {"steps": whole.n_steps, "evaluations": whole.n_evaluations}
     return Outcome(_freed(whole.first("is free")), counts)
 

@@ -19,6 +19,7 @@ from .mirror_motion import FREE, HELD, SIGNALS
 from .mirror_plate import pull_in
 from .mirror_release import Landing, Release, landing, release_curve
 from .report import Report
+from .stop_report import landing_numbers
 
 __all__ = ["flip_times", "report", "run_errors"]
 
@@ -32,6 +33,7 @@ def report(
     found = release_curve(scene, progress)
     landed = landing(scene)
     free, error = run_errors(scene, run)
+    told, numbers = landing_numbers(scene, run)
     lines = [
         f"{scene.name}: does it let go?",
         *_landed_text(scene, landed),
@@ -40,6 +42,7 @@ def report(
         "",
         *_verdict(scene, found),
         *_flips(scene, run, free, error),
+        *told,
         *_validity(run, found),
     ]
     scalars: dict[str, tuple[Any, str]] = {
@@ -52,6 +55,7 @@ def report(
         "first_free_time": (free, "s"),
         "coupling_error": (error, "-"),
         "seconds": (run.seconds, "s"),
+        **numbers,
     }
     for one in found:
         scalars |= _scalars(scene, one)

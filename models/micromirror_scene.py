@@ -15,11 +15,16 @@ from ..scene import SeparationScene
 from ..surfaces import Flat, Sphere
 from ..units import celsius, si
 from .mirror import Mirror, electrode_volts, landed_tilt, root_height
-from .mirror_film import tip_scene
+from .mirror_film import tip_law, tip_scene
+from .mirror_flight import Root
 from .mirror_motion import LocalTip
-from .mirror_tip import free_start, landed_start
+from .mirror_stop import rest_depth
+from .mirror_tip import TipStop, free_start, landed_start
+from .mirror_tip_state import contact_of
 
 __all__ = ["MicromirrorScene", "MirrorStudy", "tip_values"]
+
+_ROUNDS = 8  # each brings the tilt at rest nearer by the ratio of tip and site, some 1 %
 
 
 def _humidities(study: object, attribute: Any, values: tuple[float, ...]) -> None:
@@ -103,15 +108,43 @@ class MicromirrorScene:
     def start(self) -> tuple[float, float]:
         """Tilt [rad] and rate [rad/s] of the mirror that rests under its bias."""
         volts = electrode_volts(self.mirror.waveform, -1.0)
-        return landed_tilt(self.mirror, self.opening.stiffness, volts), 0.0
+        tilt, stop = landed_tilt(self.mirror, self.opening.stiffness, volts), self.stop
+        if stop is None:
+            return tilt, 0.0
+        for _ in range(_ROUNDS):
+            # A site that gives makes the spring of a tip softer by what the apex sinks in.
+            height, depth = self._sunk(stop, tilt)
+            softer = self.opening.stiffness * (1.0 + depth / height)
+            tilt = landed_tilt(self.mirror, softer, volts)
+        return tilt, 0.0
+
+    def _sunk(self, stop: TipStop, tilt: float) -> tuple[float, float]:
+        """Height [m] of the root of a landed tip, and its approach [m] at the humidity of runs."""
+        made, height = (
+            tip_law(self.tip, self.study.humidity),
+            root_height(self.mirror.tips, tilt, 1.0),
+        )
+        contact = contact_of(made, stop, landed_start(made), Root(height))
+        return height, rest_depth(contact, 0.0, 0.0)
+
+    @property
+    def stop(self) -> TipStop | None:
+        """What the apex of a tip meets; None on a rigid site."""
+        faces = self.mirror.tips.faces
+        if faces is None:
+            return None
+        from .stop_solve import solved
+
+        return TipStop(solved(faces), self.mirror.tips.landing_damping)
 
     def tips(self, made: Plan) -> tuple[LocalTip, LocalTip]:
         """Tips of both sides at the start: the side + landed, the side - free."""
-        tips = self.mirror.tips
-        far = free_start(made, root_height(tips, self.start[0], -1.0))
+        tips, (tilt, _), stop = self.mirror.tips, self.start, self.stop
+        landed = landed_start(made, stop=stop, height=root_height(tips, tilt, 1.0))
+        far = free_start(made, root_height(tips, tilt, -1.0))
         return (
-            LocalTip(made, tips.damping, tips.per_side, landed_start(made)),
-            LocalTip(made, tips.damping, tips.per_side, far),
+            LocalTip(made, tips.damping, tips.per_side, landed, stop),
+            LocalTip(made, tips.damping, tips.per_side, far, stop),
         )
 
     def first_flip(self, reset_voltage: float | None) -> Mirror:
@@ -134,7 +167,7 @@ def tip_values(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
     PlanError
         If the FMU cannot represent the scene; says what stands against it.
     """
-    tip, tips = tip_scene(scene.tip, humidity), scene.mirror.tips
+    tip, tips, stop = tip_scene(scene.tip, humidity), scene.mirror.tips, scene.stop
     interface, opening, meniscus = tip.interface, tip.opening, tip.interface.meniscus
     liquid = meniscus.liquid.at(tip.temperature)
     film, solids = tip.effect(MeniscusForce), tip.effect(VanDerWaalsForce)
@@ -166,4 +199,5 @@ def tip_values(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
         "eta": (liquid.viscosity or 0.0) if viscous is not None else 0.0,
         "theta1": meniscus.contact_angle_lower, "theta2": meniscus.contact_angle_upper,
         "profile": profiles[film.profile] if film is not None else "EXACT",
+        **({"curve": stop.curve, "d_stop": stop.damping} if stop is not None else {}),
     }  # fmt: skip

@@ -25,11 +25,12 @@ from typing import Any
 
 from attrs import Attribute, field, frozen
 
-from ..checks import count, finite, non_negative, part, positive, refuse
+from ..checks import count, finite, non_negative, optional, part, positive, refuse
 from ..errors import DescriptionError, InfeasibleError
 from ..kernels.roots import bracketed_root
 from ..units import si
 from .mirror_plate import Electrode, largest_tilt, torque
+from .stop_faces import StopFaces
 
 __all__ = [
     "Hinge", "Mirror", "SpringTips", "Waveform", "acceleration", "drive_torque", "electrode_volts",
@@ -82,12 +83,25 @@ class SpringTips:
         Number of equal tips on each side [-].
     damping : float
         Damping of one tip while it is free [N.s/m]; a tip that a film holds is damped by that.
+    faces : StopFaces, optional
+        What the apex of one tip meets on its site; without it the site is rigid, and keeps it.
+    landing_damping : float
+        Share of the force of the faces that is added per speed of approach [s/m].
     """
 
     arm: float = field(validator=positive, metadata=si("m"))
     landing_tilt: float = field(validator=_tilt, metadata=si("rad"))
     per_side: int = field(default=1, validator=count, metadata=si("-"))
     damping: float = field(default=0.0, validator=non_negative, metadata=si("N.s/m"))
+    faces: StopFaces | None = field(default=None, validator=optional(part(StopFaces)))
+    landing_damping: float = field(default=0.0, validator=non_negative, metadata=si("s/m"))
+
+    def __attrs_post_init__(self) -> None:
+        if self.landing_damping > 0.0 and self.faces is None:
+            raise DescriptionError(
+                "SpringTips.landing_damping", self.landing_damping, "be 0 on a rigid site",
+                unit="s/m", hint="give SpringTips.faces, such as contact = 'tip-landing'",
+            )  # fmt: skip
 
 
 @frozen(kw_only=True)

@@ -24,7 +24,7 @@ from ..errors import DescriptionError, InfeasibleError
 from ..plan import Plan
 from .mirror import Mirror, acceleration, electrode_volts, root_height, switching_times
 from .mirror_flight import Root
-from .mirror_tip import TipState, advance_tip, film_force, tip_force
+from .mirror_tip import TipState, TipStop, advance_tip, film_force, tip_force
 
 if TYPE_CHECKING:
     import numpy as np
@@ -74,13 +74,16 @@ class FmuInstance(Protocol):
 class LocalTip:
     """Tips in this process: equal ones, so that one of them is stepped."""
 
-    def __init__(self, plan: Plan, damping: float, count: int, state: TipState) -> None:
+    def __init__(
+        self, plan: Plan, damping: float, count: int, state: TipState, stop: TipStop | None = None
+    ) -> None:
         self.plan, self.damping, self.count, self.state = plan, damping, count, state
+        self.stop = stop
 
     def step(self, root: Root, dt: float) -> tuple[float, float]:
         """See `Tip.step`."""
         before, there = self.state, root.after(dt)
-        self.state = advance_tip(self.plan, self.damping, before, root, dt)
+        self.state = advance_tip(self.plan, self.damping, before, root, dt, self.stop)
         mean = self.count * (self.state.impulse - before.impulse) / dt
         return mean, self.read(there.height, there.speed)[1]
 
@@ -116,8 +119,8 @@ class FmuTip:
 
 
 def state_of(state: TipState) -> float:
-    """Tell whether a tip has landed, is held by its film, or is free."""
-    if state.motion.held:
+    """Tell whether a tip is on its site, is held by its film, or is free."""
+    if state.on_site:
         return LANDED
     return FREE if state.free else HELD
 

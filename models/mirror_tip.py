@@ -13,25 +13,39 @@ step; F is what the tip pulls it down with. The tip has four states of motion in
   damped oscillator under a steady acceleration, in closed form;
 * landing again at :math:`h_0`: inelastic, and the film is there again, as it condenses.
 
+With a `TipStop` the site gives: the apex sinks in, leaves a dent and bounces, as
+`contactkit.models.mirror_stop` says. The gap then counts from the dent, and a tip in contact is
+at the gap :math:`h_0` less what it has sunk below that.
+
 So a tip may have any mass, a film any stiffness, and a step any length: the internal steps follow
-their own error. Left out: attraction of a free tip before it lands, a bounce of its apex (its
-root bounces on the spring), and sliding along the site, some nanometres as the tip bends.
+their own error. Left out: attraction of a free tip before it lands, without a `TipStop` a bounce of
+its apex (its root bounces on the spring), and sliding along the site, some nanometres as it bends.
 Plain floats only: this also runs inside an FMU, though the law of a sphere needs numpy there.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from ..errors import ConvergenceError, DescriptionError
 from ..motion import rest_once, step_once
-from ..motion_state import MotionState, outputs
+from ..motion_state import MotionState
 from ..plan import Plan
 from .mirror_flight import Flight, Root, landing_time
+from .mirror_stop import Blow, BlowEnd, TipStop, blow, rest_depth
+from .mirror_tip_state import (
+    TipState,
+    contact_of,
+    film_force,
+    free_gap,
+    free_start,
+    landed_start,
+    pressed,
+    tip_force,
+)
 
 __all__ = [
-    "TipState", "advance_tip", "film_force", "free_gap", "free_start", "landed_start",
+    "TipState", "TipStop", "advance_tip", "film_force", "free_gap", "free_start", "landed_start",
     "tip_force",
 ]  # fmt: skip
 
@@ -41,61 +55,10 @@ _IMPULSES = tuple(
 )
 
 
-class TipState(NamedTuple):
-    """Everything a tip remembers; its impulse on the root [N.s], its losses [J], its events."""
-
-    motion: MotionState
-    free: bool = False
-    impulse: float = 0.0
-    landing_loss: float = 0.0
-    n_landings: int = 0
-    landing_time: float = -1.0
-    free_time: float = -1.0
-
-    @property
-    def time(self) -> float:
-        """Time [s]."""
-        return self.motion.time
-
-    @property
-    def gap(self) -> float:
-        """Gap under the tip [m]."""
-        return self.motion.gap
-
-
-def free_gap(plan: Plan) -> float:
-    """Gap [m] beyond which a tip is free: `Opening.final_gap`, or where the film breaks beyond."""
-    end = plan.film.end
-    return max(plan.scene.opening.final_gap, end if math.isfinite(end) else 0.0)
-
-
-def landed_start(plan: Plan, time: float = 0.0) -> TipState:
-    """State of a tip that rests on its landing site."""
-    return TipState(MotionState(time, plan.scene.opening.initial_gap, 0.0, held=True))
-
-
-def free_start(plan: Plan, height: float, speed: float = 0.0, time: float = 0.0) -> TipState:
-    """State of an unbent tip whose root is at a height [m] and moves at a speed [m/s]."""
-    gap = plan.scene.opening.initial_gap + height
-    return TipState(MotionState(time, gap, speed, broken=True, armed=False), free=True)
-
-
-def tip_force(plan: Plan, damping: float, state: TipState, height: float, speed: float) -> float:
-    """Force [N] with which a tip pulls its root down, that being at a height and a speed."""
-    opening, motion = plan.scene.opening, state.motion
-    force = opening.stiffness * (opening.initial_gap + height - motion.gap)
-    return force + damping * (speed - motion.speed) if state.free else force
-
-
-def film_force(plan: Plan, state: TipState) -> tuple[float, float]:
-    """Force on a tip from its site [N], and its viscous part; positive holds the tip down."""
-    if state.free:
-        return 0.0, 0.0
-    found = outputs(plan, state.motion, 0.0)
-    return found.film, found.viscous
-
-
-def advance_tip(plan: Plan, damping: float, state: TipState, root: Root, dt: float) -> TipState:
+def advance_tip(
+    plan: Plan, damping: float, state: TipState, root: Root, dt: float,
+    stop: TipStop | None = None,
+) -> TipState:  # fmt: skip
     """Advance a tip by `dt` [s] while its root moves on.
 
     Parameters
@@ -110,6 +73,8 @@ def advance_tip(plan: Plan, damping: float, state: TipState, root: Root, dt: flo
         How the root moves, from the time of `state` on.
     dt : float
         Length of the step [s].
+    stop : TipStop, optional
+        What the apex meets; without one it lands for good on a rigid site.
 
     Raises
     ------
@@ -117,6 +82,8 @@ def advance_tip(plan: Plan, damping: float, state: TipState, root: Root, dt: flo
         If `dt` is negative or not finite.
     ConvergenceError
         If no internal step meets the tolerance of the plan.
+    InfeasibleError
+        If the apex is pressed beyond the end of the curve of `stop`.
     """
     if not (math.isfinite(dt) and dt >= 0.0):
         raise DescriptionError("advance_tip(dt)", dt, "be zero or positive, and finite", unit="s")
@@ -126,10 +93,16 @@ def advance_tip(plan: Plan, damping: float, state: TipState, root: Root, dt: flo
         left = end - state.time
         if left <= 1e-13 * max(abs(end), dt):
             return state._replace(motion=state.motion._replace(time=end))
-        if state.free:
-            state = _fly(plan, damping, state, root.after(state.time - root.time), left)
+        over = root._replace(height=root.height + state.dent)  # over the dent that is left
+        if stop is not None and state.touching:
+            state = _strike(plan, stop, state, root, end)
+        elif stop is not None and state.motion.held:
+            state = _rest(plan, stop, state, root, _one(plan, state, over, end))
+        elif state.free:
+            there = over.after(state.time - root.time)
+            state = _fly(plan, damping, state, there, left, stop is not None)
         else:
-            state = _one(plan, state, root, end)
+            state = _one(plan, state, over, end, stop is not None)
     raise ConvergenceError(
         f"{_MOST_PIECES} internal steps led from {root.time:g} s to {state.time:g} s, not to "
         f"{end:g} s; loosen Accuracy.time_rtol",
@@ -137,7 +110,7 @@ def advance_tip(plan: Plan, damping: float, state: TipState, root: Root, dt: flo
     )
 
 
-def _one(plan: Plan, state: TipState, root: Root, end: float) -> TipState:
+def _one(plan: Plan, state: TipState, root: Root, end: float, gives: bool = False) -> TipState:
     """Take one internal step while the tip has landed or its film acts."""
     before, opening = state.motion, plan.scene.opening
 
@@ -161,7 +134,12 @@ def _one(plan: Plan, state: TipState, root: Root, end: float) -> TipState:
         impulse += twelfth * (speed - before.speed - bent)
         if after.held:
             speed = before.speed + (impulse - film) / mass
-            state = _landed(state, 0.5 * mass * speed * speed, after.time)
+            strikes = gives and speed < 0.0
+            loss = 0.0 if strikes else 0.5 * mass * speed * speed
+            state = _landed(state, loss, after.time)
+            if strikes:
+                after = after._replace(held=False, speed=speed)
+                state = state._replace(touching=True)
     if after.speed > 0.0 and after.gap >= free_gap(plan) * (1.0 - 1e-9):
         state = state._replace(free=True, free_time=after.time)
     return state._replace(motion=after, impulse=state.impulse + impulse)
@@ -192,7 +170,9 @@ def _flight(plan: Plan, damping: float, state: TipState, root: Root) -> Flight:
     return Flight(rest, decay, frequency, cosine, sine)
 
 
-def _fly(plan: Plan, damping: float, state: TipState, root: Root, left: float) -> TipState:
+def _fly(
+    plan: Plan, damping: float, state: TipState, root: Root, left: float, gives: bool
+) -> TipState:
     """Let a free tip swing for a time [s], or until it lands."""
     opening, motion = plan.scene.opening, state.motion
     flight = _flight(plan, damping, state, root)
@@ -206,22 +186,55 @@ def _fly(plan: Plan, damping: float, state: TipState, root: Root, left: float) -
         motion=motion._replace(time=motion.time + elapsed, gap=gap, speed=speed, step=0.0),
         impulse=state.impulse + impulse,
     )
-    return state if lands is None else _touch(plan, state)
+    return state if lands is None else _touch(plan, state, gives)
 
 
-def _touch(plan: Plan, state: TipState) -> TipState:
-    """Land after a flight: the tip stops, and its film is there again."""
+def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
+    """Land after a flight: the tip stops, or strikes a site that gives; its film is there again."""
     opening, motion = plan.scene.opening, state.motion
     share = plan.scene.interface.meniscus.rewetting
     wets = share > 0.0
     moved = motion._replace(
         gap=opening.initial_gap,
-        speed=0.0,
-        held=True,
+        speed=motion.speed if gives else 0.0,
+        held=not gives,
         broken=not wets,
         share=share if wets else motion.share,
         armed=True,
         detached=False,
     )
-    loss = 0.5 * (opening.mass or 0.0) * motion.speed * motion.speed
-    return _landed(state, loss, motion.time)._replace(motion=moved, free=False)
+    loss = 0.0 if gives else 0.5 * (opening.mass or 0.0) * motion.speed * motion.speed
+    return _landed(state, loss, motion.time)._replace(motion=moved, free=False, touching=gives)
+
+
+def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) -> TipState:
+    """Follow a blow until it is over, or the step."""
+    motion = state.motion
+    begin = Blow(motion.time, state.depth, -motion.speed, state.largest, peak=state.peak)
+    rtol = plan.accuracy.time_rtol
+    found = blow(contact_of(plan, stop, state, root), begin, end, rtol)
+    moved = motion._replace(
+        time=found.time, speed=-found.speed, held=found.end is BlowEnd.REST, step=0.0
+    )
+    return state._replace(
+        motion=moved, touching=found.end is BlowEnd.TIME, impulse=state.impulse + found.impulse,
+        landing_loss=state.landing_loss + found.lost, depth=found.depth,
+        dent=stop.curve.residual(found.largest), largest=found.largest, peak=found.peak,
+    )  # fmt: skip
+
+
+def _rest(plan: Plan, stop: TipStop, before: TipState, root: Root, after: TipState) -> TipState:
+    """Let the faces follow the spring while a tip rests; its impulse, by Simpson's rule."""
+    contact, largest, depth = contact_of(plan, stop, before, root), before.largest, before.depth
+    forces, state = [], after
+    for share in (0.0, 0.5, 1.0):
+        time = before.time + share * (after.time - before.time)
+        depth = rest_depth(contact, largest, time, depth)
+        state = pressed(stop, state, depth, depth)
+        largest = state.largest
+        forces.append(contact.stiffness * (root.height_at(time) + depth))
+    mean = (forces[0] + 4.0 * forces[1] + forces[2]) / 6.0
+    impulse = before.impulse + (after.time - before.time) * mean
+    if not after.motion.held:  # it leaves the dent
+        state = state._replace(depth=state.dent)
+    return state._replace(impulse=impulse)

@@ -27,12 +27,13 @@ from ..errors import ConvergenceError
 from ..plan import Film, Plan
 from .mirror import Mirror, acceleration, electrode_volts, root_height, switching_times
 from .mirror_motion import FREE, HELD, LANDED
-from .mirror_tip import free_gap
+from .mirror_tip import TipStop, free_gap
+from .solver_events import watch
 
-__all__ = ["Happening", "Whole", "simulate_whole"]
+__all__ = ["SIDES", "Happening", "Whole", "WholeRun", "simulate_whole"]
 
+SIDES = (1.0, -1.0)
 _MOST_PIECES = 10_000
-_SIDES = (1.0, -1.0)
 _Floats = NDArray[np.float64]
 
 
@@ -69,6 +70,7 @@ def simulate_whole(
     *,
     rtol: float = 1e-9,
     times: _Floats | None = None,
+    stop: TipStop | None = None,
 ) -> Whole:
     """Integrate mirror and tips from time 0, the side + landed and the side - free.
 
@@ -85,20 +87,27 @@ def simulate_whole(
         Tolerance of the solver, relative to each unknown.
     times : ndarray, optional
         Where to give the unknowns [s]. None: at the steps of the solver.
+    stop : TipStop, optional
+        What the apex of a tip meets; without one it lands for good on a rigid site.
 
     Raises
     ------
     ConvergenceError
         If the solver gives up.
     """
-    run = _Run(mirror, plan, start, rtol)
+    if stop is None:
+        run = WholeRun(mirror, plan, start, rtol)
+    else:
+        from .mirror_whole_stop import StopRun
+
+        run = StopRun(mirror, plan, start, rtol, stop)
     marks = [0.0, *switching_times(mirror.waveform, 0.0, stop_time), stop_time]
     for low, high in pairwise(marks):
         run.to(low, high)
     return run.result(times)
 
 
-class _Run:
+class WholeRun:
     """A simulation on its way; `state` is tilt, rate, gap +, speed +, gap -, speed - in SI."""
 
     def __init__(self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float) -> None:
@@ -131,8 +140,8 @@ class _Run:
         """Force of one tip on its root [N], and the speed of the root [m/s]."""
         tips, tilt, rate = self.mirror.tips, state[0], state[1]
         gap, speed = state[2 + 2 * side], state[3 + 2 * side]
-        height = root_height(tips, tilt, _SIDES[side])
-        moving = -_SIDES[side] * tips.arm * math.cos(tilt) * rate
+        height = root_height(tips, tilt, SIDES[side])
+        moving = -SIDES[side] * tips.arm * math.cos(tilt) * rate
         force = self.stiffness * (self.origin + height - gap)
         if self.modes[side] == FREE:
             force += self.damping * (moving - speed)
@@ -143,17 +152,19 @@ class _Run:
         forces = [self._tip_force(side, state)[0] for side in (0, 1)]
         total = self.mirror.tips.per_side * (forces[0] - forces[1])
         found = [state[1], acceleration(self.mirror, state[0], state[1], self.volts, total)]
-        for side, mode in enumerate(self.modes):
-            gap, speed = state[2 + 2 * side], state[3 + 2 * side]
-            if mode == LANDED:
-                found += [0.0, 0.0]
-            elif mode == FREE:
-                found += [speed, forces[side] / self.mass]
-            else:
-                film = self._film(side)
-                holding = film.force(gap, speed) if film is not None else 0.0
-                found += [speed / gap, (forces[side] - holding) / self.mass]
+        for side, force in enumerate(forces):
+            found += self._tip_rates(side, state, force)
         return found
+
+    def _tip_rates(self, side: int, state: Any, force: float) -> list[float]:
+        gap, speed = state[2 + 2 * side], state[3 + 2 * side]
+        if self.modes[side] == LANDED:
+            return [0.0, 0.0]
+        if self.modes[side] == FREE:
+            return [speed, force / self.mass]
+        film = self._film(side)
+        holding = film.force(gap, speed) if film is not None else 0.0
+        return [speed / gap, (force - holding) / self.mass]
 
     def _film(self, side: int) -> Film | None:
         return self.plan.film_left(1.0, broken=self.broken[side], detached=False)
@@ -203,11 +214,11 @@ class _Run:
     def _watched(self, side: int) -> list[tuple[Any, Callable[[], None]]]:
         place, mode = 2 + 2 * side, self.modes[side]
         if mode == LANDED:
-            return [(_watch(partial(self._excess, side), 1), partial(self._leave, side))]
+            return [(watch(partial(self._excess, side), 1), partial(self._leave, side))]
         logarithmic = mode == HELD
         floor = 0.0 if logarithmic else self.origin
         found: list[tuple[Any, Callable[[], None]]] = [
-            (_watch(lambda _, y: float(y[place] - floor), -1), partial(self._land, side))
+            (watch(lambda _, y: float(y[place] - floor), -1), partial(self._land, side))
         ]
         if logarithmic and not self.broken[side] and math.isfinite(self.plan.film.end):
             found.append(self._rising(side, self.plan.film.end, self._break))
@@ -217,7 +228,7 @@ class _Run:
 
     def _rising(self, side: int, gap: float, act: Callable[[int], None]) -> tuple[Any, Any]:
         place, level = 2 + 2 * side, math.log(gap / self.origin)
-        return _watch(lambda _, y: float(y[place] - level), 1), partial(act, side)
+        return watch(lambda _, y: float(y[place] - level), 1), partial(act, side)
 
     # events -----------------------------------------------------------------------------------
 
@@ -234,7 +245,7 @@ class _Run:
                 self._leave(side)
 
     def _note(self, side: int, what: str) -> None:
-        self.events.append(Happening(self.time, _SIDES[side], what))
+        self.events.append(Happening(self.time, SIDES[side], what))
 
     def _leave(self, side: int) -> None:
         self.modes[side] = HELD
@@ -284,10 +295,3 @@ def _at(
         if mode == HELD:
             table[2 + 2 * side] = origin * np.exp(table[2 + 2 * side])
     return table
-
-
-def _watch(function: Callable[[float, _Floats], float], direction: int) -> Any:
-    """Let scipy stop where a function passes zero in a direction."""
-    watch: Any = partial(function)
-    watch.terminal, watch.direction = True, direction
-    return watch

@@ -29,8 +29,10 @@ from scipy.integrate import solve_ivp
 
 from ..errors import ConvergenceError, PlanError
 from ..plan import Film, Plan
+from ..stop_tables import StopCurve
 from . import valve as law
 from .monolithic_result import FLUX, Drive, Event, Mode, MonolithicResult, Piece, in_si, read
+from .solver_events import crossing, slopes_of, watch
 from .valve import Valve
 
 __all__ = ["Drive", "MonolithicResult", "simulate"]
@@ -50,6 +52,7 @@ def simulate(
     *,
     rtol: float = 1e-8,
     times: Sequence[float] | _Floats | None = None,
+    faces: StopCurve | None = None,
 ) -> MonolithicResult:
     """Integrate spool, film and coil from time 0 to `end`.
 
@@ -65,6 +68,8 @@ def simulate(
         Tolerance of the solver, relative to the gap, the speed and the flux.
     times : sequence of float, optional
         Where to give the curves [s]. None: at the steps of the solver, both sides of an event.
+    faces : StopCurve, optional
+        Rough faces in front of the stop of the valve, solved.
 
     Raises
     ------
@@ -80,12 +85,14 @@ def simulate(
         raise PlanError(
             "a monolithic simulation knows forces of the film only; leave out those of the solids"
         )
-    run = _Run(plan, drive, opening.mass, rtol)
+    run = _Run(plan, drive, opening.mass, rtol, faces)
     switches = law.switching_times(drive.profile, 0.0, end) if isinstance(drive, Valve) else []
     for start, stop in pairwise([0.0, *switches, end]):
         run.to(start, stop)
     sampled = None if times is None else np.asarray(times, dtype=np.float64)
-    return read(plan, drive, run.pieces, run.events, sampled, (run.n_steps, run.n_evaluations))
+    return read(
+        plan, drive, run.pieces, run.events, sampled, (run.n_steps, run.n_evaluations), faces
+    )
 
 
 class _Run:
@@ -94,8 +101,11 @@ class _Run:
     The unknowns of the solver are ln(h/h_0) while a film acts, else h/h_0, and the others scaled.
     """
 
-    def __init__(self, plan: Plan, drive: Drive, mass: float, rtol: float) -> None:
+    def __init__(
+        self, plan: Plan, drive: Drive, mass: float, rtol: float, faces: StopCurve | None
+    ) -> None:
         self.plan, self.drive, self.mass, self.rtol = plan, drive, mass, rtol
+        self.faces, self.pressing = faces, True
         self.opening = opening = plan.scene.opening
         self.valve = drive if isinstance(drive, Valve) else None
         self.mode = Mode(opening.rest_gap >= opening.initial_gap and opening.initial_speed <= 0.0)
@@ -132,7 +142,8 @@ class _Run:
 
     def _pull(self, time: float, flux: float, gap: float, speed: float) -> float:
         if isinstance(self.drive, Valve):
-            return law.pull(self.drive, flux, gap, speed)
+            held = law.stopping(self.drive.stop, self.faces, self.mode.largest, gap, speed)
+            return law.pull(self.drive, flux, gap, speed, held)
         return self.drive(time)
 
     def _balance(self, time: float, flux: float) -> float:
@@ -168,7 +179,7 @@ class _Run:
     def _piece(self, stop: float) -> None:
         """Integrate to the first event, or to `stop`, and apply the event."""
         film, rates, watched = self.film, self._rates(), self._watched()
-        method: dict[str, Any] = {"method": "Radau", "jac": _slopes(rates)}
+        method: dict[str, Any] = {"method": "Radau", "jac": slopes_of(rates)}
         if film is None and not self.mode.held:
             method = {"method": "DOP853", "max_step": self._longest}
         solution = solve_ivp(
@@ -205,13 +216,16 @@ class _Run:
         """What may end a piece, and what to do then."""
         found: list[tuple[_Watch, Callable[[], None]]] = []
         if self.mode.held:
-            found.append((_watch(self._leaving, 1), self._leave))
+            found.append((watch(self._leaving, 1), self._leave))
         else:
             for mark, way in self._marks():
                 level = self._unknowns(np.array([mark, 0.0, 0.0, 0.0, 0.0]))[0]
-                found.append((_crossing(level, way), partial(self._arrive, mark, way)))
+                found.append((crossing(level, way), partial(self._arrive, mark, way)))
+        if self.faces is not None and self._depth() > 0.0:
+            turns = watch(lambda time, unknowns: float(unknowns[1]), -1 if self.pressing else 1)
+            found.append((turns, self._turn))
         if self.valve is not None and self.applied <= 0.0 and not self.mode.blocked:
-            found.append((_watch(lambda time, unknowns: float(unknowns[2]), -1), self._block))
+            found.append((watch(lambda time, unknowns: float(unknowns[2]), -1), self._block))
         return found
 
     def _leaving(self, time: float, unknowns: _Floats) -> float:
@@ -239,6 +253,18 @@ class _Run:
         self.mode = self.mode._replace(held=False, heading=1)
         self._note("leaves the end cap")
 
+    def _depth(self) -> float:
+        """How far the spool is in the stop [m]."""
+        return float(self.state[0]) - self.valve.stop.gap if self.valve is not None else 0.0
+
+    def _turn(self) -> None:
+        """Remember the deepest point of rough faces, which decides their way out."""
+        self.pressing = not self.pressing
+        if self.valve is not None and self.faces is not None:
+            gap, before = float(self.state[0]), self.mode.largest
+            _, depth = law.rough_stop_force(self.valve.stop, self.faces, before, gap, 0.0)
+            self.mode = self.mode._replace(largest=max(before, min(depth, self.faces.most)))
+
     def _block(self) -> None:
         self.state[2] = 0.0
         self.mode = self.mode._replace(blocked=True)
@@ -248,6 +274,7 @@ class _Run:
         self.state[0] = mark
         self.mode = self.mode._replace(heading=way)
         if self.valve is not None and mark == self.valve.stop.gap:
+            self.pressing = True
             self._note("meets the stop" if way > 0 else "leaves the stop")
         self._rise(mark) if way > 0 else self._fall(mark)
 
@@ -269,29 +296,3 @@ class _Run:
             self._note("meets the end cap")
             self.mode = self.mode._replace(held=True)
             self.state[1] = 0.0
-
-
-def _slopes(rates: _Rates) -> Callable[[float, _Floats], _Floats]:
-    """Jacobian by differences; nothing depends on the two quadratures."""
-
-    def jacobian(time: float, unknowns: _Floats) -> _Floats:
-        found, here = np.zeros((5, 5)), np.array(rates(time, unknowns))
-        for column, size in enumerate((1.0, 1e-6, 1e-3)):
-            moved = unknowns.copy()
-            moved[column] += 1e-7 * max(abs(moved[column]), size)
-            change = moved[column] - unknowns[column]
-            found[:, column] = (np.array(rates(time, moved)) - here) / change
-        return found
-
-    return jacobian
-
-
-def _watch(function: _Watch, direction: int) -> _Watch:
-    """Let scipy stop where a function passes zero in a direction."""
-    watch: Any = partial(function)
-    watch.terminal, watch.direction = True, direction
-    return watch  # type: ignore[no-any-return]
-
-
-def _crossing(level: float, way: int) -> _Watch:
-    return _watch(lambda time, unknowns: float(unknowns[0]) - level, way)

@@ -14,6 +14,7 @@ from scipy.optimize import minimize_scalar
 
 from ..motion_state import MotionState, outputs
 from ..plan import Plan
+from ..stop_tables import StopCurve
 from . import valve as law
 from .valve import Valve
 
@@ -49,6 +50,7 @@ class Mode(NamedTuple):
     share: float = 1.0  # volume of the film, as a share of the scene's
     blocked: bool = False  # the diode keeps the current at zero
     heading: int = 0  # which way a gap that lies on a mark goes; 0: as the forces say
+    largest: float = 0.0  # largest approach that rough faces of the stop have had [m]
 
 
 class Piece(NamedTuple):
@@ -130,7 +132,7 @@ def in_si(
 
 def read(
     plan: Plan, drive: Drive, pieces: Sequence[Piece], events: Sequence[Event],
-    times: _Floats | None, counts: tuple[int, int],
+    times: _Floats | None, counts: tuple[int, int], faces: StopCurve | None = None,
 ) -> MonolithicResult:  # fmt: skip
     """Read curves and cycles off the pieces of a simulation."""
     rows: list[tuple[float, ...]] = []
@@ -138,7 +140,7 @@ def read(
         last = piece is pieces[-1]
         chosen = piece.times if times is None else _inside(piece, times, last)
         if len(chosen):
-            rows += _rows(plan, drive, piece, chosen)
+            rows += _rows(plan, drive, piece, chosen, faces)
     table = np.array(rows, dtype=np.float64).reshape(-1, len(COLUMNS)).T
     columns: dict[str, NDArray[Any]] = dict(zip(COLUMNS, table, strict=True))
     for column in columns.values():
@@ -158,7 +160,9 @@ def _inside(piece: Piece, times: _Floats, last: bool) -> _Floats:
     return inside
 
 
-def _rows(plan: Plan, drive: Drive, piece: Piece, times: _Floats) -> list[tuple[float, ...]]:
+def _rows(
+    plan: Plan, drive: Drive, piece: Piece, times: _Floats, faces: StopCurve | None
+) -> list[tuple[float, ...]]:
     """Values of all columns at times in one piece."""
     mode = piece.mode
     found: list[tuple[float, ...]] = []
@@ -166,13 +170,14 @@ def _rows(plan: Plan, drive: Drive, piece: Piece, times: _Floats) -> list[tuple[
         gap, speed, flux, impulse, work = unknowns
         electric = (0.0, 0.0, 0.0, 0.0, 0.0)
         if isinstance(drive, Valve):
-            pull = law.pull(drive, flux, gap, speed)
+            held = law.stopping(drive.stop, faces, mode.largest, gap, speed)
+            pull = law.pull(drive, flux, gap, speed, held)
             electric = (
                 law.current(drive.coil, flux, gap),
                 piece.applied,
                 law.magnet_force(drive.coil, flux),
                 law.spring_force(drive.spring, gap),
-                law.stop_force(drive.stop, gap, speed),
+                held,
             )
         else:
             pull = drive(time)

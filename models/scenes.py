@@ -17,6 +17,7 @@ from ..io import nearest, read_tables, scene_kind, structure
 from ..plan import Plan, plan
 from ..scene import SeparationScene, SlidingScene
 from .report import Report
+from .stop_faces import beside
 
 if TYPE_CHECKING:
     from ..results import SeparationResult
@@ -80,7 +81,7 @@ def open_scene(name: str) -> Runnable:
         hint = nearest(device, sorted(DEVICES))
         raise DescriptionError(f"{path.name}, device", device, "be a known device", hint=hint)
     module = import_module(f".{DEVICES[device]}", __package__)
-    opened: Runnable = module.open_device(tables, path.name)
+    opened: Runnable = module.open_device(beside(tables, path.parent), path.name)
     return opened
 
 

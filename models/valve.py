@@ -17,8 +17,10 @@ from typing import Any
 
 from attrs import Attribute, field, frozen
 
-from ..checks import count, finite, non_negative, positive, refuse
+from ..checks import count, finite, non_negative, optional, part, positive, refuse
 from ..errors import DescriptionError
+from ..stop_impact import in_series
+from ..stop_tables import StopCurve
 from ..units import si
 from .coil import (
     Coil,
@@ -29,11 +31,12 @@ from .coil import (
     inductance,
     magnet_force,
 )
+from .stop_faces import StopFaces
 
 __all__ = [
     "Coil", "DriveProfile", "Spring", "Stop", "Valve", "advance_flux", "current",
     "energising_times", "field_energy", "flux_rate", "inductance", "magnet_force", "pull",
-    "spring_force", "stop_force", "switching_times", "voltage",
+    "rough_stop_force", "spring_force", "stop_force", "stopping", "switching_times", "voltage",
 ]  # fmt: skip
 
 
@@ -65,11 +68,14 @@ class Stop:
         Stiffness of stop and spool together [N/m].
     damping : float
         Share of the elastic force that is added per speed of approach [s/m]; 0: none.
+    faces : StopFaces, optional
+        Rough faces that meet in front of the stiffness; without them the stop is a spring.
     """
 
     gap: float = field(validator=positive, metadata=si("m"))
     stiffness: float = field(validator=positive, metadata=si("N/m"))
     damping: float = field(default=0.0, validator=non_negative, metadata=si("s/m"))
+    faces: StopFaces | None = field(default=None, validator=optional(part(StopFaces)))
 
 
 def _not_driving(profile: DriveProfile, attribute: Attribute[Any], value: float) -> None:
@@ -205,7 +211,47 @@ def stop_force(stop: Stop, gap: float, speed: float) -> float:
     return stop.stiffness * depth * max(1.0 + stop.damping * speed, 0.0) if depth > 0.0 else 0.0
 
 
-def pull(valve: Valve, flux: float, gap: float, speed: float) -> float:
-    """Force [N] that magnet, spring and stop leave for the film; positive opens."""
-    closing = spring_force(valve.spring, gap) + stop_force(valve.stop, gap, speed)
-    return magnet_force(valve.coil, flux) - closing
+def rough_stop_force(
+    stop: Stop, faces: StopCurve, largest: float, gap: float, speed: float
+) -> tuple[float, float]:
+    """Force [N] of a stop whose rough faces lie in series with its stiffness; positive closes.
+
+    Parameters
+    ----------
+    stop : Stop
+        The bodies behind the faces, and the damping, as in `stop_force`.
+    faces : StopCurve
+        The faces.
+    largest : float
+        Largest approach they have had [m].
+    gap, speed : float
+        Of the spool [m], [m/s].
+
+    Returns
+    -------
+    force, approach : float
+        Force [N] and approach of the faces [m]. Beyond their tables both go on along the tangent.
+    """
+    point, approach = in_series(faces, gap - stop.gap, largest, stop.stiffness, beyond=True)
+    return point.force * max(1.0 + stop.damping * speed, 0.0), approach
+
+
+def stopping(
+    stop: Stop, faces: StopCurve | None, largest: float, gap: float, speed: float
+) -> float:
+    """Force [N] of a stop with or without rough faces; positive closes."""
+    if faces is None:
+        return stop_force(stop, gap, speed)
+    return rough_stop_force(stop, faces, largest, gap, speed)[0]
+
+
+def pull(
+    valve: Valve, flux: float, gap: float, speed: float, stopping: float | None = None
+) -> float:
+    """Force [N] that magnet, spring and stop leave for the film; positive opens.
+
+    `stopping` [N] is the force of the stop where it is not that of `stop_force`.
+    """
+    if stopping is None:
+        stopping = stop_force(valve.stop, gap, speed)
+    return magnet_force(valve.coil, flux) - (spring_force(valve.spring, gap) + stopping)

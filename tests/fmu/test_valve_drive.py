@@ -46,6 +46,9 @@ def test_its_parameters_are_those_of_the_fuel_injector():
     for part in ("coil", "spring", "stop", "profile"):
         mine, theirs = getattr(built, part), getattr(valve, part)
         for name in type(mine).__annotations__:
+            if name == "faces":  # tables of the build, no parameter
+                assert getattr(theirs, name) is None
+                continue
             assert getattr(mine, name) == pytest.approx(getattr(theirs, name), rel=1e-14), name
     assert ValveDrive.start_values()["h"] == pytest.approx(5e-6)
 

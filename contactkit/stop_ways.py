@@ -1,0 +1,116 @@
+"""What the tables of an end stop are made of: points, branches, and ways out of a contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from enum import IntEnum
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from .kernels.monotone_cubic import Curve, power_curve
+from .kernels.quadrature import gauss_legendre
+
+__all__ = [
+    "HERTZ",
+    "StopBranch",
+    "StopPoint",
+    "Unloading",
+    "Way",
+    "WayBack",
+    "area_below",
+    "as_floats",
+    "unloading_of",
+    "way_of",
+]
+
+HERTZ = 1.5  # least exponent at touch: a summit that is round below the grid
+_POINTS = 8  # of Gauss on a piece of a table
+
+
+class StopBranch(IntEnum):
+    """Which curve a contact is on."""
+
+    FREE = 1
+    LOADING = 2
+    UNLOADING = 3
+    BEYOND = 4
+
+
+class StopPoint(NamedTuple):
+    """Force [N], its slope over the approach [N/m], and areas [m2], on a branch."""
+
+    force: float
+    stiffness: float
+    contact_area: float
+    plastic_area: float
+    branch: StopBranch
+
+
+class Unloading(NamedTuple):
+    """The way out from a largest approach, and what is left.
+
+    `ways` are shares of the way from the residual to the largest approach; `forces` and `areas`
+    are over those at the largest approach. `plastic_volume` [m3] is that of the overlap which
+    plastic flow has made room for.
+    """
+
+    largest_approach: float
+    residual_approach: float
+    ways: tuple[float, ...]
+    forces: tuple[float, ...]
+    areas: tuple[float, ...]
+    plastic_volume: float
+
+
+class Way(NamedTuple):
+    """A way out made ready: shares of force and area over it, and the mean of the force."""
+
+    largest: float
+    force: Curve
+    area: Curve
+    mean: float
+
+
+class WayBack(NamedTuple):
+    """The way out from any largest approach: its length, the force at its end, and its parts."""
+
+    largest: float = -1.0
+    residual: float = 0.0
+    length: float = 0.0
+    whole: float = 0.0
+    mixed: tuple[tuple[float, Way], ...] = ()
+
+
+def as_floats(values: Sequence[float]) -> tuple[float, ...]:
+    """Convert numbers of any kind to a tuple of Python's own."""
+    return tuple(float(value) for value in values)
+
+
+def unloading_of(data: Mapping[str, Any]) -> Unloading:
+    """Make a way out of what `StopCurve.to_data` gave."""
+    made = Unloading(**data)
+    return made._replace(
+        ways=as_floats(made.ways), forces=as_floats(made.forces), areas=as_floats(made.areas)
+    )
+
+
+def way_of(one: Unloading) -> Way:
+    """Make a way out ready."""
+    force = power_curve(one.ways, one.forces, HERTZ)
+    area = power_curve(one.ways, one.areas, 1.0)
+    power = force(one.ways[0])[1] * one.ways[0] / one.forces[0]
+    mean = one.forces[0] * one.ways[0] / (power + 1.0)
+    mean += sum(area_below(force, a, b) for a, b in pairwise(one.ways))
+    return Way(one.largest_approach, force, area, mean)
+
+
+def area_below(curve: Curve, a: float, b: float) -> float:
+    """Integral of a curve between two positive points, in the logarithm."""
+    if b <= a:
+        return 0.0
+    width, total = math.log(b / a), 0.0
+    for node, weight in zip(*gauss_legendre(_POINTS), strict=True):
+        x = a * math.exp(width * node)
+        total += weight * curve(x)[0] * x
+    return width * total

@@ -1,0 +1,385 @@
+"""The load-approach curve of an end stop: Hertz, energy, fresh solves, and the hard cases."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import contactkit as ck
+from contactkit.kernels.monotone_cubic import monotone_curve, monotone_slopes, power_curve
+from contactkit.models.mirror_landing import land, tip_faces
+from contactkit.models.scenes import open_scene
+from contactkit.stop_impact import impact, in_series
+from contactkit.stop_tables import StopCurve
+from contactkit.stop_ways import StopBranch
+
+HARDNESS = 7.5e9
+STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=HARDNESS)
+ROUGH = ck.SelfAffineRoughness(rms=0.2e-6, hurst=0.8, rolloff=30e-6, cutoff=6e-6, seed=1)
+MODULUS, RADIUS = 210e9 / (1.0 - 0.3**2), 1e-3
+GRID = ck.Accuracy(grid=64)
+
+
+def scene(upper, pressing, *effects, width=60e-6, periodic=True):
+    interface = ck.ContactInterface(lower=ck.Body(solid=STEEL), upper=ck.Body(surface=upper))
+    return ck.ContactScene(
+        interface=interface,
+        window=ck.Window(width=width, periodic=periodic),
+        pressing=pressing,
+        effects=(ck.HalfSpace(), *effects),
+    )
+
+
+def hertz(approach):
+    return 4.0 / 3.0 * MODULUS * math.sqrt(RADIUS) * approach**1.5
+
+
+@pytest.fixture(scope="module")
+def ball():
+    smooth = scene(
+        ck.Paraboloid(radius=RADIUS), ck.Pressing(force=0.2), width=30e-6, periodic=False
+    )
+    return ck.stop_curve(smooth, points=12, decades=2.0, accuracy=ck.Accuracy(grid=96))
+
+
+@pytest.fixture(scope="module")
+def rough_scene():
+    limit = ck.HardnessLimit(rule="material")
+    return scene(ROUGH, ck.Pressing(pressure=3e8), limit)
+
+
+@pytest.fixture(scope="module")
+def rough(rough_scene):
+    return ck.stop_curve(rough_scene, points=24, ways=8, accuracy=GRID)
+
+
+# The kernel -----------------------------------------------------------------------------------
+
+RISES = st.lists(st.tuples(st.floats(1e-3, 1e3), st.floats(0.0, 1e6)), min_size=2, max_size=12).map(
+    lambda steps: tuple(np.cumsum(column).tolist() for column in zip(*steps, strict=True))
+)
+
+
+@given(RISES)
+@settings(max_examples=60, deadline=None)
+def test_a_curve_through_rising_points_rises_and_has_no_kink(points):
+    nodes, values = points
+    curve = monotone_curve(nodes, values)
+    xs = np.linspace(nodes[0], nodes[-1], 97)
+    ys = np.array([curve(x)[0] for x in xs])
+    assert np.diff(ys).min() >= -1e-12 * values[-1]
+    for x, y, slope in zip(nodes, values, monotone_slopes(nodes, values), strict=True):
+        assert curve(x) == (pytest.approx(y, rel=1e-12), pytest.approx(slope, rel=1e-6, abs=1e-9))
+
+
+def test_a_smooth_curve_is_met_to_third_order():
+    xs, errors = np.linspace(0.5, 2.5, 200), []
+    for n in (13, 25, 49):
+        nodes = np.linspace(0.0, 3.0, n)
+        ours = monotone_curve(nodes.tolist(), np.exp(nodes).tolist())
+        errors.append(max(abs(ours(x)[0] / math.exp(x) - 1.0) for x in xs.tolist()))
+    assert errors[0] / errors[1] > 7.0 < errors[1] / errors[2]
+    assert errors[2] < 1e-5
+
+
+def test_a_power_law_is_met_and_starts_at_zero():
+    curve = power_curve([1e-9, 3e-9, 1e-6], [x**1.5 for x in (1e-9, 3e-9, 1e-6)])
+    for x in (1e-15, 1e-9, 7e-8, 1e-6):
+        assert curve(x) == (pytest.approx(x**1.5), pytest.approx(1.5 * x**0.5))
+    assert curve(0.0) == curve(-1.0) == (0.0, 0.0)
+    assert curve(2e-6)[0] == pytest.approx(1e-9 + 1.5e-3 * 1e-6)  # the tangent
+
+
+@pytest.mark.parametrize(
+    ("nodes", "values", "said"),
+    [([1.0], [1.0], "two or more"), ([1.0, 1.0], [1.0, 2.0], "ascend"),
+     ([1.0, math.nan], [1.0, 2.0], "ascend"), ([1.0, 2.0], [2.0, 1.0], "nowhere fall")],
+)  # fmt: skip
+def test_points_out_of_order_are_refused(nodes, values, said):
+    with pytest.raises(ck.DescriptionError, match=said):
+        monotone_slopes(nodes, values)
+    with pytest.raises(ck.DescriptionError, match="positive"):
+        power_curve([0.0, 1.0], [1.0, 2.0])
+
+
+# Elastic --------------------------------------------------------------------------------------
+
+
+def test_a_smooth_sphere_is_hertz(ball):
+    """Nodes are solves on pixels; the contact of the first has a radius of 8 of them."""
+    for approach in np.geomspace(ball.approach[0], ball.most, 30):
+        point = ball.at(approach)
+        assert point.force == pytest.approx(hertz(approach), rel=5e-3)
+        assert point.stiffness == pytest.approx(1.5 * hertz(approach) / approach, rel=1e-2)
+    assert ball.work(ball.most) == pytest.approx(0.4 * hertz(ball.most) * ball.most, rel=1e-3)
+    assert ball.contact_area[-1] == pytest.approx(math.pi * RADIUS * ball.most, rel=0.05)
+    assert "far from" in ball.datum
+
+
+def test_an_elastic_contact_comes_back_as_it_went(ball):
+    assert ball.unloading == ()
+    assert ball.elastic_limit == ball.most
+    for approach in (1e-9, 3e-8, ball.most):
+        assert ball.at(approach, ball.most) == ball.at(approach)
+    assert ball.lost(ball.most) == ball.residual(ball.most) == 0.0
+    assert ball.recoverable(ball.most) == ball.work(ball.most)
+
+
+def test_it_starts_without_a_kink(ball, rough):
+    for curve in (ball, rough):
+        assert curve.at(0.0)[:3] == curve.at(-1e-6)[:3] == (0.0, 0.0, 0.0)
+        assert curve.at(0.0).branch is StopBranch.FREE
+        first = curve.at(curve.approach[0]).stiffness
+        assert curve.at(1e-6 * curve.approach[0]).stiffness < 2e-3 * first
+        for node in curve.approach[:-1]:
+            sides = [curve.at(node * (1.0 + d)).stiffness for d in (-1e-9, 1e-9)]
+            assert sides[0] == pytest.approx(sides[1], rel=1e-6)
+
+
+def test_beyond_the_tables_it_says_so(ball):
+    with pytest.raises(ck.InfeasibleError, match=r"beyond the tables.*larger loads"):
+        ball.at(1.01 * ball.most)
+    point = ball.at(2.0 * ball.most, beyond=True)
+    assert point.branch is StopBranch.BEYOND
+    expected = ball.force[-1] + ball.at(ball.most).stiffness * ball.most
+    assert point.force == pytest.approx(expected)
+    assert math.isfinite(ball.at(1e200, beyond=True).force)
+    with pytest.raises(ck.DescriptionError, match="numbers"):
+        ball.at(math.nan)
+
+
+# Plastic --------------------------------------------------------------------------------------
+
+
+def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
+    """Solved by approaches where the tables come from pressures, and ways out between theirs.
+
+    The first way lies where the contact is a handful of pixels.
+    """
+    between = [math.sqrt(a * b) for a, b in zip(rough.approach, rough.approach[1:], strict=False)]
+    fresh = ck.stop_curve(rough_scene, approaches=between[-8:], ways=3, accuracy=GRID)
+    for approach, force in zip(fresh.approach, fresh.force, strict=True):
+        assert rough.at(approach).force == pytest.approx(force, rel=min(rough.error, 0.03))
+    for one, share in zip(fresh.unloading, (0.06, 0.01, 0.01), strict=True):
+        whole, residual = rough.at(one.largest_approach).force, one.residual_approach
+        assert rough.residual(one.largest_approach) == pytest.approx(residual, rel=0.1)
+        for way, force in zip(one.ways, one.forces, strict=True):
+            approach = residual + way * (one.largest_approach - residual)
+            found = rough.at(approach, one.largest_approach).force / whole
+            assert found == pytest.approx(force, abs=share)
+
+
+def test_the_work_lost_is_the_hardness_times_the_dents(rough):
+    """The tables know only forces over approaches; the dents only depths."""
+    for one in rough.unloading[1:]:
+        lost = rough.lost(one.largest_approach)
+        dents = HARDNESS * one.plastic_volume
+        assert lost == pytest.approx(dents, rel=0.05, abs=0.01 * rough.work(one.largest_approach))
+    assert rough.lost(rough.most) > 0.02 * rough.work(rough.most)
+
+
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
+@settings(max_examples=80, deadline=None)
+def test_every_way_rises_and_lies_below_the_first_loading(rough, share, one, other):
+    largest = share * rough.most
+    low, high = sorted((one * largest, other * largest))
+    below, above = rough.at(low, largest), rough.at(high, largest)
+    assert below.force <= above.force * (1.0 + 1e-12)
+    assert below.contact_area <= above.contact_area * (1.0 + 1e-12)
+    assert above.force <= rough.at(high).force
+    assert 0.0 <= rough.lost(largest) <= rough.work(largest)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.62, 0.9, 1.0])
+def test_a_loop_is_closed_and_its_area_is_the_work_lost(rough, share):
+    largest = share * rough.most
+    down = np.linspace(0.0, largest, 4001)
+    out = np.array([rough.at(d, largest).force for d in down])
+    there = np.array([rough.at(d).force for d in down])
+    assert out[-1] == pytest.approx(there[-1], rel=1e-12)  # and on along the first loading
+    area = float(np.trapezoid(there - out, down))
+    assert area == pytest.approx(rough.lost(largest), rel=2e-3, abs=0.01 * rough.work(largest))
+    assert area >= 0.0
+    assert rough.at(0.5 * rough.residual(largest), largest)[:3] == (0.0, 0.0, 0.0)
+
+
+def test_it_yields_where_the_hardness_is_met(rough):
+    assert 0.0 < rough.elastic_limit < rough.most
+    for approach in rough.approach:
+        elastic = approach <= rough.elastic_limit
+        assert (rough.at(approach).plastic_area == 0.0) is elastic
+        assert (rough.residual(approach) == 0.0) >= elastic
+    assert rough.at(1e-9, rough.most).plastic_area == rough.plastic_area[-1]
+
+
+def test_it_scales_and_travels_as_data(rough):
+    twice = rough.scaled(2.0)
+    assert twice.at(1e-7).force == pytest.approx(2.0 * rough.at(1e-7).force)
+    assert twice.lost(rough.most) == pytest.approx(2.0 * rough.lost(rough.most))
+    again = StopCurve.from_data(json.loads(json.dumps(rough.to_data())))
+    assert again == rough
+    assert again.at(1.3e-7, rough.most) == rough.at(1.3e-7, rough.most)
+
+
+# Hard cases -----------------------------------------------------------------------------------
+
+
+def test_one_pixel_carries_the_lightest_load():
+    """Below the pixel the summit is taken to be round."""
+    light = scene(ROUGH, ck.Pressing(pressure=1e-2))
+    curve = ck.stop_curve(light, points=4, decades=2.0, accuracy=ck.Accuracy(grid=32))
+    pixel = (60e-6 / 32) ** 2
+    assert curve.contact_area == pytest.approx([pixel] * 4)
+    assert (
+        np.ptp(np.array(curve.force) / np.array(curve.approach))
+        < 1e-3 * curve.at(curve.approach[-1]).stiffness
+    )
+
+
+def test_near_the_hardness_nothing_elastic_is_left_but_the_tables_stand():
+    limit = ck.HardnessLimit(rule="material")
+    heavy = scene(ROUGH, ck.Pressing(pressure=0.98 * HARDNESS), limit)
+    curve = ck.stop_curve(heavy, points=8, decades=1.0, ways=2, accuracy=ck.Accuracy(grid=32))
+    assert curve.elastic_limit == 0.0
+    assert curve.plastic_area[-1] > 0.9 * curve.nominal_area
+    last = curve.unloading[-1]
+    assert curve.lost(curve.most) == pytest.approx(HARDNESS * last.plastic_volume, rel=0.1)
+    small = curve.at(0.5 * curve.approach[0] * 0.9, 0.5 * curve.approach[0])
+    assert small.branch is StopBranch.UNLOADING  # the first way out serves all below it
+    with pytest.raises(ck.InfeasibleError, match="hardness"):
+        ck.stop_curve(scene(ROUGH, ck.Pressing(pressure=HARDNESS), limit), accuracy=GRID)
+
+
+def test_faces_without_an_approach_of_their_own_are_refused():
+    flat = scene(ck.Wave(amplitude=1e-12, wavelength=60e-6), ck.Pressing(pressure=1e8))
+    with pytest.raises(ck.InfeasibleError, match="full contact"):
+        ck.stop_curve(flat, points=4, accuracy=ck.Accuracy(grid=16))
+
+
+def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
+    soft = ck.Material(name="soft", young_modulus=70e9, poisson_ratio=0.33, hardness=0.9e9)
+    hard = ck.Material(name="hard", young_modulus=140e9, poisson_ratio=0.25, hardness=15e9)
+    stack = ck.Stack(substrate=hard, layers=(ck.Layer(material=soft, thickness=50e-9),))
+    made = ck.ContactScene(
+        interface=ck.ContactInterface(lower=ck.Body(solid=stack), upper=ck.Body(surface=ROUGH)),
+        window=ck.Window(width=60e-6),
+        pressing=ck.Pressing(pressure=1e8),
+        effects=(ck.LayeredHalfSpace(), ck.HardnessLimit()),
+    )
+    with pytest.raises(ck.InfeasibleError, match=r"dents of smaller loads are forgotten.*material"):
+        ck.stop_curve(made, points=12, ways=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6))
+
+
+@pytest.mark.parametrize(
+    ("choice", "said"),
+    [({"points": 3}, "points"), ({"ways": 0}, "ways"), ({"decades": 0.0}, "decades"),
+     ({"loads": [1.0]}, "ascending"), ({"loads": [1.0, 1.0]}, "ascending"),
+     ({"approaches": [0.0, 1e-9]}, r"ascending \[m\]"), ({"loads": [1.0, math.nan]}, "ascending"),
+     ({"loads": [1.0, math.inf]}, "ascending"),
+     ({"loads": [1.0, 2.0], "approaches": [1.0, 2.0]}, "or approaches")],
+)  # fmt: skip
+def test_impossible_questions_are_refused(rough_scene, choice, said):
+    with pytest.raises(ck.DescriptionError, match=said):
+        ck.stop_curve(rough_scene, **choice)
+
+
+def test_what_acts_back_on_the_contact_is_refused_and_what_looks_at_it_is_not_run(rough_scene):
+    rubbed = evolve(
+        rough_scene,
+        effects=(*rough_scene.effects, ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),
+    )
+    with pytest.raises(ck.PlanError, match="leave out friction-coupling"):
+        ck.stop_curve(rubbed)
+    watched = evolve(rough_scene, effects=(ck.HalfSpace(), ck.FrictionTraction(coefficient=0.2)))
+    assert ck.stop_curve(watched, points=4, accuracy=ck.Accuracy(grid=32)).unloading == ()
+    with pytest.raises(ck.DescriptionError, match="be positive for a stop curve"):
+        ck.stop_curve(evolve(rough_scene, pressing=ck.Pressing(force=0.0)))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [({"approach": [1e-9]}, "two or more"), ({"force": [1.0]}, "two or more"),
+     ({"elastic_limit": 1.0}, "unloading"), ({"height": 1.0}, "tables of a curve"),
+     ({"unloading": [3]}, "tables of a curve"), ({"approach": ["a", "b"]}, "tables of a curve")],
+)  # fmt: skip
+def test_data_that_is_no_curve_is_refused(rough, change, said):
+    with pytest.raises(ck.DescriptionError, match=said):
+        StopCurve.from_data(rough.to_data() | change)
+
+
+# A stop in a machine --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("stiffness", [1e-3, 1e3, 1e6, 1e9, 1e15])
+def test_springs_in_series_carry_one_force(rough, stiffness):
+    for total in (1e-12, 1e-8, 1.5e-7, rough.most):
+        for largest in (0.0, 0.7 * rough.most, rough.most):
+            point, faces = in_series(rough, total, largest, stiffness)
+            assert 0.0 <= faces <= total
+            assert faces + point.force / stiffness == pytest.approx(total, rel=1e-9)
+    rigid, faces = in_series(rough, 1e-7, 0.0, 0.0)
+    assert (rigid, faces) == (rough.at(1e-7), 1e-7)
+    with pytest.raises(ck.DescriptionError, match="stiffness"):
+        in_series(rough, 1e-7, 0.0, math.inf)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 3e6])
+def test_a_blow_is_what_a_motion_gives(rough, stiffness):
+    """Energy, against stepping the equation of motion in and out."""
+    mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.most) / 0.5e-6)
+    blow = impact(rough, mass, speed, stiffness=stiffness)
+    position, velocity, largest, dt = 0.0, speed, 0.0, 5e-4 * rough.most / speed
+    peak, force = 0.0, 0.0
+    while velocity > 0.0 or force > 0.0:
+        velocity -= 0.5 * dt * force / mass
+        position += dt * velocity
+        point, faces = in_series(rough, position, largest, stiffness, beyond=True)
+        force, largest = point.force, max(largest, faces)
+        velocity -= 0.5 * dt * force / mass
+        peak = max(peak, force)
+    assert blow.force == pytest.approx(peak, rel=1e-3)
+    assert blow.approach == pytest.approx(largest, rel=1e-3)
+    assert blow.restitution == pytest.approx(-velocity / speed, abs=2e-4)
+    assert blow.lost == pytest.approx(rough.lost(largest), rel=1e-2)
+
+
+def test_a_second_blow_of_the_same_speed_loses_nothing(rough):
+    mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.most) / 0.5e-6)
+    first = impact(rough, mass, speed)
+    again = impact(rough, mass, 0.9 * first.restitution * speed, largest=first.approach)
+    assert (again.restitution, again.lost) == (1.0, 0.0)
+    assert again.force < first.force
+    harder = impact(rough, mass, 1.2 * speed, largest=first.approach)
+    assert harder.force > first.force
+    with pytest.raises(ck.InfeasibleError, match="tables end"):
+        impact(rough, mass, 10.0 * speed)
+    with pytest.raises(ck.DescriptionError, match="speed"):
+        impact(rough, mass, 0.0)
+
+
+def test_the_apex_of_a_mirror_tip_gives_back_what_it_did_not_dent():
+    tip = open_scene("micromirror").scene.tip
+    faces = tip_faces(tip, 2e-9, accuracy=ck.Accuracy(grid=48))
+    modulus, radius = 70e9 / (2.0 * (1.0 - 0.33**2)), 1e-7
+    assert faces.at(1e-10).force == pytest.approx(
+        4.0 / 3.0 * modulus * math.sqrt(radius) * 1e-10**1.5, rel=0.05
+    )
+    mass, works = 4e-16, 4e-18
+    soft, hard = land(faces, mass, 0.05), land(faces, mass, 1.0)
+    assert (soft.restitution, soft.lost) == (1.0, 0.0)
+    assert 0.5 < hard.restitution < 0.95
+    held = land(faces, mass, 1.0, works)
+    assert held.force > hard.force
+    assert held.restitution < hard.restitution
+    with pytest.raises(ck.PlanError, match="sphere"):
+        tip_faces(open_scene("fuel-injector").scene.separation(293.0), 1e-9)
+    with pytest.raises(ck.InfeasibleError, match="a fifth of the radius"):
+        tip_faces(tip, 5e-8)
+    with pytest.raises(ck.DescriptionError, match="attraction"):
+        land(faces, mass, 1.0, math.nan)
