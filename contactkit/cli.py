@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from .errors import ContactkitError
 
@@ -72,11 +72,36 @@ def _parser() -> argparse.ArgumentParser:
     )
     build.add_argument("--out", type=Path, required=True, help="FMU file to write, FILE.fmu")
     build.add_argument(
-        "--native", action="store_true", help="a stiction-mass in C, which needs no Python to run"
+        "--native", action="store_true", help="an FMU in C, which needs no Python to run"
+    )
+    build.add_argument(
+        "--model",
+        choices=("stiction-mass", "stiction-force"),
+        help="of a native FMU of a scene: a mass with its film, or the film alone",
     )
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
     build.set_defaults(command=_build)
+    _add_system(fmu)
     return parser
+
+
+def _add_system(fmu: Any) -> None:
+    """Commands that write more than one FMU, or what goes with them."""
+    text = "write a valve and its film as one system structure (SSP)"
+    system = fmu.add_parser("system", help=text, description=text)
+    system.add_argument(
+        "scene", nargs="?", default="fuel-injector", help="a scene with a valve: fuel-injector"
+    )
+    system.add_argument("--out", type=Path, help="file to write, FILE.ssp; else SCENE.ssp")
+    system.add_argument(
+        "--native", action="store_true", help="a film in C; the drive has no such form"
+    )
+    system.set_defaults(command=_system)
+    text = "write reference files for native FMUs, as the FMI cross-check had them"
+    check = fmu.add_parser("crosscheck", help=text, description=text)
+    check.add_argument("--out", type=Path, required=True, help="folder to write to")
+    check.add_argument("--no-fmu", action="store_true", help="the tables only; needs no compiler")
+    check.set_defaults(command=_crosscheck)
 
 
 def _version(parsed: argparse.Namespace) -> int:
@@ -142,15 +167,24 @@ def _build(parsed: argparse.Namespace) -> None:
     from .errors import DescriptionError, PlanError
     from .fmu.build import FMUS, build, validate
 
-    if parsed.fmi != "2":
-        raise PlanError("only FMUs of FMI 2.0 can be built by this version; leave out --fmi 3")
+    if parsed.fmi != "2" and not parsed.native:
+        raise PlanError(
+            "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
+        )
     if parsed.out.suffix != ".fmu":
         raise DescriptionError("--out", str(parsed.out), "end in .fmu")
     if parsed.native:
         from .fmu.native_build import build_native, native_scene
 
-        scene, start = native_scene(parsed.what if parsed.what in FMUS else _load(parsed.what))
-        name, path = "stiction-mass, native", build_native(scene, parsed.out, start=start)
+        what = parsed.what if parsed.what in FMUS else _load(parsed.what)
+        scene, start = native_scene(what, parsed.model)
+        fmi: Literal[2, 3] = 3 if parsed.fmi == "3" else 2
+        film_alone = "stiction-force" in (parsed.what, parsed.model)
+        model: Literal["stiction-mass", "stiction-force"] = (
+            "stiction-force" if film_alone else "stiction-mass"
+        )
+        name = f"{model}, native, FMI {fmi}.0"
+        path = build_native(scene, parsed.out, model=model, start=start, fmi=fmi)
     else:
         name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
         path = build(name, parsed.out, start=start)
@@ -158,6 +192,22 @@ def _build(parsed: argparse.Namespace) -> None:
     print(
         f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")
     )
+
+
+def _system(parsed: argparse.Namespace) -> None:
+    from .fmu.system import write_system
+
+    out = parsed.out or Path(f"{Path(parsed.scene).stem}.ssp")
+    path = write_system(parsed.scene, out, native=parsed.native)
+    film = "film in C, drive in Python" if parsed.native else "both in Python"
+    print(f"{path}: drive and mass, {film}, {path.stat().st_size / 1024:.0f} KiB")
+
+
+def _crosscheck(parsed: argparse.Namespace) -> None:
+    from .fmu.crosscheck import write_crosscheck
+
+    paths = write_crosscheck(parsed.out, fmus=not parsed.no_fmu)
+    print("written: " + ", ".join(str(path) for path in paths))
 
 
 def _show(report: Any, as_json: bool) -> None:

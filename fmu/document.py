@@ -1,53 +1,190 @@
-"""The documentation that travels in an FMU: its variables as a page, and the licences."""
+"""The documentation that travels in an FMU: what it is, its variables as a page, the licences."""
 
 from __future__ import annotations
 
 import html
 import importlib.metadata
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+from attrs import field, fields, frozen, has
+
+from .. import __version__
+from ..effects import SEPARATION_EFFECTS
 from ..errors import ContactkitError
+from ..plan import choices
+from ..scene import SeparationScene
+from .document_notes import CONVENTIONS, coupling_note
+from .icon import icon_svg
 from .ports import Port, Value
 
-__all__ = ["index_page", "license_text"]
+__all__ = ["Page", "external_dependencies", "index_page", "license_text"]
 
 _STYLE = (
     "body{font:15px sans-serif;margin:2em;max-width:70em}table{border-collapse:collapse}"
     "th,td{border:1px solid #bbb;padding:.3em .6em;text-align:left;vertical-align:top}"
+    "svg{float:right;margin:0 0 1em 1em}h2{margin-top:1.6em}"
 )
 _HEAD = ("name", "unit", "shown in", "causality", "type", "start", "allowed", "description")
+_PYTHON = (
+    "It is run by a Python interpreter on the host computer (3.11 or later), which besides the "
+    "files in this FMU needs: {}. A host that is no Python itself has to find a shared library "
+    "of Python; see docs/fmu.md of contactkit."
+)
+_NATIVE = (
+    "A C library that needs nothing else. Its sources are in sources/; resources/film.bin holds "
+    "the forces as tables over the gap."
+)
+_WRONG = (
+    "Parameters are set before initialization ends. A value that is out of range is refused: "
+    "the message in category logStatusError says why, and steps are refused until the FMU is "
+    "reset or set back to an earlier state. Outputs keep their last good values. Nothing is ever "
+    "nan."
+)
 
 
-def index_page(
-    title: str,
-    summary: str,
-    ports: Sequence[Port],
-    start: Mapping[str, Value],
-    requires: Iterable[str],
-) -> str:
-    """HTML page that lists the variables of an FMU."""
-    rows = "\n".join(_row(_cells(port, start[port.name]), "td") for port in ports)
-    needs = ", ".join(sorted(requires)) or "nothing else"
+@frozen(kw_only=True)
+class Page:
+    """What the page of an FMU is made from.
+
+    Attributes
+    ----------
+    name : str
+        Of the FMU, such as ``stiction-mass``.
+    title, summary : str
+        Head line, and what the FMU is.
+    ports : sequence of Port
+        Its variables.
+    start : mapping
+        Their start values.
+    fmi : {"2", "3"}
+        Version of FMI.
+    needs : str
+        What the host must have, in sentences.
+    scene : SeparationScene, optional
+        What the FMU was made from, if it was made from a scene.
+    """
+
+    name: str
+    title: str
+    summary: str
+    ports: Sequence[Port] = field(repr=False)
+    start: Mapping[str, Value] = field(repr=False)
+    fmi: str = "2"
+    needs: str
+    scene: SeparationScene | None = field(default=None, repr=False)
+
+    @classmethod
+    def of_python(cls, requires: Iterable[str], **about: Any) -> Page:
+        """Page of an FMU that Python runs, with the packages it wants beside its own files."""
+        return cls(needs=_PYTHON.format(", ".join(sorted(requires)) or "nothing else"), **about)
+
+    @classmethod
+    def of_native(cls, **about: Any) -> Page:
+        """Page of an FMU in C."""
+        return cls(needs=_NATIVE, **about)
+
+
+def index_page(about: Page) -> str:
+    """HTML page of an FMU: conventions, variables, scene, stepping, sources."""
+    title = html.escape(about.title)
+    variables = [_cells(port, about.start[port.name]) for port in about.ports]
+    parts = [
+        f"<h1>{title}</h1>",
+        _text(about.summary),
+        _text(f"FMI {about.fmi}.0 for co-simulation, written by contactkit {__version__}."),
+        _text(about.needs),
+        "<h2>Conventions</h2>",
+        _text(CONVENTIONS),
+        "<h2>Variables</h2>",
+        _table(_HEAD, variables),
+        "<h2>How to couple it</h2>",
+        *map(_text, coupling_note(about.name, about.fmi)),
+        "<h2>When something is wrong</h2>",
+        _text(_WRONG),
+        *(_scene(about.scene) if about.scene is not None else ()),
+        "<h2>How to cite</h2>",
+        _text(_cite(about)),
+    ]
+    body = "\n".join(parts)
     return f"""<!DOCTYPE html>
 <html lang="en">
-<head><meta charset="utf-8"><title>{html.escape(title)}</title><style>{_STYLE}</style></head>
+<head><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style></head>
 <body>
-<h1>{html.escape(title)}</h1>
-<p>{html.escape(summary)}</p>
-<p>FMI 2.0 for co-simulation, written by contactkit. It runs in a Python interpreter on the host
-computer (3.11 or later), which besides the files in this FMU needs: {html.escape(needs)}. All
-values are in SI units, angles in radians; the unit in the third column is only for showing.</p>
-<p>Parameters are set before initialization ends. A value that is out of range is refused: the
-message in category <code>logStatusError</code> says why, and steps are discarded until the FMU is
-reset or set back to an earlier state.</p>
-<table>
-{_row(_HEAD, "th")}
-{rows}
-</table>
+{icon_svg()}
+{body}
 </body>
 </html>
 """
+
+
+def external_dependencies(requires: Iterable[str]) -> str:
+    """Text of ``documentation/externalDependencies.txt`` of an FMU that Python runs.
+
+    Examples
+    --------
+    >>> print(external_dependencies(["numpy"]).splitlines()[2])
+    - the Python packages: numpy
+    """
+    packages = ", ".join(sorted(requires)) or "none beside the standard library and this FMU"
+    return (
+        "This FMU needs on the host computer:\n"
+        "- Python 3.11 or later, with its shared library (python3.dll on Windows)\n"
+        f"- the Python packages: {packages}\n"
+        "- on Linux glibc 2.32 or later; a host that is no Python has to load the shared library\n"
+        "  of Python first, for instance by LD_PRELOAD=libpython3.11.so.1.0\n"
+    )
+
+
+def _scene(scene: SeparationScene) -> Iterator[str]:
+    """What the FMU was made from, and what is left out."""
+    yield "<h2>The scene</h2>"
+    yield _text(f"Made from {scene.name or 'the start values above'}. What acts:")
+    yield _list(choices(effect) for effect in scene.effects)
+    yield _text("What is left out:")
+    has_it = {type(effect) for effect in scene.effects}
+    yield _list(kind.summary for kind in SEPARATION_EFFECTS if kind not in has_it)
+    yield _text("Between which bodies, and with which liquid:")
+    yield _table(("what", "value", "unit"), _rows(scene.interface))
+    yield "<h2>Sources of the equations</h2>"
+    yield _list(f"{e.name}: {source}" for e in scene.effects for source in e.cites(scene))
+
+
+def _rows(noun: Any, place: str = "") -> Iterator[tuple[str, str, str]]:
+    """Name, value and unit of every field of a noun and of the nouns in it."""
+    for one in fields(type(noun)):
+        value, name = getattr(noun, one.name), f"{place}{one.name}"
+        if value is None or value == "":
+            continue
+        if has(type(value)):
+            yield name, type(value).__name__, ""
+            yield from _rows(value, f"{name}.")
+        else:
+            unit = one.metadata.get("unit", "-")
+            yield name, str(value), "" if unit == "-" else str(unit)
+
+
+def _cite(about: Page) -> str:
+    sources = ", and the sources of the equations above" if about.scene is not None else ""
+    return (
+        f"contactkit {__version__} (BSD-3-Clause), FMU {about.name}, with the GUID in "
+        f"modelDescription.xml, which is a hash of all that decides what it computes{sources}."
+    )
+
+
+def _text(text: str) -> str:
+    return f"<p>{html.escape(text)}</p>"
+
+
+def _list(lines: Iterable[str]) -> str:
+    return "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in lines) + "</ul>"
+
+
+def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    return "\n".join(
+        ["<table>", _row(head, "th"), *(_row(cells, "td") for cells in rows), "</table>"]
+    )
 
 
 def _row(cells: Iterable[str], tag: str) -> str:
@@ -56,14 +193,16 @@ def _row(cells: Iterable[str], tag: str) -> str:
 
 def _cells(port: Port, start: Value) -> list[str]:
     shown = port.enumeration(int(start)).name if port.enumeration else str(start).lower()
+    allowed = port.expectation.removeprefix("be ")
+    is_output = port.causality == "output"
     return [
         port.name,
         "" if port.unit == "-" else port.unit,
         port.display_unit or "",
         port.causality,
         port.kind,
-        "" if port.causality == "output" else shown,
-        port.expectation.removeprefix("be ") if port.causality != "output" else "",
+        "" if is_output else shown,
+        "" if is_output and port.enumeration is None else allowed,
         port.label,
     ]
 

@@ -1,0 +1,46 @@
+"""Zip archives whose bytes depend on their content alone."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+__all__ = ["write_archive"]
+
+
+def write_archive(files: Mapping[str, bytes], target: Path) -> Path:
+    """Write a zip archive: equal content gives equal bytes, and no half file is ever left.
+
+    Parameters
+    ----------
+    files : mapping of str to bytes
+        Content by path, with forward slashes.
+    target : Path
+        The file; its folder is made.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    target.parent.mkdir(parents=True, exist_ok=True)
+    handle, partial = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    try:
+        with (
+            os.fdopen(handle, "wb") as stream,
+            zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed,
+        ):
+            for path in sorted(files):
+                info = zipfile.ZipInfo(path, date_time=(1980, 1, 1, 0, 0, 0))
+                info.compress_type, info.create_system = zipfile.ZIP_DEFLATED, 3
+                info.external_attr = 0o100644 << 16
+                packed.writestr(info, files[path])
+        Path(partial).chmod(0o644)
+        Path(partial).replace(target)
+    except BaseException:
+        Path(partial).unlink(missing_ok=True)
+        raise
+    return target
