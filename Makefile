@@ -19,7 +19,7 @@ demo: $(VENV)/.all
 	$(BIN)/contactkit run fuel-injector --out out/fuel-injector
 
 test: $(VENV)/.test
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses auto --dist worksteal
 
 # Ours first, then the same surfaces by the peers: some minutes. The whole table of docs/accuracy.md:
 # make bench CASES="--sizes 256 512 1024 2048 --surfaces selfaffine expacf --areas 1 5 20 --budget 120"

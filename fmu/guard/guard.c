@@ -1,0 +1,373 @@
+/* Stands between a host and the library of pythonfmu, which trusts every pointer it is given.
+
+   A host that frees an instance twice, uses one that is gone, forgets an argument or writes a
+   resource location of odd letters hears fmi2Error and why, instead of losing its process. A host
+   that is no Python, or keeps Python to itself, gets an interpreter loaded for the library. */
+
+#define _GNU_SOURCE
+#include "fmi2Functions.h"
+
+#include "handles.h"
+#include "host.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EACH(DO)                                                                                 \
+    DO(Instantiate) DO(FreeInstance) DO(SetDebugLogging) DO(SetupExperiment)                     \
+    DO(EnterInitializationMode) DO(ExitInitializationMode) DO(Terminate) DO(Reset)               \
+    DO(GetReal) DO(GetInteger) DO(GetBoolean) DO(GetString) DO(SetReal) DO(SetInteger)           \
+    DO(SetBoolean) DO(SetString) DO(GetFMUstate) DO(SetFMUstate) DO(FreeFMUstate)                \
+    DO(SerializedFMUstateSize) DO(SerializeFMUstate) DO(DeSerializeFMUstate)                     \
+    DO(GetDirectionalDerivative) DO(SetRealInputDerivatives) DO(GetRealOutputDerivatives)        \
+    DO(DoStep) DO(CancelStep) DO(GetStatus) DO(GetRealStatus) DO(GetIntegerStatus)               \
+    DO(GetBooleanStatus) DO(GetStringStatus)
+
+#define DECLARE(name) static fmi2##name##TYPE *inner_##name;
+EACH(DECLARE)
+
+#define PATH 4096
+static const char NEWEST = 19, OLDEST = 11; /* versions of Python 3 to look for */
+
+typedef struct {
+    fmi2Component inner;
+    fmi2CallbackFunctions callbacks; /* pythonfmu keeps the address and calls the logger unasked */
+    char *name;
+    int lost; /* the library called it fatal, and has freed it */
+} instance;
+
+/* Logging ------------------------------------------------------------------------------------ */
+
+static void deaf(fmi2ComponentEnvironment e, fmi2String name, fmi2Status s, fmi2String category,
+                 fmi2String message, ...) {
+    (void)e, (void)name, (void)s, (void)category, (void)message;
+}
+
+static void tell(const fmi2CallbackFunctions *to, const char *name, const char *message) {
+    char safe[1600];
+    ck_double_percents(message, safe, sizeof safe);
+    to->logger(to->componentEnvironment, name ? name : "", fmi2Error, "logStatusError", safe);
+}
+
+static fmi2Status refuse(const instance *own, const char *message) {
+    tell(&own->callbacks, own->name, message);
+    return fmi2Error;
+}
+
+/* Loading ------------------------------------------------------------------------------------ */
+
+static void beside(const char *name, char *path, size_t size) {
+    Dl_info own;
+    const char *slash;
+    int length = 0;
+    if (dladdr((void *)&inner_Instantiate, &own) && own.dli_fname && (slash = strrchr(own.dli_fname, '/')))
+        length = (int)(slash - own.dli_fname) + 1;
+    snprintf(path, size, "%.*s%s", length, length ? own.dli_fname : "", name);
+}
+
+/* Make the symbols of Python visible to the library, which names no library they come from. */
+static int find_python(void) {
+    const char *wanted = getenv("CONTACTKIT_LIBPYTHON");
+    char name[64];
+    int version, pass;
+    if (dlsym(RTLD_DEFAULT, "PyGILState_Ensure")) return 1;
+    for (pass = 0; pass < 2; pass++) /* first what the host has loaded for itself, then what there is */
+        for (version = NEWEST; version >= OLDEST; version--) {
+            snprintf(name, sizeof name, "libpython3.%d.so.1.0", version);
+            if (dlopen(name, RTLD_NOW | RTLD_GLOBAL | (pass ? 0 : RTLD_NOLOAD))) return 1;
+            if (pass == 0 && version == OLDEST && wanted && dlopen(wanted, RTLD_NOW | RTLD_GLOBAL))
+                return 1;
+        }
+    return 0;
+}
+
+static const char *load_all(void) {
+    static char problem[PATH + 400];
+    char path[PATH];
+    void *library;
+    int found;
+    if (inner_Instantiate) return NULL;
+    beside("pythonfmu.so", path, sizeof path);
+    found = find_python();
+    library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (!library) {
+        snprintf(problem, sizeof problem, "%s%s", dlerror(),
+                 found ? "" : "; this FMU needs Python 3.11 or later: let the loader find its "
+                              "libpython3.so, or name the file in CONTACTKIT_LIBPYTHON, or build a native FMU");
+        return problem;
+    }
+#define LOAD(name)                                                                               \
+    if (!(*(void **)&inner_##name = dlsym(library, "fmi2" #name))) {                             \
+        inner_Instantiate = NULL;                                                                \
+        return "the library of pythonfmu lacks fmi2" #name "; build the FMU again";              \
+    }
+    EACH(LOAD)
+    return NULL;
+}
+
+static const char *load(void) {
+    static char busy;
+    const char *problem;
+    while (__atomic_exchange_n(&busy, 1, __ATOMIC_ACQUIRE)) continue;
+    problem = load_all();
+    __atomic_store_n(&busy, 0, __ATOMIC_RELEASE);
+    return problem;
+}
+
+/* Instances ---------------------------------------------------------------------------------- */
+
+/* Whether a file of the resources can be read; its first line, if there is room for it. */
+static int first_line(const char *folder, const char *name, char *line, int size) {
+    char path[PATH + 40];
+    FILE *file;
+    int fine;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    file = fopen(path, "rb");
+    if (!file) return 0;
+    fine = fgets(line, size, file) != NULL;
+    fclose(file);
+    line[fine ? strcspn(line, "\r\n") : 0] = 0;
+    return fine;
+}
+
+static const char *check(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                         char *folder) {
+    char line[200];
+    if (!name || !*name) return "the instance needs a name";
+    if (type != fmi2CoSimulation) return "this FMU is for co-simulation only";
+    if (!resources || !ck_folder_of(resources, folder, PATH))
+        return "the resource location is missing, or is no file";
+    if (!first_line(folder, "slavemodule.txt", line, sizeof line))
+        return "the resource location is no folder of this FMU; give that of its folder resources";
+    if (strstr(folder, "%20"))
+        return "the path of the FMU must not hold the letters %20; unpack it elsewhere";
+    if (!guid || !first_line(folder, "guid.txt", line, sizeof line) || strcmp(line, guid) != 0)
+        return "the GUID is not that of this FMU; take it from its modelDescription.xml";
+    return load();
+}
+
+static void give_up(instance *own) {
+    if (own) free(own->name);
+    free(own);
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible,
+                              fmi2Boolean logs) {
+    instance *own = (instance *)calloc(1, sizeof *own);
+    char folder[PATH];
+    const char *problem;
+    void *handle = NULL;
+    if (!own) return NULL;
+    if (functions) own->callbacks = *functions;
+    if (!own->callbacks.logger) own->callbacks.logger = deaf;
+    own->name = (char *)calloc(1, (name ? strlen(name) : 0) + 1);
+    if (own->name && name) strcpy(own->name, name);
+    problem = own->name ? check(name, type, guid, resources, folder) : "there is no memory left";
+    if (!problem) {
+        /* a plain path: of a URI pythonfmu would undo nothing but blanks */
+        own->inner = inner_Instantiate(name, type, guid, folder, &own->callbacks, visible, logs);
+        if (own->inner && !(handle = ck_handle_new(CK_INSTANCES, own))) {
+            inner_FreeInstance(own->inner);
+            problem = "there are too many instances";
+        }
+    }
+    if (problem && logs) tell(&own->callbacks, own->name, problem);
+    if (!handle) give_up(own);
+    return handle;
+}
+
+void fmi2FreeInstance(fmi2Component c) {
+    instance *own = (instance *)ck_handle_free(CK_INSTANCES, c);
+    if (!own) return;
+    if (!own->lost) inner_FreeInstance(own->inner);
+    give_up(own);
+}
+
+#define OWN(c)                                                                                   \
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);                              \
+    if (!own || own->lost) return fmi2Error
+#define NEEDS(given, function)                                                                   \
+    if (!(given)) return refuse(own, function ": arguments are missing; nothing was done")
+
+/* After a fatal error the instance is gone: remember that, so that nothing touches it again. */
+static fmi2Status pass(instance *own, fmi2Status status) {
+    if (status == fmi2Fatal) own->lost = 1;
+    return status;
+}
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]) {
+    size_t i;
+    OWN(c);
+    NEEDS(n == 0 || names, "setDebugLogging");
+    for (i = 0; i < n; i++) NEEDS(names[i], "setDebugLogging");
+    return pass(own, inner_SetDebugLogging(own->inner, on, n, names));
+}
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance,
+                               fmi2Real start, fmi2Boolean has_stop, fmi2Real stop) {
+    OWN(c);
+    return pass(own, inner_SetupExperiment(own->inner, has_tolerance, tolerance, start, has_stop, stop));
+}
+
+#define PLAIN(name)                                                                              \
+    fmi2Status fmi2##name(fmi2Component c) {                                                     \
+        OWN(c);                                                                                  \
+        return pass(own, inner_##name(own->inner));                                              \
+    }
+PLAIN(EnterInitializationMode)
+PLAIN(ExitInitializationMode)
+PLAIN(Terminate)
+PLAIN(Reset)
+PLAIN(CancelStep)
+
+/* Variables ---------------------------------------------------------------------------------- */
+
+#define ACCESS(name, type)                                                                       \
+    fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference vr[], size_t n,           \
+                             type value[]) {                                                     \
+        OWN(c);                                                                                  \
+        NEEDS(n == 0 || (vr && value), "get" #name);                                             \
+        return pass(own, inner_Get##name(own->inner, vr, n, value));                             \
+    }                                                                                            \
+    fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference vr[], size_t n,           \
+                             const type value[]) {                                               \
+        OWN(c);                                                                                  \
+        NEEDS(n == 0 || (vr && value), "set" #name);                                             \
+        return pass(own, inner_Set##name(own->inner, vr, n, value));                             \
+    }
+ACCESS(Real, fmi2Real)
+ACCESS(Integer, fmi2Integer)
+ACCESS(Boolean, fmi2Boolean)
+
+fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2String value[]) {
+    OWN(c);
+    NEEDS(n == 0 || (vr && value), "getString");
+    return pass(own, inner_GetString(own->inner, vr, n, value));
+}
+
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                         const fmi2String value[]) {
+    size_t i;
+    OWN(c);
+    NEEDS(n == 0 || (vr && value), "setString");
+    for (i = 0; i < n; i++) NEEDS(value[i], "setString");
+    return pass(own, inner_SetString(own->inner, vr, n, value));
+}
+
+/* States ------------------------------------------------------------------------------------- */
+
+static const char NO_STATE[] = "that is no FMU state, or it was freed; take one first";
+
+static void *inner_state(const void *state) { return ck_handle_content(CK_STATES, state); }
+
+/* The host may hand in a state it has: it gets the new one in its place. */
+static fmi2Status keep(instance *own, fmi2Status status, void *found, fmi2FMUstate *state) {
+    void *old = ck_handle_free(CK_STATES, *state), *handle;
+    if (old) inner_FreeFMUstate(own->inner, &old);
+    *state = NULL;
+    if (status != fmi2OK) return pass(own, status);
+    handle = ck_handle_new(CK_STATES, found);
+    if (!handle) {
+        inner_FreeFMUstate(own->inner, &found);
+        return refuse(own, "there is no room for more FMU states; free some");
+    }
+    *state = handle;
+    return status;
+}
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
+    void *found = NULL;
+    fmi2Status status;
+    OWN(c);
+    NEEDS(state, "getFMUstate");
+    status = inner_GetFMUstate(own->inner, &found);
+    return keep(own, status, found, state);
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
+    void *found = inner_state(state);
+    OWN(c);
+    return found ? pass(own, inner_SetFMUstate(own->inner, found)) : refuse(own, NO_STATE);
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
+    void *found;
+    OWN(c);
+    if (!state || !*state) return fmi2OK;
+    found = ck_handle_free(CK_STATES, *state);
+    *state = NULL;
+    return found ? pass(own, inner_FreeFMUstate(own->inner, &found)) : fmi2OK;
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
+    void *found = inner_state(state);
+    OWN(c);
+    if (!found || !size) return refuse(own, NO_STATE);
+    return pass(own, inner_SerializedFMUstateSize(own->inner, found, size));
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
+    void *found = inner_state(state);
+    fmi2Status status;
+    size_t needed = 0;
+    OWN(c);
+    if (!found || !bytes) return refuse(own, NO_STATE);
+    status = inner_SerializedFMUstateSize(own->inner, found, &needed);
+    if (status != fmi2OK) return pass(own, status);
+    if (size < needed) return refuse(own, "serializeFMUstate: there is too little room");
+    return pass(own, inner_SerializeFMUstate(own->inner, found, bytes, needed));
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size,
+                                   fmi2FMUstate *state) {
+    void *found = NULL;
+    fmi2Status status;
+    OWN(c);
+    NEEDS(bytes && state, "deSerializeFMUstate");
+    status = inner_DeSerializeFMUstate(own->inner, bytes, size, &found);
+    return keep(own, status, found, state);
+}
+
+/* Steps and the rest ------------------------------------------------------------------------- */
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean keeps) {
+    OWN(c);
+    return pass(own, inner_DoStep(own->inner, time, step, keeps));
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], size_t n,
+                                        const fmi2ValueReference known[], size_t m,
+                                        const fmi2Real seed[], fmi2Real value[]) {
+    OWN(c);
+    return pass(own, inner_GetDirectionalDerivative(own->inner, unknown, n, known, m, seed, value));
+}
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                       const fmi2Integer order[], const fmi2Real value[]) {
+    OWN(c);
+    return pass(own, inner_SetRealInputDerivatives(own->inner, vr, n, order, value));
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                        const fmi2Integer order[], fmi2Real value[]) {
+    OWN(c);
+    return pass(own, inner_GetRealOutputDerivatives(own->inner, vr, n, order, value));
+}
+
+#define STATUS(name, type)                                                                       \
+    fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *value) {          \
+        OWN(c);                                                                                  \
+        NEEDS(value, "get" #name);                                                               \
+        return pass(own, inner_Get##name(own->inner, kind, value));                              \
+    }
+STATUS(Status, fmi2Status)
+STATUS(RealStatus, fmi2Real)
+STATUS(IntegerStatus, fmi2Integer)
+STATUS(BooleanStatus, fmi2Boolean)
+STATUS(StringStatus, fmi2String)
+
+const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
+const char *fmi2GetVersion(void) { return fmi2Version; }

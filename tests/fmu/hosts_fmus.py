@@ -1,0 +1,91 @@
+"""The release cases as FMUs, Python and native, for every host; and hosts that may be missing."""
+
+from __future__ import annotations
+
+import importlib.util
+import inspect
+import json
+import sys
+from pathlib import Path
+
+from native_scenes import FACE, scene
+
+import contactkit as ck
+from contactkit.fmu import build as building
+from contactkit.fmu.native_build import build_native
+from contactkit.fmu.native_compile import local
+
+HERE = Path(__file__).parent
+CASES = json.loads((HERE.parent / "data" / "release.json").read_text())
+_MORE = inspect.signature(build_native).parameters
+FMI3 = "fmi" in _MORE
+
+
+def values(name):
+    """Start values of a case for `stiction-mass`, with or without its spring."""
+    case = CASES[name]["case"]
+    found = {key: case[key] for key in ("m", "h0", "k_s", "h_rel", "R", "eta", "gamma", "V")}
+    found |= {"dp_cav": case["dp_cav"], "theta1": case["theta"], "theta2": case["theta"]}
+    return found | {"meniscus_law": "PUBLISHED"}
+
+
+def reference(name):
+    return CASES[name]["values"]["t_rel"]
+
+
+def python_fmu(folder, model, name, **changes):
+    """FMU of a case; `changes` replace its start values."""
+    slave = building._slave_class(model)
+    known = {port.name for port in slave.ports if port.causality != "output"}
+    start = {key: value for key, value in (values(name) | changes).items() if key in known}
+    return building.build(model, folder / f"{model}-{name}.fmu", start=start)
+
+
+def native_fmu(folder, model, name, fmi=2, **changes):
+    """The same without Python."""
+    case, start = CASES[name]["case"], values(name) | changes
+    built = scene(
+        lower=FACE, upper=FACE, volume=case["V"] or None, gap=case["h0"], mass=case["m"],
+        final=case["h_rel"], stiffness=start["k_s"],
+        effects=(
+            ck.MeniscusForce(profile="as-published"), ck.ViscousForce(),
+            *((ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()),
+        ),
+    )  # fmt: skip
+    given = {key: start[key] for key in ("eta", "gamma", "F_ext") if key in start}
+    more = {"model": model} if "model" in _MORE else {}
+    more |= {"fmi": fmi} if FMI3 else {}
+    out = folder / f"{model}-{name}-native-{fmi}.fmu"
+    return build_native(
+        built, out, start=given, platforms=[local()], compiler="cc", **more
+    )  # fmt: skip
+
+
+def _load(module):
+    """Import a file of tests as if it lay in contactkit/fmu."""
+    name = f"contactkit.fmu.{module}"
+    if name not in sys.modules:
+        spec = importlib.util.spec_from_file_location(name, HERE / f"{module}.py")
+        sys.modules[name] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(sys.modules[name])
+
+
+def helper_fmu(folder, class_name, name):
+    """One of `hosts_slaves`, with the values of a case."""
+    module = "hosts_slaves"
+    _load(module)
+    case, key = CASES[name]["case"], class_name.lower()
+    building.FMUS[key] = (module, class_name)
+    try:
+        start = {"F0": case["F0"], "tau": case["tau"], "k": case["k_s"], "h0": case["h0"]}
+        if class_name == "Body":
+            start |= {"m": case["m"], "h_rel": case["h_rel"]}
+        return building.build(key, folder / f"{key}-{name}.fmu", start=start)
+    finally:
+        del building.FMUS[key]
+
+
+__all__ = [
+    "CASES", "FMI3", "HERE", "helper_fmu", "native_fmu", "python_fmu", "reference",
+    "values",
+]  # fmt: skip

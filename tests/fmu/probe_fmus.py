@@ -1,0 +1,146 @@
+"""The FMUs that `probe.py` is let loose on: how each is built, and a run it must repeat.
+
+A new FMU joins by being in `contactkit.fmu.build.FMUS`; without a run of its own here it is stepped
+with its start values as they are.
+"""
+
+from __future__ import annotations
+
+import inspect
+import json
+import os
+import subprocess
+import sys
+import zipfile
+from itertools import pairwise
+from pathlib import Path
+
+import attrs
+import fmpy
+from native_scenes import HAS_CC, SCENES
+
+import contactkit as ck
+from contactkit.fmu.build import FMUS, build
+from contactkit.fmu.native_build import build_native
+from contactkit.fmu.native_compile import local
+
+HERE = Path(__file__).parent
+KINDS = {
+    "Real": "real", "Float64": "real", "Integer": "integer", "Int32": "integer",
+    "Enumeration": "enumeration", "Boolean": "boolean",
+}  # fmt: skip
+
+VOLUME = 1.5834608721796803e-10  # m3: the film of release case E is full at 5 um
+
+
+def rising(first, last, count, length):
+    """Gaps in equal ratios, with the speed that leads to each."""
+    gaps = [first * (last / first) ** (k / count) for k in range(count + 1)]
+    return [(length, {"h": b, "v": (b - a) / length}) for a, b in pairwise(gaps)]
+
+
+def lifting(count, length):
+    heights = [(-5e-8 + 2e-7 * k / count, 2e-7 / count / length) for k in range(count)]
+    return [(length, {"z": z, "vz": v, "az": 0.0}) for z, v in heights]
+
+
+DROP = {"h0": 5e-6, "h_break": 2e-5, "dp_cav": 1e6}
+FLAT = DROP | {"V": VOLUME, "meniscus_law": 4, "rtol": 1e-4}
+PULLED = [(2e-4, {"F_ext": 40.0 + k, "dF_ext": 1e4}) for k in range(6)]
+OPENED = rising(5e-6, 3e-5, 6, 1e-4)
+RUNS = {
+    "stiction-mass": (FLAT, PULLED),
+    "stiction-force": (FLAT, OPENED),
+    "valve-drive": ({"t_delay": 0.0, "n_cycles": 1}, rising(5e-6, 2.6e-5, 6, 2e-5)),
+    "contact-stop": ({}, rising(2.6e-5, 2.49e-5, 6, 1e-4)),
+    "tip-contact": ({}, lifting(6, 4e-8)),  # dry: the film of a sphere takes long to prepare
+}
+"""Start values, and the length and the inputs of every step."""
+
+_MORE = inspect.signature(build_native).parameters
+NATIVE = [
+    (model, fmi)
+    for model in (("stiction-mass", "stiction-force") if "model" in _MORE else ("stiction-mass",))
+    for fmi in ((2, 3) if "fmi" in _MORE else (2,))
+] if HAS_CC else []  # fmt: skip
+
+PYTHON = list(FMUS)
+NATIVES = [f"{model} native {fmi}" for model, fmi in NATIVE]
+ALL = PYTHON + NATIVES
+
+
+def build_one(name: str, folder: Path) -> Path:
+    """Build an FMU of `ALL`."""
+    out = folder / f"{name.replace(' ', '_')}.fmu"
+    if name in FMUS:
+        return build(name, out)
+    model, _, fmi = name.split()
+    more = {"model": model} if "model" in _MORE else {}
+    more |= {"fmi": int(fmi)} if "fmi" in _MORE else {}
+    scene = SCENES["drop"]
+    effects = (*scene.effects, ck.TensionLimit(tension=1e6))
+    scene = attrs.evolve(scene, effects=effects)
+    return build_native(scene, out, platforms=[local()], compiler="cc", **more)
+
+
+def unpack(path: Path, folder: Path) -> Path:
+    with zipfile.ZipFile(path) as packed:
+        packed.extractall(folder)
+    return folder
+
+
+def specification(name: str, folder: Path) -> dict:
+    """What `probe.py` has to know of an unpacked FMU."""
+    found = fmpy.read_model_description(str(folder))
+    variables = [
+        {
+            "name": v.name, "reference": v.valueReference, "kind": KINDS[v.type],
+            "causality": v.causality, "start": float(v.start) if v.type in ("Real", "Float64")
+            and v.start is not None else 0.0,
+        }
+        for v in found.modelVariables if v.causality in ("input", "output", "parameter")
+    ]  # fmt: skip
+    model = name.split()[0]
+    start, steps = RUNS.get(model, ({}, None))
+    names = {v["name"] for v in variables}  # a native FMU has the geometry in its tables
+    start = {k: v for k, v in start.items() if k in names}
+    if steps is None:
+        still = {v["name"]: v["start"] for v in variables if v["causality"] == "input"}
+        steps = [(float(found.defaultExperiment.stepSize), still)] * 6
+    identifier = found.coSimulation.modelIdentifier
+    libraries = [p for p in folder.glob(f"binaries/*/{identifier}.*") if fits(p)]
+    return {
+        "folder": str(folder), "version": found.fmiVersion[0], "library": str(libraries[0]),
+        "guid": found.guid or found.instantiationToken, "variables": variables,
+        "start": start, "steps": steps,
+    }  # fmt: skip
+
+
+def fits(path: Path) -> bool:
+    """Whether a library is one for this computer."""
+    ends = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+    return path.suffix == ends and not ("aarch64" in str(path.parent) and "x86" in local())
+
+
+def start_probe(spec: dict, folder: Path, *cases: str, **environment: str) -> subprocess.Popen:
+    """Start `probe.py` in a process of its own."""
+    path = folder / f"spec {'-'.join(cases)[:40]}.json"
+    path.write_text(json.dumps(spec))
+    program = f"import sys; sys.path.insert(0, {str(HERE)!r}); import probe; probe.main()"
+    return subprocess.Popen(
+        [sys.executable, "-I", "-c", program, str(path), *cases],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | environment,
+    )  # fmt: skip
+
+
+def end_probe(process: subprocess.Popen) -> tuple[int, str, dict]:
+    """Exit code, last words and findings of a probe."""
+    with process:
+        try:
+            out, said = process.communicate(timeout=240)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            out, said = process.communicate()
+            said += "hangs"
+    found = json.loads(out) if process.returncode == 0 else {}
+    return process.returncode, said[-2000:], found
