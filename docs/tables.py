@@ -13,6 +13,7 @@ import sys
 import tomllib
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +44,10 @@ from contactkit.effects.contact_base import (
 )
 from contactkit.effects.sliding import SLIDING_EFFECTS
 from contactkit.effects.sliding_base import SlidingForce
+from contactkit.fmu.contact_stop import ContactStop
 from contactkit.fmu.ports import Port
+from contactkit.fmu.slave import PortSlave
+from contactkit.fmu.stiction_force import StictionForce
 from contactkit.fmu.stiction_mass import StictionMass
 from contactkit.fmu.tip_contact import TipContact
 from contactkit.fmu.valve_drive import ValveDrive
@@ -53,9 +57,17 @@ from contactkit.models.injector import Study
 from contactkit.models.micromirror_scene import MirrorStudy
 from contactkit.models.mirror import Hinge, SpringTips, Waveform
 from contactkit.models.mirror_plate import Electrode
+from contactkit.models.stop_faces import StopFaces
 from contactkit.models.valve import DriveProfile, Spring, Stop
 from contactkit.units import celsius, cSt
 
+FMUS: Mapping[str, type[PortSlave]] = {
+    "stiction-mass": StictionMass,
+    "stiction-force": StictionForce,
+    "valve-drive": ValveDrive,
+    "contact-stop": ContactStop,
+    "tip-contact": TipContact,
+}
 DOCS = Path(__file__).parent
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 
@@ -248,6 +260,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "coil": lambda: keys(Coil),
     "spring": lambda: keys(Spring),
     "stop": lambda: keys(Stop),
+    "stop faces": lambda: keys(StopFaces),
     "profile": lambda: keys(DriveProfile),
     "study": lambda: keys(Study),
     "hinge": lambda: keys(Hinge),
@@ -256,15 +269,11 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "waveform": lambda: keys(Waveform),
     "mirror study": lambda: keys(MirrorStudy),
     "liquids": liquid_table,
-    "stiction-mass inputs": lambda: ports(StictionMass.ports, "input"),
-    "stiction-mass outputs": lambda: ports(StictionMass.ports, "output"),
-    "stiction-mass parameters": lambda: ports(StictionMass.ports, "parameter"),
-    "valve-drive inputs": lambda: ports(ValveDrive.ports, "input"),
-    "valve-drive outputs": lambda: ports(ValveDrive.ports, "output"),
-    "valve-drive parameters": lambda: ports(ValveDrive.ports, "parameter"),
-    "tip-contact inputs": lambda: ports(TipContact.ports, "input"),
-    "tip-contact outputs": lambda: ports(TipContact.ports, "output"),
-    "tip-contact parameters": lambda: ports(TipContact.ports, "parameter"),
+    **{
+        f"{name} {causality}s": partial(ports, model.ports, causality)
+        for name, model in FMUS.items()
+        for causality in ("input", "output", "parameter")
+    },
     "errata": errata_table,
     "nano": nano_table,
     "division": division_table,
