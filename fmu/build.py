@@ -200,6 +200,7 @@ def _documentation(
     # What is imported only when called for, such as numpy by a sphere, this model does without.
     needed = find_closure(slave.__module__, at_once=True).requires
     requires = (closure.requires & needed) - {"attr", "attrs"}
+    later = closure.requires - needed
     page = Page.of_python(
         requires, name=name, title=slave.__name__, summary=slave.summary, ports=slave.ports,
         start=start, scene=_scene(slave, start),
@@ -208,7 +209,7 @@ def _documentation(
     own = Path(package.__path__[0]).parent / "LICENSE"
     return {
         "index.html": index_page(page).encode(),
-        "externalDependencies.txt": external_dependencies(requires).encode(),
+        "externalDependencies.txt": external_dependencies(requires, later).encode(),
         "licenses/license.txt": license_text("contactkit", own).encode(),
         "licenses/attrs.txt": license_text("attrs").encode(),
         "licenses/pythonfmu.txt": license_text("pythonfmu").encode(),

@@ -119,7 +119,7 @@ def index_page(about: Page) -> str:
 """
 
 
-def external_dependencies(requires: Iterable[str]) -> str:
+def external_dependencies(requires: Iterable[str], sometimes: Iterable[str] = ()) -> str:
     """Text of ``documentation/externalDependencies.txt`` of an FMU that Python runs.
 
     Examples
@@ -128,12 +128,16 @@ def external_dependencies(requires: Iterable[str]) -> str:
     - the Python packages: numpy
     """
     packages = ", ".join(sorted(requires)) or "none beside the standard library and this FMU"
+    more = ", ".join(sorted(sometimes))
     return (
         "This FMU needs on the host computer:\n"
         "- Python 3.11 or later, with its shared library (python3.dll on Windows)\n"
         f"- the Python packages: {packages}\n"
-        "- on Linux glibc 2.32 or later; a host that is no Python has to load the shared library\n"
-        "  of Python first, for instance by LD_PRELOAD=libpython3.11.so.1.0\n"
+        + (f"- for a liquid on anything but two flats also: {more}\n" if more else "")
+        + "- on Linux glibc 2.32 or later; in a host that is no Python the FMU looks for the\n"
+        "  shared library of Python itself if it was built where a C compiler is (another one may\n"
+        "  be named in CONTACTKIT_LIBPYTHON); else load it first, for instance by\n"
+        "  LD_PRELOAD=libpython3.11.so.1.0\n"
     )
 
 

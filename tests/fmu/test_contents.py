@@ -209,6 +209,7 @@ def test_the_page_says_what_the_host_needs():
     assert "needs: numpy, scipy." in page(requires={"scipy", "numpy"})
     assert "packages: numpy" in external_dependencies(["numpy"])
     assert "none beside" in external_dependencies([])
+    assert "two flats also: numpy, scipy\n" in external_dependencies([], ["scipy", "numpy"])
 
 
 def test_text_is_escaped():
