@@ -66,9 +66,18 @@ def _parser() -> argparse.ArgumentParser:
     fmu = commands.add_parser("fmu", help="build FMUs").add_subparsers(
         metavar="COMMAND", required=True
     )
+    _add_build(fmu)
+    _add_system(fmu)
+    return parser
+
+
+def _add_build(fmu: Any) -> None:
+    """Command that writes one FMU."""
     build = fmu.add_parser("build", help="write an FMU", description="write an FMU")
     build.add_argument(
-        "what", help="stiction-mass, valve-drive, or a scene whose values are baked in"
+        "what",
+        help="stiction-mass, stiction-force, valve-drive, tip-contact, contact-stop, or a scene "
+        "whose values are baked in",
     )
     build.add_argument("--out", type=Path, required=True, help="FMU file to write, FILE.fmu")
     build.add_argument(
@@ -81,8 +90,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
     build.set_defaults(command=_build)
-    _add_system(fmu)
-    return parser
 
 
 def _add_system(fmu: Any) -> None:
@@ -164,15 +171,9 @@ def _cost(parsed: argparse.Namespace) -> None:
 
 
 def _build(parsed: argparse.Namespace) -> None:
-    from .errors import DescriptionError, PlanError
     from .fmu.build import FMUS, build, validate
 
-    if parsed.fmi != "2" and not parsed.native:
-        raise PlanError(
-            "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
-        )
-    if parsed.out.suffix != ".fmu":
-        raise DescriptionError("--out", str(parsed.out), "end in .fmu")
+    _check_build(parsed)
     if parsed.native:
         from .fmu.native_build import build_native, native_scene
 
@@ -192,6 +193,28 @@ def _build(parsed: argparse.Namespace) -> None:
     print(
         f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")
     )
+
+
+def _check_build(parsed: argparse.Namespace) -> None:
+    """Refuse options that contradict each other, before anything is built."""
+    from .errors import DescriptionError, PlanError
+
+    if parsed.fmi != "2" and not parsed.native:
+        raise PlanError(
+            "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
+        )
+    if parsed.model is not None and not parsed.native:
+        raise PlanError(
+            f"--model chooses the model of a native FMU; add --native, or build {parsed.model} by "
+            f"its name"
+        )
+    if (parsed.what, parsed.model) == ("stiction-force", "stiction-mass"):
+        raise PlanError(
+            "stiction-force has no mass, so it cannot be built with --model stiction-mass; build "
+            "stiction-mass"
+        )
+    if parsed.out.suffix != ".fmu":
+        raise DescriptionError("--out", str(parsed.out), "end in .fmu")
 
 
 def _system(parsed: argparse.Namespace) -> None:

@@ -27,6 +27,7 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError
 from ..scene import SeparationScene
+from .packing import no_file
 from .stiction_mass import MeniscusLaw, StictionMass, scene_of
 
 __all__ = ["CASES", "Case", "write_crosscheck"]
@@ -117,13 +118,12 @@ def write_crosscheck(
     DescriptionError
         If there is no such case.
     ContactkitError
-        If an FMU cannot be built; the tables are there all the same.
+        If a file cannot be written, or an FMU cannot be built; its tables are there all the same.
     """
     for name in names or ():
         if name not in CASES:
             raise DescriptionError("case", name, "be one of " + ", ".join(CASES))
     target = Path(folder)
-    target.mkdir(parents=True, exist_ok=True)
     written = []
     for name in names if names is not None else CASES:
         case = CASES[name]
@@ -170,6 +170,14 @@ def _csv(head: Sequence[str], columns: Sequence[Any]) -> str:
 
 def _write(path: Path, text: str) -> Path:
     """Write a text, all or nothing."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return _replace(path, text)
+    except OSError as error:
+        raise no_file(path, error) from error
+
+
+def _replace(path: Path, text: str) -> Path:
     handle, partial = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:

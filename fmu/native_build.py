@@ -15,6 +15,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
+from ..contact_scene import ContactScene
 from ..errors import DescriptionError, PlanError
 from ..scene import SeparationScene
 from ..units import parse_quantity
@@ -32,7 +33,7 @@ from .native_data import data_file, port_numbers
 from .native_description import CATEGORIES, description_files
 from .native_film import film_numbers, moving
 from .native_page import native_page
-from .native_ports import MODELS, Model, check_start, native_ports
+from .native_ports import MODELS, Model, check_free, check_start, native_ports
 from .packing import write_archive
 from .ports import Port, Value, find_port
 from .stiction_force import StictionForce
@@ -111,11 +112,10 @@ def build_native(
     film = film_numbers(scene)
     ports = native_ports(scene, film.lowest, model)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
+    check_free(ports, model, given)
     values |= {name: _start_value(ports, name, value) for name, value in given.items()}
     check_start(ports, values)
-    names = (
-        list(platforms) if platforms is not None else list(PLATFORMS) if has_zig() else [local()]
-    )
+    names = _platforms(platforms)
     sources = kernel_sources(fmi) | fmi_headers(fmi)
     numbers = port_numbers(model, ports, values) + film.numbers
     guid = _guid(sources, numbers, ports)
@@ -152,6 +152,11 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
     scene = getattr(what, "scene", None)
     if isinstance(scene, SeparationScene):
         return scene, {}
+    if isinstance(scene, ContactScene):  # said before hours go into its curve
+        raise PlanError(
+            "a contact scene makes a contact-stop, which has no native form in this version; "
+            "leave out --native"
+        )
     name, given = (what, {}) if isinstance(what, str) else what.fmu_start()
     if name not in _SLAVES:
         raise PlanError(
@@ -168,6 +173,15 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
     scene = scene_of(values)
     kept = {port.name for port in native_ports(scene, 0.0, model or own)}
     return scene, {key: value for key, value in values.items() if key in kept and key in given}
+
+
+def _platforms(given: Sequence[str] | None) -> list[str]:
+    """Platforms to compile for; refuses none, because such an FMU would load nowhere."""
+    if given is None:
+        return list(PLATFORMS) if has_zig() else [local()]
+    if not given:
+        raise DescriptionError("platforms", (), "name at least one of " + ", ".join(PLATFORMS))
+    return list(given)
 
 
 def _identifier(model: str) -> str:

@@ -19,7 +19,7 @@ from ..effects import (
 from ..effects.base import FilmEnd, ForceLaw, SeparationForce
 from ..effects.film_shape import FilmShape, film_shape
 from ..effects.viscous import keeps_radius
-from ..errors import DescriptionError
+from ..errors import ConvergenceError, DescriptionError
 from ..film_laws import Film
 from ..plan import Plan, plan
 from ..scene import SeparationScene
@@ -163,7 +163,14 @@ def _law_table(
         inside.add(law.release)
         folds.add(law.release)
     edges = [lowest, *sorted(inside), high]
-    return tabulate(force, edges, folds=tuple(folds), stays=stays)
+    try:
+        return tabulate(force, edges, folds=tuple(folds), stays=stays)
+    except ConvergenceError as error:
+        raise ConvergenceError(
+            f"{kind.__name__} has no native form: {error}; take profile='arc' if it is a meniscus, "
+            f"or build the Python FMU, without --native",
+            error.result,
+        ) from error
 
 
 def _shape(scene: SeparationScene, film: Film, lowest: float) -> Table:

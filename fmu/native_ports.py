@@ -22,7 +22,7 @@ from .ports import Port, Value
 from .stiction_force import PORTS as FORCE_PORTS
 from .stiction_mass import PORTS as MASS_PORTS
 
-__all__ = ["MODELS", "Model", "check_start", "native_ports", "start_of"]
+__all__ = ["MODELS", "Model", "check_free", "check_start", "native_ports", "start_of"]
 
 Model = Literal["stiction-mass", "stiction-force"]
 MODELS: Mapping[Model, tuple[Port, ...]] = {
@@ -113,6 +113,23 @@ def start_of(scene: SeparationScene, model: Model = "stiction-mass") -> dict[str
         "h_rel": opening.final_gap,
         "h_min": opening.rest_gap,
     }
+
+
+def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value | str]) -> None:
+    """Refuse start values of what the tables hold.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the first.
+    """
+    free = {port.name for port in ports}
+    for name, value in given.items():
+        if name not in free and name in {port.name for port in MODELS[model]}:
+            raise DescriptionError(
+                name, value, f"be left out: in a native {model} of this scene it is no variable",
+                hint="change the scene, whose geometry, liquid and laws are in the tables",
+            )  # fmt: skip
 
 
 def check_start(ports: tuple[Port, ...], values: Mapping[str, Value]) -> None:

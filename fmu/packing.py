@@ -8,7 +8,15 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
-__all__ = ["write_archive"]
+from ..errors import ContactkitError
+
+__all__ = ["no_file", "write_archive"]
+
+
+def no_file(path: Path, error: OSError) -> ContactkitError:
+    """Say that a file cannot be written, and why."""
+    why = error.strerror or str(error)
+    return ContactkitError(f"{path} cannot be written ({why}); give a file in a folder of yours")
 
 
 def write_archive(files: Mapping[str, bytes], target: Path) -> Path:
@@ -25,7 +33,19 @@ def write_archive(files: Mapping[str, bytes], target: Path) -> Path:
     -------
     Path
         The file.
+
+    Raises
+    ------
+    ContactkitError
+        If it cannot be written there.
     """
+    try:
+        return _write(files, target)
+    except OSError as error:
+        raise no_file(target, error) from error
+
+
+def _write(files: Mapping[str, bytes], target: Path) -> Path:
     target.parent.mkdir(parents=True, exist_ok=True)
     handle, partial = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
     try:

@@ -154,13 +154,12 @@ def _fmus(
 ) -> tuple[Component, Component]:  # fmt: skip
     """Build both FMUs."""
     from .build import build
+    from .native_build import build_native, native_scene
 
+    scene, values = native_scene(_Film(mass))  # refuses what contradicts itself, for both
     pull = build("valve-drive", folder / "valve-drive.fmu", start=drive)
     film = folder / "stiction-mass.fmu"
     if native:
-        from .native_build import build_native, native_scene
-
-        scene, values = native_scene(_Film(mass))
         build_native(scene, film, start=values, platforms=platforms, compiler=compiler)
     else:
         build("stiction-mass", film, start=mass)

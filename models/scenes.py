@@ -221,7 +221,8 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
         if not holds
     ]
     if against:
-        raise PlanError(f"the FMU stiction-mass needs {'; '.join(against)}")
+        cure = "change the scene, or add --native, which takes any scene with a mass"
+        raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {cure}")
     laws = {"exact": "EXACT", "arc": "ARC", "as-published": "PUBLISHED"}
     law = "NONE" if film is None else laws[film.profile]
     return {

@@ -2,6 +2,7 @@
 
 #include "model.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,13 +112,28 @@ int ck_model_set(ck_model *model, unsigned reference, int types, double value) {
     if (port->causality == CK_PARAMETER && model->state.phase >= CK_STEPPING)
         return refuse(model, port, value, "be set before initialization ends");
     if (!(port->low <= value && value <= port->high)) { /* nan is not, either */
-        snprintf(expected, sizeof expected, "lie between %.9g and %.9g", port->low, port->high);
+        if (port->high < DBL_MAX)
+            snprintf(expected, sizeof expected, "lie between %.9g and %.9g", port->low, port->high);
+        else if (port->low > -DBL_MAX)
+            snprintf(expected, sizeof expected, "be a finite number, at least %.9g", port->low);
+        else
+            snprintf(expected, sizeof expected, "be a finite number");
         return refuse(model, port, value, expected);
     }
     model->state.values[port->id] = value;
     if (model->state.phase < CK_STEPPING) model->state.stale = 1;
     else if (ck_model_kind(model)->follows) model->state.shown = 0;
     return CK_OK;
+}
+
+/* Gap at which the laws of a film end: without surface tension that of the meniscus is none. */
+static double film_end(const ck_scene *scene, const ck_film *film) {
+    double end = HUGE_VAL;
+    int i;
+    if (scene->surface_tension != 0.0) return film->end;
+    for (i = 0; i < film->count; i++)
+        if (film->laws[i].scale != CK_TENSION_SURFACE) end = fmin(end, film->laws[i].end);
+    return end;
 }
 
 /* What both models take from their parameters; the message says what is wrong with them. */
@@ -133,7 +149,8 @@ const char *ck_common_parameters(ck_model *model) {
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];
     for (i = 0; i < scene->film_count; i++) {
         double breaks = v[CK_H_BREAK] > 0.0 ? v[CK_H_BREAK] : scene->films[i].breaks;
-        scene->ends[i] = scene->films[i].end < breaks ? scene->films[i].end : breaks;
+        double end = film_end(scene, &scene->films[i]);
+        scene->ends[i] = end < breaks ? end : breaks;
     }
     if (scene->ends[0] <= v[CK_H0])
         return "no meniscus spans h0: lower it, or build the FMU from a scene with more liquid";
