@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 from .kernels.monotone_cubic import Curve, power_curve
 from .kernels.quadrature import gauss_legendre
+from .kernels.roots import bracketed_root
 
 __all__ = [
     "HERTZ",
@@ -18,6 +19,7 @@ __all__ = [
     "Unloading",
     "Way",
     "WayBack",
+    "area_above",
     "area_below",
     "as_floats",
     "unloading_of",
@@ -26,6 +28,8 @@ __all__ = [
 
 HERTZ = 1.5  # least exponent at touch: a summit that is round below the grid
 _POINTS = 8  # of Gauss on a piece of a table
+_COARSE = 3  # the same for what is cut off, a hundredth of the whole
+_LEAST = 1e-3  # share of a way below which nothing of account is cut off
 
 
 class StopBranch(IntEnum):
@@ -64,12 +68,13 @@ class Unloading(NamedTuple):
 
 
 class Way(NamedTuple):
-    """A way out made ready: shares of force and area over it, and the mean of the force."""
+    """A way out made ready: shares of force and area over it, the mean of the force, and nodes."""
 
     largest: float
     force: Curve
     area: Curve
     mean: float
+    nodes: tuple[float, ...]
 
 
 class WayBack(NamedTuple):
@@ -102,7 +107,7 @@ def way_of(one: Unloading) -> Way:
     power = force(one.ways[0])[1] * one.ways[0] / one.forces[0]
     mean = one.forces[0] * one.ways[0] / (power + 1.0)
     mean += sum(area_below(force, a, b) for a, b in pairwise(one.ways))
-    return Way(one.largest_approach, force, area, mean)
+    return Way(one.largest_approach, force, area, mean, one.ways)
 
 
 def area_below(curve: Curve, a: float, b: float) -> float:
@@ -114,3 +119,38 @@ def area_below(curve: Curve, a: float, b: float) -> float:
         x = a * math.exp(width * node)
         total += weight * curve(x)[0] * x
     return width * total
+
+
+def area_above(first: Curve, back: WayBack, nodes: Sequence[float]) -> float:
+    """Area of a way out that lies above the first curve, whose nodes are given."""
+    ends = {back.residual + back.length * n for _, way in back.mixed for n in (_LEAST, *way.nodes)}
+    ends |= {x for x in nodes if x > min(ends)}
+    within = sorted(x for x in ends if x < back.largest)
+
+    def over(x: float) -> float:
+        share = (x - back.residual) / back.length
+        mixed = sum([weight * one.force(share)[0] for weight, one in back.mixed])
+        return mixed * back.whole - first(x)[0]
+
+    return sum(_positive_area(over, a, b) for a, b in pairwise([*within, back.largest]))
+
+
+def _positive_area(over: Callable[[float], float], a: float, b: float) -> float:
+    """Integral of the positive part of a smooth function."""
+    points, weights = gauss_legendre(_COARSE)
+    xs = [a, *(a + (b - a) * point for point in points), b]
+    values = [over(x) for x in xs]
+    if max(values) <= 0.0:
+        return 0.0
+    if min(values) >= 0.0:
+        pairs = zip(weights, values[1:-1], strict=True)
+        return (b - a) * sum([weight * value for weight, value in pairs])
+    signs = zip(pairwise(xs), pairwise(values), strict=True)
+    roots = [bracketed_root(over, *x, 1e-9) for x, (low, high) in signs if low * high < 0.0]
+    total = 0.0
+    for low, high in pairwise([a, *roots, b]):
+        area = sum(
+            w * over(low + (high - low) * t) for t, w in zip(points, weights, strict=True)
+        )
+        total += (high - low) * max(area, 0.0)
+    return total
