@@ -29,6 +29,7 @@ from .stop_ways import (
     area_above,
     area_below,
     as_floats,
+    reversible_way,
     unloading_of,
     way_of,
 )
@@ -80,6 +81,7 @@ class StopCurve:
     _ways: tuple[Way, ...] = field(init=False, repr=False, eq=False)
     _ends: tuple[float, ...] = field(init=False, repr=False, eq=False)
     _last: WayBack = field(init=False, repr=False, eq=False)
+    _lost: tuple[float, float] = field(init=False, repr=False, eq=False)
 
     def __attrs_post_init__(self) -> None:
         n = len(self.approach)
@@ -103,6 +105,7 @@ class StopCurve:
         )
         self._keep(_ways=self._ready_ways())
         self._keep(_ends=tuple(one.largest for one in self._ways), _last=WayBack())
+        self._keep(_lost=(-1.0, 0.0))
 
     def _keep(self, **made: Any) -> None:
         for name, value in made.items():
@@ -118,20 +121,9 @@ class StopCurve:
 
     def _ready_ways(self) -> tuple[Way, ...]:
         ways, limit = list[Way](), self.elastic_limit
-        if self.unloading and limit > 0.0:  # the first curve itself, which is there reversible
-            whole, area = self._first(limit)[0], self._area(limit)[0]
-
-            def elastic(way: float) -> tuple[float, float]:
-                value, slope = self._first(way * limit)
-                return value / whole, slope * limit / whole
-
-            def touched(way: float) -> tuple[float, float]:
-                value, slope = self._area(way * limit)
-                return value / area, slope * limit / area
-
-            mean = self.work(limit) / (whole * limit)
-            nodes = tuple(x / limit for x in self.approach if x < limit)
-            ways.append(Way(limit, elastic, touched, mean, nodes))
+        if self.unloading and limit > 0.0:
+            nodes, work = self.approach, self.work(limit)
+            ways.append(reversible_way(self._first, self._area, limit, work, nodes))
         ways += [way_of(one) for one in self.unloading]
         return tuple(ways)
 
@@ -258,7 +250,10 @@ class StopCurve:
         """
         if largest <= self.elastic_limit:
             return 0.0
-        return max(self.work(largest) - self.recoverable(largest), 0.0)
+        if largest != self._lost[0]:
+            lost = max(self.work(largest) - self.recoverable(largest), 0.0)
+            self._keep(_lost=(largest, lost))
+        return self._lost[1]
 
     # other forms ------------------------------------------------------------------------------
 

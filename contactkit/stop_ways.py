@@ -22,13 +22,14 @@ __all__ = [
     "area_above",
     "area_below",
     "as_floats",
+    "reversible_way",
     "unloading_of",
     "way_of",
 ]
 
 HERTZ = 1.5  # least exponent at touch: a summit that is round below the grid
 _POINTS = 8  # of Gauss on a piece of a table
-_COARSE = 3  # the same for what is cut off, a hundredth of the whole
+_COARSE = 3  # the same for what is cut off
 _LEAST = 1e-3  # share of a way below which nothing of account is cut off
 
 
@@ -110,6 +111,24 @@ def way_of(one: Unloading) -> Way:
     return Way(one.largest_approach, force, area, mean, one.ways)
 
 
+def reversible_way(
+    first: Curve, area: Curve, limit: float, work: float, nodes: Sequence[float]
+) -> Way:
+    """Way out from the elastic limit: the first curve itself, given with its work up to there."""
+    forces, areas = first(limit)[0], area(limit)[0]
+
+    def back(way: float) -> tuple[float, float]:
+        value, slope = first(way * limit)
+        return value / forces, slope * limit / forces
+
+    def touched(way: float) -> tuple[float, float]:
+        value, slope = area(way * limit)
+        return value / areas, slope * limit / areas
+
+    shares = tuple(x / limit for x in nodes if x < limit)
+    return Way(limit, back, touched, work / (forces * limit), shares)
+
+
 def area_below(curve: Curve, a: float, b: float) -> float:
     """Integral of a curve between two positive points, in the logarithm."""
     if b <= a:
@@ -122,35 +141,47 @@ def area_below(curve: Curve, a: float, b: float) -> float:
 
 
 def area_above(first: Curve, back: WayBack, nodes: Sequence[float]) -> float:
-    """Area of a way out that lies above the first curve, whose nodes are given."""
+    """Area of a way out that lies above the first curve, whose nodes are given.
+
+    Both are smooth between the nodes; a piece is passed by if it is not above at either end and
+    does not rise from one to fall to the other. The whole is a thousandth of the work, so a few
+    points on a piece will do.
+    """
     ends = {back.residual + back.length * n for _, way in back.mixed for n in (_LEAST, *way.nodes)}
     ends |= {x for x in nodes if x > min(ends)}
-    within = sorted(x for x in ends if x < back.largest)
+    xs = [*sorted(x for x in ends if x < back.largest), back.largest]
 
-    def over(x: float) -> float:
+    def over(x: float) -> tuple[float, float]:
         share = (x - back.residual) / back.length
-        mixed = sum([weight * one.force(share)[0] for weight, one in back.mixed])
-        return mixed * back.whole - first(x)[0]
+        mixed = [(weight, one.force(share)) for weight, one in back.mixed]
+        value, slope = first(x)
+        force = back.whole * sum([weight * at[0] for weight, at in mixed])
+        rise = back.whole / back.length * sum([weight * at[1] for weight, at in mixed])
+        return force - value, rise - slope
 
-    return sum(_positive_area(over, a, b) for a, b in pairwise([*within, back.largest]))
+    at = [over(x) for x in xs]
+    at[-1] = 0.0, at[-1][1]  # there both meet
+    return sum(
+        _positive_area(over, *ends)
+        for ends, (low, high) in zip(pairwise(xs), pairwise(at), strict=True)
+        if max(low[0], high[0]) > 0.0 or low[1] > 0.0 > high[1]
+    )
 
 
-def _positive_area(over: Callable[[float], float], a: float, b: float) -> float:
-    """Integral of the positive part of a smooth function."""
+def _positive_area(over: Curve, a: float, b: float) -> float:
+    """Integral of the positive part of a smooth function, of which the slope is known too."""
     points, weights = gauss_legendre(_COARSE)
-    xs = [a, *(a + (b - a) * point for point in points), b]
-    values = [over(x) for x in xs]
-    if max(values) <= 0.0:
-        return 0.0
-    if min(values) >= 0.0:
-        pairs = zip(weights, values[1:-1], strict=True)
-        return (b - a) * sum([weight * value for weight, value in pairs])
-    signs = zip(pairwise(xs), pairwise(values), strict=True)
-    roots = [bracketed_root(over, *x, 1e-9) for x, (low, high) in signs if low * high < 0.0]
-    total = 0.0
-    for low, high in pairwise([a, *roots, b]):
-        area = sum(
-            w * over(low + (high - low) * t) for t, w in zip(points, weights, strict=True)
-        )
-        total += (high - low) * max(area, 0.0)
-    return total
+
+    def area(low: float, high: float) -> float:
+        values = [over(low + (high - low) * point)[0] for point in points]
+        return (high - low) * sum([w * v for w, v in zip(weights, values, strict=True)])
+
+    tops = _crossings(lambda x: over(x)[1], [a, b])
+    roots = _crossings(lambda x: over(x)[0], [a, *tops, b])
+    return sum(max(area(*part), 0.0) for part in pairwise([a, *roots, b]))
+
+
+def _crossings(function: Callable[[float], float], xs: Sequence[float]) -> list[float]:
+    """Roots of a function between points where its sign changes."""
+    signs = zip(pairwise(xs), pairwise([function(x) for x in xs]), strict=True)
+    return [bracketed_root(function, *x, 1e-6) for x, (low, high) in signs if low * high < 0.0]

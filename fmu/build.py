@@ -24,6 +24,7 @@ from ..units import parse_quantity
 from .document import Page, external_dependencies, index_page, license_text
 from .guard import protect
 from .integrity import RECORD, content_hash, package_name
+from .native_ports import MODELS, check_start
 from .packing import write_archive
 from .ports import Port, Value, find_port
 from .terminals import terminal_files
@@ -108,7 +109,7 @@ def build(
     Raises
     ------
     DescriptionError
-        If the name, a variable or a start value is not possible.
+        If the name, a variable or a start value is not possible, or gaps contradict each other.
     ContactkitError
         If pythonfmu is not installed, or the FMU could not be made.
     """
@@ -117,6 +118,8 @@ def build(
     if name in BAKERS:
         data = importlib.import_module(f"{__package__}.{BAKERS[name]}").bake(name, given)
     baked = {key: _start_value(slave.ports, key, value) for key, value in given.items()}
+    if name in MODELS:  # gaps that contradict each other would only be found by the host
+        check_start(slave.ports, slave.start_values() | baked)
     target = Path(out)
     if target.is_dir():
         target /= f"{name}.fmu"

@@ -102,6 +102,7 @@ class ContactStop(PortSlave):
 
     curve: StopCurve
     memory: _Memory
+    lost_before: float
     answered: tuple[tuple[float, float, float], tuple[StopPoint, float]] | None
 
     def prepare(self) -> None:
@@ -116,6 +117,7 @@ class ContactStop(PortSlave):
             expected = f"not exceed {self.curve.most:.6g} m, where the tables end"
             raise DescriptionError("d_max0", values["d_max0"], expected, unit="m")
         self.memory, self.answered = _Memory(values["d_max0"], 0.0, 0.0, 0.0, False), None
+        self.lost_before = self.curve.lost(values["d_max0"])
         values.update(W=0.0, W_d=0.0, n_beyond=0)
         point, _ = self._show()
         self.memory = self._memory(values["d_max0"], point)
@@ -166,9 +168,9 @@ class ContactStop(PortSlave):
 
     def _remember(self) -> None:
         curve, largest = self.curve, self.memory.largest
-        lost = curve.lost(largest) - curve.lost(self.values["d_max0"])
-        # Between the ways that were solved the tables may take back a thousandth of it.
-        lost = max(self.values["W"], lost)
+        # The area of the loop that a host sees. Between the ways that were solved it may fall by a
+        # thousandth of the work, as the tables give that back.
+        lost = curve.lost(largest) - self.lost_before
         self.values.update(d_max=largest, d_res=curve.residual(largest), W=lost)
 
     def advance(self, time: float, step: float) -> None:

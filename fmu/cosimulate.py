@@ -90,7 +90,8 @@ def cosimulate(
         this, relative to its delay. Both FMUs are taken back where a step was too long. The mass
         integrates its film to a hundredth of that, unless its start values say otherwise.
     drive_start, mass_start : mapping, optional
-        Start values by variable name, in SI units; those baked into the FMUs if not given.
+        Start values by variable name, in SI units or as texts with a unit; those baked into the
+        FMUs if not given.
     linear : bool
         Give the mass the pull as a straight line over the step, by its input ``dF_ext``; else
         hold the value at the start of the step, as a host without that input does.
@@ -104,7 +105,10 @@ def cosimulate(
     ConvergenceError
         If an FMU does not accept a step, or the final time is not reached.
     DescriptionError
-        If a time is not positive and finite.
+        If a time is not positive and finite, a file is not such an FMU of FMI 2.0, or a start value
+        is not one.
+    ContactkitError
+        If an FMU cannot be loaded here, or refuses a start value; with what it said.
     """
     import numpy as np
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import ClassVar
 
 from ..errors import ConvergenceError
 from .master_sides import Restorable
@@ -19,7 +20,7 @@ __all__ = ["DriveSide", "MassSide", "Steps"]
 
 # What a step may miss, over the tolerance: of the pull, by its bend and by the jump at its end that
 # a blow on the stop brings about, and of the gap that the drive went on with. Measured.
-_BEND, _JUMP, _DRIFT = 100.0, 250.0, 60.0
+_BEND, _JUMP, _DRIFT = 100.0, 600.0, 150.0
 _MOST = 0.05  # share of the pull that it may jump by at any tolerance
 _SAFETY, _SHRINK, _GROW = 0.85, 0.1, 4.0
 _STABLE = 0.8  # share of the longest stable step
@@ -29,6 +30,9 @@ _MOST_REJECTED = 60
 
 class DriveSide(Restorable):
     """A drive FMU with the variables of ``valve-drive``."""
+
+    model = "valve-drive"
+    needed: ClassVar = {"input": ("h", "v"), "output": ("F_ext", "dF_ext")}
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
@@ -63,6 +67,9 @@ class DriveSide(Restorable):
 
 class MassSide(Restorable):
     """A mass FMU with the variables of ``stiction-mass``."""
+
+    model = "stiction-mass"
+    needed: ClassVar = {"input": ("F_ext", "dF_ext"), "output": ("h", "v"), "parameter": ("m",)}
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
@@ -112,6 +119,9 @@ class Steps:
         end = min([t for t in self._switches if t > later] + [self.stop_time])
         gap, speed = self.motion
         length, rejected = self._length, self.n_rejected
+        way = self._stop_gap - gap
+        if 0.0 < way < speed * length:  # the force of the stop has a kink: end there
+            length = max(way / speed, 0.1 * min(length, self._longest))
         for _ in range(_MOST_REJECTED):
             if gap + speed * length > self._stop_gap:
                 length = min(length, self._longest)

@@ -13,8 +13,9 @@ import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from attrs import field, frozen
 
@@ -101,7 +102,7 @@ class Coupled:
 def couple(
     film: str | Path,
     mass: Mass,
-    pull: Callable[[float], float] | str | Path,
+    pull: Callable[[float], float] | float | str | Path,
     stop_time: float,
     *,
     release_gap: float = math.inf,
@@ -120,18 +121,18 @@ def couple(
     Parameters
     ----------
     film : path
-        An FMU with the variables of ``stiction-force``.
+        An FMU of FMI 2.0 with the variables of ``stiction-force``.
     mass : Mass
         What the film holds.
-    pull : callable or path
-        Pull [N] on the mass at a time [s], smooth but at `jumps`; or an FMU with the variables of
-        ``valve-drive``.
+    pull : callable, float or path
+        Pull [N] on the mass at a time [s], smooth but at `jumps`; a steady one; or an FMU with the
+        variables of ``valve-drive``.
     stop_time : float
         Where to end at the latest [s].
     release_gap : float
         Gap [m] at which the run ends as soon as it is reached; inf: at `stop_time` only.
     tolerance : float
-        Relative error of the release time to aim at, between 1e-10 and 0.1.
+        Relative error of the release time to aim at, between 1e-8 and 0.1.
     scheme : {"impulse", "end-point", "gauss-seidel", "jacobi"}
         What is exchanged: impulses, with steps of their own if no `step` is given; the force at the
         end of a fixed step, found by iteration; or the force of the last one, the mass first, or
@@ -139,7 +140,8 @@ def couple(
     step : float, optional
         A fixed communication step [s]; needed by all but ``"impulse"``.
     film_start, pull_start : mapping, optional
-        Start values of the FMUs by variable; those baked in if not given.
+        Start values of the FMUs by variable, in SI units or as texts with a unit; those baked in if
+        not given. Motion, mass and exchange of the film are the master's.
     jumps : sequence of float
         Times at which the pull jumps or has a kink [s].
     refuse : bool
@@ -163,7 +165,9 @@ def couple(
     ConvergenceError
         If an FMU does not accept a step, or the final time is not reached.
     DescriptionError
-        If an argument is not possible.
+        If an argument is not possible, a pull is not finite, or a file is not such an FMU.
+    ContactkitError
+        If an FMU cannot be loaded here, or refuses a start value; with what it said.
 
     Notes
     -----
@@ -172,13 +176,10 @@ def couple(
     may act the film is asked for forces, and it is of fifth.
     """
     _check(stop_time, tolerance, scheme, step, release_gap)
+    breaks = tuple(sorted(_checked("jumps", time, "be finite", unit="s") for time in jumps))
     with ExitStack() as stack:
         side = stack.enter_context(FilmSide(Path(film)))
-        if callable(pull):
-            source: GivenPull | DrivePull = GivenPull(pull)
-        else:
-            source = stack.enter_context(DrivePull(Path(pull)))
-            source.start(pull_start or {}, stop_time)
+        source = _source(pull, pull_start, stop_time, stack)
         explicit = scheme in ("gauss-seidel", "jacobi")
         exchange = "FORCE" if explicit else "IMPULSE"
         there = side.begin(film_start or {}, mass.mass, mass.speed, exchange)
@@ -190,7 +191,7 @@ def couple(
             expected = f"exceed the gap at the start, {body.rest:g} m"
             raise DescriptionError("release_gap", release_gap, expected, unit="m")
         first = Point(0.0, body.rest, mass.speed, mass.mass * mass.speed, 0.0, there)
-        goal = Goal(stop_time, release_gap, tolerance, tuple(sorted(jumps)))
+        goal = Goal(stop_time, release_gap, tolerance, breaks)
         walk: Walk | FixedWalk = (
             Walk(side, source, body, first, goal)
             if step is None
@@ -202,8 +203,35 @@ def couple(
         return _result(walk, side.calls + side.asked, tuple(log), clock.perf_counter() - begun)
 
 
+def _source(
+    pull: Callable[[float], float] | float | str | Path,
+    values: Mapping[str, float | str] | None,
+    stop_time: float,
+    stack: ExitStack,
+) -> GivenPull | DrivePull:
+    """What pulls the mass, ready to go."""
+    if isinstance(pull, str | Path):
+        drive = stack.enter_context(DrivePull(Path(pull)))
+        drive.start(values or {}, stop_time)
+        return drive
+    if values:
+        expected = "be left out where the pull is no FMU"
+        raise DescriptionError("pull_start", dict(values), expected)
+    if callable(pull):
+        return GivenPull(pull)
+    steady = _checked("pull", pull, "be finite, a function of time, or the path of an FMU", "N")
+    return GivenPull(lambda time: steady)
+
+
+def _checked(name: str, value: Any, expected: str, unit: str = "") -> float:
+    """A finite number, or the error that names it."""
+    if isinstance(value, Real) and math.isfinite(value):
+        return float(value)
+    raise DescriptionError(name, value, expected, unit=unit)
+
+
 def _check(
-    stop_time: float, tolerance: float, scheme: str, step: float | None, release_gap: float
+    stop_time: float, tolerance: float, scheme: str, step: float | None, release_gap: Any
 ) -> None:
     schemes = ("impulse", "end-point", "gauss-seidel", "jacobi")
     if scheme not in schemes:
@@ -212,11 +240,12 @@ def _check(
         hint = "or take scheme='impulse', which chooses its steps"
         raise DescriptionError("step", step, f"be given for {scheme!r}", unit="s", hint=hint)
     for name, value in (("stop_time", stop_time), ("step", 1.0 if step is None else step)):
-        if not (math.isfinite(value) and value > 0.0):
+        if not _checked(name, value, "be positive and finite", "s") > 0.0:
             raise DescriptionError(name, value, "be positive and finite", unit="s")
-    if not 1e-10 <= tolerance <= 0.1:
-        raise DescriptionError("tolerance", tolerance, "be between 1e-10 and 0.1")
-    if not release_gap > 0.0:
+    if not 1e-8 <= _checked("tolerance", tolerance, "be between 1e-8 and 0.1") <= 0.1:
+        hint = "tighter ones are not met" if tolerance < 1e-8 else ""
+        raise DescriptionError("tolerance", tolerance, "be between 1e-8 and 0.1", hint=hint)
+    if not (isinstance(release_gap, int | float) and release_gap > 0.0):
         raise DescriptionError("release_gap", release_gap, "be positive", unit="m")
 
 

@@ -137,6 +137,8 @@ class Walk:
         point, mass = self.points[-1], self.body.mass
         size = point.given + abs(found.total - point.momentum) + abs(point.film.static) * length
         size += mass * abs(found.speed)
+        if size == 0.0:  # nothing pulls, holds or moves
+            return found.gap_error / self._share
         lasting = mass * found.speed_error / (1.0 + found.damping * length / mass)
         wrong = max(found.gap_error, found.total_error / size, lasting / size)
         return wrong / self._share

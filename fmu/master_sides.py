@@ -7,10 +7,12 @@ another end. A film is the FMU ``stiction-force``; a pull is a function of time,
 
 from __future__ import annotations
 
+import ctypes
+import math
 from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
+from ..errors import DescriptionError
 from .instance import Instance
 
 __all__ = ["DrivePull", "FilmSide", "Force", "GivenPull", "Pulling", "Reaction", "Restorable"]
@@ -42,6 +44,12 @@ class Force(NamedTuple):
 
 _FORCES = ("F", "F_m", "c", "k")
 _ANSWERS = ("J", "F_m", "F", "c", "h_above", "h_below", "t_break")
+_OWN = {
+    "h": "h0, the gap at which the film begins",
+    "v": "Mass.speed",
+    "m_ref": "Mass.mass",
+    "exchange": "scheme",
+}
 
 
 class Restorable(Instance):
@@ -51,13 +59,15 @@ class Restorable(Instance):
 
     def save(self) -> Any:
         """State of the FMU, to be given to `restore`, and at last to `forget`."""
-        self._now = self._slave.getFMUState(), len(self.log)
+        mark = ctypes.c_void_p()
+        self._do("fmi2GetFMUstate", ctypes.byref(mark))
+        self._now = mark, len(self.log)
         return self._now
 
     def restore(self, state: Any) -> None:
         """Go back to a state; what was said since then did not happen."""
         if self._now is not state:
-            self._slave.setFMUState(state[0])
+            self._do("fmi2SetFMUstate", state[0])
             del self.log[state[1] :]
             self._now = state
 
@@ -68,16 +78,20 @@ class Restorable(Instance):
 
     def forget(self, state: Any) -> None:
         """Free a state."""
-        self._slave.freeFMUState(state[0])
+        self._do("fmi2FreeFMUstate", ctypes.byref(state[0]))
 
 
 class FilmSide(Restorable):
     """The FMU ``stiction-force`` as the master uses it; a context that cleans up."""
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(path)
-        self.calls = self.asked = 0
-        self.power = 3.0  # with which the damping fell last
+    model = "stiction-force"
+    needed: ClassVar = {
+        "input": ("h", "v"),
+        "output": (*_ANSWERS, "k", "limit"),
+        "parameter": ("h0", "m_ref", "exchange", "dp_cav", "tau_lim"),
+    }
+    calls = asked = 0
+    power = 3.0  # with which the damping fell last
 
     def begin(
         self, values: Mapping[str, float | str], mass: float, speed: float, exchange: str
@@ -85,7 +99,14 @@ class FilmSide(Restorable):
         """Initialize with start values; the gap is that of the film, the mass the master's."""
         self._motion, self._answers = self.references("h", "v"), self.references(*_ANSWERS)
         self._forces, self._limit = self.references(*_FORCES), self.references("limit")
-        gap = float(values.get("h0", self.variables["h0"].start))
+        for name in _OWN.keys() & values.keys():
+            raise DescriptionError(
+                f"film_start[{name!r}]", values[name], "be left out: the master sets it",
+                hint=f"it follows from {_OWN[name]}",
+            )  # fmt: skip
+        gap = self.quantity("h0", values.get("h0", float(self.variables["h0"].start)))
+        if not 0.0 < gap < math.inf:
+            raise DescriptionError("h0", gap, "be positive and finite", unit="m")
         own: dict[str, float | str] = {"h": gap, "v": speed, "m_ref": mass, "exchange": exchange}
         self.start({**values, **own}, 0.0)
         self.first_gap = gap
@@ -134,7 +155,17 @@ class GivenPull:
     """A pull that is a function of time."""
 
     def __init__(self, force: Pulling) -> None:
-        self.force = force
+        self._force = force
+
+    def force(self, time: float) -> float:
+        """Pull [N] at a time [s], which must be a finite number."""
+        found = self._force(time)
+        try:
+            if math.isfinite(found):
+                return found
+        except TypeError:
+            pass
+        raise DescriptionError(f"pull at t = {time:g} s", found, "be a finite number", unit="N")
 
     def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
         """See `Pull.over`."""
@@ -152,6 +183,9 @@ class GivenPull:
 
 class DrivePull(Restorable):
     """A drive FMU with the variables of ``valve-drive``; its pull is a line within a step."""
+
+    model = "valve-drive"
+    needed: ClassVar = {"input": ("h", "v"), "output": ("F_ext", "dF_ext")}
 
     def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
         """See `Pull.over`."""

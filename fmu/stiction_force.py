@@ -153,10 +153,8 @@ class StictionForce(PortSlave):
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`: the motion that was set is where the step ends."""
-        before, values, film = self.memory, self.values, self._film()
-        done = Travel(0.0, 0.0, 1.0)
-        if film is not None:
-            done = travel(film, before.gap, values["h"], step, before.static)
+        before, values = self.memory, self.values
+        film, done = self._go(step)
         self.memory = self._remember(film, time, step, done)
         self._evaluate(self.memory.static if self._film() is film else None)
         values["J"] += done.viscous
@@ -165,6 +163,19 @@ class StictionForce(PortSlave):
         self._doubt(step, before.damping)
         if film is not None and self._film() is None:
             self.event(f"film broke at t = {values['t_break']:.9g} s")
+
+    def _go(self, step: float) -> tuple[Film | None, Travel]:
+        """Film on the way of the step, and what it gives there; one that re-wets, from h0 on."""
+        before, film, gap = self.memory, self._film(), self.values["h"]
+        if film is not None:
+            return film, travel(film, before.gap, gap, step, before.static)
+        start, rewet = self.values["h0"], self.values["rewet"]
+        if rewet > 0.0 and gap < start < before.gap:
+            film = self.plan.film_with(rewet)
+            if start < film.end * (1.0 - _SAME):
+                rest = step * (start - gap) / (before.gap - gap)
+                return film, travel(film, start, gap, rest)
+        return None, Travel(0.0, 0.0, 1.0)
 
     def _film(self) -> Film | None:
         memory = self.memory

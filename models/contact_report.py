@@ -13,7 +13,7 @@ from ..contact_scene import ContactScene
 from ..converter import structure
 from ..effects.film import FilmMeniscus
 from ..effects.stress import SubsurfaceStress
-from ..errors import DescriptionError
+from ..errors import DescriptionError, PlanError
 from ..planner import plan
 from .report import Report
 
@@ -72,7 +72,13 @@ class PlainContact:
         """See `Runnable.fmu_start`."""
         from ..stop_curves import stop_curve
 
-        return "contact-stop", {"curve": stop_curve(self.scene, accuracy=self.accuracy)}
+        try:
+            return "contact-stop", {"curve": stop_curve(self.scene, accuracy=self.accuracy)}
+        except PlanError as error:
+            raise PlanError(
+                "of a contact scene the FMU contact-stop is built, whose tables are its stop "
+                f"curve, force and areas over the approach; {error}"
+            ) from error
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `Runnable.run`."""

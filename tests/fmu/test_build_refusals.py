@@ -12,6 +12,7 @@ pytest.importorskip("fmpy")
 
 import contactkit as ck
 from contactkit.cli import main
+from contactkit.fmu.build import build
 from contactkit.fmu.crosscheck import write_crosscheck
 from contactkit.fmu.instance import Instance
 from contactkit.fmu.native_build import build_native
@@ -62,6 +63,20 @@ def test_a_start_value_of_what_the_tables_hold_is_not_taken_for_a_slip_of_the_pe
 def test_a_system_whose_values_contradict_each_other_is_not_written(tmp_path):
     with pytest.raises(ck.DescriptionError, match=r"h_rel must exceed h0 = 2\.4e-05 m"):
         write_system("fuel-injector", tmp_path / "x.ssp", start={"mass.h0": "24 um"})
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("name", "start", "said"),
+    [("stiction-mass", {"h_rel": "4 um"}, r"h_rel must exceed h0 = 5e-06 m"),
+     ("stiction-mass", {"h0": "0.1 mm"}, r"h_rel must exceed h0 = 0\.0001 m"),
+     ("stiction-mass", {"h_min": "6 um"}, r"h_min must not exceed h0"),
+     ("stiction-mass", {"h_break": "5 um"}, r"h_break must be 0 or exceed h0"),
+     ("stiction-force", {"h_break": "4 um"}, r"h_break must be 0 or exceed h0")],
+)  # fmt: skip
+def test_gaps_that_contradict_each_other_are_not_baked_in(name, start, said, tmp_path):
+    with pytest.raises(ck.DescriptionError, match=said):
+        build(name, tmp_path / "x.fmu", start=start)
     assert not list(tmp_path.iterdir())
 
 

@@ -90,7 +90,7 @@ def test_it_gives_what_the_curve_gives(host, curve):
         assert host.get("state") == point.branch
         assert host.get("d_max") == largest
         assert host.get("d_res") == curve.residual(largest)
-        assert host.get("W") == pytest.approx(curve.lost(largest), rel=0.02)
+        assert host.get("W") == pytest.approx(curve.lost(largest), rel=1e-9)
     assert host.get("n_beyond") == 0
 
 
@@ -111,6 +111,23 @@ def test_a_loop_loses_what_it_says(host, curve):
         again.append(host.get("F"))
     assert abs(np.trapezoid(again, depths)) < 1e-9 * work
     assert max(again) == pytest.approx(max(forces))
+
+
+def test_a_little_beyond_yield_the_loss_is_that_of_the_forces_it_gives(host, curve):
+    """Deeper each time, where the ways out are cut off at the first curve."""
+    host.start()
+    limit, one = curve.elastic_limit, curve.unloading[1].largest_approach
+    work = 0.0
+    for reach in (0.2, 0.6, 0.8):
+        largest = limit + reach * (one - limit)
+        depths = largest * np.sin(np.linspace(0.0, math.pi, 1201))
+        faces, forces = [0.0], [0.0]
+        for depth in depths.tolist():
+            press(host, depth)
+            faces.append(host.get("d"))
+            forces.append(host.get("F"))
+        work += np.trapezoid(forces, faces)
+        assert host.get("W") == pytest.approx(work, rel=0.0, abs=1e-5 * curve.work(largest))
 
 
 def test_what_is_only_looked_at_is_not_remembered(host, curve):
@@ -286,6 +303,15 @@ def test_the_command_builds_one_from_a_contact_scene(tmp_path, capsys):
     )
     assert result["F"][-1] == pytest.approx(0.1088, rel=0.02)  # Hertz
     assert result["W"][-1] == 0.0
+
+
+def test_a_contact_scene_that_has_no_stop_curve_says_what_is_built_of_it(tmp_path, capsys):
+    out = tmp_path / "head.fmu"
+    assert cli.main(["fmu", "build", "head-disk", "--out", str(out)]) == 2
+    said = capsys.readouterr().err
+    assert "of a contact scene the FMU contact-stop is built" in said
+    assert "leave out film-meniscus" in said
+    assert not out.exists()
 
 
 # In the injector ------------------------------------------------------------------------------

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import math
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError
+from contactkit.errors import (
+    ContactkitError,
+    ConvergenceError,
+    DescriptionError,
+    InfeasibleError,
+)
 from contactkit.fmu.cosimulate import cosimulate
 from contactkit.fmu.instance import Instance
+from contactkit.fmu.master import Mass, couple
 from contactkit.fmu.stiction_mass import StictionMass
 from contactkit.fmu.valve_drive import ValveDrive
 from contactkit.io import read_tables
@@ -18,6 +25,15 @@ from contactkit.models.injector import open_device
 from contactkit.models.monolithic import simulate
 from contactkit.plan import plan
 
+FMI3 = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="3.0" modelName="third" instantiationToken="{3}">
+  <CoSimulation modelIdentifier="third"/>
+  <ModelVariables>
+    <Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>
+  </ModelVariables>
+  <ModelStructure/>
+</fmiModelDescription>
+"""
 MODEL = Path(__file__).parents[2] / "models" / "fuel_injector.toml"
 
 
@@ -144,3 +160,69 @@ def test_an_enumeration_is_set_by_the_name_of_its_item(pair):
         assert mass.get(mass.references("F_m")) == [0.0]
     with Instance(pair[1]) as mass, pytest.raises(DescriptionError, match="be one of NONE, EXACT"):
         mass.start({"meniscus_law": "ARCH"}, 1.0)
+
+
+# Wrong files ---------------------------------------------------------------------------------
+
+
+def rewritten(fmu, path, change):
+    """Copy an FMU whose model description is changed."""
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(path, "w") as new:
+        for name in old.namelist():
+            content = old.read(name)
+            new.writestr(name, change(content) if name == "modelDescription.xml" else content)
+    return path
+
+
+@pytest.fixture
+def temporary(tmp_path, monkeypatch):
+    """Folder of temporary files, which must be empty in the end."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(folder))
+    yield folder
+    assert list(folder.iterdir()) == []
+
+
+def test_an_fmu_of_another_model_is_refused(pair, temporary):
+    drive, mass = pair
+    with pytest.raises(DescriptionError, match=r"valve-drive: it lacks h \(input\), v \(input\)"):
+        cosimulate(mass, mass, 1e-4, 1e-5)
+    with pytest.raises(DescriptionError, match=r"of stiction-mass: it lacks .*m \(parameter\)"):
+        cosimulate(drive, drive, 1e-4, 1e-5)
+    with pytest.raises(DescriptionError, match=r"of stiction-force: it lacks .*c \(output\)"):
+        couple(mass, Mass(mass=0.02), 40.0, 1e-3)
+
+
+def test_what_is_no_fmu_of_fmi_2_is_named(pair, tmp_path, temporary):
+    text = tmp_path / "text.fmu"
+    text.write_text("text")
+    third, torn = tmp_path / "third.fmu", tmp_path / "torn.fmu"
+    with zipfile.ZipFile(third, "w") as archive:
+        archive.writestr("modelDescription.xml", FMI3)
+    rewritten(pair[0], torn, lambda xml: xml[: len(xml) // 2])
+    for path, said in (
+        (tmp_path / "none.fmu", "a file that is there"), (text, "a zip archive"),
+        (third, "one of FMI 3.0: take the FMI 2 build"), (torn, "description that can be read"),
+    ):  # fmt: skip
+        with pytest.raises(DescriptionError, match=said) as caught:
+            cosimulate(path, pair[1], 1e-4, 1e-5)
+        assert caught.value.value == str(path)
+
+
+def test_an_fmu_without_a_library_for_this_host_is_named(pair, tmp_path, temporary):
+    bare = tmp_path / "bare.fmu"
+    with zipfile.ZipFile(pair[0]) as old, zipfile.ZipFile(bare, "w") as new:
+        for name in old.namelist():
+            if not name.startswith("binaries/"):
+                new.writestr(name, old.read(name))
+    with pytest.raises(ContactkitError, match=r"bare\.fmu cannot be loaded here: .*library"):
+        cosimulate(bare, pair[1], 1e-4, 1e-5)
+
+
+def test_a_start_value_may_carry_its_unit(pair):
+    with Instance(pair[1]) as mass:
+        mass.start({"h0": "7 um", "h_min": 0, "eta": "10 mPa.s"}, 1.0)
+        assert mass.get(mass.references("h", "eta")) == [7e-6, 0.01]
+    with Instance(pair[1]) as mass, pytest.raises(DescriptionError, match=r"N must .*got 2\.5"):
+        mass.start({"N": 2.5}, 1.0)

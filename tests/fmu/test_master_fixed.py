@@ -92,12 +92,24 @@ def test_a_blow_up_is_an_error(film, release_cases):
     [({"tolerance": 0.5}, "tolerance"), ({"tolerance": math.nan}, "tolerance"),
      ({"scheme": "strong"}, "scheme"), ({"scheme": "jacobi"}, "step"), ({"step": -1.0}, "step"),
      ({"release_gap": 1e-6}, "release_gap"), ({"release_gap": math.nan}, "release_gap"),
-     ({"film_start": {"h9": 1.0}}, "h9")],
+     ({"tolerance": "a"}, "tolerance"), ({"tolerance": 1e-10}, "tighter ones are not met"),
+     ({"jumps": [math.nan]}, "jumps"), ({"pull": math.inf}, "pull"), ({"pull": None}, "pull"),
+     ({"pull_start": {"h": 1.0}}, "pull_start"), ({"film_start": {"h9": 1.0}}, "h9"),
+     ({"film_start": {"N": 2.5}}, "N must be a whole number"),
+     ({"film_start": {"N": 2**32 + 2}}, "N must be a whole number"),
+     ({"film_start": {"meniscus_law": 7}}, "be one of NONE, EXACT"),
+     ({"film_start": {"h0": "20 s"}}, "h0 must be in a unit that converts to m"),
+     ({"film_start": {"h0": -1.0}}, "h0 must be positive"),
+     ({"film_start": {"eta": math.nan}}, "eta must be a number"),
+     ({"film_start": {"h": 1e-5}}, "it follows from h0"),
+     ({"film_start": {"v": 0.0}}, "it follows from Mass.speed"),
+     ({"film_start": {"m_ref": 7.0}}, "it follows from Mass.mass"),
+     ({"film_start": {"exchange": 1}}, "it follows from scheme")],
 )  # fmt: skip
 def test_an_argument_that_is_not_possible_is_named(film, changes, field):
-    arguments = {"stop_time": 1e-3} | changes
+    arguments = {"pull": lambda t: 40.0, "stop_time": 1e-3} | changes
     with pytest.raises(DescriptionError) as caught:
-        couple(film, Mass(mass=0.02), lambda t: 40.0, arguments.pop("stop_time"), **arguments)
+        couple(film, Mass(mass=0.02), **arguments)
     assert field in str(caught.value)
 
 
@@ -112,3 +124,25 @@ def test_a_body_starts_above_its_asperities(film):
         couple(film, Mass(mass=0.02, rest_gap=6e-6), lambda t: 40.0, 1e-3)
     with pytest.raises(DescriptionError, match="mass"):
         Mass(mass=0.0)
+
+
+def test_a_pull_that_is_not_finite_is_named_with_its_time(film):
+    with pytest.raises(DescriptionError, match=r"pull at t = 0\.001\d* s must be a finite .* nan"):
+        couple(film, Mass(mass=0.02), lambda t: 40.0 if t < 1e-3 else math.nan, 0.1)
+
+
+def test_a_number_is_a_steady_pull_and_a_text_a_start_value(film):
+    steady = couple(film, Mass(mass=0.02), 40, 0.1, release_gap=1e-4, film_start={"h0": "20 um"})
+    given = couple(film, Mass(mass=0.02), lambda t: 40.0, 0.1, release_gap=1e-4,
+                   film_start={"h0": 20e-6})  # fmt: skip
+    assert steady["h"][0] == 20e-6
+    assert steady.release_time == given.release_time > 0.0
+
+
+@pytest.mark.parametrize("more", [{}, {"dp_cav": 1e5}])
+def test_nothing_moves_where_nothing_pulls(film, more):
+    found = couple(film, Mass(mass=0.02), 0.0, 0.1, release_gap=1e-4,
+                   film_start={"gamma": 0.0} | more)  # fmt: skip
+    assert (found.release_time, found.time[-1]) == (-1.0, 0.1)
+    assert set(found["h"]) == {5e-6}
+    assert set(found["J"]) == {0.0}

@@ -165,6 +165,16 @@ def test_viscosity_and_surface_tension_are_free(fmu, tmp_path):
     assert found[0]["t_release"] > 0.0
 
 
+@pytest.mark.parametrize(
+    ("start", "said"),
+    [({"eta": -1.0}, r"drop refused eta = -1\.0: eta must "),
+     ({"h_break": 1e-9}, "drop cannot start with these values: .*h_break must exceed h0")],
+)  # fmt: skip
+def test_a_start_value_that_is_refused_says_why(fmu, start, said):
+    with Instance(fmu) as host, pytest.raises(ContactkitError, match=said):
+        host.start(start, 1.0)
+
+
 def test_a_rate_of_the_pull_is_taken_both_ways(fmu):
     """By the variable dF_ext, and by the call of FMI for derivatives of inputs."""
     found = []

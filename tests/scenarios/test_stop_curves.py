@@ -209,6 +209,20 @@ def test_a_loop_is_closed_and_its_area_is_the_work_lost(rough, share):
     assert rough.at(0.5 * rough.residual(largest), largest)[:3] == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("reach", [0.0, 1e-6, 1e-3, 0.03, 0.3, 0.5, 0.7, 0.9, 1.0])
+def test_near_yield_too_the_work_lost_is_the_area_of_the_loop(rough, reach):
+    """There the mixed way out is cut off at the first curve, along much of its length."""
+    limit, one = rough.elastic_limit, rough.unloading[1].largest_approach
+    largest = limit + reach * (one - limit)
+    ends = {*rough.approach, rough.residual(largest), *np.linspace(0.0, largest, 8001)}
+    at = np.array(sorted(float(x) for x in ends if x <= largest))
+    loop = [rough.at(x).force - rough.at(x, largest).force for x in at.tolist()]
+    assert min(loop) >= 0.0
+    assert rough.lost(largest) == pytest.approx(
+        float(np.trapezoid(loop, at)), rel=0.0, abs=1e-6 * rough.work(largest)
+    )
+
+
 def test_it_yields_where_the_hardness_is_met(rough):
     assert 0.0 < rough.elastic_limit < rough.most
     for approach in rough.approach:
