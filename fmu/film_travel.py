@@ -22,6 +22,7 @@ __all__ = ["Travel", "travel"]
 
 _SHORT = 0.02  # step over gap up to which Simpson's rule leaves out 1e-7 of the static impulse
 _WIDEST = 0.5  # of a panel, in ln h
+_MOST = 200  # panels of a way, but for kinks and ruptures: of a gap ratio of 1e40
 _PANELS = 4  # at least, to look for limits on the way
 _NEAR = 1e-4  # panel over gap at the end of the film
 _GAUSS = ((0.1127016653792583, 5 / 18), (0.5, 8 / 18), (0.8872983346207417, 5 / 18))
@@ -89,6 +90,7 @@ def _static_mean(film: Film, begin: float, end: float, first: float, last: float
 def _stops(film: Film, begin: float, end: float, widest: float) -> Iterator[float]:
     """Ends of the panels on the way from one gap to another, the last of which is its end."""
     rising = end > begin
+    widest = max(widest, abs(math.log(end) - math.log(begin)) / _MOST)
     factor = math.exp(widest if rising else -widest)
     kinks = film.kinks if rising else film.kinks[::-1]
     gap = begin
@@ -97,10 +99,11 @@ def _stops(film: Film, begin: float, end: float, widest: float) -> Iterator[floa
         room = max((0.5 if rising else 1.0) * (film.end - gap), _NEAR * film.end)
         if rising:
             near = min(gap * factor, gap + room, end)
-            gap = next((kink for kink in kinks if gap < kink < near), near)
+            near = next((kink for kink in kinks if gap < kink < near), near)
         else:
             near = max(gap * factor, gap - room, end)
-            gap = next((kink for kink in kinks if gap > kink > near), near)
+            near = next((kink for kink in kinks if gap > kink > near), near)
+        gap = near if near != gap else end  # among the smallest numbers there is no way between
         yield gap
 
 
@@ -134,7 +137,7 @@ def _pieces(
     if speed == 0.0:
         return
     # Rounding must neither add a panel nor keep the way from ending.
-    widest = min(0.5 * _WIDEST, abs(math.log(end / begin)) / _PANELS + 1e-9)
+    widest = min(0.5 * _WIDEST, abs(math.log(end) - math.log(begin)) / _PANELS + 1e-9)
     gaps = [begin, *_stops(film, begin, end, widest)]
     for (start, before), (stop, after) in pairwise([(gap, acts(gap)) for gap in gaps]):
         if before is after:

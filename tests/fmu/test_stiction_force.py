@@ -174,6 +174,23 @@ def test_a_film_that_stands_still_gives_no_viscous_impulse():
     assert travel(film_of(dp_cav=1e5), 5e-6, 5e-6, 1.0).viscous == 0.0
 
 
+@pytest.mark.parametrize(("begin", "end"), [(5e-324, 1e-5), (1e-5, 1e-323), (1e-5, 1e300)])
+def test_a_way_through_all_numbers_has_an_end(begin, end):
+    """A share of the smallest numbers is the number itself: panels by ratio would never arrive."""
+    forces = []
+
+    class Counted:
+        end, kinks, limits = math.inf, (), ()
+        laws = {}  # noqa: RUF012
+
+        def static_force(self, gap):
+            forces.append(gap)
+            return 1.0
+
+    travel(Counted(), begin, end, 1.0)
+    assert len(forces) < 2000
+
+
 def test_an_impulse_is_continuous_where_a_limit_sets_in():
     made = film_of(dp_cav=1e6)
     edge = 0.5 * DISC * 1e6 / made.resistance(5e-6)  # speed at which the limit begins to act
