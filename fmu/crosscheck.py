@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import math
 import os
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from typing import Any
 from attrs import field, frozen
 
 from ..errors import DescriptionError
+from ..io import write_whole
 from ..scene import SeparationScene
 from .packing import no_file
 from .stiction_mass import MeniscusLaw, StictionMass, scene_of
@@ -171,20 +171,8 @@ def _csv(head: Sequence[str], columns: Sequence[Any]) -> str:
 def _write(path: Path, text: str) -> Path:
     """Write a text, all or nothing."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        return _replace(path, text)
+        with write_whole(path) as partial:
+            partial.write_text(text, encoding="utf-8", newline="\n")
     except OSError as error:
         raise no_file(path, error) from error
-
-
-def _replace(path: Path, text: str) -> Path:
-    handle, partial = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        Path(partial).chmod(0o644)
-        Path(partial).replace(path)
-    except BaseException:
-        Path(partial).unlink(missing_ok=True)
-        raise
     return path

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -111,7 +112,7 @@ def test_failing_build_leaves_nothing(toy_module, tmp_path, monkeypatch):
 def test_failing_repack_leaves_the_old_file(toy_module, tmp_path, monkeypatch):
     path = tmp_path / "toy.fmu"
     path.write_text("old")
-    monkeypatch.setattr(Path, "replace", lambda self, target: 1 / 0)
+    monkeypatch.setattr(os, "replace", lambda source, target: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         build("toy", path)
     assert [(p.name, p.read_text()) for p in tmp_path.iterdir()] == [("toy.fmu", "old")]
