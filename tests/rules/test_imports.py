@@ -68,6 +68,7 @@ CHAIN = [
     ["contact_plot"],
     ["models.*", "fmu.*"],
     ["cli"],
+    ["__main__"],
 ]
 KERNELS_MAY = ("contactkit.kernels", "contactkit.errors", "contactkit.units")
 NUMERICS = {"numpy", "scipy"}

@@ -130,6 +130,15 @@ def test_a_bad_scene_writes_nothing(scene, tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+def test_the_package_runs_as_a_module():
+    done = subprocess.run(
+        [sys.executable, "-m", "contactkit", "plan", "nothing.toml"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert done.stderr.startswith("contactkit: ")
+
+
 def test_help_imports_nothing_heavy():
     script = """
 import sys
