@@ -85,8 +85,8 @@ def _add_build(fmu: Any) -> None:
     )
     build.add_argument(
         "--model",
-        choices=("stiction-mass", "stiction-force"),
-        help="of a native FMU of a scene: a mass with its film, or the film alone",
+        choices=("stiction-mass", "stiction-force", "valve-drive"),
+        help="of a native FMU of a scene: a mass with its film, the film alone, or its valve",
     )
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
     build.set_defaults(command=_build)
@@ -101,7 +101,7 @@ def _add_system(fmu: Any) -> None:
     )
     system.add_argument("--out", type=Path, help="file to write, FILE.ssp; else SCENE.ssp")
     system.add_argument(
-        "--native", action="store_true", help="a film in C; the drive has no such form"
+        "--native", action="store_true", help="both FMUs in C, which need no Python to run"
     )
     system.set_defaults(command=_system)
     text = "write reference files for native FMUs, as the FMI cross-check had them"
@@ -175,17 +175,7 @@ def _build(parsed: argparse.Namespace) -> None:
 
     _check_build(parsed)
     if parsed.native:
-        from .fmu.native_build import build_native, native_scene
-
-        what = parsed.what if parsed.what in FMUS else _load(parsed.what)
-        scene, start = native_scene(what, parsed.model)
-        fmi: Literal[2, 3] = 3 if parsed.fmi == "3" else 2
-        film_alone = "stiction-force" in (parsed.what, parsed.model)
-        model: Literal["stiction-mass", "stiction-force"] = (
-            "stiction-force" if film_alone else "stiction-mass"
-        )
-        name = f"{model}, native, FMI {fmi}.0"
-        path = build_native(scene, parsed.out, model=model, start=start, fmi=fmi)
+        name, path = _build_native(parsed)
     else:
         name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
         path = build(name, parsed.out, start=start)
@@ -193,6 +183,40 @@ def _build(parsed: argparse.Namespace) -> None:
     print(
         f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")
     )
+
+
+def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
+    """Write a native FMU; what it is, and the file."""
+    from .fmu.build import FMUS
+    from .fmu.native_build import build_native, native_scene
+    from .fmu.native_drive import build_native_drive
+
+    fmi: Literal[2, 3] = 3 if parsed.fmi == "3" else 2
+    if "valve-drive" in (parsed.what, parsed.model):
+        path = build_native_drive(parsed.out, start=_drive_start(parsed.what), fmi=fmi)
+        return f"valve-drive, native, FMI {fmi}.0", path
+    what = parsed.what if parsed.what in FMUS else _load(parsed.what)
+    scene, start = native_scene(what, parsed.model)
+    film_alone = "stiction-force" in (parsed.what, parsed.model)
+    model: Literal["stiction-mass", "stiction-force"] = (
+        "stiction-force" if film_alone else "stiction-mass"
+    )
+    path = build_native(scene, parsed.out, model=model, start=start, fmi=fmi)
+    return f"{model}, native, FMI {fmi}.0", path
+
+
+def _drive_start(what: str) -> Mapping[str, Any]:
+    """Start values of the drive of a scene; none of one that is named itself."""
+    from .errors import PlanError
+    from .fmu.build import FMUS
+    from .models.injector import drive_values
+
+    if what == "valve-drive":
+        return {}
+    valve = None if what in FMUS else getattr(getattr(_load(what), "scene", None), "valve", None)
+    if valve is None:
+        raise PlanError(f"{what} has no valve, of which a valve-drive could be made")
+    return drive_values(valve)
 
 
 def _check_build(parsed: argparse.Namespace) -> None:
@@ -213,6 +237,11 @@ def _check_build(parsed: argparse.Namespace) -> None:
             "stiction-force has no mass, so it cannot be built with --model stiction-mass; build "
             "stiction-mass"
         )
+    if parsed.what == "valve-drive" and parsed.model not in (None, "valve-drive"):
+        raise PlanError(
+            f"valve-drive has no film, so it cannot be built with --model {parsed.model}; leave "
+            f"out --model, or give a scene"
+        )
     if parsed.out.suffix != ".fmu":
         raise DescriptionError("--out", str(parsed.out), "end in .fmu")
 
@@ -222,8 +251,8 @@ def _system(parsed: argparse.Namespace) -> None:
 
     out = parsed.out or Path(f"{Path(parsed.scene).stem}.ssp")
     path = write_system(parsed.scene, out, native=parsed.native)
-    film = "film in C, drive in Python" if parsed.native else "both in Python"
-    print(f"{path}: drive and mass, {film}, {path.stat().st_size / 1024:.0f} KiB")
+    kind = "both in C" if parsed.native else "both in Python"
+    print(f"{path}: drive and mass, {kind}, {path.stat().st_size / 1024:.0f} KiB")
 
 
 def _crosscheck(parsed: argparse.Namespace) -> None:

@@ -1,4 +1,4 @@
-"""Writing native FMUs: one C kernel for all scenes, and the tables of one of them.
+"""Writing native FMUs: one C kernel for all models, and the tables of one scene.
 
 Such an FMU needs no Python on the host. Building twice from the same sources with the same
 compiler gives the same bytes.
@@ -6,14 +6,14 @@ compiler gives the same bytes.
 
 from __future__ import annotations
 
-import hashlib
 import os
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
+
+from attrs import evolve
 
 from ..contact_scene import ContactScene
 from ..errors import DescriptionError, PlanError
@@ -29,7 +29,7 @@ from .native_compile import (
     kernel_sources,
     local,
 )
-from .native_data import data_file, port_numbers
+from .native_data import data_file, digest, guid_of, port_numbers
 from .native_description import CATEGORIES, description_files
 from .native_film import film_numbers, moving
 from .native_page import native_page
@@ -41,7 +41,14 @@ from .stiction_mass import StictionMass, scene_of
 from .terminals import terminal_files
 from .xml import Description
 
-__all__ = ["build_native", "native_scene"]
+__all__ = [
+    "build_native",
+    "chosen_platforms",
+    "native_scene",
+    "start_value",
+    "target",
+    "write_native",
+]
 
 _SLAVES = {"stiction-mass": StictionMass, "stiction-force": StictionForce}
 _MASS = {"stiction-mass": "m", "stiction-force": "m_ref"}
@@ -96,13 +103,9 @@ def build_native(
     ContactkitError
         If the scene cannot be planned or tabulated, or a compiler is missing.
     """
-    target = Path(out)
-    if target.suffix != ".fmu":
-        raise DescriptionError("out", str(out), "end in .fmu")
+    place = target(out, fmi)
     if model not in MODELS:
         raise DescriptionError("model", model, "be " + " or ".join(map(repr, MODELS)))
-    if fmi not in (2, 3):
-        raise DescriptionError("fmi", fmi, "be 2 or 3")
     given = dict(start or {})
     name = _MASS[model]
     mass = _mass(model, given.pop(name)) if name in given else None
@@ -113,25 +116,77 @@ def build_native(
     ports = native_ports(scene, film.lowest, model)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
-    values |= {name: _start_value(ports, name, value) for name, value in given.items()}
+    values |= {name: start_value(ports, name, value) for name, value in given.items()}
     check_start(ports, values)
-    names = _platforms(platforms)
+    title = f" ({scene.name})" if scene.name else ""
+    about = Description(
+        identifier=_identifier(model), guid="", tool="contactkit", ports=ports, start=values,
+        summary=_SUMMARIES[model] + title, log_categories=CATEGORIES,
+        experiment=_SLAVES[model].experiment,
+    )  # fmt: skip
+    names = chosen_platforms(platforms)
+    return write_native(model, about, film.numbers, place, fmi, names, compiler, scene)
+
+
+def target(out: str | os.PathLike[str], fmi: int) -> Path:
+    """File to write.
+
+    Raises
+    ------
+    DescriptionError
+        If it is none of an FMU, or there is no such version of FMI.
+    """
+    if Path(out).suffix != ".fmu":
+        raise DescriptionError("out", str(out), "end in .fmu")
+    if fmi not in (2, 3):
+        raise DescriptionError("fmi", fmi, "be 2 or 3")
+    return Path(out)
+
+
+def write_native(
+    model: str,
+    about: Description,
+    tables: Sequence[float],
+    place: Path,
+    fmi: Literal[2, 3],
+    platforms: Sequence[str],
+    compiler: str,
+    scene: SeparationScene | None = None,
+) -> Path:
+    """Write a native FMU of any model.
+
+    Parameters
+    ----------
+    model : str
+        Name of the model.
+    about : Description
+        What it says; its GUID is made here.
+    tables : sequence of float
+        What follows the variables in its file of data.
+    place : Path
+        The file to write.
+    fmi, platforms, compiler
+        See `build_native`; the platforms by name.
+    scene : SeparationScene, optional
+        What the tables were made from, for the documentation.
+    """
+    ports, values = about.ports, about.start
     sources = kernel_sources(fmi) | fmi_headers(fmi)
-    numbers = port_numbers(model, ports, values) + film.numbers
-    guid = _guid(sources, numbers, ports)
-    about = _about(model, guid, ports, values, scene)
+    numbers = [*port_numbers(model, ports, values), *tables]
+    guid = guid_of(sources, numbers, ports)
+    page = native_page(scene, ports, values, name=model, fmi=str(fmi))
     files = {
-        **description_files(fmi, about, sources, holds_mass=model == "stiction-mass"),
+        **description_files(
+            fmi, evolve(about, guid=guid), sources, holds_mass=model == "stiction-mass"
+        ),
         "resources/film.bin": data_file(guid, numbers),
-        "documentation/index.html": native_page(
-            scene, ports, values, name=model, fmi=str(fmi)
-        ).encode(),
+        "documentation/index.html": page.encode(),
         "documentation/licenses/license.txt": _license().encode(),
         **terminal_files(ports, fmi=str(fmi)),
         **{f"sources/{name}": content for name, content in sources.items()},
-        **_binaries(_identifier(model), fmi, sources, names, compiler),
+        **_binaries(about.identifier, fmi, sources, platforms, compiler),
     }
-    return write_archive(files, target)
+    return write_archive(files, place)
 
 
 def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene, dict[str, Value]]:
@@ -158,6 +213,11 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
             "leave out --native"
         )
     name, given = (what, {}) if isinstance(what, str) else what.fmu_start()
+    if name == "valve-drive":
+        raise PlanError(
+            "valve-drive has no native form made of a scene, as it has no film; build it by its "
+            "name, or by contactkit.fmu.native_drive.build_native_drive"
+        )
     if name not in _SLAVES:
         raise PlanError(
             f"{name} has no native form in this version, only {' and '.join(_SLAVES)} have; leave "
@@ -166,7 +226,7 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
     own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
     slave = _SLAVES[own]
     values = slave.start_values()
-    values |= {key: _start_value(slave.ports, key, value) for key, value in given.items()}
+    values |= {key: start_value(slave.ports, key, value) for key, value in given.items()}
     if own == "stiction-force":  # the mass is the tool's, and so is the end of the motion
         rest: dict[str, Value] = {"v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 20.0 * values["h0"]}
         values |= rest | {"m": values["m_ref"]}
@@ -175,8 +235,8 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
     return scene, {key: value for key, value in values.items() if key in kept and key in given}
 
 
-def _platforms(given: Sequence[str] | None) -> list[str]:
-    """Platforms to compile for; refuses none, because such an FMU would load nowhere."""
+def chosen_platforms(given: Sequence[str] | None) -> list[str]:
+    """Platforms to compile for, if these are given; none at all would load nowhere."""
     if given is None:
         return list(PLATFORMS) if has_zig() else [local()]
     if not given:
@@ -192,45 +252,17 @@ def _identifier(model: str) -> str:
 def _mass(model: Model, value: Value | str) -> float:
     """Mass [kg], of a text with a unit too."""
     name = _MASS[model]
-    return float(_start_value((find_port(MODELS[model], name),), name, value))
+    return float(start_value((find_port(MODELS[model], name),), name, value))
 
 
-def _start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Value:
+def start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Value:
+    """Start value of a variable that is no output; a text carries its unit."""
     port = find_port(ports, name)
     if port.causality == "output":
         raise DescriptionError(name, value, "be left to the model, because it is an output")
     if isinstance(value, str) and port.kind == "real":
         return port.read(parse_quantity(value, port.unit, name))
     return port.read(value)
-
-
-def _digest(sources: Mapping[str, bytes]) -> str:
-    digest = hashlib.sha256()
-    for name, content in sorted(sources.items()):
-        digest.update(f"{name}\0{len(content)}\0".encode() + content)
-    return digest.hexdigest()
-
-
-def _guid(sources: Mapping[str, bytes], numbers: Sequence[float], ports: Sequence[Port]) -> str:
-    """GUID made from all that decides what the FMU computes and says."""
-    said = repr([*numbers]) + repr(ports) + _digest(sources)
-    build = hashlib.sha256(said.encode()).hexdigest()
-    return "-".join(build[i:j] for i, j in pairwise((0, 8, 12, 16, 20, 32)))
-
-
-def _about(
-    model: Model,
-    guid: str,
-    ports: Sequence[Port],
-    values: Mapping[str, Value],
-    scene: SeparationScene,
-) -> Description:
-    title = f" ({scene.name})" if scene.name else ""
-    return Description(
-        identifier=_identifier(model), guid=guid, tool="contactkit", ports=ports, start=values,
-        summary=_SUMMARIES[model] + title, log_categories=CATEGORIES,
-        experiment=_SLAVES[model].experiment,
-    )  # fmt: skip
 
 
 def _license() -> str:
@@ -247,7 +279,7 @@ def _binaries(
         for name, content in sources.items():
             (Path(folder) / name).write_bytes(content)
         for name in dict.fromkeys(names):
-            key = (_digest(sources), name, compiler, os.environ.get("CC", ""))
+            key = (digest(sources), name, compiler, os.environ.get("CC", ""))
             if key not in _COMPILED:
                 library = Path(folder) / f"{name}.library"
                 compile_kernel(Path(folder), name, library, compiler)

@@ -17,7 +17,7 @@ CATEGORIES = {
     "logStatusError": "Why the FMU refuses to go on, and what to do about it.",
     "logAll": "Everything.",
 }
-_TIMES = ("t_break", "t_release")  # real outputs that change at events only
+_HELD = ("t_break", "t_release", "u")  # real outputs that change at events only
 
 
 def description_files(
@@ -38,7 +38,7 @@ def description_files(
     """
     compiled = sorted(name for name in files if name.endswith(".c"))
     if fmi == 3:
-        root = model_description3(about, _TIMES)
+        root = model_description3(about, _HELD)
         build = build_description(about.identifier, compiled)
         return {"modelDescription.xml": _text(root), "sources/buildDescription.xml": _text(build)}
     root = model_description(about)

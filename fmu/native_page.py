@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from attrs import evolve
+
 from ..scene import SeparationScene
 from .document import Page, index_page
 from .ports import Port, Value
 
 __all__ = ["native_page"]
 
+_WITHOUT_FILM = (
+    "A C library that needs nothing else. Its sources are in sources/; resources/film.bin holds "
+    "what its variables are and, if its stop is rough, the faces as tables over their approach."
+)
 _ABOUT = {
     "stiction-mass": ("StictionMass", "Mass held by a liquid film"),
     "stiction-force": ("StictionForce", "Liquid film between two bodies"),
+    "valve-drive": ("ValveDrive", "Electromagnet, return spring and opposite stop of a valve"),
 }
 
 
 def native_page(
-    scene: SeparationScene,
+    scene: SeparationScene | None,
     ports: Sequence[Port],
     start: Mapping[str, Value],
     *,
@@ -28,8 +35,8 @@ def native_page(
 
     Parameters
     ----------
-    scene : SeparationScene
-        What the tables were made from.
+    scene : SeparationScene or None
+        What the tables were made from; a drive has none.
     ports : sequence of Port
         Variables of the FMU.
     start : mapping
@@ -40,8 +47,7 @@ def native_page(
         Version of FMI.
     """
     title, summary = _ABOUT.get(name, (name, ""))
-    return index_page(
-        Page.of_native(
-            name=name, title=title, summary=summary, ports=ports, start=start, fmi=fmi, scene=scene
-        )
+    page = Page.of_native(
+        name=name, title=title, summary=summary, ports=ports, start=start, fmi=fmi, scene=scene
     )
+    return index_page(page if scene is not None else evolve(page, needs=_WITHOUT_FILM))

@@ -68,14 +68,14 @@ def write_system(
     out : path
         The file to write, ``*.ssp``.
     native : bool
-        Take a film that runs without Python. The drive has no such form.
+        Take FMUs that run without Python.
     start : mapping, optional
         Start values over those of the scene, by element and variable: ``{"mass.m": "25 g",
         "drive.n_cycles": 1}``.
     step : float, optional
         Communication step [s]; that of the scene if not given.
     platforms, compiler : optional
-        Of a native film, see `native_build.build_native`.
+        Of native FMUs, see `native_build.build_native`.
 
     Returns
     -------
@@ -155,13 +155,15 @@ def _fmus(
     """Build both FMUs."""
     from .build import build
     from .native_build import build_native, native_scene
+    from .native_drive import build_native_drive
 
     scene, values = native_scene(_Film(mass))  # refuses what contradicts itself, for both
-    pull = build("valve-drive", folder / "valve-drive.fmu", start=drive)
-    film = folder / "stiction-mass.fmu"
+    pull, film = folder / "valve-drive.fmu", folder / "stiction-mass.fmu"
     if native:
+        build_native_drive(pull, start=drive, platforms=platforms, compiler=compiler)
         build_native(scene, film, start=values, platforms=platforms, compiler=compiler)
     else:
+        build("valve-drive", pull, start=drive)
         build("stiction-mass", film, start=mass)
     return (
         _component(_DRIVE, pull, "coil, return spring and opposite stop; steps first"),

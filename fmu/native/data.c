@@ -1,4 +1,5 @@
-/* The file that an FMU brings: which variables it has, and the tables of its film.
+/* The file that an FMU brings: which variables it has, and the tables of its film, or of the faces
+   of a drive. It is called film.bin in all of them.
 
    Written by fmu/native_data.py: 8 letters, a checksum and a count of 8 bytes each, 40 letters of
    the GUID, then that many doubles; little-endian. Nothing in it is trusted. */
@@ -130,7 +131,7 @@ static void read_film(stream *s, ck_film *film) {
 
 static void read_ports(stream *s, ck_data *data) {
     int i;
-    data->kind = whole(s, CK_STICTION_MASS, CK_STICTION_FORCE);
+    data->kind = whole(s, CK_STICTION_MASS, CK_VALVE_DRIVE);
     data->port_count = whole(s, 1, CK_VARIABLES);
     for (i = 0; s->fine && i < data->port_count; i++) {
         ck_port *port = &data->ports[i];
@@ -144,6 +145,30 @@ static void read_ports(stream *s, ck_data *data) {
         if (!(port->low <= port->high) || !isfinite(port->start)) s->fine = 0;
         if (port->causality != CK_OUTPUT && !(port->start >= port->low && port->start <= port->high))
             s->fine = 0;
+    }
+}
+
+static void read_curve(stream *s, ck_curve *curve, int is_log) {
+    curve->count = whole(s, 2, 1000000);
+    curve->x = column(s, curve->count, 1);
+    curve->y = column(s, curve->count, 0);
+    curve->slope = column(s, curve->count, 0);
+    if (!s->fine || !is_log) return;
+    curve->begin = exp(curve->x[0]), curve->end = exp(curve->x[curve->count - 1]);
+    curve->low = exp(curve->y[0]), curve->high = exp(curve->y[curve->count - 1]);
+}
+
+static void read_faces(stream *s, ck_faces *faces) {
+    int i;
+    faces->is_there = whole(s, 0, 1);
+    if (!faces->is_there) return;
+    faces->limit = number(s);
+    faces->count = whole(s, 0, CK_WAYS);
+    read_curve(s, &faces->first, 1);
+    if (faces->count) read_curve(s, &faces->residual, 0);
+    for (i = 0; s->fine && i < faces->count; i++) {
+        faces->ends[i] = positive(s);
+        read_curve(s, &faces->ways[i], 1);
     }
 }
 
@@ -202,10 +227,13 @@ const char *ck_data_read(const char *path, ck_data *data) {
     if (problem) return problem;
     s.next = data->numbers, s.end = data->numbers + count, s.fine = 1;
     s.hints = data->hints;
-    /* a node of a table has four numbers, and there are fewer cells than nodes */
-    data->cells = s.cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
-    if (!s.cells) return "there is no memory for it";
     read_ports(&s, data);
-    read_scene(&s, &data->scene);
+    if (data->kind == CK_VALVE_DRIVE) {
+        read_faces(&s, &data->faces);
+    } else { /* a node of a table has four numbers, and there are fewer cells than nodes */
+        data->cells = s.cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
+        if (!s.cells) return "there is no memory for it";
+        read_scene(&s, &data->scene);
+    }
     return s.fine && s.next == s.end ? NULL : "what it says makes no sense";
 }

@@ -2,8 +2,9 @@
 
    While stepping, no output of stiction-mass follows an input. Of stiction-force, F, F_m and F_v
    by gap and speed are read off the tables; c, k and H_stable, slopes themselves, are differences.
-   Before the first step outputs follow the parameters too, through all that is prepared from them:
-   differences. Nothing here is remembered as a failure. */
+   Those of valve-drive by gap and speed follow from its laws. Before the first step outputs follow
+   the parameters too, through all that is prepared from them: differences. Nothing here is
+   remembered as a failure. */
 
 #include "model.h"
 
@@ -18,22 +19,6 @@ static int refuse(ck_model *model, int unknown, int known, const char *why) {
              ck_name(known), why);
     model->say(model->host, CK_ERROR, "logStatusError", message);
     return CK_ERROR;
-}
-
-/* Slope of an output of stiction-force by an input; 0 if the tables do not tell it. */
-static int is_read(const ck_model *model, int unknown, int known, double *slope) {
-    ck_forces f;
-    if (known != CK_H && known != CK_V) return 0;
-    if (unknown == CK_H_ABOVE || unknown == CK_H_BELOW) {
-        *slope = 0.0;
-        return 1;
-    }
-    if (unknown != CK_F && unknown != CK_F_M && unknown != CK_F_V) return 0;
-    ck_force_now(model, &f);
-    *slope = 0.0;
-    if (unknown != CK_F_V && known == CK_H) *slope += f.fixed_by_gap;
-    if (unknown != CK_F_M) *slope += known == CK_H ? f.viscous_by_gap : f.viscous_by_speed;
-    return 1;
 }
 
 /* An output with one value moved; 0 where that value cannot be. */
@@ -65,18 +50,21 @@ static int difference(ck_model *model, int unknown, const ck_port *known, double
 
 /* Slope of one output by one value. */
 static int one(ck_model *model, int unknown, const ck_port *known, double *slope) {
-    int starts = model->state.phase == CK_INITIALIZATION, follows = ck_model_kind(model)->follows;
-    int id = known->id, done;
+    const ck_kind *kind = ck_model_kind(model);
+    int starts = model->state.phase == CK_INITIALIZATION, id = known->id, done;
     *slope = 0.0;
     if (known->causality == CK_OUTPUT) return refuse(model, unknown, id, "that is an output, too");
     if (known->causality == CK_PARAMETER && !starts)
         return refuse(model, unknown, id, "a parameter does not change any more");
-    if (known->causality == CK_INPUT && !follows) return CK_OK;
-    if (known->causality == CK_INPUT && is_read(model, unknown, id, slope)) return CK_OK;
-    if ((id == CK_H_BREAK || id == CK_DP_CAV || id == CK_TAU_LIM) && model->state.values[id] == 0.0)
+    if (known->causality == CK_INPUT && !kind->follows) return CK_OK;
+    if (known->causality == CK_INPUT && kind->slope(model, unknown, id, slope)) return CK_OK;
+    if (unknown == CK_U && id >= CK_T_DELAY && id <= CK_T_BOOST && id != CK_U_BOOST)
+        return refuse(model, unknown, id, "the voltage jumps in time, which has no slope");
+    if ((id == CK_H_BREAK || id == CK_DP_CAV || id == CK_TAU_LIM || id == CK_B_SAT) &&
+        model->state.values[id] == 0.0)
         return refuse(model, unknown, id, "0 stands for none there, which has no slope");
     done = difference(model, unknown, known, slope);
-    if (starts) ck_model_kind(model)->apply(model); /* back to the parameters that are set */
+    if (starts) kind->apply(model); /* back to the parameters that are set */
     return done ? CK_OK : refuse(model, unknown, id, "there is no difference to take; correct the "
                                                      "parameters first");
 }

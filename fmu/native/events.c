@@ -3,15 +3,16 @@
 
 #include "model.h"
 
-static const int HELD[CK_HELD] = {CK_STATE,   CK_LIMIT,     CK_T_BREAK,  CK_T_RELEASE,
-                                  CK_N_BREAK, CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT};
+static const int HELD[CK_HELD] = {CK_STATE,     CK_LIMIT,    CK_T_BREAK, CK_T_RELEASE, CK_N_BREAK,
+                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U};
 
 static int holds(const ck_model *model) {
     return model->event_mode && model->state.phase == CK_STEPPING;
 }
 
 int ck_model_pends(const ck_model *model) {
-    return model->state.motion.pending || model->state.memory.pending;
+    const ck_state *state = &model->state;
+    return state->motion.pending || state->memory.pending || state->driven.pending;
 }
 
 void ck_events_note(ck_model *model) {

@@ -220,7 +220,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
     for (i = 0; i < n; i++) {
         const ck_port *port = ck_model_port(&own->model, vr[i], CK_REAL, "setRealInputDerivatives");
         if (!port) return fmi2Error;
-        if (port->id != CK_F_EXT || order[i] != 1 || !isfinite(value[i]))
+        if (port->id != CK_F_EXT || port->causality != CK_INPUT || order[i] != 1 || !isfinite(value[i]))
             return fail(own, "setRealInputDerivatives: only the first derivative of F_ext is taken, "
                              "and it must be finite [N/s]; reset the FMU");
         own->model.state.rate = value[i];

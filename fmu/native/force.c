@@ -50,11 +50,20 @@ static double gap_of(const ck_model *model) {
     return memory->pending ? memory->gap : model->state.values[CK_H];
 }
 
-void ck_force_now(const ck_model *model, ck_forces *found) {
+/* Slope of an output by an input; 0 if the tables do not tell it. */
+static int slope(const ck_model *model, int unknown, int known, double *found) {
     double gap = gap_of(model);
     ck_acting acting;
+    ck_forces f;
+    *found = 0.0;
+    if (known != CK_H && known != CK_V) return 0;
+    if (unknown == CK_H_ABOVE || unknown == CK_H_BELOW) return 1;
+    if (unknown != CK_F && unknown != CK_F_M && unknown != CK_F_V) return 0;
     act_at(model, gap, &acting);
-    ck_forces_at(&acting, gap, model->state.values[CK_V], found);
+    ck_forces_at(&acting, gap, model->state.values[CK_V], &f);
+    if (unknown != CK_F_V && known == CK_H) *found += f.fixed_by_gap;
+    if (unknown != CK_F_M) *found += known == CK_H ? f.viscous_by_gap : f.viscous_by_speed;
+    return 1;
 }
 
 static void consider(double mark, double gap, double *above, double *below) {
@@ -238,4 +247,4 @@ static void resolve(ck_model *model) {
     if (breaks) tell(model);
 }
 
-const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1};
+const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope};

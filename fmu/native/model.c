@@ -17,12 +17,17 @@ static const char *const NAMES[CK_VARIABLES] = {
     "m", "h0", "v0", "k_s", "h_rel", "h_min", "h_break", "eta", "gamma", "dp_cav",
     "tau_lim", "rtol",
     "c", "k", "F_mean", "coupling_error", "H_stable", "in_doubt", "n_doubt", "h_above", "h_below",
-    "m_ref", "exchange"};
+    "m_ref", "exchange",
+    "F_mag", "F_spring", "F_stop", "i", "u", "flux",
+    "R_coil", "N_turns", "A_pole", "g_air", "g_iron", "B_sat", "k_spring", "F_preload",
+    "h_stop", "k_stop", "d_stop", "t_delay", "T_period", "t_on", "U_boost", "t_boost",
+    "U_hold", "U_off", "n_cycles"};
 
 const char *ck_name(int id) { return NAMES[id]; }
 
 const ck_kind *ck_model_kind(const ck_model *model) {
-    return model->data.kind == CK_STICTION_FORCE ? &ck_stiction_force : &ck_stiction_mass;
+    static const ck_kind *const kinds[] = {&ck_stiction_mass, &ck_stiction_force, &ck_valve_drive};
+    return kinds[model->data.kind];
 }
 
 int ck_model_fail(ck_model *model, const char *message) {
@@ -122,7 +127,7 @@ int ck_model_set(ck_model *model, unsigned reference, int types, double value) {
     }
     model->state.values[port->id] = value;
     if (model->state.phase < CK_STEPPING) model->state.stale = 1;
-    else if (ck_model_kind(model)->follows) model->state.shown = 0;
+    else if (ck_model_kind(model)->follows) model->state.shown = 0, model->state.driven.ahead = 0.0;
     return CK_OK;
 }
 
@@ -136,7 +141,7 @@ static double film_end(const ck_scene *scene, const ck_film *film) {
     return end;
 }
 
-/* What both models take from their parameters; the message says what is wrong with them. */
+/* What models of a film take from their parameters; the message says what is wrong with them. */
 const char *ck_common_parameters(ck_model *model) {
     const double *v = model->state.values;
     ck_scene *scene = &model->scene;
@@ -269,7 +274,7 @@ int ck_model_step(ck_model *model, double time, double step) {
 }
 
 int ck_model_restore(ck_model *model, const ck_state *state) {
-    int count = model->data.scene.film_count;
+    int count = model->data.kind == CK_VALVE_DRIVE ? 1 : model->data.scene.film_count;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
         state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
         state->memory.film < 0 || state->memory.film >= count)

@@ -1,8 +1,8 @@
 /* The models behind both versions of FMI: their variables, phases, what they refuse.
 
-   Common to both models (model.c): ports, phases, refusals. `stiction-mass` is in mass.c, a mass
-   with its film; `stiction-force` in force.c, a film for a tool that owns the mass. Which of them
-   an instance is says its file of data.
+   Common to all models (model.c): ports, phases, refusals. `stiction-mass` is in mass.c, a mass
+   with its film; `stiction-force` in force.c, a film for a tool that owns the mass; `valve-drive`
+   in drive.c, which has no film. Which of them an instance is says its file of data.
 
    The first failure is logged with its cure and remembered: outputs stay at their last good values
    and steps are discarded, until the host resets the model or restores an earlier state. */
@@ -10,11 +10,12 @@
 #ifndef CK_MODEL_H
 #define CK_MODEL_H
 
+#include "drive.h"
 #include "motion.h"
 
 #include <stdint.h>
 
-enum { CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1 };
+enum { CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1, CK_VALVE_DRIVE = 2 };
 /* Types of variables, as bits: a call of one version of FMI may take several of them. */
 enum { CK_REAL = 1, CK_INTEGER = 2, CK_ENUMERATION = 4, CK_BOOLEAN = 8 };
 enum { CK_INPUT = 0, CK_OUTPUT = 1, CK_PARAMETER = 2 };
@@ -30,10 +31,14 @@ enum {
     CK_TAU_LIM, CK_RTOL,
     CK_C, CK_K, CK_F_MEAN, CK_COUPLING_ERROR, CK_H_STABLE, CK_IN_DOUBT, CK_N_DOUBT, CK_H_ABOVE,
     CK_H_BELOW, CK_M_REF, CK_EXCHANGE,
+    CK_F_MAG, CK_F_SPRING, CK_F_STOP, CK_I, CK_U, CK_FLUX,
+    CK_R_COIL, CK_N_TURNS, CK_A_POLE, CK_G_AIR, CK_G_IRON, CK_B_SAT, CK_K_SPRING, CK_F_PRELOAD,
+    CK_H_STOP, CK_K_STOP, CK_D_STOP, CK_T_DELAY, CK_T_PERIOD, CK_T_ON, CK_U_BOOST, CK_T_BOOST,
+    CK_U_HOLD, CK_U_OFF, CK_N_CYCLES,
     CK_VARIABLES
 };
 
-enum { CK_HELD = 8 }; /* outputs that change at events only */
+enum { CK_HELD = 9 }; /* outputs that change at events only */
 
 typedef struct {
     int id, type, causality;
@@ -46,7 +51,8 @@ typedef struct {
     uint64_t checksum;
     int kind, port_count;
     ck_port ports[CK_VARIABLES];
-    ck_scene scene;
+    ck_scene scene; /* of a film */
+    ck_faces faces; /* of a drive */
     double *numbers;
     ck_cell *cells;
     int hints[CK_FILMS * (CK_LAWS + 1) * CK_PIECES];
@@ -57,6 +63,13 @@ typedef struct {
     double gap, damping;
     int film, broken, detached, pending; /* as in ck_motion */
 } ck_memory;
+
+/* What a drive remembers besides its outputs: the largest approach of its faces, for how long the
+   gap has run on at its speed since it was set, and whether the voltage has yet to switch. */
+typedef struct {
+    double largest, ahead;
+    int pending, padding;
+} ck_driven;
 
 /* Everything that changes, in one piece without pointers. `stale`: the parameters were set since
    the outputs were made; `shown`: the outputs in `values` are those of the state it is in; `event`:
@@ -69,6 +82,7 @@ typedef struct {
     double end; /* of the last step, where it paused */
     ck_motion motion; /* of stiction-mass */
     ck_memory memory; /* of stiction-force */
+    ck_driven driven; /* of valve-drive */
     int phase, failed, stale, shown, event, padding; /* no byte of a saved state is left open */
 } ck_state;
 
@@ -77,6 +91,7 @@ typedef void (*ck_say)(void *host, int status, const char *category, const char 
 typedef struct {
     ck_data data;
     ck_scene scene; /* that of the data with the parameters in */
+    ck_drive drive; /* the parameters of a drive */
     ck_state state;
     ck_say say;
     void *host;
@@ -91,9 +106,11 @@ typedef struct {
     int (*step)(ck_model *model, double time, double step); /* status; fails for itself */
     void (*resolve)(ck_model *model);      /* make happen what is pending; */
     int follows;                           /* whether outputs follow inputs without a step */
+    /* Slope of an output by an input it follows, exactly; 0 if it is not known so. */
+    int (*slope)(const ck_model *model, int unknown, int known, double *slope);
 } ck_kind;
 
-extern const ck_kind ck_stiction_mass, ck_stiction_force;
+extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive;
 
 /* Reading the file (data.c); the message says what is wrong with it, NULL if nothing is. */
 const char *ck_data_read(const char *path, ck_data *data);
@@ -134,7 +151,6 @@ const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);
 const char *ck_common_parameters(ck_model *model);
 void ck_model_follow(ck_model *model);                           /* outputs nobody has read yet */
-void ck_force_now(const ck_model *model, ck_forces *found);      /* of stiction-force */
 const char *ck_name(int id);
 
 #endif

@@ -1,4 +1,5 @@
-/* Nanoseconds that a step of a native stiction-mass takes in a host in C, and what it did in them.
+/* Nanoseconds that a step of a native stiction-mass takes in a host in C, and what it did in them;
+   or of a native valve-drive, whose gap PULL then is, and which has no film to evaluate.
 
    native_speed FOLDER_OF_RESOURCES GUID PULL STEP COUNT ROUNDS
 

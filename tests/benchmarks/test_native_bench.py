@@ -1,4 +1,4 @@
-"""What a doStep of a native stiction-mass costs in a host in C, and what it is spent on.
+"""What a doStep of a native FMU costs in a host in C, and what it is spent on.
 
 Counts are asserted, nanoseconds only printed.
 """
@@ -19,6 +19,7 @@ pytest.importorskip("fmpy")
 
 from contactkit.fmu.native_build import build_native
 from contactkit.fmu.native_compile import fmi_headers, kernel_sources, local
+from contactkit.fmu.native_drive import build_native_drive
 
 if shutil.which("cc") is None or not sys.platform.startswith("linux"):
     pytest.skip("needs a C compiler and a linker that wraps", allow_module_level=True)
@@ -86,3 +87,21 @@ def test_do_step_in_a_host_in_c(benchmark, host, unpacked, name):
     }  # fmt: skip
     assert evaluations <= most * steps
     assert iterations <= 1.6 * steps
+
+
+@pytest.mark.parametrize("step", [1e-6, 5e-6])
+def test_do_step_of_the_drive_in_a_host_in_c(benchmark, host, step, tmp_path):
+    """From the start, so that the coil is off, then on, in a tenth and in the rest of the steps."""
+    path = build_native_drive(tmp_path / "x.fmu", start={"t_delay": 1e-4}, platforms=[local()])
+    with zipfile.ZipFile(path) as packed:
+        packed.extractall(tmp_path)
+    guid = re.search('guid="([^"]*)"', (tmp_path / "modelDescription.xml").read_text())[1]
+    words = [host, tmp_path / "resources", guid, 5e-6, step, round(1e-3 / step), ROUNDS]
+    said = benchmark.pedantic(
+        subprocess.run, ([str(word) for word in words],),
+        {"check": True, "capture_output": True, "text": True}, rounds=3,
+    ).stdout  # fmt: skip
+    step_ns, exchange_ns, *_ = map(float, said.split())
+    benchmark.extra_info |= {
+        "us per doStep": 1e-3 * step_ns, "us per set, doStep, get": 1e-3 * exchange_ns,
+    }  # fmt: skip

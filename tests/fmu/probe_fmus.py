@@ -6,7 +6,6 @@ with its start values as they are.
 
 from __future__ import annotations
 
-import inspect
 import json
 import os
 import subprocess
@@ -17,12 +16,14 @@ from pathlib import Path
 
 import attrs
 import fmpy
+from drive_faces import rough
 from native_scenes import HAS_CC, SCENES
 
 import contactkit as ck
 from contactkit.fmu.build import FMUS, build
 from contactkit.fmu.native_build import build_native
 from contactkit.fmu.native_compile import local
+from contactkit.fmu.native_drive import build_native_drive
 
 HERE = Path(__file__).parent
 KINDS = {
@@ -57,11 +58,10 @@ RUNS = {
 }
 """Start values, and the length and the inputs of every step."""
 
-_MORE = inspect.signature(build_native).parameters
 NATIVE = [
     (model, fmi)
-    for model in (("stiction-mass", "stiction-force") if "model" in _MORE else ("stiction-mass",))
-    for fmi in ((2, 3) if "fmi" in _MORE else (2,))
+    for model in ("stiction-mass", "stiction-force", "valve-drive")
+    for fmi in (2, 3)
 ] if HAS_CC else []  # fmt: skip
 
 PYTHON = list(FMUS)
@@ -75,12 +75,13 @@ def build_one(name: str, folder: Path) -> Path:
     if name in FMUS:
         return build(name, out)
     model, _, fmi = name.split()
-    more = {"model": model} if "model" in _MORE else {}
-    more |= {"fmi": int(fmi)} if "fmi" in _MORE else {}
+    more = {"fmi": int(fmi), "platforms": [local()], "compiler": "cc"}
+    if model == "valve-drive":
+        return build_native_drive(out, curve=rough() if fmi == "2" else None, **more)
     scene = SCENES["drop"]
     effects = (*scene.effects, ck.TensionLimit(tension=1e6))
     scene = attrs.evolve(scene, effects=effects)
-    return build_native(scene, out, platforms=[local()], compiler="cc", **more)
+    return build_native(scene, out, model=model, **more)
 
 
 def unpack(path: Path, folder: Path) -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import io
 import json
 import shutil
 import subprocess
@@ -20,6 +21,7 @@ etree = pytest.importorskip("lxml.etree")
 
 from contactkit import cli  # noqa: E402  # the packages must be there
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError  # noqa: E402
+from contactkit.fmu import native_build  # noqa: E402
 from contactkit.fmu.build import validate  # noqa: E402
 from contactkit.fmu.cosimulate import cosimulate  # noqa: E402
 from contactkit.fmu.native_compile import local  # noqa: E402
@@ -35,6 +37,17 @@ STOP, STEP = 2e-3, 5e-6
 @pytest.fixture(scope="module")
 def archive(tmp_path_factory):
     return write_system("fuel-injector", tmp_path_factory.mktemp("system") / "valve.ssp")
+
+
+@pytest.fixture(scope="module")
+def native_archive(tmp_path_factory):
+    if not HAS_CC:
+        pytest.skip("there is no C compiler")
+    place = tmp_path_factory.mktemp("native") / "valve.ssp"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(native_build, "has_zig", lambda: False)
+        assert cli.main(["fmu", "system", "--native", "--out", str(place)]) == 0
+    return place
 
 
 @pytest.fixture(scope="module")
@@ -220,21 +233,36 @@ def test_libcosim_takes_the_values_that_are_bound(archive, tmp_path):
     assert libcosim(changed, 2e-5)["m"] == 0.04
 
 
+@needs_libcosim
+def test_libcosim_runs_a_system_that_holds_no_python(native_archive, ours):
+    """Neither FMU has a line of it; the drive steps as the Python one does."""
+    with zipfile.ZipFile(native_archive) as packed:
+        fmus = [name for name in packed.namelist() if name.endswith(".fmu")]
+        assert len(fmus) == 2
+        for name in fmus:
+            with zipfile.ZipFile(io.BytesIO(packed.read(name))) as inside:
+                held = inside.namelist()
+            assert not [one for one in held if ".py" in one or "python" in one.lower()]
+    found = libcosim(native_archive)
+    assert found["time"] == round(STOP * 1e9)
+    check(found["t_release"], found["F_peak"], found["J"], ours)
+
+
 @pytest.mark.skipif(shutil.which("OMSimulator") is None, reason="OMSimulator is not installed")
-@pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
-def test_omsimulator_reads_it(archive, tmp_path):
-    """The program without Python: it must at least load the structure; the drive needs Python."""
+def test_omsimulator_runs_it(native_archive, tmp_path):
+    """The program without Python."""
     done = subprocess.run(
-        ["OMSimulator", str(archive), f"--stopTime={STOP}", "--resultFile=none.csv"],
+        ["OMSimulator", str(native_archive), f"--stopTime={STOP}", "--resultFile=none.csv"],
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=100,
     )  # fmt: skip
-    assert "internal error" not in done.stdout + done.stderr
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "error" not in done.stdout + done.stderr
 
 
 # Start values, native, refusals -------------------------------------------------------------
 
 
-def test_start_values_go_to_both_places_and_a_native_film_moves_as_ours(unpacked, tmp_path):
+def test_start_values_go_to_both_places_and_native_ones_move_as_ours(unpacked, tmp_path):
     """Without a meniscus, whose tables take some seconds; native if there is a C compiler."""
     mass = {"h0": 6e-6, "m": 0.025, "meniscus_law": "NONE"}
     given = {f"mass.{name}": value for name, value in mass.items()} | {"mass.h0": "6 um"}
@@ -250,8 +278,9 @@ def test_start_values_go_to_both_places_and_a_native_film_moves_as_ours(unpacked
     drive, film = (tmp_path / f"resources/{name}.fmu" for name in ("valve-drive", "stiction-mass"))
     read = fmpy.read_model_description(str(drive)).modelVariables
     assert {v.name: v.start for v in read}["h"] == "6e-06"  # the drive sees where the mass begins
-    with zipfile.ZipFile(film) as packed:
-        assert ("resources/film.bin" in packed.namelist()) == HAS_CC
+    for fmu in (drive, film):
+        with zipfile.ZipFile(fmu) as packed:
+            assert ("resources/film.bin" in packed.namelist()) == HAS_CC
     found = cosimulate(drive, film, STOP, STEP)
     whole = unpacked / "resources" / "stiction-mass.fmu"
     python = cosimulate(drive, whole, STOP, STEP, mass_start=mass)

@@ -1,0 +1,68 @@
+/* What a drive is made of: coil (coil.c), voltage over time (profile.c), rough faces (faces.c).
+
+   Conventions and laws are those of contactkit/models/valve.py: SI units; the gap grows as the
+   valve opens. */
+
+#ifndef CK_DRIVE_H
+#define CK_DRIVE_H
+
+#define CK_WAYS 64 /* most ways out of rough faces */
+
+/* An electromagnet with two poles: `pole` is inductance times length of air [H.m], `knee` the flux
+   linkage [Wb] at which the iron resists twice as much. */
+typedef struct {
+    double resistance, pole, air_gap, iron_gap, knee;
+} ck_coil;
+
+/* Voltage [V] over time [s]; `cycles` is a whole number. */
+typedef struct {
+    double delay, period, on_time, boost_time, boost, hold, off, cycles;
+} ck_profile;
+
+/* Cubics through nodes with the slopes there, that keep the order of the values. */
+typedef struct {
+    int count;
+    const double *x, *y, *slope;
+    double begin, end, low, high; /* the first and the last point, without logarithms */
+} ck_curve;
+
+/* Force of rough faces over their approach, and the ways out from some largest approaches `ends`.
+   Curves of forces are in logarithms. */
+typedef struct {
+    int is_there, count;
+    double limit; /* approach up to which all is reversible */
+    ck_curve first, residual;
+    double ends[CK_WAYS];
+    ck_curve ways[CK_WAYS];
+} ck_faces;
+
+typedef struct {
+    ck_coil coil;
+    ck_profile profile;
+    double spring, preload;                  /* stiffness [N/m], force at h = 0 [N] */
+    double stop_gap, stop_stiffness, damping; /* of the end stop */
+} ck_drive;
+
+/* A force with its slope, and the approach of the faces it belongs to. */
+typedef struct {
+    double force, slope, approach;
+} ck_pressed;
+
+double ck_coil_current(const ck_coil *coil, double flux, double gap);
+double ck_coil_current_by_gap(const ck_coil *coil, double flux, double gap);
+double ck_coil_force(const ck_coil *coil, double flux);
+
+/* Take a flux along a gap that moves at one speed, under one voltage. `budget` is how many steps
+   may still be taken. How far it got [s]: `duration`, if it did not fail. */
+double ck_coil_advance(const ck_coil *coil, double *flux, double gap, double speed, double voltage,
+                       double duration, long *budget);
+
+double ck_profile_at(const ck_profile *profile, double time);
+double ck_profile_after(const ck_profile *profile, double time); /* once it has switched there */
+double ck_profile_next(const ck_profile *profile, double start, double end); /* switch, or end */
+
+/* Faces in series with a spring; both approach by this since they touched. */
+ck_pressed ck_faces_pressed(const ck_faces *faces, double approach, double largest,
+                            double stiffness);
+
+#endif

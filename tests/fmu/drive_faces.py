@@ -1,0 +1,22 @@
+"""Rough faces for the stop of a drive."""
+
+from __future__ import annotations
+
+from contactkit.stop_tables import StopCurve
+from contactkit.stop_ways import Unloading
+
+
+def rough(most=1e-6, limit=0.25, count=5):
+    """Faces that yield, made up; all is reversible up to a share of the tables."""
+    depths = [most * 2.0 ** (-i / 2.0) for i in range(16, -1, -1)]
+    ends = [most * (limit + (1.0 - limit) * (k + 1) / count) for k in range(count)]
+    shares = (0.1, 0.3, 0.6, 1.0)
+    ways = [
+        Unloading(d, 0.4 * (d - limit * most), shares, tuple(s**1.7 for s in shares), shares, 0.0)
+        for d in ends
+    ]
+    return StopCurve(
+        approach=depths, force=[3e11 * d**1.4 for d in depths], contact_area=depths,
+        plastic_area=[0.0] * len(depths), unloading=tuple(ways), nominal_area=1e-5,
+        elastic_limit=limit * most,
+    )  # fmt: skip
