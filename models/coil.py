@@ -177,7 +177,10 @@ def advance_flux(
     rate = _rate(coil, applied)
 
     def rk4(value: float, at: float, step: float) -> float:
-        return _runge_kutta(rate, value, gap + speed * at, speed, step)
+        try:
+            return _runge_kutta(rate, value, gap + speed * at, speed, step)
+        except OverflowError:  # of a first try that is far too long
+            return math.nan
 
     scale = _FLUX_RTOL * (flux + abs(applied) * duration)
     for _ in range(_MOST_STEPS):

@@ -77,6 +77,12 @@ def test_flux_advances_as_scipy_has_it(flux, gap, speed, time):
     assert found == pytest.approx(expected.y[0, -1], rel=1e-9)
 
 
+def test_a_first_try_that_is_far_too_long_for_a_saturated_coil_is_shortened():
+    """The flux ends where the resistance bears the whole voltage."""
+    found = law.advance_flux(COIL, 0.0, 2e-4, 0.0, 60.0, 0.1)
+    assert COIL.resistance * law.current(COIL, found, 2e-4) == pytest.approx(60.0, rel=1e-6)
+
+
 def test_flux_of_a_resting_spool_rises_exponentially():
     constant = law.inductance(LINEAR, 5e-6) / LINEAR.resistance
     found = law.advance_flux(LINEAR, 0.0, 5e-6, 0.0, 12.0, 3e-4)
