@@ -20,14 +20,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ContactkitError, DescriptionError
-from ..units import parse_quantity
 from .document import Page, external_dependencies, index_page, license_text
 from .guard import protect
 from .integrity import RECORD, content_hash, package_name
 from .native_ports import MODELS, check_start
 from .packing import write_archive
-from .ports import Port, Value, find_port
+from .ports import Value, start_value
 from .terminals import terminal_files
+from .valve_drive import check_drive
 from .vendor import Closure, fallback_attrs, find_closure
 
 if TYPE_CHECKING:
@@ -109,7 +109,8 @@ def build(
     Raises
     ------
     DescriptionError
-        If the name, a variable or a start value is not possible, or gaps contradict each other.
+        If the name, a variable or a start value is not possible, or two of them contradict
+        each other.
     ContactkitError
         If pythonfmu is not installed, or the FMU could not be made.
     """
@@ -117,9 +118,12 @@ def build(
     given, data = dict(start or {}), dict[str, Any]()
     if name in BAKERS:
         data = importlib.import_module(f"{__package__}.{BAKERS[name]}").bake(name, given)
-    baked = {key: _start_value(slave.ports, key, value) for key, value in given.items()}
-    if name in MODELS:  # gaps that contradict each other would only be found by the host
-        check_start(slave.ports, slave.start_values() | baked)
+    baked = {key: start_value(slave.ports, key, value) for key, value in given.items()}
+    values = slave.start_values() | baked  # contradictions would only be found by the host
+    if name in MODELS:
+        check_start(slave.ports, values)
+    elif name == "valve-drive":
+        check_drive(values)
     target = Path(out)
     if target.is_dir():
         target /= f"{name}.fmu"
@@ -152,15 +156,6 @@ def _slave_class(name: str) -> type[PortSlave]:
     module, class_name = FMUS[name]
     slave: type[PortSlave] = getattr(importlib.import_module(f"{__package__}.{module}"), class_name)
     return slave
-
-
-def _start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Value:
-    port = find_port(ports, name)
-    if port.causality == "output":
-        raise DescriptionError(name, value, "be left to the model, because it is an output")
-    if isinstance(value, str) and port.kind == "real":
-        return port.read(parse_quantity(value, port.unit, name))
-    return port.read(value)
 
 
 def _pack(

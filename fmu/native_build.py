@@ -18,7 +18,6 @@ from attrs import evolve
 from ..contact_scene import ContactScene
 from ..errors import DescriptionError, PlanError
 from ..scene import SeparationScene
-from ..units import parse_quantity
 from .document import license_text
 from .native_compile import (
     PLATFORMS,
@@ -35,7 +34,7 @@ from .native_film import film_numbers, moving
 from .native_page import native_page
 from .native_ports import MODELS, Model, check_free, check_start, native_ports
 from .packing import write_archive
-from .ports import Port, Value, find_port
+from .ports import Value, find_port, start_value
 from .stiction_force import StictionForce
 from .stiction_mass import StictionMass, scene_of
 from .terminals import terminal_files
@@ -45,7 +44,6 @@ __all__ = [
     "build_native",
     "chosen_platforms",
     "native_scene",
-    "start_value",
     "target",
     "write_native",
 ]
@@ -253,16 +251,6 @@ def _mass(model: Model, value: Value | str) -> float:
     """Mass [kg], of a text with a unit too."""
     name = _MASS[model]
     return float(start_value((find_port(MODELS[model], name),), name, value))
-
-
-def start_value(ports: tuple[Port, ...], name: str, value: Value | str) -> Value:
-    """Start value of a variable that is no output; a text carries its unit."""
-    port = find_port(ports, name)
-    if port.causality == "output":
-        raise DescriptionError(name, value, "be left to the model, because it is an output")
-    if isinstance(value, str) and port.kind == "real":
-        return port.read(parse_quantity(value, port.unit, name))
-    return port.read(value)
 
 
 def _license() -> str:

@@ -8,15 +8,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from ..errors import DescriptionError, PlanError
+from ..errors import PlanError
 from ..kernels.monotone_cubic import Curve, monotone_curve, power_curve
 from ..stop_tables import StopCurve
 from ..stop_ways import HERTZ, way_of
-from .native_build import chosen_platforms, start_value, target, write_native
+from .native_build import chosen_platforms, target, write_native
 from .native_description import CATEGORIES
-from .ports import Value
+from .ports import Value, start_value
 from .stop_bake import bake
-from .valve_drive import ValveDrive
+from .valve_drive import ValveDrive, check_drive
 from .xml import Description
 
 __all__ = ["build_native_drive", "face_numbers"]
@@ -73,26 +73,13 @@ def build_native_drive(
     ports = ValveDrive.ports
     values: dict[str, Value] = ValveDrive.start_values()
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
-    _check(values)
+    check_drive(values)
     about = Description(
         identifier=_NAME.replace("-", "_"), guid="", tool="contactkit", ports=ports, start=values,
         summary=ValveDrive.summary, log_categories=CATEGORIES, experiment=ValveDrive.experiment,
     )  # fmt: skip
     tables = face_numbers(StopCurve.from_data(faces) if faces is not None else None)
     return write_native(_NAME, about, tables, place, fmi, chosen_platforms(platforms), compiler)
-
-
-def _check(values: Mapping[str, Value]) -> None:
-    """Refuse start values that contradict each other, as the kernel would."""
-    for name, bound in (("t_boost", "t_on"), ("t_on", "T_period")):
-        if values[name] > values[bound]:
-            expected = f"not exceed {bound} = {values[bound]:g} s"
-            raise DescriptionError(name, values[name], expected, unit="s")
-    if values["h_stop"] >= values["g_air"]:
-        raise DescriptionError(
-            "h_stop", values["h_stop"], f"be less than g_air = {values['g_air']:g} m", unit="m",
-            hint="else the armature meets the poles before the spool meets the stop",
-        )  # fmt: skip
 
 
 def face_numbers(curve: StopCurve | None) -> list[float]:

@@ -17,9 +17,9 @@ from typing import Any, Literal
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
-from ..units import parse_unit
+from ..units import parse_quantity, parse_unit
 
-__all__ = ["Causality", "Kind", "Port", "Value", "display_conversion", "find_port"]
+__all__ = ["Causality", "Kind", "Port", "Value", "display_conversion", "find_port", "start_value"]
 
 Causality = Literal["input", "output", "parameter"]
 Kind = Literal["real", "integer", "boolean", "enumeration"]
@@ -221,3 +221,13 @@ def find_port(ports: Sequence[Port], name: str) -> Port:
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(names)
     raise DescriptionError("port", name, "be a variable of this FMU", hint=hint)
+
+
+def start_value(ports: Sequence[Port], name: str, value: Value | str) -> Value:
+    """Start value of a variable that is no output; a text carries its unit."""
+    port = find_port(ports, name)
+    if port.causality == "output":
+        raise DescriptionError(name, value, "be left to the model, because it is an output")
+    if isinstance(value, str) and port.kind == "real":
+        return port.read(parse_quantity(value, port.unit, name))
+    return port.read(value)

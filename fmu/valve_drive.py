@@ -17,12 +17,13 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any, ClassVar
 
+from ..errors import DescriptionError
 from ..models import valve as law
 from ..stop_tables import StopCurve
-from .ports import Port
+from .ports import Port, Value
 from .slave import PortSlave
 
-__all__ = ["ValveDrive"]
+__all__ = ["ValveDrive", "check_drive"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
@@ -99,6 +100,7 @@ class ValveDrive(PortSlave):
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
+        check_drive(self.values)
         self.valve = _valve(self.values)
         faces = self.data.get("curve")
         self.faces = StopCurve.from_data(faces) if faces is not None else None
@@ -149,6 +151,25 @@ class ValveDrive(PortSlave):
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
         self.largest = hidden["largest"]
+
+
+def check_drive(values: Mapping[str, Value]) -> None:
+    """Refuse start values of a drive that contradict each other.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the two.
+    """
+    for name, bound in (("t_boost", "t_on"), ("t_on", "T_period")):
+        if values[name] > values[bound]:
+            expected = f"not exceed {bound} = {values[bound]:g} s"
+            raise DescriptionError(name, values[name], expected, unit="s")
+    if values["h_stop"] >= values["g_air"]:
+        raise DescriptionError(
+            "h_stop", values["h_stop"], f"be less than g_air = {values['g_air']:g} m", unit="m",
+            hint="else the armature meets the poles before the spool meets the stop",
+        )  # fmt: skip
 
 
 def _valve(values: dict[str, float]) -> law.Valve:

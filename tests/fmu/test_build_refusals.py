@@ -108,3 +108,17 @@ def test_without_surface_tension_no_bridge_ends_the_film(gamma, tmp_path):
     assert found["t_release"] == pytest.approx(state.release_time, rel=1e-6)
     assert found["n_break"] == (1 if gamma else 0)
     assert found["h"] == pytest.approx(state.gap, rel=1e-7 if gamma == 0.0 else 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("start", "said"),
+    [
+        ({"t_on": 20e-3}, "t_on must not exceed T_period = 0.01 s"),
+        ({"t_boost": "5 ms"}, "t_boost must not exceed t_on = 0.004 s"),
+        ({"h_stop": "105 um"}, "h_stop must be less than g_air = 0.000105 m"),
+    ],
+)
+def test_a_drive_whose_values_contradict_each_other_is_not_built(tmp_path, start, said):
+    with pytest.raises(ck.DescriptionError, match=said):
+        build("valve-drive", tmp_path, start=start)
+    assert not any(tmp_path.iterdir())

@@ -138,7 +138,7 @@ def test_an_impossible_drive_is_refused(drive_fmu, open_fmu):
     host.set(t_on=20e-3)
     host.slave.enterInitializationMode()
     host.slave.exitInitializationMode()
-    assert "DriveProfile.on_time must not exceed period = 0.01 s" in host.errors[0]
+    assert "t_on must not exceed T_period = 0.01 s" in host.errors[0]
 
 
 @pytest.mark.parametrize("temperature", [-20.0, 80.0])
