@@ -54,6 +54,10 @@ _EARLY: dict[str, tuple[str, ...]] = {
         "A host that uses event mode and allows early return is handed the step back where the "
         "film breaks; t_break holds that time for all others.",
     ),
+    "valve-drive": (
+        "A host that uses event mode and allows early return is handed the step back where the "
+        "voltage switches.",
+    ),
 }
 _ANY = ("A host may step it with any step it accepts, and go back to a saved state.",)
 
