@@ -87,6 +87,7 @@ static const char *load_all(void) {
     static char problem[PATH + 400];
     char path[PATH];
     void *library;
+    void (*let_go)(int, void *); /* takes nothing: what it is given lies in registers it does not read */
     int found;
     if (inner_Instantiate) return NULL;
     beside("pythonfmu.so", path, sizeof path);
@@ -98,6 +99,10 @@ static const char *load_all(void) {
                               "libpython3.so, or name the file in CONTACTKIT_LIBPYTHON, or build a native FMU");
         return problem;
     }
+    /* When a process ends, pythonfmu gives up its hold of Python from a destructor that comes after those
+       of C++, so a second time and into freed memory; done before them there is nothing left to do. */
+    *(void **)&let_go = dlsym(library, "finalizePythonInterpreter");
+    if (let_go) on_exit(let_go, NULL);
 #define LOAD(name)                                                                               \
     if (!(*(void **)&inner_##name = dlsym(library, "fmi2" #name))) {                             \
         inner_Instantiate = NULL;                                                                \
@@ -160,6 +165,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     char folder[PATH];
     const char *problem;
     void *handle = NULL;
+    fmi2String errors = "logStatusError";
     if (!own) return NULL;
     if (functions) own->callbacks = *functions;
     if (!own->callbacks.logger) own->callbacks.logger = deaf;
@@ -168,13 +174,15 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     problem = own->name ? check(name, type, guid, resources, folder) : "there is no memory left";
     if (!problem) {
         /* a plain path: of a URI pythonfmu would undo nothing but blanks */
-        own->inner = inner_Instantiate(name, type, guid, folder, &own->callbacks, visible, logs);
+        own->inner = inner_Instantiate(name, type, guid, folder, &own->callbacks, visible, fmi2True);
+        /* Why it refuses is no debugging, and said to a host that wants none of that, too. */
+        if (own->inner && !logs) inner_SetDebugLogging(own->inner, fmi2True, 1, &errors);
         if (own->inner && !(handle = ck_handle_new(CK_INSTANCES, own))) {
             inner_FreeInstance(own->inner);
             problem = "there are too many instances";
         }
     }
-    if (problem && logs) tell(&own->callbacks, own->name, problem);
+    if (problem) tell(&own->callbacks, own->name, problem);
     if (!handle) give_up(own);
     return handle;
 }

@@ -66,7 +66,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     if (own->name && name) memcpy(own->name, name, length);
     own->logger = functions ? functions->logger : NULL;
     own->environment = functions ? functions->componentEnvironment : NULL;
-    own->wanted = logs ? CK_LOG_ALL : 0;
+    own->wanted = logs ? CK_LOG_ALL : CK_LOG_ERROR; /* why it refuses is no debugging */
     own->model.say = say, own->model.host = own;
     if (!own->name || !name || !*name) say(own, CK_ERROR, "logStatusError", "the instance needs a name");
     else if (type != fmi2CoSimulation) say(own, CK_ERROR, "logStatusError", "this FMU is for co-simulation only");

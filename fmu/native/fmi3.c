@@ -47,7 +47,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
     (void)visible, (void)intermediate, (void)update;
     if (!own) return NULL;
     own->logger = logger, own->environment = environment;
-    own->wanted = logs ? CK_LOG_ALL : 0;
+    own->wanted = logs ? CK_LOG_ALL : CK_LOG_ERROR; /* why it refuses is no debugging */
     own->model.say = say, own->model.host = own;
     own->model.event_mode = event_mode, own->model.pauses = event_mode && early;
     if (!name || !*name) ck_own_lacks(own, "the instance needs a name");

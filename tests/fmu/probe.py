@@ -399,7 +399,7 @@ def no_instance(lab):
 
 @case
 def silence(lab):
-    """Nothing is said to a host that does not want to hear."""
+    """A host that wants no logging hears why it is refused, and nothing else."""
     instance = lab.bring(lab.open(logging=False))
     v = lab.of("input", kind="real")[0]
     instance.set("real", [v["reference"]], [math.nan])
