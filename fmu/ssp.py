@@ -159,7 +159,7 @@ def _component(elements: Element, one: Component, model: Element) -> None:
         _typed(SubElement(connectors, "ssd:Connector", about), "ssc", variable)
     parameters = [v for v in variables if v.causality == "parameter" and v.start]
     if parameters:
-        _bindings(node, one.name, parameters, model)
+        _bindings(node, parameters, model)
 
 
 def _typed(node: Element, space: str, variable: _Variable) -> Element:
@@ -168,11 +168,11 @@ def _typed(node: Element, space: str, variable: _Variable) -> Element:
     return SubElement(node, f"{space}:{variable.kind}", unit)
 
 
-def _bindings(node: Element, name: str, given: Sequence[_Variable], model: Element) -> None:
-    """Write start values as a parameter set in its place."""
+def _bindings(node: Element, given: Sequence[_Variable], model: Element) -> None:
+    """Write start values as a parameter set in its place; Ecos applies the sets of one name."""
     binding = SubElement(SubElement(node, "ssd:ParameterBindings"), "ssd:ParameterBinding")
     place = SubElement(binding, "ssd:ParameterValues")
-    whole = SubElement(place, "ssv:ParameterSet", version="1.0", name=f"{name}_values")
+    whole = SubElement(place, "ssv:ParameterSet", version="1.0", name="initialValues")
     parameters = SubElement(whole, "ssv:Parameters")
     for variable in given:
         one = SubElement(parameters, "ssv:Parameter", name=variable.name)

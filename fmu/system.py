@@ -158,7 +158,8 @@ def _fmus(
     from .native_drive import build_native_drive
 
     scene, values = native_scene(_Film(mass))  # refuses what contradicts itself, for both
-    pull, film = folder / "valve-drive.fmu", folder / "stiction-mass.fmu"
+    # Containers make names of variables of those of the files.
+    pull, film = folder / "valve_drive.fmu", folder / "stiction_mass.fmu"
     if native:
         build_native_drive(pull, start=drive, platforms=platforms, compiler=compiler)
         build_native(scene, film, start=values, platforms=platforms, compiler=compiler)

@@ -66,7 +66,7 @@ def structure(unpacked):
 @pytest.fixture(scope="module")
 def ours(unpacked):
     """The same FMUs by our own master."""
-    fmus = [unpacked / "resources" / f"{name}.fmu" for name in ("valve-drive", "stiction-mass")]
+    fmus = [unpacked / "resources" / f"{name}.fmu" for name in ("valve_drive", "stiction_mass")]
     return cosimulate(*fmus, STOP, STEP)
 
 
@@ -275,14 +275,14 @@ def test_start_values_go_to_both_places_and_native_ones_move_as_ours(unpacked, t
     text = (tmp_path / "SystemStructure.ssd").read_text()
     for word in ('value="0.025"', 'stopTime="0.011"', f'stepSize="{STEP / 2!r}"'):
         assert word in text
-    drive, film = (tmp_path / f"resources/{name}.fmu" for name in ("valve-drive", "stiction-mass"))
+    drive, film = (tmp_path / f"resources/{name}.fmu" for name in ("valve_drive", "stiction_mass"))
     read = fmpy.read_model_description(str(drive)).modelVariables
     assert {v.name: v.start for v in read}["h"] == "6e-06"  # the drive sees where the mass begins
     for fmu in (drive, film):
         with zipfile.ZipFile(fmu) as packed:
             assert ("resources/film.bin" in packed.namelist()) == HAS_CC
     found = cosimulate(drive, film, STOP, STEP)
-    whole = unpacked / "resources" / "stiction-mass.fmu"
+    whole = unpacked / "resources" / "stiction_mass.fmu"
     python = cosimulate(drive, whole, STOP, STEP, mass_start=mass)
     for name in ("t_release", "F_peak", "J"):
         assert found[name][-1] == pytest.approx(python[name][-1], rel=1e-6)
