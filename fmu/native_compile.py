@@ -12,6 +12,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -29,6 +30,7 @@ _HEADERS = {
     2: ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h"),
     3: ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h"),
 }
+_WINDOWS = ("heap", "math", "private", "stdio", "string")  # parts of the C library of Windows
 
 
 class Platform(NamedTuple):
@@ -44,8 +46,8 @@ PLATFORMS: dict[str, Platform] = {
     "linux-x86_64": Platform("linux64", "x86_64-linux", ".so", "x86_64-linux-gnu.2.17"),
     "linux-aarch64": Platform("aarch64-linux", "aarch64-linux", ".so", "aarch64-linux-gnu.2.17"),
     "windows-x86_64": Platform("win64", "x86_64-windows", ".dll", "x86_64-windows-gnu"),
-    "macos-x86_64": Platform("darwin64", "x86_64-darwin", ".dylib", "x86_64-macos"),
-    "macos-aarch64": Platform("darwin64", "aarch64-darwin", ".dylib", "aarch64-macos"),
+    "macos-x86_64": Platform("darwin64", "x86_64-darwin", ".dylib", "x86_64-macos.11.0"),
+    "macos-aarch64": Platform("darwin64", "aarch64-darwin", ".dylib", "aarch64-macos.11.0"),
 }
 """Every platform there is a target for; in FMI 2 both kinds of Mac share one file."""
 
@@ -129,16 +131,32 @@ def compile_kernel(sources: Path, name: str, out: Path, compiler: str = "auto") 
     if compiler not in ("auto", "zig", "cc"):
         raise DescriptionError("compiler", compiler, "be 'auto', 'zig' or 'cc'")
     files = sorted(path.name for path in sources.glob("*.c"))
-    more = ["-lm"]
+    driver = _driver(name, compiler)
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        made = Path(folder) / f"kernel{PLATFORMS[name].suffix}"  # some keep the name they had
+        more = _more(name, zig="ziglang" in driver)
+        done = subprocess.run(
+            [*driver, *_FLAGS, *files, "-o", str(made), *more], cwd=sources,
+            capture_output=True, text=True, check=False,
+            env=os.environ | {"SOURCE_DATE_EPOCH": "315532800", "ZERO_AR_DATE": "1"},
+        )  # fmt: skip
+        if done.returncode or not made.exists():
+            raise ContactkitError(f"the kernel could not be compiled for {name}:\n{done.stderr}")
+        shutil.copy(made, out)
+
+
+def _more(name: str, zig: bool) -> list[str]:
+    """Return the flags of a platform."""
     if name.startswith("macos"):  # a library for a Mac holds the name it is loaded by
-        more = [f"-Wl,-install_name,@rpath/kernel{PLATFORMS[name].suffix}"]
-    command = [*_driver(name, compiler), *_FLAGS, *files, "-o", str(out), *more]
-    done = subprocess.run(
-        command, cwd=sources, capture_output=True, text=True, check=False,
-        env=os.environ | {"SOURCE_DATE_EPOCH": "315532800", "ZERO_AR_DATE": "1"},
-    )  # fmt: skip
-    if done.returncode or not out.exists():
-        raise ContactkitError(f"the kernel could not be compiled for {name}:\n{done.stderr}")
+        return [f"-Wl,-install_name,@rpath/kernel{PLATFORMS[name].suffix}"]
+    if not (zig and name.startswith("windows")):
+        return ["-lm"]
+    # zig would first compile 440 files of MinGW, for minutes: native/windows.c takes their place
+    found = importlib.util.find_spec("ziglang")
+    home = Path(found.origin).parent if found and found.origin else Path()
+    headers = home / "lib" / "libc" / "include" / "any-windows-any"
+    libraries = [f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _WINDOWS]
+    return ["-nostdlib", "-isystem", str(headers), "-DCK_BARE_WINDOWS", "-lkernel32", *libraries]
 
 
 def _driver(name: str, compiler: str) -> list[str]:

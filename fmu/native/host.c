@@ -4,23 +4,50 @@
 
 #include <string.h>
 
+#ifdef _WIN32
+#include <windows.h>
+#endif
+
 static int digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
+/* Whether a text begins with another in small letters. */
+static int begins(const char *text, const char *with) {
+    for (; *with; text++, with++)
+        if ((*text >= 'A' && *text <= 'Z' ? *text - 'A' + 'a' : *text) != *with) return 0;
+    return 1;
+}
+
+#ifdef _WIN32
+/* Without the slashes before a drive: hosts make file:///C:/x, file:///C%3A/x or file://C:/x of it. */
+static void start_at_drive(char *folder) {
+    size_t from = 0, n = 0;
+    while (folder[from] == '/') from++;
+    if (from == 0 || !folder[from] || folder[from + 1] != ':') return;
+    do folder[n] = folder[from + n];
+    while (folder[n++]);
+}
+
+/* What is no UTF-8 is in the code page of this computer; hosts hand over what they have. */
+static int make_utf8(char *folder, size_t size) {
+    wchar_t wide[1024];
+    if (MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, folder, -1, wide, 1024)) return 1;
+    return MultiByteToWideChar(CP_ACP, 0, folder, -1, wide, 1024) &&
+           WideCharToMultiByte(CP_UTF8, 0, wide, -1, folder, (int)size, NULL, NULL);
+}
+#endif
+
 /* Path of a file URI; a plain path is taken as it is. */
 int ck_folder_of(const char *uri, char *folder, size_t size) {
     size_t n = 0;
-    int is_uri = strncmp(uri, "file:", 5) == 0;
+    int is_uri = begins(uri, "file:");
     if (is_uri) {
         uri += 5;
-        if (strncmp(uri, "//localhost/", 12) == 0) uri += 11;
+        if (begins(uri, "//localhost/")) uri += 11;
         else if (strncmp(uri, "///", 3) == 0) uri += 2;
-#ifdef _WIN32
-        if (uri[0] == '/' && uri[1] && uri[2] == ':') uri++;
-#endif
     }
     while (*uri && n + 1 < size) {
         if (is_uri && uri[0] == '%' && digit(uri[1]) >= 0 && digit(uri[2]) >= 0) {
@@ -33,6 +60,10 @@ int ck_folder_of(const char *uri, char *folder, size_t size) {
     if (*uri) return 0;
     while (n > 1 && (folder[n - 1] == '/' || folder[n - 1] == '\\')) n--;
     folder[n] = 0;
+#ifdef _WIN32
+    if (is_uri) start_at_drive(folder);
+    if (!make_utf8(folder, size)) return 0;
+#endif
     return n > 0;
 }
 

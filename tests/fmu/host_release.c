@@ -1,12 +1,21 @@
 /* The release case of an FMU in a plain host in C: is there any Python in its process?
 
-   host_release LIBRARY RESOURCES GUID FORCE STEP END    prints the time of release, and how many
-                                                         libraries of Python the process has mapped
+   host_release LIBRARY RESOURCES GUID FORCE STEP END [TIME EVERY]
 
-   Compiled with FMI=2 or FMI=3; value references are those of stiction-mass. */
+   prints the time of release, and how many libraries of Python the process has mapped; before that,
+   if asked, gap, speed and force after every so many steps. The pull rises within a time.
+   Compiled with FMI=2 or FMI=3; value references are those of stiction-mass. On Windows it is
+   linked with host_windows.c, see there. */
 
 #define _POSIX_C_SOURCE 200809L
+#ifdef _WIN32
+#include <windows.h>
+#define dlopen(path, flags) ((void *)LoadLibraryA(path))
+#define dlsym(from, name) ((void *)(size_t)GetProcAddress((HMODULE)(from), name))
+#define dlerror() "the library cannot be loaded"
+#else
 #include <dlfcn.h>
+#endif
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,17 +27,19 @@
 typedef fmi2SetRealTYPE setter;
 typedef fmi2GetRealTYPE getter;
 #define SIZE
+#define THREE
 #else
 #include "fmi3FunctionTypes.h"
 #define REAL(verb) "fmi3" verb "Float64"
 typedef fmi3SetFloat64TYPE setter;
 typedef fmi3GetFloat64TYPE getter;
 #define SIZE , 1
+#define THREE , 3
 #endif
-#define TEXT2(x) #x
-#define TEXT(x) TEXT2(x)
+#define QUOTE2(x) #x
+#define QUOTE(x) QUOTE2(x)
 
-enum { F_EXT = 1, T_RELEASE = 14 };
+enum { F_EXT = 1, H = 3, V = 4, F = 5, T_RELEASE = 14 };
 
 static void *library;
 
@@ -109,27 +120,41 @@ static int pythons(void) {
     return found;
 }
 
+/* The rising pull of a magnet, in the middle of a step. */
+static double pull_of(double force, double rise, double time) {
+    return rise > 0.0 ? -force * expm1(-time / rise) : force;
+}
+
 int main(int count, char **words) {
-    const unsigned pull = F_EXT, release = T_RELEASE;
-    double force, time;
+    const unsigned pull = F_EXT, release = T_RELEASE, state[] = {H, V, F};
+    double force, time, step_size, rise, found[3];
     setter *set;
     getter *get;
     int (*leave)(void *);
     void (*done)(void *);
     void *c;
-    long i, n;
-    if (count != 7) return 2;
+    long i, n, every;
+    if (count != 7 && count != 9) return 2;
     library = dlopen(words[1], RTLD_NOW | RTLD_LOCAL);
     if (!library) return fprintf(stderr, "%s\n", dlerror()), 2;
     *(void **)&set = find(REAL("Set")), *(void **)&get = find(REAL("Get"));
-    *(void **)&leave = find("fmi" TEXT(FMI) "ExitInitializationMode");
-    *(void **)&done = find("fmi" TEXT(FMI) "FreeInstance");
+    *(void **)&leave = find("fmi" QUOTE(FMI) "ExitInitializationMode");
+    *(void **)&done = find("fmi" QUOTE(FMI) "FreeInstance");
     c = start(words[3], words[2]);
-    force = atof(words[4]);
+    step_size = atof(words[5]);
+    rise = count > 7 ? atof(words[7]) : 0.0, every = count > 7 ? atol(words[8]) : 0;
+    force = pull_of(atof(words[4]), rise, 0.5 * step_size);
     check(set(c, &pull, 1, &force SIZE), "set");
     check(leave(c), "leave initialization");
-    n = lround(atof(words[6]) / atof(words[5]));
-    for (i = 0; i < n; i++) check(step(c, (double)i * atof(words[5]), atof(words[5])), "step");
+    n = lround(atof(words[6]) / step_size);
+    for (i = 0; i < n; i++) {
+        force = pull_of(atof(words[4]), rise, ((double)i + 0.5) * step_size);
+        if (rise > 0.0) check(set(c, &pull, 1, &force SIZE), "set");
+        check(step(c, (double)i * step_size, step_size), "step");
+        if (every == 0 || (i + 1) % every) continue;
+        check(get(c, state, 3, found THREE), "get");
+        printf("%.17g %.17g %.17g\n", found[0], found[1], found[2]);
+    }
     check(get(c, &release, 1, &time SIZE), "get");
     printf("%.17g %d\n", time, pythons());
     done(c);

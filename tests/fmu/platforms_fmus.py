@@ -1,0 +1,82 @@
+"""FMUs for every platform, built once for all tests and workers."""
+
+from __future__ import annotations
+
+import os
+import shutil
+
+import fmpy
+from hosts_fmus import CASES
+from native_scenes import DROP, FACE, scene
+
+import contactkit as ck
+from contactkit.fmu.native_build import build_native
+from contactkit.fmu.native_compile import PLATFORMS
+from contactkit.fmu.native_drive import build_native_drive
+
+try:
+    import fcntl
+except ImportError:  # Windows: each worker builds for itself
+    fcntl = None
+
+__all__ = ["LIBRARIES", "every_fmu", "library_of", "made_once"]
+
+EVERY = {"platforms": list(PLATFORMS), "compiler": "zig"}
+LIBRARIES = [(name, fmi) for name in PLATFORMS for fmi in (2, 3)]
+
+
+def case_scene(name):
+    """A release case."""
+    case = CASES[name]["case"]
+    return scene(
+        lower=FACE, upper=FACE, volume=case["V"] or None, gap=case["h0"], mass=case["m"],
+        final=case["h_rel"], stiffness=case["k_s"],
+        effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce()),
+    )  # fmt: skip
+
+
+def liquid(name):
+    case = CASES[name]["case"]
+    return {"eta": case["eta"], "gamma": case["gamma"]}
+
+
+def build_all(folder):
+    """FMUs of all platforms: cases A and B with the mass inside, a film alone, a drive."""
+    film = scene(gap=5e-6, volume=DROP)
+    for fmi in (2, 3):
+        for name in "AB":
+            path = folder / f"mass-{name}-{fmi}.fmu"
+            build_native(case_scene(name), path, start=liquid(name), fmi=fmi, **EVERY)
+        build_native(film, folder / f"film-{fmi}.fmu", model="stiction-force", fmi=fmi, **EVERY)
+        build_native_drive(folder / f"drive-{fmi}.fmu", fmi=fmi, **EVERY)
+    for path in folder.glob("*.fmu"):
+        fmpy.extract(str(path), str(path.with_suffix("")))
+
+
+def made_once(tmp_path_factory, name, make):
+    """Folder that the first worker who wants it makes for all."""
+    root = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ and fcntl:
+        root = root.parent
+    done, parts = root / name, root / f"{name}.parts"
+    with (root / f"{name}.lock").open("w") as lock:
+        if fcntl:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        if not done.exists():
+            shutil.rmtree(parts, ignore_errors=True)
+            parts.mkdir()
+            make(parts)
+            parts.rename(done)
+    return done
+
+
+def every_fmu(tmp_path_factory):
+    """Folder of the FMUs for every platform, packed and unpacked."""
+    return made_once(tmp_path_factory, "platforms", build_all)
+
+
+def library_of(fmus, name, fmi, fmu="mass-A"):
+    place = PLATFORMS[name]
+    folder = fmus / f"{fmu}-{fmi}" / "binaries" / (place.fmi3 if fmi == 3 else place.fmi2)
+    (path,) = folder.glob(f"*{place.suffix}")
+    return path
