@@ -25,6 +25,8 @@ __all__ = ["Piece", "Table", "tabulate"]
 
 _DEGREE = 14
 _NARROW = 0.05  # a stretch of x that is not divided further: what is left is noise of rounding
+_CLOSE = 1e-5  # x below which a way to an end is not told from the end itself
+_FAIR = 1e-12  # error of a narrow stretch that is not divided in spite of it
 _ROUNDING = 3e-15  # of a stretch, in values that are sums of few terms
 _NOISE = 1e-7  # largest that is taken for noise
 _NOTHING = 1e-10  # of the largest value of a piece; less than this may be noise altogether
@@ -135,7 +137,7 @@ def _piece(
     waiting = [(first, last)]
     while waiting:
         a, b = waiting.pop()
-        series, is_good = _series(scaled, a, b, whole)
+        series, is_good = _series(scaled, a, b, whole, folds)
         if not is_good:
             waiting += [(0.5 * (a + b), b), (a, 0.5 * (a + b))]
             continue
@@ -154,24 +156,32 @@ def _piece(
 
 
 def _series(
-    scaled: Callable[[Floats], Floats], a: float, b: float, whole: float
+    scaled: Callable[[Floats], Floats], a: float, b: float, whole: float, folds: bool
 ) -> tuple[Any, bool]:
-    """Polynomial through a stretch, and whether it is as good as it gets."""
+    """Polynomial through a stretch, and whether it is as good as it gets.
+
+    `whole` is the largest value of the piece.
+    """
     import numpy as np
     from numpy.polynomial import Chebyshev
 
     series = Chebyshev.interpolate(scaled, _DEGREE, [a, b])
     if not np.all(np.isfinite(series.coef)):
         raise ConvergenceError("a force is no finite number somewhere along its table", (a, b))
-    size = float(np.max(np.abs(series.coef)))
-    series = series.trim(_ROUNDING * size)  # their noise would grow in the slopes
+    size, change = (float(np.max(np.abs(series.coef[i:]))) for i in (0, 1))
+    # A force that vanishes like x^2 / ln x needs the finer stretches the nearer they are to x = 0.
+    near = min(max(b, _CLOSE), 1.0) if folds else 1.0
+    least = _NARROW * near
+    noise = _ROUNDING * max(size, change / near**2)  # the gap holds few digits of what is left
+    series = series.trim(noise)  # it would grow in the slopes
     tail = float(np.max(np.abs(series.coef[_DEGREE - 2 :]), initial=0.0))
-    if b - a <= _NARROW and tail > max(_NOISE * size, _NOTHING * whole):
+    if b - a <= least and tail > max(_NOISE * size, _NOTHING * whole):
         raise ConvergenceError(f"a force is too rough for a table: {tail / size:.1e} off", (a, b))
     # Where the values fall by orders of ten, the small ones are to be as good as the large ones.
     first, last = np.abs(series(np.array([a, b])))
     is_even = min(first, last) > 0.2 * size or size < _NOTHING * whole
-    return series, (is_even and tail <= 1e-13 * size) or b - a <= _NARROW
+    enough = max((_FAIR if b - a <= _NARROW else 1e-13) * size, noise)
+    return series, (tail <= enough and (is_even or b - a <= _NARROW)) or b - a <= least
 
 
 def _places(series: Any, a: float, b: float, rtol: float) -> Floats:

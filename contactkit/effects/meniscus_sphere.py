@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 __all__ = ["exact_end", "sphere_law"]
 
-_HIGHEST = 400  # degree of the polynomial
-_MOST_NODES = 4097
+_DEGREES = 24, 48, 96  # of the polynomials
+_CLOSE = 1e-3  # of a curve, a stretch at its end that is not divided further
+_MOST_NODES = 4097  # of one of its stretches
 
 
 class _Bridges(NamedTuple):
@@ -119,10 +120,10 @@ def _arcs(scene: SeparationScene, as_published: bool) -> _Bridges:
 
 
 def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], float]:
-    """Curve through a force: a polynomial through some dozens of bridges, as a spline.
+    """Curve through a force: polynomials through some dozens of bridges, as a spline.
 
     It runs in the root of the logarithm of the gap's distance to the end, in which a force that
-    ends in a fold, with an infinite slope, is smooth too: a polynomial converges exponentially.
+    ends in a fold, with an infinite slope, is smooth too: polynomials converge exponentially.
 
     Raises
     ------
@@ -132,7 +133,6 @@ def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], floa
         If the force is not smooth enough for a curve.
     """
     import numpy as np
-    from numpy.polynomial import Chebyshev
 
     thin = bridges.thin
     end = bridges.end if math.isfinite(bridges.end) else 2.0 * top
@@ -146,29 +146,56 @@ def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], floa
             raise InfeasibleError(f"no meniscus spans a gap of {missing:g} m on the way")
         return f
 
-    degree, tail = 24, math.inf
-    while tail > max(rtol, 1e-12) and degree <= _HIGHEST:
-        series = Chebyshev.interpolate(force, degree, [first, far])
-        tail = float(np.max(np.abs(series.coef[-4:])) / np.max(np.abs(series.coef)))
-        degree *= 2
-    if tail > 1e-6:
-        raise ConvergenceError(f"the meniscus force on the sphere is rough: {tail:.1e} off a curve")
-    fine = _splined(series, first, far, rtol)
+    x, f = [first], list[float]()
+    for a, b, series in _stretches(force, first, far, rtol):
+        places, values = _nodes(series, a, b, rtol)
+        x += places[1:]
+        f += values[1 if f else 0 :]
+    fine = cubic_spline(x, f)  # a float in and out: ten times as quick as arrays
     return lambda gap: fine(math.sqrt(math.log((end + thin) / (gap + thin))))[0]
 
 
-def _splined(
-    series: Callable[[Floats], Floats], first: float, far: float, rtol: float
-) -> Callable[[float], tuple[float, float]]:
-    """Spline through a smooth function, quicker to call than a polynomial of high degree."""
+def _stretches(
+    force: Callable[[Floats], Floats], first: float, far: float, rtol: float
+) -> list[tuple[float, float, Callable[[Floats], Floats]]]:
+    """Stretches of a force and their polynomials; one, but where it ends as no power does."""
+    import numpy as np
+    from numpy.polynomial import Chebyshev
+
+    found: list[tuple[float, float, Callable[[Floats], Floats]]] = []
+    waiting = [(first, far)]
+    while waiting:
+        a, b = waiting.pop()
+        # A contact circle that shrinks to a point needs the finer stretches the nearer they are.
+        enough = max(1e-3 * rtol, 1e-14) if a == first else max(rtol, 1e-12)
+        for degree in _DEGREES:
+            series = Chebyshev.interpolate(force, degree, [a, b])
+            tail = float(np.max(np.abs(series.coef[-4:])) / np.max(np.abs(series.coef)))
+            if tail <= enough:
+                break
+        if tail > enough and b - a > _CLOSE * (far - first):
+            waiting += [(0.5 * (a + b), b), (a, 0.5 * (a + b))]
+            continue
+        if tail > 1e-6:
+            raise ConvergenceError(
+                f"the meniscus force on the sphere is rough: {tail:.1e} off a curve"
+            )
+        found.append((a, b, series))
+    return found
+
+
+def _nodes(
+    series: Callable[[Floats], Floats], a: float, b: float, rtol: float
+) -> tuple[list[float], list[float]]:
+    """Nodes and values of a spline, quicker to call than a polynomial of high degree."""
     import numpy as np
     from scipy.interpolate import CubicSpline
 
     nodes, error = 65, math.inf
     while error > max(rtol, 1e-12) and nodes <= _MOST_NODES:
-        x = np.linspace(first, far, 2 * nodes - 1)
+        x = np.linspace(a, b, 2 * nodes - 1)
         f = series(x)
         spline = CubicSpline(x[::2], f[::2])
         error = float(np.max(np.abs(spline(x[1::2]) - f[1::2])) / np.max(np.abs(f)))
         nodes = 2 * nodes - 1
-    return cubic_spline(x.tolist(), f.tolist())  # a float in and out: ten times as quick
+    return x.tolist(), f.tolist()

@@ -29,8 +29,9 @@ static const char *apply(ck_model *model) {
     drive->spring = v[CK_K_SPRING], drive->preload = v[CK_F_PRELOAD];
     drive->stop_gap = v[CK_H_STOP], drive->stop_stiffness = v[CK_K_STOP];
     drive->damping = v[CK_D_STOP];
-    if (v[CK_T_BOOST] > v[CK_T_ON]) return "t_boost must not exceed t_on";
-    if (v[CK_T_ON] > v[CK_T_PERIOD]) return "t_on must not exceed T_period";
+    if (v[CK_T_BOOST] > v[CK_T_ON]) return ck_wrong(model, CK_T_BOOST, "not exceed", CK_T_ON, "s");
+    if (v[CK_T_ON] > v[CK_T_PERIOD])
+        return ck_wrong(model, CK_T_ON, "not exceed", CK_T_PERIOD, "s");
     if (v[CK_H_STOP] >= v[CK_G_AIR])
         return "h_stop must be less than g_air, else the armature meets the poles before the spool "
                "meets the stop";

@@ -9,8 +9,8 @@ static const char *apply(ck_model *model) {
     const double *v = model->state.values;
     ck_scene *scene = &model->scene;
     const char *problem = ck_common_parameters(model);
-    if (v[CK_H_REL] <= v[CK_H0]) return "h_rel must exceed h0";
-    if (v[CK_H_MIN] > v[CK_H0]) return "h_min must not exceed h0";
+    if (v[CK_H_REL] <= v[CK_H0]) return ck_wrong(model, CK_H_REL, "exceed", CK_H0, "m");
+    if (v[CK_H_MIN] > v[CK_H0]) return ck_wrong(model, CK_H_MIN, "not exceed", CK_H0, "m");
     scene->mass = v[CK_M], scene->initial_speed = v[CK_V0];
     scene->stiffness = v[CK_K_S], scene->release_gap = v[CK_H_REL], scene->rest_gap = v[CK_H_MIN];
     scene->rtol = v[CK_RTOL] > 1e-11 ? v[CK_RTOL] : 1e-11;

@@ -141,6 +141,13 @@ static double film_end(const ck_scene *scene, const ck_film *film) {
     return end;
 }
 
+const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit) {
+    const double *v = model->state.values;
+    snprintf(model->wrong, sizeof model->wrong, "%s must %s %s = %.9g %s, got %.9g %s", ck_name(id),
+             must, ck_name(other), v[other], unit, v[id], unit);
+    return model->wrong;
+}
+
 /* What models of a film take from their parameters; the message says what is wrong with them. */
 const char *ck_common_parameters(ck_model *model) {
     const double *v = model->state.values;
@@ -148,7 +155,8 @@ const char *ck_common_parameters(ck_model *model) {
     int i;
     *scene = model->data.scene;
     scene->pauses = model->pauses;
-    if (v[CK_H_BREAK] > 0.0 && v[CK_H_BREAK] <= v[CK_H0]) return "h_break must exceed h0, or be 0";
+    if (v[CK_H_BREAK] > 0.0 && v[CK_H_BREAK] <= v[CK_H0])
+        return ck_wrong(model, CK_H_BREAK, "be 0 or exceed", CK_H0, "m");
     scene->initial_gap = v[CK_H0];
     scene->viscosity = v[CK_ETA], scene->surface_tension = v[CK_GAMMA];
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];

@@ -96,6 +96,7 @@ typedef struct {
     ck_say say;
     void *host;
     int event_mode, pauses; /* of FMI 3: whether it is used, and a step may end at an event */
+    char wrong[200];        /* what is wrong with parameters */
 } ck_model;
 
 /* What one of the models is made of. */
@@ -150,6 +151,8 @@ int ck_model_is_in(ck_model *model, int phase, const char *call);
 const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);
 const char *ck_common_parameters(ck_model *model);
+/* What a parameter must do to another one of its unit, with the values of both. */
+const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit);
 void ck_model_follow(ck_model *model);                           /* outputs nobody has read yet */
 const char *ck_name(int id);
 

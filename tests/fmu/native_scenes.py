@@ -46,6 +46,7 @@ SCENES = {
     "flooded": scene(gap=20e-6),
     "drop": scene(volume=DROP),
     "unequal angles": scene(volume=1e-11, angles=(1.0, 2.0)),
+    "repelled, many": scene(volume=DROP, angles=(math.pi, math.radians(120.0)), count=3),
     "arc, many": scene(volume=DROP, effects=(ck.MeniscusForce(profile="arc"), FORCES[1]), count=4),
     "sphere": scene(**SPHERE, angles=(0.5, 0.7), effects=(*FORCES, ck.TensionLimit())),
     "rewetting": scene(
@@ -78,6 +79,20 @@ SCENES |= {
         effects=(SUMMITS,),
     ),
 }  # fmt: skip
+
+
+# Degrees, which a liquid repelled by one or both faces ends at as no power of what is left.
+ANGLES = [(180, 180), (179.9, 179.9), (120, 60)]
+
+
+def bare_meniscus(lower, upper):
+    """A free meniscus alone, between contact angles [deg]."""
+    angles = (math.radians(lower), math.radians(upper))
+    free = ck.Flat()
+    return scene(
+        lower=free, upper=free, volume=1e-12, angles=angles, gap=1e-6, final=1e-3, stiffness=0.0,
+        effects=(ck.MeniscusForce(),),
+    )  # fmt: skip
 
 
 def write_sources(folder):

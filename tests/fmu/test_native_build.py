@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 import shutil
 import subprocess
@@ -168,7 +167,7 @@ def test_viscosity_and_surface_tension_are_free(fmu, tmp_path):
 @pytest.mark.parametrize(
     ("start", "said"),
     [({"eta": -1.0}, r"drop refused eta = -1\.0: eta must "),
-     ({"h_break": 1e-9}, "drop cannot start with these values: .*h_break must exceed h0")],
+     ({"h_break": 1e-9}, "cannot start with these values: .*h_break must be 0 or exceed h0 =")],
 )  # fmt: skip
 def test_a_start_value_that_is_refused_says_why(fmu, start, said):
     with Instance(fmu) as host, pytest.raises(ContactkitError, match=said):
@@ -284,15 +283,6 @@ def test_macs_share_one_file():
     assert both[32768 : 32768 + len(other)] == other
     with pytest.raises(ContactkitError, match="Mac"):
         join_macs([b"\x7fELF" + b"\0" * 20])
-
-
-@pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, reason="needs ziglang")
-@pytest.mark.parametrize("name", PLATFORMS)
-def test_zig_compiles_for_every_platform(name, tmp_path):
-    sources = write_sources(tmp_path / "sources")
-    compile_kernel(sources, name, tmp_path / "library", "zig")
-    head = (tmp_path / "library").read_bytes()[:4]
-    assert head[:2] == b"MZ" or head in (b"\x7fELF", bytes.fromhex("cffaedfe"))
 
 
 def test_without_zig_only_this_platform_is_compiled(tmp_path):

@@ -9,7 +9,16 @@ import attrs
 import numpy as np
 import pytest
 from master_cases import film_values
-from native_scenes import HAS_CC, HERE, OIL, SCENES, compile_c, write_sources
+from native_scenes import (
+    ANGLES,
+    HAS_CC,
+    HERE,
+    OIL,
+    SCENES,
+    bare_meniscus,
+    compile_c,
+    write_sources,
+)
 
 pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
@@ -23,6 +32,7 @@ from contactkit.fmu.native_data import data_file
 from contactkit.fmu.native_film import FINE, film_numbers, moving
 from contactkit.fmu.native_tables import tabulate
 from contactkit.fmu.stiction_mass import PORTS, MeniscusLaw, scene_of
+from contactkit.kernels.bridge_exact import bridge
 from contactkit.motion import advance
 from contactkit.motion_state import Pull, outputs, start
 from contactkit.plan import plan
@@ -100,6 +110,23 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     assert np.max(wrong[smooth]) <= 0.0
 
 
+@pytest.mark.parametrize("degrees", ANGLES, ids=str)
+def test_a_meniscus_is_the_bridge_solved_at_every_gap_up_to_its_end(degrees, probe, tmp_path):
+    """Values and slopes, by a solver that knows no table; next to the end the gap has no digits."""
+    scene = moving(bare_meniscus(*degrees), None)
+    numbers, end = film_numbers(scene), plan(scene, FINE).film.end
+    left = np.concatenate((np.geomspace(2e-5, 0.5, 60), 1.0 - np.geomspace(1e-3, 0.5, 30)))
+    gaps = end * (1.0 - left)
+    found = kernel_forces(probe, numbers.numbers, tmp_path, gaps.tolist(), [0.0] * gaps.size)
+    state = bridge(gaps, 1e-12, *map(math.radians, degrees))
+    force, slope = (OIL.surface_tension * value for value in (state.force, gaps * state.stiffness))
+    size = np.abs(force) + np.abs(slope)
+    assert np.max(np.abs(found[0] - force) / size) < 1e-10
+    wrong = np.abs(found[1] * gaps - slope) / size
+    assert np.max(wrong[left > 1e-3]) < 1e-9
+    assert np.max(wrong) < 1e-7
+
+
 @pytest.mark.parametrize("name", ["stieber", "shear", "sphere"])
 def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, tmp_path):
     scene = moving(SCENES[name], None)
@@ -146,6 +173,7 @@ MOTIONS = {
     "flooded": ([40.0] * 50 + [-40.0] * 100, 1e-5, {"h_min": 1e-6}),
     "drop": ([40.0] * 26, 5e-4, {}),
     "unequal angles": ([40.0] * 60, 1e-5, {}),
+    "repelled, many": ([40.0] * 30, 2e-4, {}),
     "sphere": ([1e-3] * 30 + [-1e-3] * 30, 1e-4, {"h_min": 5e-8}),
     "rewetting": (([40.0] * 60 + [-40.0] * 60) * 2, 2e-5, {}),
     "solids": ([40.0] * 20, 5e-2, {}),

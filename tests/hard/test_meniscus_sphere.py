@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 import contactkit as ck
 from contactkit.kernels import arc_sphere, published
+from contactkit.kernels.bridge_exact import bridge
 
 TENSION, ANGLES, RADIUS, VOLUME = 0.02, (1.0, 0.2), 7e-3, 3e-12
 
@@ -42,6 +45,31 @@ def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, share):
     # and the printed force is divided by the share that is left.
     rel = 1e-8 + 1e-10 / (1.0 - share)
     assert law.force(gap, 0.0) == pytest.approx(exact(gap, profile), rel=rel, abs=1e-9 * 2e-3)
+
+
+@pytest.mark.parametrize("lower", [180.0, 179.9, 90.0])
+def test_slopes_are_right_up_to_where_a_repelling_sphere_lets_go(film_scene, lower):
+    """The force ends as no power there, and a single polynomial scattered long before."""
+    angles = (math.radians(lower), math.pi)
+    scene = film_scene(
+        ck.MeniscusForce(),
+        lower=ck.Flat(),
+        upper=ck.Sphere(radius=1e-3),
+        liquid={"surface_tension": TENSION},
+        film={"volume": 1e-14, "contact_angle_lower": angles[0], "contact_angle_upper": angles[1]},
+        initial_gap=1e-7,
+        final_gap=1e-3,
+    )
+    law = ck.plan(scene, ck.Accuracy(time_rtol=1e-11)).film.laws[ck.MeniscusForce]
+    left = np.geomspace(1e-3, 0.5, 15)
+    gaps, step = law.end * (1.0 - left), 0.02 * left
+    near = (gaps * np.exp(k * step) for k in (-3, -2, -1, 1, 2, 3))
+    f = [np.array([law.force(gap, 0.0) for gap in some.tolist()]) for some in near]
+    slopes = (45.0 * (f[3] - f[2]) - 9.0 * (f[4] - f[1]) + f[5] - f[0]) / (60.0 * step)
+    solved = bridge(gaps, 1e-14, *angles, 0.0, 1e3)
+    expected = TENSION * gaps * solved.stiffness
+    size = TENSION * np.abs(solved.force) + np.abs(expected)
+    assert np.max(np.abs(slopes - expected) / size) < 1e-8
 
 
 def test_a_drop_with_nothing_to_span_is_refused(film_scene):
