@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping
+from itertools import pairwise
 from types import MappingProxyType
 
 from attrs import field, frozen
@@ -11,6 +13,7 @@ from attrs import field, frozen
 from .effects import SeparationEffect
 from .effects.base import ForceLaw, Limiter, SeparationForce
 from .effects.viscous import ViscousForce
+from .kernels.smooth_step import Here
 
 __all__ = ["Film", "impulse_name"]
 
@@ -24,6 +27,44 @@ def impulse_name(column: str) -> str:
     'meniscus_impulse'
     """
     return column.removesuffix("_force") + "_impulse"
+
+
+def _nothing(gap: float) -> tuple[float, float, float]:
+    return 0.0, 0.0, 0.0
+
+
+def _none(gap: float, speed: float) -> float:
+    return 0.0
+
+
+def _smooth(
+    edges: tuple[float, ...],
+    viscous: ForceLaw | None,
+    series: Callable[[float], tuple[float, float, float] | None],
+) -> Callable[[float], Here | None]:
+    """Join the viscous and one other force between edges; the last answer is kept.
+
+    The end of a step is the start of the next one.
+    """
+    resist, cells = viscous.force if viscous is not None else _none, []
+    for low, high in pairwise(edges):
+        one = low or min(0.5 * high, 1e-6)
+        cells.append((viscous.exponent(one) if viscous is not None else 0.0, low, high))
+    inner = edges[1:-1]
+    last: Here = (math.nan, *(0.0,) * 7)
+
+    def at(gap: float) -> Here | None:
+        nonlocal last
+        found = last
+        if found[0] == gap:
+            return found
+        forces = series(gap)
+        if forces is None:
+            return None
+        last = found = (gap, *forces, resist(gap, 1.0), *cells[bisect_right(inner, gap)])
+        return found
+
+    return at
 
 
 @frozen(eq=False)
@@ -46,6 +87,8 @@ class Film:
     _viscous: ForceLaw | None = field(init=False, repr=False)
     _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
     static_columns: tuple[str, ...] = field(init=False, repr=False)
+    smooth: Callable[[float], Here | None] | None = field(init=False, repr=False)
+    """What acts at a gap [m], if that is a liquid between flats, without its limits; see `Here`."""
 
     @kinks.default
     def _find_kinks(self) -> tuple[float, ...]:
@@ -71,6 +114,18 @@ class Film:
     @static_columns.default
     def _find_columns(self) -> tuple[str, ...]:
         return tuple(kind.column for kind in self.laws if kind is not ViscousForce)
+
+    @smooth.default
+    def _find_smooth(self) -> Callable[[float], Here | None] | None:
+        others = [law for kind, law in self.laws.items() if kind is not ViscousForce]
+        viscous = self._viscous
+        if self.static_columns not in ((), ("meniscus_force",)):
+            return None
+        if viscous is not None and not viscous.is_power:
+            return None
+        series = others[0].series if others else _nothing
+        edges = (0.0, *self.kinks, min(self.end, self.release))
+        return _smooth(edges, viscous, series) if series is not None else None
 
     def left(self, *, broken: bool, detached: bool) -> Film | None:
         """Return what acts once the film is broken, or the solids have let go; None if nothing."""
@@ -128,6 +183,17 @@ class Film:
             if abs(left) < abs(found):
                 found, acting = left, kind
         return found, acting
+
+    def forces(
+        self, gap: float, speed: float
+    ) -> tuple[float, float, type[SeparationEffect] | None]:
+        """Static force and viscous force after the limits [N], and the limit that acts."""
+        here = self.smooth(gap) if self.smooth is not None else None
+        if here is None:
+            return self.static_force(gap), *self.viscous_force(gap, speed)
+        if self.limits:
+            return here[1], *self.viscous_force(gap, speed)
+        return here[1], here[4] * speed, None  # known already, at the end of a step
 
     def force(self, gap: float, speed: float) -> float:
         """Sum of all forces [N]; positive resists opening."""

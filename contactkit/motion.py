@@ -16,7 +16,8 @@ from .kernels.short_step import Short
 from .kernels.step_reading import highest, travel_integral
 from .kernels.stiff_step import WEIGHTS, Step
 from .motion_events import first_mark, happen
-from .motion_state import Drive, MotionState
+from .motion_smooth import smooth_once
+from .motion_state import Drive, MotionState, Pull
 from .plan import Film, Plan
 from .step_problem import StepProblem, first_step, step_problem
 
@@ -24,6 +25,7 @@ __all__ = ["advance", "rest_once", "step_once"]
 
 _SAFETY, _SHRINK, _GROW = 0.9, 0.1, 8.0
 _SAME = 1e-11  # two gaps closer than this, relatively, are one
+_PLACES = {name: place for place, name in enumerate(MotionState._fields)}
 _NOTHING = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
 
 
@@ -52,8 +54,9 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
     if not (math.isfinite(dt) and dt >= 0.0):
         raise DescriptionError("advance(dt)", dt, "be zero or positive, and finite", unit="s")
     end = state.time + dt
+    nothing = 1e-13 * max(abs(end), dt)
     for _ in range(plan.accuracy.max_steps + 1):
-        if end - state.time <= 1e-13 * max(abs(end), dt):
+        if end - state.time <= nothing:
             return state if state.time == end else state._replace(time=end)
         one = rest_once if state.held else step_once
         state = one(plan, state, pull, end)
@@ -75,8 +78,7 @@ def rest_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     opening = plan.scene.opening
     holding = opening.stiffness * (state.gap - opening.initial_gap)
     acting = plan.film_left(state.share, broken=state.broken, detached=state.detached)
-    forces = acting.static_forces(state.gap) if acting is not None else {}
-    film = sum(forces.values())
+    film = acting.forces(state.gap, 0.0)[0] if acting is not None else 0.0
     leave, low = end, state.time
     if pull(low) - holding - film > 0.0:
         leave = low
@@ -86,13 +88,18 @@ def rest_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
                 leave = middle
             else:
                 low = middle
-    elapsed = leave - state.time
-    return state._replace(
-        time=leave,
-        held=pull(leave) - holding - film <= 0.0,
-        step=0.0,
-        **_grown(state, elapsed, {impulse_name(name): f for name, f in forces.items()}),
-    )
+    elapsed, names = leave - state.time, acting.static_columns if acting is not None else ()
+    forces = dict.fromkeys(names, film)
+    if acting is not None and len(names) > 1:
+        forces = acting.static_forces(state.gap)
+    found: list[Any] = list(state)  # a master asks often, and `_replace` takes its time
+    found[_PLACES["time"]], found[_PLACES["step"]] = leave, 0.0
+    found[_PLACES["held"]] = pull(leave) - holding - film <= 0.0
+    for name, force in forces.items():
+        place = _PLACES.get(impulse_name(name))
+        if place is not None:
+            found[place] += elapsed * force
+    return tuple.__new__(MotionState, found)
 
 
 def _grown(state: MotionState, length: float, means: dict[str, float]) -> dict[str, Any]:
@@ -106,6 +113,10 @@ def _grown(state: MotionState, length: float, means: dict[str, float]) -> dict[s
 
 def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
     """Take one internal step, shortened to the first event inside it."""
+    if type(pull) is Pull:
+        after = smooth_once(plan, state, pull, end)
+        if after is not None:
+            return after
     if state.gap < _NOTHING:
         raise _no_step(state, plan.accuracy.time_rtol)
     rest = plan.scene.opening.rest_gap

@@ -111,6 +111,9 @@ class Outputs(NamedTuple):
     limit: LimitKind
 
 
+_NOTHING = Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
+
+
 def start(plan: Plan) -> MotionState:
     """State of a scene at time 0."""
     opening = plan.scene.opening
@@ -123,16 +126,16 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
     opening = plan.scene.opening
     film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
     if film is None:
-        return Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
-    static = film.static_force(state.gap)
-    viscous, acting = film.viscous_force(state.gap, state.speed)
-    net = pull - opening.stiffness * (state.gap - opening.initial_gap) - static
-    if pull > 0.0 and net <= 0.0 and state.speed <= 0.0:
+        return _NOTHING
+    gap, speed = state.gap, state.speed
+    static, viscous, acting = film.forces(gap, speed)
+    net = pull - opening.stiffness * (gap - opening.initial_gap) - static
+    if speed <= 0.0 < pull and net <= 0.0:
         status = FilmStatus.STUCK
     elif state.held:
         status = FilmStatus.CONTACT
     elif state.broken:
         status = FilmStatus.BROKEN
     else:
-        status = FilmStatus.FULL if state.gap <= film.full_gap else FilmStatus.BRIDGE
+        status = FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE
     return Outputs(static + viscous, static, viscous, status, LIMITS[acting])

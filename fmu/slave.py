@@ -27,6 +27,7 @@ from .xml import Description, model_description
 
 __all__ = ["PortSlave"]
 
+_STEPPING = Phase.STEPPING  # looked up once
 _ROUNDING = 1e-12  # share of the time by which two clocks may differ after rounding
 
 
@@ -113,17 +114,17 @@ class PortSlave(PortAccess):
             self._fail(f"{call} belongs to phase {phase}, the FMU is {self._phase}; reset it")
         return self._phase is phase
 
-    def _attempt(self, name: str, hook: Callable[[], None]) -> bool:
+    def _attempt(self, name: str, hook: Callable[..., None], *given: float) -> bool:
         """Run a hook; on trouble put the values back as they were, and fail."""
-        reason = self._try(hook)
+        reason = self._try(hook, *given)
         if reason:
             self._fail(f"{name} at t = {self.time!r} s: {reason}")
         return not reason
 
-    def _try(self, hook: Callable[[], None]) -> str:
+    def _try(self, hook: Callable[..., None], *given: float) -> str:
         saved = self.values.copy()
         try:
-            hook()
+            hook(*given)
             self._tables.check_outputs(self.values)
         except BaseException as error:  # noqa: BLE001  # even an interrupt would crash the host
             self.values.clear()
@@ -174,7 +175,7 @@ class PortSlave(PortAccess):
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance by one communication step; False makes pythonfmu answer ``fmi2Discard``."""
-        if self.failure or not self._is_in(Phase.STEPPING, "doStep"):
+        if self.failure or not self._is_in(_STEPPING, "doStep"):
             return False
         nothing = _ROUNDING * max(abs(self.time), self._last_step)
         gap = abs(current_time - self.time)
@@ -190,7 +191,7 @@ class PortSlave(PortAccess):
             return False
         if step_size <= nothing:  # some masters end with a step of rounding size, even backwards
             return True
-        if not self._attempt("step", lambda: self.advance(current_time, step_size)):
+        if not self._attempt("step", self.advance, current_time, step_size):
             return False
         self.time, self._last_step, self._stale = current_time + step_size, step_size, False
         return True

@@ -124,10 +124,6 @@ class StictionForce(PortSlave):
 
     def refresh(self) -> None:
         """See `PortSlave.refresh`: forces follow the motion at once."""
-        self._evaluate(None)
-
-    def _evaluate(self, static: float | None) -> None:
-        """Forces at the motion that is set; the static one, if it is known already."""
         values = self.values
         gap, speed = values["h"], values["v"]
         film = self._film()
@@ -138,25 +134,29 @@ class StictionForce(PortSlave):
                 h_below=values["h0"] if values["h0"] < gap and values["rewet"] > 0.0 else 0.0,
             )  # fmt: skip
             return
-        static = film.static_force(gap) if static is None else static
-        viscous, acting = film.viscous_force(gap, speed)
-        damping = _damping(film, gap, speed, limited=acting is not None)
+        static, viscous, acting = film.forces(gap, speed)
+        damping, stiffness = _slopes(film, gap, speed, limited=acting is not None)
         whole = gap <= film.full_gap * (1.0 + _SAME)
         values.update(
-            F=static + viscous, F_m=static, F_v=viscous, c=damping, k=_stiffness(film, gap, speed),
+            F=static + viscous, F_m=static, F_v=viscous, c=damping, k=stiffness,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
             state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE), limit=int(LIMITS[acting]),
         )  # fmt: skip
-        marks = (*film.kinks, film.end) if math.isfinite(film.end) else film.kinks
-        values["h_above"] = min((m for m in marks if m > gap * (1.0 + _SAME)), default=0.0)
-        values["h_below"] = max((m for m in marks if m < gap * (1.0 - _SAME)), default=0.0)
+        above = below = 0.0
+        for mark in (*film.kinks, film.end):  # they ascend
+            if mark < gap * (1.0 - _SAME):
+                below = mark
+            elif mark > gap * (1.0 + _SAME):
+                above = mark if mark < math.inf else 0.0
+                break
+        values["h_above"], values["h_below"] = above, below
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`: the motion that was set is where the step ends."""
         before, values = self.memory, self.values
         film, done = self._go(step)
         self.memory = self._remember(film, time, step, done)
-        self._evaluate(self.memory.static if self._film() is film else None)
+        self.refresh()
         values["J"] += done.viscous
         values["J_m"] += done.static
         values["F_mean"] = (done.viscous + done.static) / step
@@ -219,20 +219,20 @@ class StictionForce(PortSlave):
         self.memory = _Memory(*hidden["memory"])
 
 
-def _damping(film: Film, gap: float, speed: float, *, limited: bool) -> float:
-    """Slope of the force over speed [N.s/m]."""
-    if not limited:
-        return film.resistance(gap)
-    near = 1e-5 * abs(speed)
-    up, down = (film.viscous_force(gap, speed + d)[0] for d in (near, -near))
-    return (up - down) / (2.0 * near)
-
-
-def _stiffness(film: Film, gap: float, speed: float) -> float:
-    """Slope of the force over the gap [N/m], by central differences."""
-    near = 1e-5 * gap
+def _slopes(film: Film, gap: float, speed: float, *, limited: bool) -> tuple[float, float]:
+    """Slope of the force over speed [N.s/m] and over the gap [N/m], known or by differences."""
+    here = film.smooth(gap) if film.smooth is not None and not limited else None
+    if here is not None:
+        _, _, slope, _, damping, exponent, _, _ = here
+        return damping, (slope - exponent * damping * speed) / gap
+    near, damping = 1e-5 * gap, film.resistance(gap)
     up, down = (film.force(gap + d, speed) for d in (near, -near))
-    return (up - down) / (2.0 * near)
+    stiffness = (up - down) / (2.0 * near)
+    if limited:
+        near = 1e-5 * abs(speed)
+        up, down = (film.viscous_force(gap, speed + d)[0] for d in (near, -near))
+        damping = (up - down) / (2.0 * near)
+    return damping, stiffness
 
 
 def _warning(step: float, stable: float, error: float) -> str:

@@ -198,6 +198,7 @@ class StictionMass(PortSlave):
 
     plan: Plan
     state: MotionState
+    _pull = Pull(0.0)  # the last one, which a pull that stays takes again
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
@@ -208,24 +209,28 @@ class StictionMass(PortSlave):
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`."""
-        before = self.state
-        pull = Pull(self.values["F_ext"], self.values["dF_ext"], time)
-        self.state = advance(self.plan, before._replace(time=time), pull, step)
+        before, values = self.state, self.values
+        if before.time != time:  # by rounding, or as a host that starts late
+            before = before._replace(time=time)
+        pull = self._pull
+        if pull.force != values["F_ext"] or pull.rate or values["dF_ext"]:
+            self._pull = pull = Pull(values["F_ext"], values["dF_ext"], time)
+        self.state = state = advance(self.plan, before, pull, step)
         self._show(pull(time + step))
-        if self.state.n_releases > before.n_releases:
-            self.event(f"released at t = {self.state.release_time:.9g} s")
-        if self.state.n_breaks > before.n_breaks:
-            self.event(f"film broke at t = {self.state.break_time:.9g} s")
+        if state.n_releases > before.n_releases:
+            self.event(f"released at t = {state.release_time:.9g} s")
+        if state.n_breaks > before.n_breaks:
+            self.event(f"film broke at t = {state.break_time:.9g} s")
 
     def _show(self, pull: float) -> None:
-        state, forces = self.state, outputs(self.plan, self.state, pull)
-        self.values.update(
-            h=state.gap, v=state.speed, F=forces.film, F_m=forces.static, F_v=forces.viscous,
-            J=state.viscous_impulse, J_m=state.meniscus_impulse, W=state.dissipated_work,
-            state=int(forces.status), limit=int(forces.limit),
-            t_break=state.break_time, t_release=state.release_time, F_peak=state.peak_force,
-            n_break=state.n_breaks, n_release=state.n_releases,
-        )  # fmt: skip
+        values, state = self.values, self.state
+        values["F"], values["F_m"], values["F_v"], status, limit = outputs(self.plan, state, pull)
+        values["state"], values["limit"] = int(status), int(limit)
+        (
+            _, values["h"], values["v"], _, _, _, _, values["J"], values["J_m"], values["W"], _,
+            values["t_break"], values["t_release"], _, values["n_break"], values["n_release"],
+            values["F_peak"], *_,
+        ) = state  # fmt: skip
 
     def hidden_state(self) -> Mapping[str, Any]:
         """See `PortSlave.hidden_state`."""

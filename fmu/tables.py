@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import product
 from operator import itemgetter
 from typing import Any
 
@@ -41,11 +42,13 @@ class Tables:
         self._finite = _picker(port.name for port in self._finite_ports)
         self._endless = _picker(port.name for port in numbers if _endless(port))
         self._booleans = _picker(port.name for port in outputs if port.kind == "boolean")
-        self._members = [
-            (port, frozenset(int(member) for member in port.enumeration))
-            for port in outputs
-            if port.enumeration is not None
-        ]
+        self._has_endless = any(map(_endless, numbers))
+        self._has_booleans = any(port.kind == "boolean" for port in outputs)
+        self._enumerations = [port for port in outputs if port.enumeration is not None]
+        self._members = _picker(port.name for port in self._enumerations)
+        self._known = frozenset(
+            product(*(map(int, port.enumeration or ()) for port in self._enumerations))
+        )
         self.parameters = _picker(port.name for port in ports if port.causality == "parameter")
 
     def _settable(self, *causalities: str) -> dict[str, Settable]:
@@ -65,12 +68,14 @@ class Tables:
             for port in self._finite_ports:
                 if not math.isfinite(values[port.name]):
                     raise self._odd_output(port, values)
-        for port, members in self._members:
-            if values[port.name] not in members:
-                raise self._odd_output(port, values)
-        if any(value != value for value in self._endless(values)):
+        if self._enumerations and self._members(values) not in self._known:
+            for port in self._enumerations:
+                if not port.allows(values[port.name]):
+                    raise self._odd_output(port, values)
+        if self._has_endless and any(value != value for value in self._endless(values)):
             raise DescriptionError("an output", math.nan, "be a number")
-        any(self._booleans(values))  # raises if one is neither true nor false
+        if self._has_booleans:
+            any(self._booleans(values))  # raises if one is neither true nor false
         if len(values) != len(self.ports):
             odd = sorted(set(values) - {port.name for port in self.ports.values()})
             raise DescriptionError("values", odd, "hold the ports and nothing else")

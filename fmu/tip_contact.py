@@ -240,7 +240,8 @@ class TipContact(PortSlave):
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`."""
         values, before = self.values, self.state
-        before = before._replace(motion=before.motion._replace(time=time))
+        if before.motion.time != time:  # by rounding, or as a host that starts late
+            before = before._replace(motion=before.motion._replace(time=time))
         root = Root(values["z"], values["vz"], values["az"], time)
         self.state = advance_tip(self.plan, values["c"], before, root, step, self.stop)
         values["F_mean"] = values["N"] * (self.state.impulse - before.impulse) / step

@@ -88,9 +88,15 @@ class ViscousForce(SeparationForce):
 
 def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
     n, radius, full = film.menisci, film.radius, film.full_gap
+    whole = n * float(squeeze.disc_force(film.rim, 1.0, 1.0, viscosity)) if full > 0.0 else 0.0
 
     def force(gap: float, speed: float) -> float:
+        if gap <= full:  # the radius is that of the rim
+            return whole * speed / gap**3
         return n * float(squeeze.disc_force(radius(gap), gap, speed, viscosity))
+
+    def exponent(gap: float) -> float:
+        return 3.0 if gap < full else 5.0
 
     def impulse(start: float, end: float) -> float:
         if end < start:
@@ -101,7 +107,7 @@ def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> Fo
             return n * float(squeeze.disc_impulse_conserved(film.volume, start, end, viscosity))
         return impulse(start, full) + impulse(full, end)
 
-    return ForceLaw(force, kinks, exponent=lambda gap: 3.0 if gap < full else 5.0, impulse=impulse)
+    return ForceLaw(force, kinks, exponent=exponent, impulse=impulse, is_power=True)
 
 
 def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:

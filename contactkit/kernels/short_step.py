@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from .stiff_step import NODES, WEIGHTS, Stage, Step
 
-__all__ = ["Holding", "Short", "short_step"]
+__all__ = ["GAMMA0", "INCREMENTS", "MATRIX", "Holding", "Short", "short_step"]
 
 _Three = tuple[float, float, float]
 _Round = tuple[_Three, _Three, _Three, _Three, float, Any]
@@ -36,12 +36,14 @@ def _integrals(upto: float) -> tuple[float, float, float]:
 
 
 _C1, _C2, _ = NODES
-(_A11, _A12, _A13), (_A21, _A22, _A23), (_A31, _A32, _A33) = _A = tuple(map(_integrals, NODES))
+MATRIX = tuple(map(_integrals, NODES))  # A of the method
+(_A11, _A12, _A13), (_A21, _A22, _A23), (_A31, _A32, _A33) = _A = MATRIX
 _AA = tuple(tuple(sum(_A[i][k] * _A[k][j] for k in range(3)) for j in range(3)) for i in range(3))
 _B1, _B2, _B3 = WEIGHTS
 _R6 = 6.0**0.5
-_GAMMA0 = 3.0 + 3.0 ** (2.0 / 3.0) - 3.0 ** (1.0 / 3.0)
-_E1, _E2, _E3 = (-13.0 - 7.0 * _R6) / 3.0, (-13.0 + 7.0 * _R6) / 3.0, -1.0 / 3.0
+GAMMA0 = 3.0 + 3.0 ** (2.0 / 3.0) - 3.0 ** (1.0 / 3.0)
+INCREMENTS = (-13.0 - 7.0 * _R6) / 3.0, (-13.0 + 7.0 * _R6) / 3.0, -1.0 / 3.0
+_E1, _E2, _E3 = INCREMENTS
 
 
 class Holding(NamedTuple):
@@ -243,7 +245,7 @@ def _errors(
     one, two, three = points
     j11, j12 = -v0 * (1.0 + s) / h0, 1.0 / h0
     j21, j22 = by_gap * h0 / mass, by_speed / mass
-    g = _GAMMA0 / dt
+    g = GAMMA0 / dt
     det = (g - j11) * (g - j22) - j12 * j21
     zq = (_E1 * q[0] + _E2 * q[1] + _E3 * q[2]) / dt
     zv = (_E1 * (one.speed - v0) + _E2 * (two.speed - v0) + _E3 * (three.speed - v0)) / dt

@@ -39,6 +39,7 @@ CHAIN = [
     ["planner"],
     ["motion_state"],
     ["motion_events", "step_problem"],
+    ["motion_smooth"],
     ["motion", "validity", "constant_force", "errata_notes"],
     ["result_parts"],
     ["results", "contact_engine"],

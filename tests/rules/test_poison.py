@@ -35,13 +35,13 @@ ARC_FLAT = {
 }  # fmt: skip
 ARC_SPHERE = {
     "arc_sphere.solve", "arc_sphere.zero_neck_gap", "arc_newton.*", "arc_segment.*",
-    "arc_shape.refuse_spreading", "arc_shape.whole_angle", "spline.cubic_spline",
+    "arc_shape.refuse_spreading", "arc_shape.whole_angle", "spline.*",
 }  # fmt: skip
 EXACT_FLAT_END = {
     "flat_law.*", "flat_family.*", "delaunay.*", "arc_shape.*", "quadrature.gauss_legendre",
     "roots.bracketed_root",
 }  # fmt: skip
-EXACT_FLAT = EXACT_FLAT_END | {"spline.cubic_spline"}
+EXACT_FLAT = EXACT_FLAT_END | {"spline.*", "flat_members.*"}
 EXACT_SPHERE = {
     "bridge_*", "drop.drop_left", "delaunay.*", "quadrature.gauss_legendre", "roots.*", *ARC_SPHERE,
 }  # fmt: skip
@@ -125,7 +125,13 @@ EXTENT = {"flats": {"squeeze.disc_radius"}, "sphere": {"squeeze.sphere_film_heig
 MOTION = {
     "speed": {"quadrature.gauss_legendre"},
     "time": set(),
-    "force": {"stiff_step.*", "short_step.*", "step_reading.*", "quadrature.gauss_legendre"},
+    "force": {
+        "stiff_step.*",
+        "short_step.*",
+        "smooth_*",
+        "step_reading.*",
+        "quadrature.gauss_legendre",
+    },
 }
 VALIDITY = {
     ck.ViscousForce: {"validity.reynolds_number", "validity.slenderness"},
