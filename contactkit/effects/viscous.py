@@ -87,13 +87,13 @@ class ViscousForce(SeparationForce):
 
 
 def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
-    n, radius, full = film.menisci, film.radius, film.full_gap
-    whole = n * float(squeeze.disc_force(film.rim, 1.0, 1.0, viscosity)) if full > 0.0 else 0.0
+    n, full = film.menisci, film.full_gap
+    drop = film.volume if math.isfinite(full) else 0.0  # both forces are those at a gap of 1 m
+    whole = n * float(squeeze.disc_force(film.rim if full else 0.0, 1.0, 1.0, viscosity))
+    rest = n * float(squeeze.disc_force(squeeze.disc_radius(drop, 1.0), 1.0, 1.0, viscosity))
 
     def force(gap: float, speed: float) -> float:
-        if gap <= full:  # the radius is that of the rim
-            return whole * speed / gap**3
-        return n * float(squeeze.disc_force(radius(gap), gap, speed, viscosity))
+        return whole * speed / gap**3 if gap <= full else rest * speed / gap**5
 
     def exponent(gap: float) -> float:
         return 3.0 if gap < full else 5.0

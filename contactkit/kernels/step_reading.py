@@ -37,8 +37,8 @@ def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
     >>> round(value, 12), round(where, 12)
     (0.25, 0.5)
     """
-    if _jumps(first, stages):
-        return stages[2], 1.0  # on the way there the stages are not accurate
+    if _jumps(first, stages) and 2.0 * (stages[2] - first) > stages[0] - first:
+        return stages[2], 1.0  # it stays up; on the way there the stages are not accurate
     nodes, values = (0.0, *NODES), (first, *stages)
     best = max(range(4), key=values.__getitem__)
     value, where = values[best], nodes[best]

@@ -27,8 +27,8 @@ double ck_highest(double first, const double stages[3], double *where) {
     double f[4], value = first, lowest = first, inside, q, roots[2];
     int i;
     *where = 0.0;
-    if (jumps(first, stages)) {
-        *where = 1.0; /* on the way there the stages are not accurate */
+    if (jumps(first, stages) && 2.0 * (stages[2] - first) > stages[0] - first) {
+        *where = 1.0; /* it stays up; on the way there the stages are not accurate */
         return stages[2];
     }
     for (i = 0; i < 3; i++) {

@@ -536,6 +536,7 @@ def test_a_host_in_c_runs_the_pair_without_python(fmu, film, tmp_path):
 
 def test_the_command_line_builds_one(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(native_build, "_COMPILED", {})
+    monkeypatch.setattr(native_build, "has_zig", lambda: False)
     monkeypatch.setattr(
         native_build, "compile_kernel", lambda _, name, out, *more: out.write_bytes(name.encode())
     )
