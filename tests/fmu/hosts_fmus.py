@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import inspect
 import json
 import sys
 from pathlib import Path
@@ -17,8 +16,6 @@ from contactkit.fmu.native_compile import local
 
 HERE = Path(__file__).parent
 CASES = json.loads((HERE.parent / "data" / "release.json").read_text())
-_MORE = inspect.signature(build_native).parameters
-FMI3 = "fmi" in _MORE
 
 
 def values(name):
@@ -53,12 +50,9 @@ def native_fmu(folder, model, name, fmi=2, **changes):
         ),
     )  # fmt: skip
     given = {key: start[key] for key in ("eta", "gamma", "F_ext") if key in start}
-    more = {"model": model} if "model" in _MORE else {}
-    more |= {"fmi": fmi} if FMI3 else {}
     out = folder / f"{model}-{name}-native-{fmi}.fmu"
-    return build_native(
-        built, out, start=given, platforms=[local()], compiler="cc", **more
-    )  # fmt: skip
+    here = {"platforms": [local()], "compiler": "cc"}
+    return build_native(built, out, model=model, fmi=fmi, start=given, **here)
 
 
 def _load(module):
@@ -85,7 +79,24 @@ def helper_fmu(folder, class_name, name):
         del building.FMUS[key]
 
 
-__all__ = [
-    "CASES", "FMI3", "HERE", "helper_fmu", "native_fmu", "python_fmu", "reference",
-    "values",
-]  # fmt: skip
+class Shelf:
+    """FMUs of the release cases, each built once; kinds are helper, python, native 2, native 3."""
+
+    def __init__(self, folder):
+        self._folder, self._made = folder, {}
+
+    def __call__(self, kind, model, name="A", **changes):
+        key = kind, model, name, str(changes)
+        if key not in self._made:
+            place = self._folder / str(len(self._made))
+            place.mkdir()
+            if kind == "helper":
+                self._made[key] = helper_fmu(place, model, name)
+            elif kind == "python":
+                self._made[key] = python_fmu(place, model, name, **changes)
+            else:
+                self._made[key] = native_fmu(place, model, name, int(kind[-1]), **changes)
+        return self._made[key]
+
+
+__all__ = ["CASES", "HERE", "Shelf", "native_fmu", "reference", "values"]

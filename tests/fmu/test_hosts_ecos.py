@@ -12,7 +12,7 @@ pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
 from hosts_ecos import compiled_quickly, ecos, run, why_not
-from hosts_fmus import HERE, helper_fmu, native_fmu, python_fmu, reference
+from hosts_fmus import HERE, Shelf, reference
 from native_scenes import HAS_CC
 
 from contactkit.fmu.cosimulate import cosimulate
@@ -36,23 +36,7 @@ def quickly():
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory):
-    """FMUs of the release cases, each built once."""
-    folder, made = tmp_path_factory.mktemp("ecos"), {}
-
-    def make(kind, model, name="A", **changes):
-        key = kind, model, name, str(changes)
-        if key not in made:
-            place = folder / str(len(made))
-            place.mkdir()
-            if kind == "helper":
-                made[key] = helper_fmu(place, model, name)
-            elif kind == "python":
-                made[key] = python_fmu(place, model, name, **changes)
-            else:
-                made[key] = native_fmu(place, model, name, int(kind[-1]), **changes)
-        return made[key]
-
-    return make
+    return Shelf(tmp_path_factory.mktemp("ecos"))
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -19,7 +19,7 @@ import pytest
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
 
-from hosts_fmus import CASES, FMI3, helper_fmu, native_fmu, python_fmu, reference  # noqa: E402
+from hosts_fmus import CASES, Shelf, reference  # noqa: E402
 from native_scenes import HAS_CC, compile_c  # noqa: E402
 
 from contactkit.fmu.guard import can_guard  # noqa: E402
@@ -31,7 +31,7 @@ needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 KINDS = [
     "python",
     pytest.param("native 2", marks=needs_cc),
-    pytest.param("native 3", marks=[needs_cc, pytest.mark.skipif(not FMI3, reason="no FMI 3")]),
+    pytest.param("native 3", marks=needs_cc),
 ]
 STOP = {"A": 5e-4, "B": 1.3e-2}
 ROOM = {"python": 1e-7, "native 2": 2e-7, "native 3": 2e-7}  # 1e-8 is the tolerance of a step
@@ -39,23 +39,7 @@ ROOM = {"python": 1e-7, "native 2": 2e-7, "native 3": 2e-7}  # 1e-8 is the toler
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory):
-    """FMUs of the release cases, each built once."""
-    folder, made = tmp_path_factory.mktemp("hosts"), {}
-
-    def make(kind, model, name="A", **changes):
-        key = kind, model, name, str(changes)
-        if key not in made:
-            place = folder / str(len(made))
-            place.mkdir()
-            if kind == "helper":
-                made[key] = helper_fmu(place, model, name)
-            elif kind == "python":
-                made[key] = python_fmu(place, model, name, **changes)
-            else:
-                made[key] = native_fmu(place, model, name, int(kind[-1]), **changes)
-        return made[key]
-
-    return make
+    return Shelf(tmp_path_factory.mktemp("hosts"))
 
 
 @pytest.mark.parametrize("kind", KINDS)
