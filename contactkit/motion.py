@@ -16,7 +16,7 @@ from .kernels.short_step import Short
 from .kernels.step_reading import highest, travel_integral
 from .kernels.stiff_step import WEIGHTS, Step
 from .motion_events import first_mark, happen
-from .motion_smooth import smooth_once
+from .motion_smooth import COASTING, NO_FORCE, smooth_once
 from .motion_state import Drive, MotionState, Pull
 from .plan import Film, Plan
 from .step_problem import StepProblem, first_step, step_problem
@@ -123,7 +123,9 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     if state.speed < 0.0 and state.gap <= rest * (1.0 + _SAME):
         return state._replace(held=True, gap=rest, speed=0.0)
     film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
-    problem = step_problem(plan, film, state, pull)
+    problem = _posed(plan, film, state, pull, end)
+    if problem is None:
+        return state._replace(speed=0.0)
     left = end - state.time
     length = min(state.step or first_step(problem, left), left)
     rejected, evaluations = 0, 3
@@ -160,6 +162,18 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     time = end if length == left else state.time + length
     state = state._replace(time=time, gap=gap, speed=speed, **changes)
     return state if mark is None else happen(plan, film, state, mark)
+
+
+def _posed(
+    plan: Plan, film: Film | None, state: MotionState, pull: Drive, end: float
+) -> StepProblem | None:
+    """Pose the step; None where nothing acts any more and the film has brought it to rest."""
+    problem = step_problem(plan, film, state, pull)
+    if problem.size > NO_FORCE:
+        return problem
+    if 0.0 < abs(state.speed) * problem.mass < -COASTING * problem.at_start[2] * state.gap:
+        return None
+    return problem.expecting(0.5 * abs(pull(end)))  # the mean of a ramp
 
 
 def _no_step(state: MotionState, rtol: float) -> ConvergenceError:

@@ -30,6 +30,16 @@ class StepProblem(NamedTuple):
     static: float  # force at the start that does not depend on speed [N]
     viscous: float  # and that which does [N]
 
+    def expecting(self, force: float) -> StepProblem:
+        """Return the problem with its errors measured against a force [N] that is still to come.
+
+        At the foot of a ramp nothing acts yet, and a stiff film would be followed through its
+        transient, which late in a run is shorter than the time can tell.
+        """
+        resistance = -self.at_start[2]
+        speed = force / resistance if resistance > 0.0 else 0.0
+        return self._replace(size=self.size + force, scale=max(self.scale, speed))
+
     def _coordinate(self, length: float) -> float:
         """In terms of the viscous impulse where the film rules, else of the gap."""
         is_film_ruled = -self.at_start[2] * length > self.mass

@@ -218,8 +218,8 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
         )
     if name not in _SLAVES:
         raise PlanError(
-            f"{name} has no native form in this version, only {' and '.join(_SLAVES)} have; leave "
-            f"out --native"
+            f"{name} has no native form as a film in this version, only {' and '.join(_SLAVES)} "
+            f"have, and valve-drive as a valve; leave out --native"
         )
     own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
     slave = _SLAVES[own]

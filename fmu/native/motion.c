@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define SAME 1e-11    /* two gaps closer than this, relatively, are one */
+#define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts */
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
 void ck_start(const ck_scene *scene, double time, ck_motion *state) {
@@ -101,6 +102,13 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->net = drive - spring - first->fixed - first->viscous;
     p->net_by_gap = -scene->stiffness - first->fixed_by_gap - first->viscous_by_gap;
     p->net_by_speed = -first->viscous_by_speed;
+}
+
+/* Measure errors against a force that is still to come: at the foot of a ramp nothing acts yet, and
+   a stiff film would be followed through its transient. */
+static void expect(ck_problem *p, const ck_forces *first, double force) {
+    p->size += force;
+    if (first->resistance > 0.0) p->scale = ck_larger(p->scale, force / first->resistance);
 }
 
 /* Time in which inertia alone would open a thousandth of the gap; a first guess. */
@@ -277,6 +285,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     }
     ck_act(scene, state->film, state->broken, state->detached, &acting);
     pose(scene, &acting, state, pull, &p, &first);
+    if (p.size <= NO_FORCE) expect(&p, &first, 0.5 * fabs(ck_pull_at(pull, end)));
     asked = state->step > 0.0 ? state->step : first_step(&p, left);
     length = ck_smaller(asked, left);
     for (;;) {

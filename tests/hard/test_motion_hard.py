@@ -9,7 +9,7 @@ import pytest
 import contactkit as ck
 from contactkit.kernels import squeeze
 from contactkit.kernels.stiff_step import coordinate
-from contactkit.motion_state import outputs, start
+from contactkit.motion_state import Pull, outputs, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -539,3 +539,25 @@ def test_a_film_may_break_at_the_very_gap_of_release(film_scene):
     assert state.broken
     assert state.n_releases == state.n_breaks == 1
     assert state.release_time == state.break_time > 0.0
+
+
+@pytest.mark.parametrize("time", [0.0, 1e-2, 1.0, 1e3])
+@pytest.mark.parametrize("rate", [1e5, -1e5, 1.0])
+def test_a_pull_may_begin_to_grow_late(film_scene, time, rate):
+    """The transient of the film, 1e-16 s, is shorter than what the time can tell by then."""
+    pull = {"force": 1.0, "mass": 1.72e-5, "initial_gap": 4.54e-8, "final_gap": 1e-6}
+    made = ck.plan(film_scene(VISCOUS, liquid={"viscosity": 0.01}, film={"volume": None}, **pull))
+    state = ck.advance(made, start(made)._replace(time=time), Pull(0.0, rate, time), 1e-6)
+    span = state.time - time  # 1e-6 s, as far as the time can tell
+    assert state.viscous_impulse == approx(0.5 * rate * span**2, 1e-6)
+    assert state.n_steps < 200
+
+
+def test_a_mass_that_coasts_comes_to_rest_for_good(film_scene):
+    """In neither many thousand steps nor the smallest of all numbers."""
+    film = {"initial_gap": 1e-6, "final_gap": 1e-5, "force": 1.0, "mass": 1e-6}
+    made = ck.plan(film_scene(VISCOUS, film={"volume": None}, **film))
+    state = walk(made, Pull(0.0), 1e-3, 20, start(made)._replace(speed=1e-3))
+    assert state.speed == 0.0
+    assert state.viscous_impulse == approx(1e-9, 1e-7)
+    assert state.n_steps < 2000
