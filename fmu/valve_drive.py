@@ -17,6 +17,8 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any, ClassVar
 
+from pythonfmu.enums import Fmi2Status
+
 from ..errors import DescriptionError
 from ..models import valve as law
 from ..stop_tables import StopCurve
@@ -134,7 +136,15 @@ class ValveDrive(PortSlave):
         stopping, faces = self._stop(gap, speed)
         before, end = law.pull(valve, flux, gap, speed, stopping), time + step
         # What is remembered is where the spool was, not where it may be at the end of the step.
-        self.largest = max(self.largest, faces)
+        known, self.largest = self.largest, max(self.largest, faces)
+        if self.faces is not None and known <= self.faces.most < faces:
+            self.log(
+                f"the faces of the stop are pressed by {faces:.6g} m at t = {time:.9g} s, beyond "
+                f"{self.faces.most:.6g} m where their tables end: the force goes on along its "
+                "tangent; give the stop a larger area, or faces solved to larger loads",
+                Fmi2Status.warning,
+                "logStatusWarning",
+            )
         for start, stop in pairwise([time, *law.switching_times(valve.profile, time, end), end]):
             applied = law.voltage(valve.profile, 0.5 * (start + stop))
             here = gap + speed * (start - time)

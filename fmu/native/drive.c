@@ -136,6 +136,19 @@ static int no_step(ck_model *model, double length, const way *gone) {
     return CK_DISCARD;
 }
 
+/* Say once that the faces are pressed further than was solved. */
+static void warn_beyond(ck_model *model, double known, double time) {
+    double end = model->data.faces.first.end, now = model->state.driven.largest;
+    char message[400];
+    if (!(known <= end && end < now)) return;
+    snprintf(message, sizeof message,
+             "the faces of the stop are pressed by %.6g m at t = %.9g s, beyond %.6g m where their "
+             "tables end: the force goes on along its tangent; give the stop a larger area, or "
+             "faces solved to larger loads",
+             now, time, end);
+    model->say(model->host, CK_WARNING, "logStatusWarning", message);
+}
+
 static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state, before = *state;
     double *v = state->values;
@@ -160,6 +173,7 @@ static int step(ck_model *model, double time, double length) {
         return CK_DISCARD;
     }
     state->shown = 1;
+    warn_beyond(model, before.driven.largest, time);
     return CK_OK;
 }
 

@@ -332,6 +332,10 @@ def test_a_rough_stop_remembers_as_the_python_fmu_does(curve, tmp_path, open_fmu
         seen.add(python.values["F_stop"] > 0.0)
     assert python.largest > most
     assert seen == {True, False}
+    warned = [one for one in host.log if "beyond" in str(one)]
+    told = [one.msg for one in python.log_queue if "beyond" in one.msg]
+    assert len(warned) == len(told) == 1  # once, though it is there three times
+    assert told[0] in str(warned[0])
 
 
 def test_faces_without_yield_are_one_curve(tmp_path, open_fmu):
