@@ -15,8 +15,8 @@ from .film_laws import impulse_name
 from .kernels.short_step import Short
 from .kernels.step_reading import highest, travel_integral
 from .kernels.stiff_step import WEIGHTS, Step
-from .motion_events import first_mark, happen
-from .motion_smooth import COASTING, NO_FORCE, smooth_once
+from .motion_events import SAME, first_mark, happen
+from .motion_smooth import NO_FORCE, is_spent, smooth_once
 from .motion_state import Drive, MotionState, Pull
 from .plan import Film, Plan
 from .step_problem import StepProblem, first_step, step_problem
@@ -24,7 +24,6 @@ from .step_problem import StepProblem, first_step, step_problem
 __all__ = ["advance", "rest_once", "step_once"]
 
 _SAFETY, _SHRINK, _GROW = 0.9, 0.1, 8.0
-_SAME = 1e-11  # two gaps closer than this, relatively, are one
 _PLACES = {name: place for place, name in enumerate(MotionState._fields)}
 _NOTHING = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
 
@@ -120,7 +119,7 @@ def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> Motion
     if state.gap < _NOTHING:
         raise _no_step(state, plan.accuracy.time_rtol)
     rest = plan.scene.opening.rest_gap
-    if state.speed < 0.0 and state.gap <= rest * (1.0 + _SAME):
+    if state.speed < 0.0 and state.gap <= rest * (1.0 + SAME):
         return state._replace(held=True, gap=rest, speed=0.0)
     film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
     problem = _posed(plan, film, state, pull, end)
@@ -171,7 +170,7 @@ def _posed(
     problem = step_problem(plan, film, state, pull)
     if problem.size > NO_FORCE:
         return problem
-    if 0.0 < abs(state.speed) * problem.mass < -COASTING * problem.at_start[2] * state.gap:
+    if is_spent(problem.mass, state.speed, -problem.at_start[2], state.gap):
         return None
     return problem.expecting(0.5 * abs(pull(end)))  # the mean of a ramp
 
@@ -198,7 +197,7 @@ def _judge(
     if error > 1.0:
         return error
     end, rest = taken.stages[2], plan.scene.opening.rest_gap
-    if end.gap < rest * (1.0 - _SAME) and state.gap <= rest * (1.0 + _SAME):
+    if end.gap < rest * (1.0 - SAME) and state.gap <= rest * (1.0 + SAME):
         return 16.0  # a hop that begins and ends at the rest gap: cut it, there is no crossing
     if film is None or not film.limits:
         return error

@@ -5,9 +5,9 @@ from __future__ import annotations
 from .motion_state import MotionState
 from .plan import Film, Plan
 
-__all__ = ["first_mark", "happen"]
+__all__ = ["SAME", "first_mark", "happen"]
 
-_SAME = 1e-11  # two gaps closer than this, relatively, are one
+SAME = 1e-11  # two gaps closer than this, relatively, are one
 
 
 def _closed_gap(plan: Plan) -> float:
@@ -25,7 +25,7 @@ def first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) ->
             marks += (opening.final_gap,)
         if film is not None:
             marks += (film.end, film.release)
-        low = state.gap * (1.0 + _SAME)
+        low = state.gap * (1.0 + SAME)
         return min([m for m in marks if low < m < gap or m == gap], default=None)
     marks += (opening.rest_gap,)
     if state.broken:
@@ -34,7 +34,7 @@ def first_mark(plan: Plan, film: Film | None, state: MotionState, gap: float) ->
         marks += (plan.film.rejoin,)
     if not state.armed:
         marks += (_closed_gap(plan),)
-    low = gap * (1.0 + _SAME)
+    low = gap * (1.0 + SAME)
     return max([m for m in marks if low < m < state.gap or m == gap], default=None)
 
 

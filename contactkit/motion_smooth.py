@@ -11,24 +11,28 @@ import math
 from .kernels.smooth_step import Even, Here, smooth_step
 from .kernels.step_reading import highest
 from .kernels.stiff_step import WEIGHTS
-from .motion_events import first_mark
+from .motion_events import SAME, first_mark
 from .motion_state import MotionState, Pull
 from .plan import Film, Plan
 
-__all__ = ["COASTING", "NO_FORCE", "smooth_once"]
+__all__ = ["NO_FORCE", "is_spent", "smooth_once"]
 
 _GROW, _SAFETY = 8.0, 0.9
 _TINY = (_SAFETY / _GROW) ** 4  # error over its tolerance below which the next step is as long
 _LEFT = 3e-3  # what the rounds may leave of the rates, over the tolerance of a step
 _SPREAD = 1e-9  # what the work may miss, relatively, where the force jumps as the step begins
 NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
-COASTING = 1e-30  # share of the gap over which the film stops a mass that is as good as at rest
-_SAME = 1e-11  # two gaps closer than this, relatively, are one
+_COASTING = 1e-30  # share of the gap over which the film stops a mass that is as good as at rest
 _W1, _W2, _W3 = WEIGHTS
 
 
 def _free(gap: float) -> Here:
     return gap, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, math.inf
+
+
+def is_spent(mass: float, speed: float, resistance: float, gap: float) -> bool:
+    """Whether a moving mass that nothing pulls is as good as at rest."""
+    return 0.0 < abs(speed) * mass < _COASTING * resistance * gap
 
 
 def smooth_once(plan: Plan, state: MotionState, pull: Pull, end: float) -> MotionState | None:
@@ -37,7 +41,7 @@ def smooth_once(plan: Plan, state: MotionState, pull: Pull, end: float) -> Motio
     step, detached, opening = state.step, state.detached, plan.scene.opening
     mass, left = opening.mass, end - time
     length = step if step < left else left
-    falls = speed <= 0.0 and gap <= opening.rest_gap * (1.0 + _SAME)
+    falls = speed <= 0.0 and gap <= opening.rest_gap * (1.0 + SAME)
     if held or falls or mass is None or not length > 0.0:
         return None
     film: Film | None = plan.film
@@ -50,8 +54,8 @@ def smooth_once(plan: Plan, state: MotionState, pull: Pull, end: float) -> Motio
     static, drag, stiffness, start = here[1], here[4], opening.stiffness, opening.initial_gap
     pulled, rate = pull(time), pull.rate
     size = abs(pulled) + abs(static) + stiffness * abs(gap - start) + 1e-300
-    if size <= NO_FORCE and abs(speed) * mass < COASTING * drag * gap:
-        return None  # as good as at rest
+    if size <= NO_FORCE and is_spent(mass, speed, drag, gap):
+        return None
     scale = gap / step
     if drag > 0.0:
         scale = max(size / drag, 1e-15 * scale)
