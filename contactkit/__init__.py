@@ -28,118 +28,247 @@ separation: speed imposed, gap 5e-06 m to 2.5e-05 m
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from .accuracy import Accuracy
-from .asperity_population import AsperityPopulation
-from .bodies import Body, ContactInterface, Pressing, Window
-from .contact_plan import ContactPlan
-from .contact_scene import ContactScene
-from .effects import (
-    AdhesiveContact,
-    AsperityMenisci,
-    MeniscusForce,
-    Rupture,
-    ShearLimit,
-    TensionLimit,
-    VanDerWaalsForce,
-    ViscousForce,
-)
-from .effects.elasticity import HalfSpace, LayeredHalfSpace
-from .effects.film import FilmMeniscus
-from .effects.friction import FrictionCoupling, FrictionTraction
-from .effects.island_bridges import IslandBridges
-from .effects.plasticity import HardnessLimit, HardnessMap
-from .effects.registry import EFFECTS
-from .effects.sliding import ContactAngleHysteresis, CouetteForce
-from .effects.stress import SubsurfaceStress
-from .errors import (
-    ContactkitError,
-    ConvergenceError,
-    DescriptionError,
-    InfeasibleError,
-    NotSimulatedError,
-    PlanError,
-    ValidityWarning,
-)
-from .interface import Interface, Meniscus, Opening, Sliding, Vibration
-from .liquids import Liquid
-from .materials import Layer, Material, Stack
-from .motion import advance
-from .motion_state import FilmStatus, LimitKind, MotionState, Pull
-from .plan import Plan
-from .planner import plan
-from .scene import SeparationScene, SlidingScene
-from .surfaces import Flat, Sphere
-from .topography import (
-    CombinedSurface,
-    GaussianRoughness,
-    Heights,
-    Measured,
-    Paraboloid,
-    SelfAffineRoughness,
-    Wave,
-)
+from ._lazy import lazy_names
 
 if TYPE_CHECKING:
-    from .adhesion_curves import adhesion_curve
-    from .archive import load_result, save_result
-    from .contact import solve
-    from .divide import critical_meniscus, divide_meniscus
-    from .humidity_curves import humidity_curve
-    from .io import load_liquid, load_material, load_scene, save_scene
-    from .press_map import press
-    from .published_formulas import PUBLISHED, published
-    from .separation import simulate
-    from .sliding_plan import SlidingPlan, divide_sliding
-    from .stop_curves import stop_curve
-    from .studies import study
+    from .accuracy import Accuracy
+    from .analyses.adhesion_curve import adhesion_curve
+    from .analyses.division import critical_meniscus, divide_meniscus
+    from .analyses.humidity_curve import humidity_curve
+    from .analyses.load_displacement.solve import stop_curve
+    from .as_published.lookup import PUBLISHED, published
+    from .contact.effects.elasticity import HalfSpace, LayeredHalfSpace
+    from .contact.effects.film import FilmMeniscus
+    from .contact.effects.friction import FrictionCoupling, FrictionTraction
+    from .contact.effects.island_bridges import IslandBridges
+    from .contact.effects.plasticity import HardnessLimit, HardnessMap
+    from .contact.effects.stress import SubsurfaceStress
+    from .contact.plan import ContactPlan
+    from .contact.press import press
+    from .contact.solve import solve
+    from .effects import EFFECTS
+    from .errors import (
+        ContactkitError,
+        ConvergenceError,
+        DescriptionError,
+        InfeasibleError,
+        NotSimulatedError,
+        PlanError,
+        ValidityWarning,
+    )
+    from .files.results import load_result, save_result
+    from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .liquids.liquid import Liquid
+    from .planning import plan
+    from .scene.asperity_population import AsperityPopulation
+    from .scene.bodies import Body, ContactInterface, Pressing, Window
+    from .scene.contact_scene import ContactScene
+    from .scene.interface import Interface, Meniscus, Opening, Sliding, Vibration
+    from .scene.materials import Layer, Material, Stack
+    from .scene.scenes import SeparationScene, SlidingScene
+    from .scene.shapes import Flat, Sphere
+    from .scene.topography import (
+        CombinedSurface,
+        GaussianRoughness,
+        Heights,
+        Measured,
+        Paraboloid,
+        SelfAffineRoughness,
+        Wave,
+    )
+    from .separation.effects.registry import (
+        AdhesiveContact,
+        AsperityMenisci,
+        MeniscusForce,
+        Rupture,
+        ShearLimit,
+        TensionLimit,
+        VanDerWaalsForce,
+        ViscousForce,
+    )
+    from .separation.motion.advance import advance
+    from .separation.motion.state import FilmStatus, LimitKind, MotionState, Pull
+    from .separation.plan import Plan
+    from .separation.simulate import simulate
+    from .separation.sliding.effects import ContactAngleHysteresis, CouetteForce
+    from .separation.sliding.plan import SlidingPlan, divide_sliding
+    from .studies.study import study
 
 __version__ = "0.1.0"
 
-__all__ = [
-    "EFFECTS", "PUBLISHED", "Accuracy", "AdhesiveContact",
-    "AsperityMenisci", "AsperityPopulation", "Body", "CombinedSurface", "ContactAngleHysteresis", "ContactInterface", "ContactPlan",
-    "ContactScene", "ContactkitError", "ConvergenceError", "CouetteForce", "DescriptionError", "FilmMeniscus",
-    "FilmStatus", "Flat", "FrictionCoupling", "FrictionTraction", "GaussianRoughness",
-    "HalfSpace", "HardnessLimit", "HardnessMap", "Heights", "InfeasibleError", "Interface", "IslandBridges",
-    "Layer", "LayeredHalfSpace", "LimitKind", "Liquid", "Material", "Measured", "Meniscus",
-    "MeniscusForce", "MotionState", "NotSimulatedError", "Opening", "Paraboloid", "Plan",
-    "PlanError", "Pressing", "Pull", "Rupture", "SelfAffineRoughness", "SeparationScene",
-    "ShearLimit", "Sliding", "SlidingPlan", "SlidingScene", "Sphere", "Stack", "SubsurfaceStress", "TensionLimit", "ValidityWarning",
-    "VanDerWaalsForce", "Vibration", "ViscousForce", "Wave", "Window", "adhesion_curve", "advance",
-    "critical_meniscus", "divide_meniscus", "divide_sliding", "humidity_curve", "load_liquid", "load_material", "load_result",
-    "load_scene", "plan", "press", "published", "save_result", "save_scene", "simulate", "solve",
-    "stop_curve", "study",
-]  # fmt: skip
-
-# What needs numpy or cattrs is imported when it is first asked for.
-_LATER = {
-    "adhesion_curve": "adhesion_curves",
-    "critical_meniscus": "divide",
-    "divide_meniscus": "divide",
-    "humidity_curve": "humidity_curves",
-    "simulate": "separation",
-    "SlidingPlan": "sliding_plan",
-    "divide_sliding": "sliding_plan",
-    "solve": "contact",
-    "stop_curve": "stop_curves",
-    "press": "press_map",
-    "PUBLISHED": "published_formulas",
-    "published": "published_formulas",
-    "study": "studies",
-    "load_liquid": "io",
-    "load_material": "io",
-    "load_result": "archive",
-    "load_scene": "io",
-    "save_result": "archive",
-    "save_scene": "io",
+# Every name is imported when it is first asked for: `import contactkit` costs next to nothing.
+_HOMES = {
+    "Accuracy": "accuracy",
+    "AdhesiveContact": "separation.effects.registry",
+    "AsperityMenisci": "separation.effects.registry",
+    "AsperityPopulation": "scene.asperity_population",
+    "Body": "scene.bodies",
+    "CombinedSurface": "scene.topography",
+    "ContactAngleHysteresis": "separation.sliding.effects",
+    "ContactInterface": "scene.bodies",
+    "ContactPlan": "contact.plan",
+    "ContactScene": "scene.contact_scene",
+    "ContactkitError": "errors",
+    "ConvergenceError": "errors",
+    "CouetteForce": "separation.sliding.effects",
+    "DescriptionError": "errors",
+    "EFFECTS": "effects",
+    "FilmMeniscus": "contact.effects.film",
+    "FilmStatus": "separation.motion.state",
+    "Flat": "scene.shapes",
+    "FrictionCoupling": "contact.effects.friction",
+    "FrictionTraction": "contact.effects.friction",
+    "GaussianRoughness": "scene.topography",
+    "HalfSpace": "contact.effects.elasticity",
+    "HardnessLimit": "contact.effects.plasticity",
+    "HardnessMap": "contact.effects.plasticity",
+    "Heights": "scene.topography",
+    "InfeasibleError": "errors",
+    "Interface": "scene.interface",
+    "IslandBridges": "contact.effects.island_bridges",
+    "Layer": "scene.materials",
+    "LayeredHalfSpace": "contact.effects.elasticity",
+    "LimitKind": "separation.motion.state",
+    "Liquid": "liquids.liquid",
+    "Material": "scene.materials",
+    "Measured": "scene.topography",
+    "Meniscus": "scene.interface",
+    "MeniscusForce": "separation.effects.registry",
+    "MotionState": "separation.motion.state",
+    "NotSimulatedError": "errors",
+    "Opening": "scene.interface",
+    "PUBLISHED": "as_published.lookup",
+    "Paraboloid": "scene.topography",
+    "Plan": "separation.plan",
+    "PlanError": "errors",
+    "Pressing": "scene.bodies",
+    "Pull": "separation.motion.state",
+    "Rupture": "separation.effects.registry",
+    "SelfAffineRoughness": "scene.topography",
+    "SeparationScene": "scene.scenes",
+    "ShearLimit": "separation.effects.registry",
+    "Sliding": "scene.interface",
+    "SlidingPlan": "separation.sliding.plan",
+    "SlidingScene": "scene.scenes",
+    "Sphere": "scene.shapes",
+    "Stack": "scene.materials",
+    "SubsurfaceStress": "contact.effects.stress",
+    "TensionLimit": "separation.effects.registry",
+    "ValidityWarning": "errors",
+    "VanDerWaalsForce": "separation.effects.registry",
+    "Vibration": "scene.interface",
+    "ViscousForce": "separation.effects.registry",
+    "Wave": "scene.topography",
+    "Window": "scene.bodies",
+    "adhesion_curve": "analyses.adhesion_curve",
+    "advance": "separation.motion.advance",
+    "critical_meniscus": "analyses.division",
+    "divide_meniscus": "analyses.division",
+    "divide_sliding": "separation.sliding.plan",
+    "humidity_curve": "analyses.humidity_curve",
+    "load_liquid": "files.scenes",
+    "load_material": "files.scenes",
+    "load_result": "files.results",
+    "load_scene": "files.scenes",
+    "plan": "planning",
+    "press": "contact.press",
+    "published": "as_published.lookup",
+    "save_result": "files.results",
+    "save_scene": "files.scenes",
+    "simulate": "separation.simulate",
+    "solve": "contact.solve",
+    "stop_curve": "analyses.load_displacement.solve",
+    "study": "studies.study",
 }
 
+__all__ = [
+    "Accuracy",
+    "AdhesiveContact",
+    "AsperityMenisci",
+    "AsperityPopulation",
+    "Body",
+    "CombinedSurface",
+    "ContactAngleHysteresis",
+    "ContactInterface",
+    "ContactPlan",
+    "ContactScene",
+    "ContactkitError",
+    "ConvergenceError",
+    "CouetteForce",
+    "DescriptionError",
+    "EFFECTS",
+    "FilmMeniscus",
+    "FilmStatus",
+    "Flat",
+    "FrictionCoupling",
+    "FrictionTraction",
+    "GaussianRoughness",
+    "HalfSpace",
+    "HardnessLimit",
+    "HardnessMap",
+    "Heights",
+    "InfeasibleError",
+    "Interface",
+    "IslandBridges",
+    "Layer",
+    "LayeredHalfSpace",
+    "LimitKind",
+    "Liquid",
+    "Material",
+    "Measured",
+    "Meniscus",
+    "MeniscusForce",
+    "MotionState",
+    "NotSimulatedError",
+    "Opening",
+    "PUBLISHED",
+    "Paraboloid",
+    "Plan",
+    "PlanError",
+    "Pressing",
+    "Pull",
+    "Rupture",
+    "SelfAffineRoughness",
+    "SeparationScene",
+    "ShearLimit",
+    "Sliding",
+    "SlidingPlan",
+    "SlidingScene",
+    "Sphere",
+    "Stack",
+    "SubsurfaceStress",
+    "TensionLimit",
+    "ValidityWarning",
+    "VanDerWaalsForce",
+    "Vibration",
+    "ViscousForce",
+    "Wave",
+    "Window",
+    "adhesion_curve",
+    "advance",
+    "critical_meniscus",
+    "divide_meniscus",
+    "divide_sliding",
+    "humidity_curve",
+    "load_liquid",
+    "load_material",
+    "load_result",
+    "load_scene",
+    "plan",
+    "press",
+    "published",
+    "save_result",
+    "save_scene",
+    "simulate",
+    "solve",
+    "stop_curve",
+    "study",
+]
 
-def __getattr__(name: str) -> Any:
-    if name in _LATER:
-        from importlib import import_module
+__getattr__ = lazy_names(__name__, _HOMES)
 
-        return getattr(import_module(f".{_LATER[name]}", __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+def __dir__() -> list[str]:
+    return [*globals(), *_HOMES]

@@ -6,8 +6,8 @@ from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
-from .checks import as_pair, choice, count, refuse
 from .units import si
+from .validators import as_pair, choice, count, refuse
 
 __all__ = ["Accuracy"]
 

@@ -147,7 +147,7 @@ def _progress(text: str) -> Iterator[Progress]:
 
 def _load(name: str) -> Any:
     """Open a scene; what it needs is imported now, so that --help is quick."""
-    from .models.scenes import open_scene
+    from .app.scenes import open_scene
 
     return open_scene(name)
 
@@ -171,7 +171,7 @@ def _cost(parsed: argparse.Namespace) -> None:
 
 
 def _build(parsed: argparse.Namespace) -> None:
-    from .fmu.build import FMUS, build, validate
+    from .fmu.python.build import FMUS, build, validate
 
     _check_build(parsed)
     if parsed.native:
@@ -187,9 +187,9 @@ def _build(parsed: argparse.Namespace) -> None:
 
 def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
     """Write a native FMU; what it is, and the file."""
-    from .fmu.build import FMUS
-    from .fmu.native_build import build_native, native_scene
-    from .fmu.native_drive import build_native_drive
+    from .fmu.native.build import build_native, native_scene
+    from .fmu.native.drive import build_native_drive
+    from .fmu.python.build import FMUS
 
     fmi: Literal[2, 3] = 3 if parsed.fmi == "3" else 2
     if "valve-drive" in (parsed.what, parsed.model):
@@ -207,9 +207,9 @@ def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
 
 def _drive_start(what: str) -> Mapping[str, Any]:
     """Start values of the drive of a scene; none of one that is named itself."""
+    from .app.injector.run import drive_values
     from .errors import PlanError
-    from .fmu.build import FMUS
-    from .models.injector import drive_values
+    from .fmu.python.build import FMUS
 
     if what == "valve-drive":
         return {}
@@ -247,7 +247,7 @@ def _check_build(parsed: argparse.Namespace) -> None:
 
 
 def _system(parsed: argparse.Namespace) -> None:
-    from .fmu.system import write_system
+    from .app.fmu_system import write_system
 
     out = parsed.out or Path(f"{Path(parsed.scene).stem}.ssp")
     path = write_system(parsed.scene, out, native=parsed.native)
@@ -256,7 +256,7 @@ def _system(parsed: argparse.Namespace) -> None:
 
 
 def _crosscheck(parsed: argparse.Namespace) -> None:
-    from .fmu.crosscheck import write_crosscheck
+    from .app.fmu_crosscheck import write_crosscheck
 
     paths = write_crosscheck(parsed.out, fmus=not parsed.no_fmu)
     print("written: " + ", ".join(str(path) for path in paths))

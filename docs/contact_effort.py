@@ -10,9 +10,9 @@ from typing import Any
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.contact_engine import Engine
-from contactkit.kernels.active_set import Press
-from contactkit.kernels.roughness_statistics import rms_slope
+from contactkit.contact.engine import Engine
+from contactkit.contact.solver.press import Press
+from contactkit.roughness.statistics import rms_slope
 
 STEEL = ck.Material(young_modulus=210e9, poisson_ratio=0.3, hardness=7.5e9)
 
@@ -33,8 +33,8 @@ def rough_scene(
     """A self-affine surface whose shortest wave has eight pixels, pressed to about an area."""
     width = n * 10e-9
     surface = ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=width / 4, cutoff=80e-9)
-    from contactkit.realise import realise
-    from contactkit.topography import Grid
+    from contactkit.contact.grid import realise
+    from contactkit.scene.topography import Grid
 
     heights = realise(surface, Grid((n, n), (10e-9, 10e-9), True))
     slope = float(rms_slope(heights, (10e-9, 10e-9), True))

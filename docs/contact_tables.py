@@ -10,8 +10,8 @@ from pathlib import Path
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.models import scenes
-from contactkit.tables import SURFACE_KINDS
+from contactkit.app import scenes
+from contactkit.files.unstructure import SURFACE_KINDS
 
 MODELS = Path(inspect.getfile(scenes)).parent
 ONLY_IN_PYTHON = {"heights"}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from validation_tables import grid
 
-from contactkit.models.coil import Coil
+from contactkit.app.injector.run.coil import Coil
 
 
 def assumption_table(name: str) -> str:

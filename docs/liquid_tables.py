@@ -12,8 +12,8 @@ from typing import Any
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.liquids import LAWS
-from contactkit.models.coil import Coil
+from contactkit.app.injector.run.coil import Coil
+from contactkit.liquids.liquid import LAWS
 from contactkit.units import celsius, cSt
 
 

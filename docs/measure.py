@@ -19,13 +19,16 @@ import numpy as np
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.fmu.build import build
-from contactkit.fmu.instance import Instance
-from contactkit.fmu.stiction_mass import MeniscusLaw
-from contactkit.kernels import bridge_film, bridge_limit, flat_family, flat_law
-from contactkit.kernels.bridge_exact import bridge, bridge_at_pressure
-from contactkit.models.monolithic import simulate as whole
-from contactkit.models.scenes import open_scene
+from contactkit.app.injector.run.monolithic import simulate as whole
+from contactkit.app.scenes import open_scene
+from contactkit.capillary.exact import pressure_branch as bridge_film
+from contactkit.capillary.exact import stability as bridge_limit
+from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
+from contactkit.capillary.flats import family as flat_family
+from contactkit.capillary.flats import force_law as flat_law
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.python.build import build
+from contactkit.fmu.slaves.stiction_mass import MeniscusLaw
 from contactkit.units import celsius
 
 CASES = json.loads(

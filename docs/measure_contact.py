@@ -19,7 +19,7 @@ from measured_blocks import write_blocks
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.kernels.layered import compliance, normal_symbol
+from contactkit.elasticity.layered import compliance, normal_symbol
 from contactkit.reference import hertz
 
 DATA = Path(__file__).parents[1] / "tests" / "data"

@@ -14,7 +14,7 @@ from measured_blocks import write_blocks
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.contact_engine import Engine
+from contactkit.contact.engine import Engine
 
 N, WIDTH, MODULUS = 256, 2e-6, 1e11
 STACKS = {  # modulus over that of the substrate, thickness over the window

@@ -30,34 +30,34 @@ from validation_tables import (
 )
 
 import contactkit as ck
-from contactkit.bodies import Body
-from contactkit.effects import SEPARATION_EFFECTS
-from contactkit.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
-from contactkit.effects.contact import CONTACT_EFFECTS
-from contactkit.effects.contact_base import (
+from contactkit.app.injector.run import Study
+from contactkit.app.injector.run.coil import Coil
+from contactkit.app.injector.run.valve import DriveProfile, Spring, Stop
+from contactkit.app.micromirror.run.electrostatics import Electrode
+from contactkit.app.micromirror.run.mirror import Hinge, SpringTips, Waveform
+from contactkit.app.micromirror.run.scene import MirrorStudy
+from contactkit.contact.effects.base import (
     Compliance,
     DisplacementTerm,
     LoadTerm,
     Observer,
     PressureCap,
 )
-from contactkit.effects.sliding import SLIDING_EFFECTS
-from contactkit.effects.sliding_base import SlidingForce
-from contactkit.fmu.contact_stop import ContactStop
-from contactkit.fmu.ports import Port
-from contactkit.fmu.slave import PortSlave
-from contactkit.fmu.stiction_force import StictionForce
-from contactkit.fmu.stiction_mass import StictionMass
-from contactkit.fmu.tip_contact import TipContact
-from contactkit.fmu.valve_drive import ValveDrive
-from contactkit.liquids import LAWS
-from contactkit.models.coil import Coil
-from contactkit.models.injector import Study
-from contactkit.models.micromirror_scene import MirrorStudy
-from contactkit.models.mirror import Hinge, SpringTips, Waveform
-from contactkit.models.mirror_plate import Electrode
-from contactkit.models.stop_faces import StopFaces
-from contactkit.models.valve import DriveProfile, Spring, Stop
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.fmu.framework.ports import Port
+from contactkit.fmu.framework.slave import PortSlave
+from contactkit.fmu.slaves.contact_stop import ContactStop
+from contactkit.fmu.slaves.stiction_force import StictionForce
+from contactkit.fmu.slaves.stiction_mass import StictionMass
+from contactkit.fmu.slaves.tip_contact import TipContact
+from contactkit.fmu.slaves.valve_drive import ValveDrive
+from contactkit.liquids.liquid import LAWS
+from contactkit.models.end_stop.faces import StopFaces
+from contactkit.scene.bodies import Body
+from contactkit.separation.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
+from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+from contactkit.separation.sliding.effects import SLIDING_EFFECTS
+from contactkit.separation.sliding.zz_sliding_base import SlidingForce
 
 FMUS: Mapping[str, type[PortSlave]] = {
     "stiction-mass": StictionMass,

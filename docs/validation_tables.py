@@ -12,7 +12,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 import contactkit as ck
-from contactkit.kernels import arc_sphere, bridge_arc, published, squeeze
+from contactkit.as_published.printed import common as published
+from contactkit.capillary.arc import bridge as bridge_arc
+from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.lubrication import squeeze_film as squeeze
 
 DOCS = Path(__file__).parent
 
@@ -133,7 +136,7 @@ def exact_table() -> str:
     for case in _reference("exact_bridge"):
         shape, gap, volume = _shape(case), case["D"], case["V"]
         right = case["F_over_gamma"]
-        state = bridge_arc.bridge(gap, volume, *shape)
+        state = bridge_arc.arc_bridge(gap, volume, *shape)
         forces = [float(state.force)]
         if _bodies(case) == "flats":
             radius = float(state.radius_lower)

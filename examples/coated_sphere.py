@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import contactkit as ck
-from contactkit import plot
+from contactkit.plot import separation as plot
 from contactkit.reference import hertz
 from contactkit.units import GPa, mm, um
 

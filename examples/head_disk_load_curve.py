@@ -15,8 +15,8 @@ import numpy as np
 from attrs import evolve
 
 import contactkit as ck
-from contactkit import plot
-from contactkit.models.scenes import open_scene
+from contactkit.app.scenes import open_scene
+from contactkit.plot import separation as plot
 from contactkit.units import MPa, um
 
 

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import contactkit as ck
-from contactkit import plot
+from contactkit.plot import separation as plot
 from contactkit.units import nm
 
 if TYPE_CHECKING:
-    from contactkit.humidity_curves import HumidityCurve
+    from contactkit.analyses.humidity_curve import HumidityCurve
 
 HUMIDITIES = [0.05 + 0.01 * i for i in range(93)]
 WATER = ck.load_liquid("water")

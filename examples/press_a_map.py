@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import contactkit as ck
-from contactkit import contact_plot, plot
+from contactkit.plot import contact as contact_plot
+from contactkit.plot import separation as plot
 from contactkit.units import GPa, nm, um
 
 PIXELS, PIXEL = 128, 20 * nm

@@ -12,7 +12,8 @@ import pytest
 from scipy.integrate import quad
 
 import contactkit as ck
-from contactkit.kernels import adhesion_scales, dmt, jkr, maugis_dugdale, van_der_waals
+from contactkit.adhesion import dmt, jkr, maugis_dugdale, van_der_waals
+from contactkit.adhesion import parameters as adhesion_scales
 from contactkit.reference import hertz
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

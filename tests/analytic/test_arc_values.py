@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from contactkit.kernels import arc_flat, arc_sphere
-from contactkit.kernels.bridge_arc import bridge
-from contactkit.kernels.quadrature import gauss_legendre
+from contactkit.capillary.arc import flat as arc_flat
+from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.capillary.arc.bridge import arc_bridge
+from contactkit.numerics.quadrature import gauss_legendre
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "separation.json").read_text())
 RTOL = 1e-12  # what the reference states are good for
@@ -151,7 +152,7 @@ BANDS = {  # largest relative error of the force, up to a share of the exact sta
     "case", [case for case in named("exact_bridge") if case.values[0]["id"] in BANDS]
 )
 def test_force_against_the_exact_bridge(case):
-    state = bridge(case["D"], case["V"], *angles(case), case["kappa1"], case["kappa2"])
+    state = arc_bridge(case["D"], case["V"], *angles(case), case["kappa1"], case["kappa2"])
     assert state.force == pytest.approx(case["F_over_gamma"], rel=BANDS[case["id"]])
     stretched = case["id"] == "flat_30_30_D1.2"  # at 97.6 % of its limit
     for radius, name in ((state.radius_lower, "r1"), (state.radius_upper, "r2")):
@@ -162,7 +163,7 @@ def test_force_against_the_exact_bridge(case):
 
 
 def test_cylinder_is_exact():
-    state = bridge([0.1, 1.0, 1.4], 1.0, math.pi / 2, math.pi / 2)
+    state = arc_bridge([0.1, 1.0, 1.4], 1.0, math.pi / 2, math.pi / 2)
     radius = 1.0 / np.sqrt(math.pi * np.array([0.1, 1.0, 1.4]))
     np.testing.assert_allclose(state.force, math.pi * radius, rtol=1e-15)
     np.testing.assert_allclose(state.pressure, 1.0 / radius, rtol=1e-15)
@@ -171,7 +172,7 @@ def test_cylinder_is_exact():
 
 def test_thin_film_on_a_sphere_pulls_like_laplace():
     """2 pi R (cos + cos) for a trace of liquid at contact, Eq. (3.6)."""
-    state = bridge(0.0, 1e-20, 40 * DEG, 40 * DEG, 0.0, 1.0)
+    state = arc_bridge(0.0, 1e-20, 40 * DEG, 40 * DEG, 0.0, 1.0)
     assert state.force == pytest.approx(4.0 * math.pi * math.cos(40 * DEG), rel=1e-5)
 
 

@@ -12,9 +12,9 @@ import pytest
 from scipy import integrate, stats
 
 import contactkit as ck
-from contactkit.asperity_population import AsperityPopulation
-from contactkit.kernels import asperities as laws
-from contactkit.kernels import kelvin
+from contactkit.capillary import asperities as laws
+from contactkit.capillary import kelvin
+from contactkit.scene.asperity_population import AsperityPopulation
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "menisci.json").read_text())["physics"]
 SURFACE = {"radius": 1e-6, "density": 5e13, "area": 1e-8}
@@ -119,7 +119,7 @@ def test_peaks_of_a_gaussian_surface_are_counted():
     m0 = power[k > 0].sum()
     m2 = 0.5 * (power * (2.0 * math.pi * k) ** 2).sum()
     z = (z - z.mean()) / math.sqrt(m0)
-    from contactkit.kernels.film_islands import islands
+    from contactkit.capillary.film_islands import islands
 
     found = islands(z > 2.5, periodic=True)[1]
     assert found == pytest.approx(laws.gaussian_peaks(2.5, size**2, m0, m2), rel=0.2)
@@ -137,7 +137,7 @@ def test_a_sphere_split_into_equal_ones_fills_the_same_square():
 
 def test_split_menisci_touch_where_the_kernel_says_they_do():
     """Cover pi/4, circles touching in a square order, at n = R/(2 (s - D))."""
-    from contactkit.kernels.menisci import least_overlapping_split
+    from contactkit.capillary.many_menisci import least_overlapping_split
 
     n = least_overlapping_split(50e-6, 500e-9, 0.0)
     made = AsperityPopulation.split(radius=50e-6, count=round(n * n))

@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from contactkit.kernels.bridge_exact import (
+from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.bridge import (
     KINDS,
     bridge,
     bridge_at_pressure,
     laterally_stable,
     margin,
 )
-from contactkit.kernels.bridge_limit import LIMITS, stability_limit
-from contactkit.kernels.bridge_pressure import longest_at_pressure
-from contactkit.kernels.bridge_profile import profile
+from contactkit.capillary.exact.profile import profile
+from contactkit.capillary.exact.stability import LIMITS, stability_limit
 
 DATA = Path(__file__).parents[1] / "data"
 CASES = json.loads((DATA / "separation.json").read_text()) | json.loads(

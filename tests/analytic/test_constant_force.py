@@ -8,7 +8,8 @@ import pytest
 from scipy.integrate import quad
 
 import contactkit as ck
-from contactkit.kernels import constant_force, squeeze
+from contactkit.lubrication import constant_force
+from contactkit.lubrication import squeeze_film as squeeze
 
 # The printed injector is outside the range of its models, and says so.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.divide import critical_meniscus, divide_meniscus
-from contactkit.kernels import menisci
+from contactkit.analyses.division import critical_meniscus, divide_meniscus
+from contactkit.capillary import many_menisci as menisci
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "menisci.json").read_text())
 WATER = ck.Liquid(name="water", surface_tension=0.072, viscosity=0.89e-3)

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.kernels.bridge_limit import stability_limit
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.exact.stability import stability_limit
 from contactkit.reference import elliptic_bridge
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "separation.json").read_text())

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from contactkit.kernels.film_islands import film_force, islands, meniscus_area
-from contactkit.kernels.roughness import gaussian_exponential, paraboloid
+from contactkit.capillary.film_islands import film_force, islands, meniscus_area
+from contactkit.roughness.roughness import gaussian_exponential, paraboloid
 
 few = settings(deadline=None, max_examples=60)
 MASKS = arrays(bool, st.tuples(st.integers(1, 7), st.integers(1, 7)))

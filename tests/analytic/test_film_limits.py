@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from contactkit.kernels import film_limits, squeeze
+from contactkit.lubrication import film_limits
+from contactkit.lubrication import squeeze_film as squeeze
 from contactkit.reference.reynolds import film_force
 
 OIL, FACE, GAP, BAR = 0.1, 3.175e-3, 2e-6, 1e5

@@ -9,9 +9,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.kernels.flat_family import family
-from contactkit.kernels.flat_law import flat_end, flat_law
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.flats.family import family
+from contactkit.capillary.flats.force_law import flat_end, flat_law
 
 FINE = 1e-11
 

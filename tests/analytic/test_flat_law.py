@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contactkit.capillary.arc import flat as arc_flat
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.exact.stability import stability_limit
+from contactkit.capillary.flats.force_law import flat_end, flat_law
 from contactkit.errors import InfeasibleError
-from contactkit.kernels import arc_flat
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.kernels.bridge_limit import stability_limit
-from contactkit.kernels.flat_law import flat_end, flat_law
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "separation.json").read_text())
 FLAT = [c for c in CASES["exact_bridge"] if c["kappa1"] == c["kappa2"] == 0.0]

@@ -10,7 +10,8 @@ import pytest
 from scipy import fft
 from scipy.special import j1
 
-from contactkit.kernels import free_kernel, layered, love
+from contactkit.elasticity import influence as free_kernel
+from contactkit.elasticity import layered, love
 from contactkit.reference import hertz, love_patch
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "free_contact.json").read_text())

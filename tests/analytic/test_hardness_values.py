@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.errors import DescriptionError
-from contactkit.kernels.hardness import (
+from contactkit.contact.effects.hardness_rules import (
     effective_hardness,
     effective_hardness_literal,
     layer_on_substrate,
 )
+from contactkit.errors import DescriptionError
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "hardness.json").read_text("utf-8"))
 U = np.array(CASES["depth_over_thickness"])

@@ -13,9 +13,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import contactkit as ck
-from contactkit.humidity_curves import humidity_curve
-from contactkit.kernels import kelvin
-from contactkit.kernels.film_islands import film_force
+from contactkit.analyses.humidity_curve import humidity_curve
+from contactkit.capillary import kelvin
+from contactkit.capillary.film_islands import film_force
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "menisci.json").read_text())
 # With the tension of the case file, and a molar volume that gives its Kelvin length at 25 degC.

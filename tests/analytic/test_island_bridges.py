@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.archive import load_result, save_result
-from contactkit.kernels import island_bridges as kernel
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.kernels.film_islands import film_force, islands
+from contactkit.capillary import island_bridges as kernel
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.film_islands import film_force, islands
+from contactkit.files.results import load_result, save_result
 
 LIQUID = ck.Liquid(name="oil", surface_tension=0.03, density=900.0, molar_mass=0.4)
 RIGID = ck.Material(young_modulus=1e16, poisson_ratio=0.3)

@@ -12,9 +12,9 @@ import pytest
 from attrs import frozen
 
 import contactkit as ck
-from contactkit.effects.base import ForceLaw, SeparationForce
+from contactkit.capillary import kelvin
 from contactkit.errors import DescriptionError, InfeasibleError
-from contactkit.kernels import kelvin
+from contactkit.separation.effects.base import ForceLaw, SeparationForce
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "menisci.json").read_text())
 TENSION, MOLAR, ROOM = 0.072, 18e-6, 298.15  # those of the case file

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.kernels.layered import (
+from contactkit.elasticity.layered import (
     compliance,
     normal_symbol,
     small_wavenumber_constant,
     uniform_compliance,
 )
-from contactkit.kernels.layered_fields import plane_states
-from contactkit.kernels.stress_modes import component, grid_of_modes, table_of
+from contactkit.elasticity.layered_fields import plane_states
+from contactkit.elasticity.stress.periodic import component, grid_of_modes, table_of
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "layered.json").read_text())
 each_stack = pytest.mark.parametrize("stack", DATA["stacks"].values(), ids=DATA["stacks"])

@@ -13,11 +13,11 @@ import pytest
 from attrs import fields
 
 from contactkit.errors import ValidityWarning
-from contactkit.liquids import LAWS, Liquid, LiquidState
-from contactkit.temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw
+from contactkit.liquids.liquid import LAWS, Liquid, LiquidState
+from contactkit.liquids.temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw
+from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
+from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
 from contactkit.units import celsius, cSt, parse_quantity
-from contactkit.viscosity_laws import VogelViscosity, WaltherViscosity
-from contactkit.water_laws import IapwsSurfaceTension, KellWaterDensity
 
 DATA = Path(__file__).parents[2] / "models" / "liquids.toml"
 BY_KIND = {law.kind: law for law in LAWS}

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 import contactkit as ck
-from contactkit.kernels import squeeze
-from contactkit.kernels.roots import bracketed_root
-from contactkit.kernels.step_reading import highest, travel_integral
-from contactkit.kernels.stiff_step import NODES, WEIGHTS, Stage, slopes, step
-from contactkit.motion_state import start
+from contactkit.lubrication import squeeze_film as squeeze
+from contactkit.numerics.roots import bracketed_root
+from contactkit.separation.integrator.dense_output import highest, travel_integral
+from contactkit.separation.integrator.radau import NODES, WEIGHTS, Stage, slopes, step
+from contactkit.separation.motion.state import start
 
 # The reference cases are outside the range of their models, and say so.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from contactkit.as_published.printed import common as published
+from contactkit.capillary.arc import sphere as arc_sphere
 from contactkit.errors import DescriptionError, InfeasibleError
-from contactkit.kernels import arc_sphere, published
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "separation.json").read_text())
 VISCOUS = {case["id"]: case for case in CASES["viscous_normal"]}

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
-from contactkit.kernels.errata import ERRATA
-from contactkit.kernels.published import viscous_sphere_3_26
-from contactkit.published_arguments import ARGUMENTS
-from contactkit.published_formulas import TABLE_4_1, erratum
+from contactkit.as_published.arguments import ARGUMENTS
+from contactkit.as_published.lookup import TABLE_4_1, erratum
+from contactkit.as_published.printed.common import viscous_sphere_3_26
+from contactkit.as_published.printed.errata import ERRATA
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "separation.json").read_text())
 PRINTED = CASES["source_printed_numbers"]

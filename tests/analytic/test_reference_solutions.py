@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from scipy.optimize import minimize
 from scipy.special import j0
 
-from contactkit.kernels import layered
+from contactkit.elasticity import layered
 from contactkit.reference import (
     flat_punch,
     hamilton,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from contactkit.kernels import roughness
-from contactkit.kernels import roughness_statistics as stats
-from contactkit.kernels.detrend import detrended
+from contactkit.roughness import roughness
+from contactkit.roughness import statistics as stats
+from contactkit.roughness.zz_detrend import detrended
 
 SCAN = 20e-6  # window of the source's surfaces [m]
 SEEDS = range(40)

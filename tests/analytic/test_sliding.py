@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_bvp
 
-from contactkit.kernels import sliding, sliding_published, sliding_sphere
-from contactkit.kernels.sliding_lubrication import lubrication_factor
+from contactkit.as_published.printed import sliding as sliding_published
+from contactkit.lubrication import couette_flat as sliding
+from contactkit.lubrication import couette_sphere as sliding_sphere
+from contactkit.lubrication.couette_reynolds import lubrication_factor
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "sliding.json").read_text())
 FLATS = [name for name in CASES if name.startswith("tang_flat")]

@@ -8,12 +8,12 @@ import random
 import pytest
 
 import contactkit as ck
-from contactkit import motion
-from contactkit.kernels.flat_law import flat_law
-from contactkit.kernels.smooth_step import smooth_step
-from contactkit.kernels.stiff_step import Stage, step
-from contactkit.motion import advance
-from contactkit.motion_state import MotionState, start
+from contactkit.capillary.flats.force_law import flat_law
+from contactkit.separation.integrator.radau import Stage, step
+from contactkit.separation.integrator.radau_smooth import smooth_step
+from contactkit.separation.motion import advance as motion
+from contactkit.separation.motion.advance import advance
+from contactkit.separation.motion.state import MotionState, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 

@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.kernels import free_kernel, kkt, layered
-from contactkit.kernels.active_set import Press
-from contactkit.kernels.press_problem import pose
-from contactkit.kernels.simple_solvers import conjugate_gradient, quasi_newton
+from contactkit.contact.solver import optimality as kkt
+from contactkit.contact.solver.press import Press
+from contactkit.contact.solver.problem import pose
+from contactkit.contact.solver.reference_solvers import conjugate_gradient, quasi_newton
+from contactkit.elasticity import influence as free_kernel
+from contactkit.elasticity import layered
 
 WAVES = json.loads((Path(__file__).parents[1] / "data" / "press_waves.json").read_text())
 E_STAR = 1.0

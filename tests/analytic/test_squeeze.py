@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from contactkit.kernels import squeeze
+from contactkit.lubrication import squeeze_film as squeeze
 from contactkit.reference.reynolds import film_force
 
 OIL = 0.1  # [Pa.s]

@@ -10,8 +10,7 @@ import pytest
 from numpy.polynomial import polynomial
 from scipy.interpolate import RectBivariateSpline
 
-from contactkit.errors import DescriptionError
-from contactkit.kernels.stress_measures import (
+from contactkit.elasticity.stress.measures import (
     interface_shear,
     largest_tension,
     maxima,
@@ -21,7 +20,8 @@ from contactkit.kernels.stress_measures import (
     tresca,
     von_mises,
 )
-from contactkit.kernels.stress_planes import Plane, normal_displacement_of_traction, planes
+from contactkit.elasticity.stress.planes import Plane, normal_displacement_of_traction, planes
+from contactkit.errors import DescriptionError
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "layered.json").read_text())
 MEASURES = {"sqrt_j2": sqrt_j2, "von_mises": von_mises, "tresca": tresca}

@@ -46,7 +46,7 @@ def run(job):
 
 
 def _press(job, maker, fast):
-    from contactkit.kernels.active_set import Press
+    from contactkit.contact.solver.press import Press
 
     n = job["n"]
     periodic = job["boundary"] == "periodic"
@@ -54,8 +54,8 @@ def _press(job, maker, fast):
 
 
 def _layered_maker(stack, periodic):
-    from contactkit.kernels.free_kernel import symbol
-    from contactkit.kernels.layered import normal_symbol
+    from contactkit.elasticity.influence import symbol
+    from contactkit.elasticity.layered import normal_symbol
 
     moduli, poisson, thickness = stack
     make = normal_symbol if periodic else symbol

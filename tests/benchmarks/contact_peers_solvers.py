@@ -27,7 +27,7 @@ def fast(given, threads):
 
 
 def _contactkit(given, threads, fast):
-    from contactkit.kernels.active_set import Press
+    from contactkit.contact.solver.press import Press
 
     n = given.heights.shape[0]
     maker = symbol_maker(given.periodic)

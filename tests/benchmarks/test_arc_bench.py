@@ -3,27 +3,27 @@
 import numpy as np
 import pytest
 
-from contactkit.kernels import arc_flat, arc_sphere
-from contactkit.kernels.bridge_arc import bridge
+from contactkit.capillary.arc import flat as arc_flat
+from contactkit.capillary.arc import sphere as arc_sphere
 
 FLAT_GAPS = np.geomspace(1e-3, 2.0, 200)
 SPHERE_GAPS = np.geomspace(1e-7, 0.1, 200)
 
 
 def test_200_gaps_between_flats(benchmark):
-    state = benchmark(bridge, FLAT_GAPS, 1.0, 1.0, 1.0)
+    state = benchmark(arc_bridge, FLAT_GAPS, 1.0, 1.0, 1.0)
     assert np.all(np.isfinite(state.force))
 
 
 @pytest.mark.parametrize("lower", [0.0, 0.3])
 def test_200_gaps_between_curved_bodies(benchmark, lower):
-    state = benchmark(bridge, SPHERE_GAPS, 1e-3, 0.7, 0.7, lower, 1.0)
+    state = benchmark(arc_bridge, SPHERE_GAPS, 1e-3, 0.7, 0.7, lower, 1.0)
     assert np.all(np.isfinite(state.force))
 
 
 def test_200_gaps_half_of_them_beyond_the_limit(benchmark):
     gaps = np.append(SPHERE_GAPS[::2], np.geomspace(0.4, 4.0, 100))
-    state = benchmark(bridge, gaps, 1e-3, 0.7, 0.7, 0.0, 1.0, beyond="nan")
+    state = benchmark(arc_bridge, gaps, 1e-3, 0.7, 0.7, 0.0, 1.0, beyond="nan")
     assert np.isnan(state.force).sum() == 100
 
 

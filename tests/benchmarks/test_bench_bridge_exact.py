@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from contactkit.kernels.bridge_exact import bridge, bridge_at_pressure
-from contactkit.kernels.bridge_limit import branch, stability_limit
+from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
+from contactkit.capillary.exact.stability import branch, stability_limit
 
 FLATS = [(1.0, 1.0), (0.5, 1.0), (2.0, 2.2), (math.pi / 3, 2 * math.pi / 3)]
 

@@ -9,7 +9,7 @@ import pytest
 from contact_peers_cases import case
 
 import contactkit as ck
-from contactkit.models.scenes import open_scene
+from contactkit.app.scenes import open_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 

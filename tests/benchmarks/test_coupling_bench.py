@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from contactkit.fmu import build as building
-from contactkit.fmu.cosimulate import cosimulate
-from contactkit.fmu.instance import Instance
-from contactkit.fmu.master import Mass, couple
-from contactkit.fmu.native_build import build_native, native_scene
-from contactkit.fmu.native_compile import local
-from contactkit.fmu.native_drive import build_native_drive
-from contactkit.fmu.stiction_mass import StictionMass
-from contactkit.models.scenes import open_scene
+from contactkit.app.scenes import open_scene
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.native.build import build_native, native_scene
+from contactkit.fmu.native.drive import build_native_drive
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.stiction_mass import StictionMass
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 

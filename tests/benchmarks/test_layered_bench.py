@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactkit.kernels.layered import compliance, normal_symbol
-from contactkit.kernels.stress_measures import maxima, tresca, von_mises
-from contactkit.kernels.stress_planes import planes
+from contactkit.elasticity.layered import compliance, normal_symbol
+from contactkit.elasticity.stress.measures import maxima, tresca, von_mises
+from contactkit.elasticity.stress.planes import planes
 
 
 def stack(layers):

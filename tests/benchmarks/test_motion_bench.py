@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
-from contactkit.fmu.cosimulate import cosimulate
-from contactkit.fmu.instance import Instance
-from contactkit.models.monolithic import simulate as one_system
-from contactkit.models.scenes import open_scene
-from contactkit.motion_state import start
+from contactkit.app.injector.run.monolithic import simulate as one_system
+from contactkit.app.scenes import open_scene
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.separation.motion.state import start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 
@@ -105,7 +105,7 @@ def test_plan_of_the_injector(benchmark, device):
 
 def test_build_of_stiction_mass(benchmark, tmp_path):
     """Building an FMU file."""
-    from contactkit.fmu.build import build
+    from contactkit.fmu.python.build import build
 
     path = benchmark.pedantic(build, ("stiction-mass", Path(tmp_path) / "x.fmu"), rounds=3)
     assert path.stat().st_size < 600_000

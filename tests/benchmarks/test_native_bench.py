@@ -17,9 +17,9 @@ import pytest
 pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
-from contactkit.fmu.native_build import build_native
-from contactkit.fmu.native_compile import fmi_headers, kernel_sources, local
-from contactkit.fmu.native_drive import build_native_drive
+from contactkit.fmu.framework.toolchain import fmi_headers, kernel_sources, local
+from contactkit.fmu.native.build import build_native
+from contactkit.fmu.native.drive import build_native_drive
 
 if shutil.which("cc") is None or not sys.platform.startswith("linux"):
     pytest.skip("needs a C compiler and a linker that wraps", allow_module_level=True)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from contact_peers_cases import LOADS, RMS_SLOPE, case, symbol_maker
 
-from contactkit.kernels.active_set import Press
-from contactkit.kernels.layered import normal_symbol
+from contactkit.contact.solver.press import Press
+from contactkit.elasticity.layered import normal_symbol
 
 PATHS = pytest.mark.parametrize("fast", [False, None], ids=["plain", "fast-if-installed"])
 MOST_APPLICATIONS = 45

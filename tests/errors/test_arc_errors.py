@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from contactkit.capillary.arc import flat as arc_flat
+from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.capillary.arc.bridge import arc_bridge
 from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError
-from contactkit.kernels import arc_flat, arc_sphere
-from contactkit.kernels.bridge_arc import bridge
 
 SIXTY = math.pi / 3
 
@@ -33,28 +34,28 @@ SIXTY = math.pi / 3
 def test_impossible_arguments(given, message):
     arguments = {"gap": 1e-9, "volume": 1e-24, "angle_lower": SIXTY, "angle_upper": SIXTY}
     with pytest.raises(DescriptionError, match=message):
-        bridge(**{**arguments, **given})
+        arc_bridge(**{**arguments, **given})
 
 
 def test_beyond_the_closed_neck_between_flats_the_limit_is_named():
     with pytest.raises(InfeasibleError, match=r"^no arc bridge beyond 45\.21 nm: there its neck"):
-        bridge([10e-9, 60e-9], 1e-24, SIXTY, SIXTY)
+        arc_bridge([10e-9, 60e-9], 1e-24, SIXTY, SIXTY)
     limit = arc_flat.zero_neck_gap(arc_flat.shape(SIXTY, SIXTY), 1.0)
     with pytest.raises(InfeasibleError, match=r"beyond 4\.521 m"):
-        bridge(limit, 1.0, SIXTY, SIXTY)
-    assert bridge(limit * (1.0 - 1e-9), 1.0, SIXTY, SIXTY).neck > 0.0
+        arc_bridge(limit, 1.0, SIXTY, SIXTY)
+    assert arc_bridge(limit * (1.0 - 1e-9), 1.0, SIXTY, SIXTY).neck > 0.0
 
 
 def test_beyond_the_closed_neck_on_a_sphere_the_limit_is_named():
     limit = arc_sphere.zero_neck_gap(9.27e-25, SIXTY, SIXTY, 0.0, 1e7)
     with pytest.raises(InfeasibleError, match=rf"beyond {limit * 1e9:.4g} nm"):
-        bridge([1e-9, 1.01 * limit], 9.27e-25, SIXTY, SIXTY, 0.0, 1e7)
+        arc_bridge([1e-9, 1.01 * limit], 9.27e-25, SIXTY, SIXTY, 0.0, 1e7)
 
 
 def test_nan_where_there_is_no_bridge_and_only_there():
     gaps = [1e-9, 60e-9, 10e-9, 1e-6]
     for curvature in (0.0, 1e7):
-        state = bridge(gaps, 1e-24, SIXTY, SIXTY, 0.0, curvature, beyond="nan")
+        state = arc_bridge(gaps, 1e-24, SIXTY, SIXTY, 0.0, curvature, beyond="nan")
         for column in state:
             np.testing.assert_array_equal(np.isnan(column), [False, True, False, True])
 
@@ -63,8 +64,8 @@ def test_nan_where_there_is_no_bridge_and_only_there():
 @pytest.mark.parametrize("angles", [(0.0, math.pi), (math.pi, 0.0), (1e-10, math.pi)])
 def test_no_bridge_between_full_wetting_and_none(angles, curvature):
     with pytest.raises(InfeasibleError, match=r"no bridge between contact angles of 0 and 180 deg"):
-        bridge(0.1, 1.0, *angles, 0.0, curvature)
-    state = bridge(0.1, 1.0, [angles[0], 1.0], [angles[1], 1.0], 0.0, curvature, beyond="nan")
+        arc_bridge(0.1, 1.0, *angles, 0.0, curvature)
+    state = arc_bridge(0.1, 1.0, [angles[0], 1.0], [angles[1], 1.0], 0.0, curvature, beyond="nan")
     np.testing.assert_array_equal(np.isnan(state.force), [True, False])
 
 
@@ -83,9 +84,9 @@ def test_arc_between_flats_refuses_too():
 def test_arc_that_exists_only_at_a_distance():
     """A large drop that wets one body and hardly the other has no arc near contact."""
     angles = (0.0, math.radians(168.04917228))
-    assert np.isfinite(bridge(0.17, 0.7239608136106821, *angles, 1.0, 1.0).force)
+    assert np.isfinite(arc_bridge(0.17, 0.7239608136106821, *angles, 1.0, 1.0).force)
     with pytest.raises(InfeasibleError, match="its neck is closed there, though not up to"):
-        bridge(0.0, 0.7239608136106821, *angles, 1.0, 1.0)
+        arc_bridge(0.0, 0.7239608136106821, *angles, 1.0, 1.0)
 
 
 def test_profile_and_missing_circle():

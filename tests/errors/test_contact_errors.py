@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.effects.contact import CONTACT_EFFECTS
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
 
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
 BARE = ck.Material(name="bare", young_modulus=1e9, poisson_ratio=0.3)
@@ -458,7 +458,7 @@ def test_a_solve_that_gives_up_says_how_far_it_came_and_hands_it_over():
 
 
 def test_a_start_or_an_engine_of_another_contact_is_refused():
-    from contactkit.contact_engine import Engine
+    from contactkit.contact.engine import Engine
 
     plan = ck.plan(scene(), ck.Accuracy(grid=64))
     small = ck.solve(ck.plan(scene(surface=WAVE), ck.Accuracy(grid=32)))

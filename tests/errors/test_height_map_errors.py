@@ -10,7 +10,7 @@ import pytest
 from scipy.io import savemat
 
 from contactkit.errors import DescriptionError
-from contactkit.height_maps import checksum, read_height_map
+from contactkit.roughness.height_maps import checksum, read_height_map
 
 NUMBERS = np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.5]])
 SIZE = {"pixel_size": (2e-9, 1e-9), "unit": "nm"}

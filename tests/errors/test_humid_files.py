@@ -7,7 +7,7 @@ import re
 import pytest
 
 import contactkit as ck
-from contactkit.models.scenes import open_scene
+from contactkit.app.scenes import open_scene
 
 SCENE = """
 temperature = "{temperature}"

@@ -8,10 +8,10 @@ import re
 import pytest
 
 from contactkit.errors import DescriptionError, ValidityWarning
-from contactkit.liquids import Liquid
-from contactkit.temperature_laws import LinearDensity, LinearSurfaceTension
-from contactkit.viscosity_laws import VogelViscosity, WaltherViscosity
-from contactkit.water_laws import IapwsSurfaceTension, KellWaterDensity
+from contactkit.liquids.liquid import Liquid
+from contactkit.liquids.temperature_laws import LinearDensity, LinearSurfaceTension
+from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
+from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
 
 VG46 = {
     "temperature_1": 313.15,

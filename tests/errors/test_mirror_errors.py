@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 
+from contactkit.app.micromirror.run.electrostatics import Electrode
+from contactkit.app.micromirror.run.mirror import Hinge, Mirror, SpringTips, Waveform
+from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, PlanError
-from contactkit.models.mirror import Hinge, Mirror, SpringTips, Waveform
-from contactkit.models.mirror_plate import Electrode
-from contactkit.models.scenes import open_scene
 
 MODEL = Path(__file__).parents[2] / "models" / "micromirror.toml"
 HINGE = Hinge(inertia=2e-24, stiffness=2e-13)
@@ -95,7 +95,7 @@ def test_a_misspelt_key_names_the_right_one(tmp_path):
 
 
 def test_cost_needs_a_pulse_that_releases(scene):
-    from contactkit.models.micromirror import Micromirror
+    from contactkit.app.micromirror.run import Micromirror
 
     wave = evolve(scene.mirror.waveform, reset_voltage=-24.0)
     weak = evolve(scene, mirror=evolve(scene.mirror, waveform=wave))

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import contactkit as ck
-from contactkit.published_arguments import ARGUMENTS
+from contactkit.as_published.arguments import ARGUMENTS
 
 FILM = {
     "radius": 1e-7, "gap_start": 2e-9, "gap_end": 1e-7, "separation_time": 1e-7,

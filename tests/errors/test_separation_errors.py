@@ -9,8 +9,8 @@ import attrs
 import pytest
 
 import contactkit as ck
-from contactkit.effects import SEPARATION_EFFECTS
-from contactkit.io import write_whole
+from contactkit.files.scenes import write_whole
+from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 from contactkit.units import parse_quantity, parse_unit
 
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)

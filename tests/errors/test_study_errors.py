@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit import contact_archive, study_run
+from contactkit.files import contact_results as contact_archive
+from contactkit.studies import run as study_run
 
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
 ACCURACY = ck.Accuracy(grid=16, rtol=1e-4)

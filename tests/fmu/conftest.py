@@ -14,7 +14,7 @@ import pytest
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
 
-from contactkit.fmu import build as building  # noqa: E402  # both packages must be there
+from contactkit.fmu.python import build as building  # noqa: E402  # both packages must be there
 
 TOY = Path(__file__).with_name("toy_slave.py")
 OK, DISCARD, ERROR = 0, 2, 3
@@ -108,7 +108,7 @@ class Host:
 
 
 def _load(path: Path, name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"contactkit.fmu.{name}", path)
+    spec = importlib.util.spec_from_file_location(f"contactkit.fmu.slaves.{name}", path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
@@ -117,9 +117,9 @@ def _load(path: Path, name: str) -> ModuleType:
 
 @pytest.fixture(scope="session")
 def toy_module():
-    building.FMUS["toy"] = ("toy_slave", "Toy")
+    building.FMUS["toy"] = ("slaves.toy_slave", "Toy")
     yield _load(TOY, "toy_slave")
-    del building.FMUS["toy"], sys.modules["contactkit.fmu.toy_slave"]
+    del building.FMUS["toy"], sys.modules["contactkit.fmu.slaves.toy_slave"]
 
 
 @pytest.fixture

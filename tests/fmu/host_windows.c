@@ -1,5 +1,5 @@
 /* What a program for Windows needs if it is linked without the start files of a C compiler, which
-   ziglang would first compile for minutes. Beside it goes fmu/native/windows.c. */
+   ziglang would first compile for minutes. Beside it goes fmu/native/kernel/windows.c. */
 
 #include <stdarg.h>
 #include <stddef.h>

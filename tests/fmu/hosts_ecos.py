@@ -36,7 +36,8 @@ def _tbb() -> list:
 @contextlib.contextmanager
 def compiled_quickly():
     """Native FMUs with less optimization while they are tried, and none kept for other tests."""
-    from contactkit.fmu import native_build, native_compile
+    from contactkit.fmu.framework import toolchain as native_compile
+    from contactkit.fmu.native import build as native_build
 
     flags = tuple("-O0" if flag == "-O3" else flag for flag in native_compile._FLAGS)
     with (

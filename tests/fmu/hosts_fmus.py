@@ -10,9 +10,9 @@ from pathlib import Path
 from native_scenes import FACE, scene
 
 import contactkit as ck
-from contactkit.fmu import build as building
-from contactkit.fmu.native_build import build_native
-from contactkit.fmu.native_compile import local
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
+from contactkit.fmu.python import build as building
 
 HERE = Path(__file__).parent
 CASES = json.loads((HERE.parent / "data" / "release.json").read_text())
@@ -57,7 +57,7 @@ def native_fmu(folder, model, name, fmi=2, **changes):
 
 def _load(module):
     """Import a file of tests as if it lay in contactkit/fmu."""
-    name = f"contactkit.fmu.{module}"
+    name = f"contactkit.fmu.slaves.{module}"
     if name not in sys.modules:
         spec = importlib.util.spec_from_file_location(name, HERE / f"{module}.py")
         sys.modules[name] = importlib.util.module_from_spec(spec)

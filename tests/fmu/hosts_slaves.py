@@ -10,8 +10,8 @@ import math
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from .ports import Port
-from .slave import PortSlave
+from ..framework.ports import Port
+from ..framework.slave import PortSlave
 
 _SHARED = (
     Port("F0", "N", causality="parameter", label="pull in the end", start=40.0),

@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.fmu.native_compile import fmi_headers, kernel_sources
+from contactkit.fmu.framework.toolchain import fmi_headers, kernel_sources
 
 HERE = Path(__file__).parent
 CC = os.environ.get("CC", "cc").split()[0]

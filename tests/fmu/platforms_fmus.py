@@ -10,9 +10,9 @@ from hosts_fmus import CASES
 from native_scenes import DROP, FACE, scene
 
 import contactkit as ck
-from contactkit.fmu.native_build import build_native
-from contactkit.fmu.native_compile import PLATFORMS
-from contactkit.fmu.native_drive import build_native_drive
+from contactkit.fmu.framework.toolchain import PLATFORMS
+from contactkit.fmu.native.build import build_native
+from contactkit.fmu.native.drive import build_native_drive
 
 try:
     import fcntl

@@ -1,6 +1,6 @@
 """The FMUs that `probe.py` is let loose on: how each is built, and a run it must repeat.
 
-A new FMU joins by being in `contactkit.fmu.build.FMUS`; without a run of its own here it is stepped
+A new FMU joins by being in `contactkit.fmu.python.build.FMUS`; without a run of its own here it is stepped
 with its start values as they are.
 """
 
@@ -20,10 +20,10 @@ from drive_faces import rough
 from native_scenes import HAS_CC, SCENES
 
 import contactkit as ck
-from contactkit.fmu.build import FMUS, build
-from contactkit.fmu.native_build import build_native
-from contactkit.fmu.native_compile import local
-from contactkit.fmu.native_drive import build_native_drive
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
+from contactkit.fmu.native.drive import build_native_drive
+from contactkit.fmu.python.build import FMUS, build
 
 HERE = Path(__file__).parent
 KINDS = {

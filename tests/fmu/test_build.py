@@ -15,8 +15,8 @@ import fmpy
 import pytest
 
 from contactkit.errors import ContactkitError, DescriptionError
-from contactkit.fmu import build as building
-from contactkit.fmu.build import build, validate
+from contactkit.fmu.python import build as building
+from contactkit.fmu.python.build import build, validate
 
 
 def unzip(path, folder):
@@ -179,7 +179,7 @@ def test_builds_of_different_code_live_side_by_side(
         Path(toy_module.__file__).read_text().replace("2.0 * self.law.gain", "7.0 * self.law.gain")
     )
     paths = [build("toy", tmp_path / "old.fmu")]
-    monkeypatch.setitem(sys.modules, "contactkit.fmu.toy_slave", toy_module)
+    monkeypatch.setitem(sys.modules, "contactkit.fmu.slaves.toy_slave", toy_module)
     load_as_fmu_module(other, "toy_slave")
     paths.append(build("toy", tmp_path / "new.fmu"))
     hosts = [open_fmu(path).start(u=1.0) for path in paths]
@@ -189,7 +189,9 @@ def test_builds_of_different_code_live_side_by_side(
 
 def test_changed_code_is_refused_when_instantiated(toy_fmu, tmp_path, open_fmu):
     host = open_fmu(toy_fmu)
-    (slave,) = Path(host.slave.unzipDirectory, "resources").glob("contactkit_*/fmu/toy_slave.py")
+    (slave,) = Path(host.slave.unzipDirectory, "resources").glob(
+        "contactkit_*/fmu/slaves/toy_slave.py"
+    )
     slave.write_text(slave.read_text() + "\n")
     with pytest.raises(Exception, match="Failed to instantiate"):
         open_fmu(toy_fmu)
@@ -246,7 +248,7 @@ def test_runs_with_the_standard_library_only(toy_fmu, tmp_path):
 
 
 def test_hash_in_the_name_is_that_of_the_content(toy_fmu, tmp_path):
-    from contactkit.fmu.integrity import content_hash
+    from contactkit.fmu.python.integrity import content_hash
 
     resources = unzip(toy_fmu, tmp_path) / "resources"
     (package,) = resources.glob("contactkit_*")

@@ -11,17 +11,17 @@ pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
 import contactkit as ck
+from contactkit.app.fmu_crosscheck import write_crosscheck
+from contactkit.app.fmu_system import write_system
 from contactkit.cli import main
-from contactkit.fmu.build import build
-from contactkit.fmu.crosscheck import write_crosscheck
-from contactkit.fmu.instance import Instance
-from contactkit.fmu.native_build import build_native
-from contactkit.fmu.native_compile import local
-from contactkit.fmu.packing import write_archive
-from contactkit.fmu.system import write_system
-from contactkit.motion import advance
-from contactkit.motion_state import Pull, start
-from contactkit.plan import plan
+from contactkit.fmu.contents.packing import write_archive
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
+from contactkit.fmu.python.build import build
+from contactkit.separation.motion.advance import advance
+from contactkit.separation.motion.state import Pull, start
+from contactkit.separation.plan import plan
 
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 
@@ -81,8 +81,8 @@ def test_gaps_that_contradict_each_other_are_not_baked_in(name, start, said, tmp
 
 
 def test_a_force_too_rough_for_a_table_is_named():
-    from contactkit.effects import MeniscusForce
-    from contactkit.fmu import native_film
+    from contactkit.fmu.native import film as native_film
+    from contactkit.separation.effects.registry import MeniscusForce
 
     class Rough:
         end, release, rejoin, kinks = 1e-4, float("inf"), 0.0, ()

@@ -14,16 +14,16 @@ import pytest
 
 import contactkit as ck
 from contactkit import cli
-from contactkit.fmu import build as building
-from contactkit.fmu.contact_stop import ContactStop
-from contactkit.fmu.cosimulate import cosimulate
-from contactkit.fmu.instance import Instance
-from contactkit.fmu.stop_bake import STOP_AREA, bake, default_curve
-from contactkit.models.injector import drive_values
-from contactkit.models.scenes import open_scene
-from contactkit.stop_impact import in_series
-from contactkit.stop_tables import StopCurve
-from contactkit.stop_ways import StopBranch
+from contactkit.analyses.load_displacement.curve import StopCurve
+from contactkit.analyses.load_displacement.impact import in_series
+from contactkit.analyses.load_displacement.zz_stop_ways import StopBranch
+from contactkit.app.injector.run import drive_values
+from contactkit.app.scenes import open_scene
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.native.stop_tables import STOP_AREA, bake, default_curve
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.contact_stop import ContactStop
 
 OK, DISCARD = 0, 2
 STEP = 1e-6
@@ -70,7 +70,7 @@ def test_it_is_valid_carries_no_numpy_and_says_what_follows(stop_fmu):
     assert follows["W"] == follows["d_max"] == set()
     names = zipfile.ZipFile(stop_fmu).namelist()
     assert not [n for n in names if "stop_curves" in n or "stop_bake" in n or "contact_plan" in n]
-    code = "import sys; sys.modules['numpy'] = None; import contactkit.fmu.contact_stop"
+    code = "import sys; sys.modules['numpy'] = None; import contactkit.fmu.slaves.contact_stop"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 

@@ -18,14 +18,14 @@ pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
 etree = pytest.importorskip("lxml.etree")
 
-from contactkit.fmu.build import FMUS  # noqa: E402  # the packages must be there
-from contactkit.fmu.document import Page, external_dependencies, index_page  # noqa: E402
-from contactkit.fmu.icon import icon_png, icon_svg  # noqa: E402
-from contactkit.fmu.native_page import native_page  # noqa: E402
-from contactkit.fmu.native_ports import native_ports  # noqa: E402
-from contactkit.fmu.ports import Port  # noqa: E402
-from contactkit.fmu.stiction_mass import PORTS, scene_of  # noqa: E402
-from contactkit.fmu.terminals import flange_of, terminal_files, terminals_xml  # noqa: E402
+from contactkit.fmu.contents.document import Page, external_dependencies, index_page  # noqa: E402
+from contactkit.fmu.contents.icon import icon_png, icon_svg  # noqa: E402
+from contactkit.fmu.contents.terminals import flange_of, terminal_files, terminals_xml  # noqa: E402
+from contactkit.fmu.framework.ports import Port  # noqa: E402
+from contactkit.fmu.native.page import native_page  # noqa: E402
+from contactkit.fmu.native.ports import native_ports  # noqa: E402
+from contactkit.fmu.python.build import FMUS  # noqa: E402  # the packages must be there
+from contactkit.fmu.slaves.stiction_mass import PORTS, scene_of  # noqa: E402
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 XML = "terminalsAndIcons/terminalsAndIcons.xml"

@@ -9,21 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.errors import (
-    ContactkitError,
-    ConvergenceError,
-    DescriptionError,
-    InfeasibleError,
-)
-from contactkit.fmu.cosimulate import cosimulate
-from contactkit.fmu.instance import Instance
-from contactkit.fmu.master import Mass, couple
-from contactkit.fmu.stiction_mass import StictionMass
-from contactkit.fmu.valve_drive import ValveDrive
-from contactkit.io import read_tables
-from contactkit.models.injector import open_device
-from contactkit.models.monolithic import simulate
-from contactkit.plan import plan
+from contactkit.app.injector.run import open_device
+from contactkit.app.injector.run.monolithic import simulate
+from contactkit.errors import ContactkitError, ConvergenceError, DescriptionError, InfeasibleError
+from contactkit.files.scenes import read_tables
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.slaves.stiction_mass import StictionMass
+from contactkit.fmu.slaves.valve_drive import ValveDrive
+from contactkit.separation.plan import plan
 
 FMI3 = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="third" instantiationToken="{3}">

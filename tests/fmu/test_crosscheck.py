@@ -15,10 +15,10 @@ fmpy = pytest.importorskip("fmpy")
 from fmpy.util import read_ref_opt_file  # noqa: E402
 
 from contactkit import cli  # noqa: E402
+from contactkit.app.fmu_crosscheck import CASES, write_crosscheck  # noqa: E402
 from contactkit.errors import DescriptionError  # noqa: E402
-from contactkit.fmu.crosscheck import CASES, write_crosscheck  # noqa: E402
-from contactkit.fmu.native_build import build_native  # noqa: E402
-from contactkit.fmu.native_compile import local  # noqa: E402
+from contactkit.fmu.framework.toolchain import local  # noqa: E402
+from contactkit.fmu.native.build import build_native  # noqa: E402
 
 KEPT = Path(__file__).parents[2] / "examples" / "crosscheck"
 ONE = {"platforms": [local()], "compiler": "cc"}

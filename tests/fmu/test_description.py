@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 import pytest
 
 from contactkit.errors import DescriptionError
-from contactkit.fmu.ports import Port, display_conversion, find_port
-from contactkit.fmu.slave import PortSlave
+from contactkit.fmu.framework.ports import Port, display_conversion, find_port
+from contactkit.fmu.framework.slave import PortSlave
 
 
 @pytest.fixture(scope="module")

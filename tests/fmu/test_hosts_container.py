@@ -27,11 +27,11 @@ from hosts_ecos import compiled_quickly, run  # noqa: E402
 from hosts_fmus import native_fmu  # noqa: E402
 from native_scenes import HAS_CC  # noqa: E402
 
-from contactkit.fmu import build as building  # noqa: E402
-from contactkit.fmu.build import FMUS, validate  # noqa: E402
-from contactkit.fmu.cosimulate import cosimulate  # noqa: E402
-from contactkit.fmu.native_compile import local  # noqa: E402
-from contactkit.fmu.system import write_system  # noqa: E402
+from contactkit.app.fmu_system import write_system  # noqa: E402
+from contactkit.fmu.framework.toolchain import local  # noqa: E402
+from contactkit.fmu.master.couple.injector import cosimulate  # noqa: E402
+from contactkit.fmu.python import build as building  # noqa: E402
+from contactkit.fmu.python.build import FMUS, validate  # noqa: E402
 
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 no_runtime = pytest.mark.skipif(

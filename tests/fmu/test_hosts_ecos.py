@@ -15,9 +15,9 @@ from hosts_ecos import compiled_quickly, ecos, run, why_not
 from hosts_fmus import HERE, Shelf, reference
 from native_scenes import HAS_CC
 
-from contactkit.fmu.cosimulate import cosimulate
-from contactkit.fmu.native_compile import local
-from contactkit.fmu.system import write_system
+from contactkit.app.fmu_system import write_system
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.master.couple.injector import cosimulate
 
 pytestmark = pytest.mark.skipif(bool(why_not()), reason=why_not() or "it is there")
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")

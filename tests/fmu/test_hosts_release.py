@@ -22,8 +22,8 @@ fmpy = pytest.importorskip("fmpy")
 from hosts_fmus import CASES, Shelf, reference  # noqa: E402
 from native_scenes import HAS_CC, compile_c  # noqa: E402
 
-from contactkit.fmu.guard import can_guard  # noqa: E402
-from contactkit.fmu.native_compile import fmi_headers  # noqa: E402
+from contactkit.fmu.framework.toolchain import fmi_headers  # noqa: E402
+from contactkit.fmu.python.guard import can_guard  # noqa: E402
 
 HERE = Path(__file__).parent
 

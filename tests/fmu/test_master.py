@@ -10,13 +10,13 @@ from master_cases import film_values, ramp, release
 
 from contactkit.accuracy import Accuracy
 from contactkit.errors import ConvergenceError
-from contactkit.fmu import build as building
-from contactkit.fmu.master import Mass, couple
-from contactkit.fmu.stiction_mass import PORTS as MASS_PORTS
-from contactkit.fmu.stiction_mass import MeniscusLaw, scene_of
-from contactkit.motion import step_once
-from contactkit.motion_state import start
-from contactkit.plan import plan
+from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS
+from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of
+from contactkit.separation.motion.advance import step_once
+from contactkit.separation.motion.state import start
+from contactkit.separation.plan import plan
 
 RADIUS = 3.175e-3
 DISC = math.pi * RADIUS**2

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from contactkit.fmu import build as building
-from contactkit.fmu.master import Mass, couple
-from contactkit.fmu.stiction_force import PORTS
-from contactkit.models import cost
-from contactkit.models.coupling_cost import coupling_settings
-from contactkit.models.injector import drive_values
-from contactkit.models.scenes import mass_values, open_scene
+from contactkit.app.cost import separation as cost
+from contactkit.app.cost.coupling import coupling_settings
+from contactkit.app.injector.run import drive_values
+from contactkit.app.scenes import mass_values, open_scene
+from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.stiction_force import PORTS
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,8 @@ import pytest
 from master_cases import release
 
 from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError
-from contactkit.fmu import build as building
-from contactkit.fmu.master import Mass, couple
+from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.python import build as building
 
 
 @pytest.fixture(scope="module")

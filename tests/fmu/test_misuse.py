@@ -227,7 +227,7 @@ def test_malformed_states_are_refused(toy, spoil, message):
 
 
 def test_state_of_another_build_is_refused(toy, toy_module, tmp_path, open_fmu):
-    from contactkit.fmu.build import build
+    from contactkit.fmu.python.build import build
 
     other = open_fmu(build("toy", tmp_path / "toy.fmu", start={"gain": 2.0})).start(u=8.0)
     toy.start(u=8.0)

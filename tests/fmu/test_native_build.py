@@ -19,16 +19,11 @@ if not HAS_CC:
 
 import contactkit as ck  # noqa: E402
 from contactkit.errors import ContactkitError, DescriptionError, PlanError  # noqa: E402
-from contactkit.fmu.build import validate  # noqa: E402
-from contactkit.fmu.instance import Instance  # noqa: E402
-from contactkit.fmu.native_build import build_native, native_scene  # noqa: E402
-from contactkit.fmu.native_compile import (  # noqa: E402
-    PLATFORMS,
-    compile_kernel,
-    join_macs,
-    local,
-)
-from contactkit.fmu.stiction_mass import StictionMass  # noqa: E402
+from contactkit.fmu.framework.instance import Instance  # noqa: E402
+from contactkit.fmu.framework.toolchain import PLATFORMS, compile_kernel, join_macs, local  # noqa: E402
+from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
+from contactkit.fmu.python.build import validate  # noqa: E402
+from contactkit.fmu.slaves.stiction_mass import StictionMass  # noqa: E402
 
 ONE = {"platforms": [local()], "compiler": "cc"}
 linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="dlopen and ASan")
@@ -293,7 +288,7 @@ def test_without_zig_only_this_platform_is_compiled(tmp_path):
 
 def test_the_command_line_builds_one(tmp_path, monkeypatch, capsys):
     from contactkit import cli
-    from contactkit.fmu import native_build
+    from contactkit.fmu.native import build as native_build
 
     monkeypatch.setattr(native_build, "has_zig", lambda: False)
     out = tmp_path / "injector.fmu"

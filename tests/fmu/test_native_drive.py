@@ -21,16 +21,16 @@ if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
 from contactkit import cli  # noqa: E402  # the packages must be there
+from contactkit.analyses.load_displacement.curve import StopCurve  # noqa: E402
+from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.errors import DescriptionError, PlanError  # noqa: E402
-from contactkit.fmu import native_build  # noqa: E402
-from contactkit.fmu.build import build, validate  # noqa: E402
-from contactkit.fmu.cosimulate import cosimulate  # noqa: E402
-from contactkit.fmu.native_build import build_native, native_scene  # noqa: E402
-from contactkit.fmu.native_compile import local  # noqa: E402
-from contactkit.fmu.native_drive import build_native_drive, face_numbers  # noqa: E402
-from contactkit.fmu.valve_drive import ValveDrive  # noqa: E402
-from contactkit.models.scenes import open_scene  # noqa: E402
-from contactkit.stop_tables import StopCurve  # noqa: E402
+from contactkit.fmu.framework.toolchain import local  # noqa: E402
+from contactkit.fmu.master.couple.injector import cosimulate  # noqa: E402
+from contactkit.fmu.native import build as native_build  # noqa: E402
+from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
+from contactkit.fmu.native.drive import build_native_drive, face_numbers  # noqa: E402
+from contactkit.fmu.python.build import build, validate  # noqa: E402
+from contactkit.fmu.slaves.valve_drive import ValveDrive  # noqa: E402
 
 ONE = {"platforms": [local()], "compiler": "cc"}
 OK, DISCARD, ERROR = 0, 2, 3

@@ -16,7 +16,7 @@ from emulated_host import Host  # noqa: E402
 from hosts_fmus import reference  # noqa: E402
 from platforms_fmus import LIBRARIES, every_fmu, library_of  # noqa: E402
 
-from contactkit.fmu.instance import Instance  # noqa: E402
+from contactkit.fmu.framework.instance import Instance  # noqa: E402
 
 
 @pytest.fixture(scope="session")

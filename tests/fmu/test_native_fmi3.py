@@ -20,9 +20,9 @@ if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
 from contactkit.errors import DescriptionError  # noqa: E402
-from contactkit.fmu.build import validate  # noqa: E402
-from contactkit.fmu.native_build import build_native  # noqa: E402
-from contactkit.fmu.native_compile import PLATFORMS, local  # noqa: E402
+from contactkit.fmu.framework.toolchain import PLATFORMS, local  # noqa: E402
+from contactkit.fmu.native.build import build_native  # noqa: E402
+from contactkit.fmu.python.build import validate  # noqa: E402
 
 ONE = {"platforms": [local()], "compiler": "cc"}
 OUTPUTS = ("h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "F_peak", "t_break", "t_release")
@@ -434,7 +434,7 @@ def test_every_function_of_the_standard_is_there(unpacked):
 
 def test_every_platform_has_its_folder(tmp_path, monkeypatch):
     """Also both kinds of Mac, which share a file in FMI 2.0."""
-    from contactkit.fmu import native_build
+    from contactkit.fmu.native import build as native_build
 
     monkeypatch.setattr(native_build, "_COMPILED", {})
     monkeypatch.setattr(
@@ -465,7 +465,7 @@ def test_what_cannot_be_built_is_refused(tmp_path):
 
 def test_the_command_line_builds_one(fmus, tmp_path, monkeypatch, capsys):
     from contactkit import cli
-    from contactkit.fmu import native_build
+    from contactkit.fmu.native import build as native_build
 
     asked = {}
 

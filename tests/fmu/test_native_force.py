@@ -15,16 +15,16 @@ if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
 from contactkit.errors import DescriptionError  # noqa: E402
-from contactkit.fmu import build as building  # noqa: E402
-from contactkit.fmu.master import Mass, couple  # noqa: E402
-from contactkit.fmu.native_build import build_native, native_scene  # noqa: E402
-from contactkit.fmu.native_compile import local  # noqa: E402
-from contactkit.fmu.native_film import FINE, moving  # noqa: E402
-from contactkit.fmu.stiction_force import PORTS, Exchange  # noqa: E402
-from contactkit.fmu.stiction_mass import PORTS as MASS_PORTS  # noqa: E402
-from contactkit.fmu.stiction_mass import MeniscusLaw, scene_of  # noqa: E402
-from contactkit.motion_state import FilmStatus, LimitKind  # noqa: E402
-from contactkit.plan import plan  # noqa: E402
+from contactkit.fmu.framework.toolchain import local  # noqa: E402
+from contactkit.fmu.master.couple.couple import Mass, couple  # noqa: E402
+from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
+from contactkit.fmu.native.film import FINE, moving  # noqa: E402
+from contactkit.fmu.python import build as building  # noqa: E402
+from contactkit.fmu.slaves.stiction_force import PORTS, Exchange  # noqa: E402
+from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS  # noqa: E402
+from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of  # noqa: E402
+from contactkit.separation.motion.state import FilmStatus, LimitKind  # noqa: E402
+from contactkit.separation.plan import plan  # noqa: E402
 
 OK, DISCARD = 0, 2
 ONE = {"platforms": [local()], "compiler": "cc", "model": "stiction-force"}

@@ -25,17 +25,17 @@ pytest.importorskip("fmpy")
 if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
-from contactkit.fmu.instance import Instance
-from contactkit.fmu.native_build import build_native
-from contactkit.fmu.native_compile import local
-from contactkit.fmu.native_data import data_file
-from contactkit.fmu.native_film import FINE, film_numbers, moving
-from contactkit.fmu.native_tables import tabulate
-from contactkit.fmu.stiction_mass import PORTS, MeniscusLaw, scene_of
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.motion import advance
-from contactkit.motion_state import Pull, outputs, start
-from contactkit.plan import plan
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
+from contactkit.fmu.native.data import data_file
+from contactkit.fmu.native.film import FINE, film_numbers, moving
+from contactkit.fmu.native.tables import tabulate
+from contactkit.fmu.slaves.stiction_mass import PORTS, MeniscusLaw, scene_of
+from contactkit.separation.motion.advance import advance
+from contactkit.separation.motion.state import Pull, outputs, start
+from contactkit.separation.plan import plan
 
 
 @pytest.fixture(scope="module")

@@ -26,14 +26,14 @@ from hosts_fmus import reference  # noqa: E402
 from native_scenes import HERE  # noqa: E402
 from platforms_fmus import LIBRARIES, every_fmu, library_of, made_once  # noqa: E402
 
-from contactkit.fmu.build import validate  # noqa: E402
-from contactkit.fmu.native_compile import (  # noqa: E402
+from contactkit.fmu.framework.toolchain import (  # noqa: E402
     PLATFORMS,
     _more,
     compile_kernel,
     fmi_headers,
     kernel_sources,
 )
+from contactkit.fmu.python.build import validate  # noqa: E402
 
 
 @pytest.fixture(scope="session")

@@ -30,7 +30,7 @@ from probe_fmus import (
     unpack,
 )
 
-from contactkit.fmu.guard import can_guard
+from contactkit.fmu.python.guard import can_guard
 
 OK, DISCARD, ERROR = 0, 2, 3
 SOFT = [one.__name__ for one in probe.CASES]

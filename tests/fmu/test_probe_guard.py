@@ -9,8 +9,8 @@ import pytest
 pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
-from contactkit.fmu import guard
-from contactkit.fmu.build import build, validate
+from contactkit.fmu.python import guard
+from contactkit.fmu.python.build import build, validate
 
 LIBRARY, MOVED = "binaries/linux64/Toy.so", "binaries/linux64/pythonfmu.so"
 needs_guard = pytest.mark.skipif(not guard.can_guard(), reason="there is no compiler")

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactkit.errors import DescriptionError
-from contactkit.fmu.state import from_bytes, plain, to_bytes
+from contactkit.fmu.framework.state import from_bytes, plain, to_bytes
 
 
 def lag(u, tau, time):

@@ -11,13 +11,13 @@ import pytest
 from scipy.integrate import quad
 
 from contactkit.accuracy import Accuracy
-from contactkit.fmu import build as building
-from contactkit.fmu.film_travel import travel
-from contactkit.fmu.stiction_force import PORTS, Exchange
-from contactkit.fmu.stiction_mass import PORTS as MASS_PORTS
-from contactkit.fmu.stiction_mass import MeniscusLaw, scene_of
-from contactkit.motion_state import FilmStatus, LimitKind
-from contactkit.plan import plan
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.film_travel import travel
+from contactkit.fmu.slaves.stiction_force import PORTS, Exchange
+from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS
+from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of
+from contactkit.separation.motion.state import FilmStatus, LimitKind
+from contactkit.separation.plan import plan
 
 OK, DISCARD = 0, 2
 RADIUS = 3.175e-3

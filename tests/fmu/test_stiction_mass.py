@@ -9,12 +9,12 @@ import zipfile
 
 import pytest
 
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.exact.stability import stability_limit
 from contactkit.errors import DescriptionError, PlanError
-from contactkit.fmu import build as building
-from contactkit.fmu.stiction_mass import PORTS, MeniscusLaw, StictionMass
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.kernels.bridge_limit import stability_limit
-from contactkit.motion_state import FilmStatus, LimitKind
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.stiction_mass import PORTS, MeniscusLaw, StictionMass
+from contactkit.separation.motion.state import FilmStatus, LimitKind
 
 OK, DISCARD = 0, 2
 DISC = math.pi * 3.175e-3**2
@@ -336,7 +336,7 @@ def test_a_slave_in_python_gives_the_numbers_of_the_fmu(host):
 
 
 def test_a_scene_the_fmu_cannot_hold_is_refused(film_scene):
-    from contactkit.models.scenes import mass_values
+    from contactkit.app.scenes import mass_values
 
     with pytest.raises(PlanError, match=r"opening\.mass \[kg\]"):
         mass_values(film_scene())

@@ -20,13 +20,13 @@ fmpy = pytest.importorskip("fmpy")
 etree = pytest.importorskip("lxml.etree")
 
 from contactkit import cli  # noqa: E402  # the packages must be there
+from contactkit.app.fmu_system import write_system  # noqa: E402
+from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError  # noqa: E402
-from contactkit.fmu import native_build  # noqa: E402
-from contactkit.fmu.build import validate  # noqa: E402
-from contactkit.fmu.cosimulate import cosimulate  # noqa: E402
-from contactkit.fmu.native_compile import local  # noqa: E402
-from contactkit.fmu.system import write_system  # noqa: E402
-from contactkit.models.scenes import open_scene  # noqa: E402
+from contactkit.fmu.framework.toolchain import local  # noqa: E402
+from contactkit.fmu.master.couple.injector import cosimulate  # noqa: E402
+from contactkit.fmu.native import build as native_build  # noqa: E402
+from contactkit.fmu.python.build import validate  # noqa: E402
 
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 SSP = "http://ssp-standard.org/SSP1/SystemStructure"

@@ -9,15 +9,15 @@ import sys
 import fmpy
 import pytest
 
+from contactkit.app.micromirror.run.flight import Root
+from contactkit.app.micromirror.run.scene import tip_values
+from contactkit.app.micromirror.run.tip import advance_tip, landed_start
+from contactkit.app.micromirror.run.tip_film import adhesion, tip_law
+from contactkit.app.micromirror.run.tip_film import tip_scene as scene_of_tip
+from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, PlanError
-from contactkit.fmu import build as building
-from contactkit.fmu.tip_contact import TipContact, TipLaw, TipStatus, tip_scene
-from contactkit.models.micromirror_scene import tip_values
-from contactkit.models.mirror_film import adhesion, tip_law
-from contactkit.models.mirror_film import tip_scene as scene_of_tip
-from contactkit.models.mirror_flight import Root
-from contactkit.models.mirror_tip import advance_tip, landed_start
-from contactkit.models.scenes import open_scene
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.tip_contact import TipContact, TipLaw, TipStatus, tip_scene
 
 OK, DISCARD = 0, 2
 STEP = 2e-8
@@ -207,7 +207,7 @@ def test_a_dry_tip_needs_no_numpy():
     code = """
 import sys
 sys.modules["numpy"] = sys.modules["scipy"] = None
-from contactkit.fmu.tip_contact import TipContact
+from contactkit.fmu.slaves.tip_contact import TipContact
 slave = TipContact(instance_name="dry")
 slave.values["z"] = -1e-8
 slave.setup_experiment(0.0)

@@ -9,23 +9,23 @@ from itertools import pairwise
 import pytest
 from attrs import evolve
 
+from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
+from contactkit.app.end_stop import landing_numbers
+from contactkit.app.micromirror.run import Micromirror
+from contactkit.app.micromirror.run.coupling import couple
+from contactkit.app.micromirror.run.flight import Root
+from contactkit.app.micromirror.run.monolithic import simulate_whole
+from contactkit.app.micromirror.run.scene import tip_values
+from contactkit.app.micromirror.run.tip import advance_tip, free_start, landed_start, tip_force
+from contactkit.app.micromirror.run.tip_film import tip_law
+from contactkit.app.micromirror.run.tip_impact import TipStop, sprung_back
+from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, InfeasibleError
-from contactkit.fmu import build as building
-from contactkit.fmu.tip_contact import TipStatus
-from contactkit.io import unstructure
-from contactkit.models.micromirror import Micromirror
-from contactkit.models.micromirror_scene import tip_values
-from contactkit.models.mirror_film import tip_law
-from contactkit.models.mirror_flight import Root
-from contactkit.models.mirror_motion import couple
-from contactkit.models.mirror_stop import TipStop, sprung_back
-from contactkit.models.mirror_tip import advance_tip, free_start, landed_start, tip_force
-from contactkit.models.mirror_whole import simulate_whole
-from contactkit.models.scenes import open_scene
-from contactkit.models.stop_faces import StopFaces, beside
-from contactkit.models.stop_report import landing_numbers
-from contactkit.models.stop_solve import solved
-from contactkit.stop_tables import StopCurve, Unloading
+from contactkit.files.scenes import unstructure
+from contactkit.fmu.python import build as building
+from contactkit.fmu.slaves.tip_contact import TipStatus
+from contactkit.models.end_stop.faces import StopFaces, beside
+from contactkit.models.end_stop.solve import solved
 
 MASS, STIFFNESS = 4e-16, 1.0
 

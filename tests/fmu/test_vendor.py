@@ -7,15 +7,15 @@ import sys
 import pytest
 
 from contactkit.errors import ContactkitError
-from contactkit.fmu.vendor import fallback_attrs, find_closure
+from contactkit.fmu.python.vendor import fallback_attrs, find_closure
 
 
 def test_only_what_the_slave_imports_is_carried(toy_module):
-    closure = find_closure("contactkit.fmu.toy_slave")
+    closure = find_closure("contactkit.fmu.slaves.toy_slave")
     assert set(closure.sources) == {
-        "__init__.py", "checks.py", "errors.py", "units.py", "fmu/__init__.py", "fmu/access.py",
-        "fmu/ports.py", "fmu/slave.py", "fmu/state.py", "fmu/tables.py", "fmu/toy_slave.py",
-        "fmu/xml.py",
+        "__init__.py", "checks.py", "errors.py", "units.py", "fmu/__init__.py", "fmu/framework/access.py",
+        "fmu/framework/ports.py", "fmu/framework/slave.py", "fmu/framework/state.py", "fmu/framework/tables.py", "fmu/slaves/toy_slave.py",
+        "fmu/framework/description.py",
     }  # fmt: skip
     assert closure.requires == {"attrs"}
     assert b"import" not in closure.sources["__init__.py"]

@@ -12,9 +12,9 @@ from typing import Any, ClassVar
 
 from attrs import frozen
 
-from ..errors import InfeasibleError
-from .ports import Port
-from .slave import PortSlave
+from ...errors import InfeasibleError
+from ..framework.ports import Port
+from ..framework.slave import PortSlave
 
 
 class Mode(IntEnum):
@@ -87,7 +87,7 @@ class Toy(PortSlave):
         elif u == 16.0:
             v["ouput"] = 1.0
         elif u == 17.0:
-            from ..checks import finite  # noqa: F401  # an import that comes late
+            from ...validators import finite  # noqa: F401  # an import that comes late
         elif v["mode"] == Mode.LAG and v["on"]:
             v["y"] += (self.law.gain * u - v["y"]) * -math.expm1(-step / self.law.tau)
         v["sum"] += v["n"]

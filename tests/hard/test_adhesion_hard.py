@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.kernels import jkr, maugis_dugdale
-from contactkit.separation import simulate
+from contactkit.adhesion import jkr, maugis_dugdale
+from contactkit.separation.simulate import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

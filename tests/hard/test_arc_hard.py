@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.kernels import arc_flat, arc_sphere
-from contactkit.kernels.bridge_arc import bridge
+from contactkit.capillary.arc import flat as arc_flat
+from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.capillary.arc.bridge import arc_bridge
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "separation.json").read_text())
 EXACT = {case["id"]: case for case in CASES["exact_bridge"]}
@@ -26,9 +27,9 @@ SPECIAL = [
 @pytest.mark.parametrize("curvature", [0.0, 1.0])
 def test_special_angles_are_the_limits_of_their_neighbours(lower, upper, curvature):
     """No 0.001 or 89.999 deg is needed."""
-    here = bridge(0.05, 0.1, lower, upper, 0.0, curvature)
+    here = arc_bridge(0.05, 0.1, lower, upper, 0.0, curvature)
     inward = [min(max(angle, 1e-7), math.pi - 1e-7) for angle in (lower, upper)]
-    there = bridge(0.05, 0.1, *inward, 0.0, curvature)
+    there = arc_bridge(0.05, 0.1, *inward, 0.0, curvature)
     for one, two in zip(here, there, strict=True):
         assert one == pytest.approx(two, rel=1e-5, abs=1e-5)
         assert np.isfinite(one)
@@ -44,24 +45,24 @@ def test_right_angle_and_straight_arcs_have_exactly_no_curvature():
 
 def test_trace_of_liquid_on_a_touching_sphere():
     case = EXACT["sphere/flat_40_40_V1e-15_D0"]
-    state = bridge(0.0, 1e-15, 40 * DEG, 40 * DEG, 0.0, 1.0)
+    state = arc_bridge(0.0, 1e-15, 40 * DEG, 40 * DEG, 0.0, 1.0)
     assert state.force == pytest.approx(case["F_over_gamma"], rel=1e-5)
     assert state.neck == pytest.approx(case["neck"], rel=1e-8)
-    less = bridge(0.0, 10.0 ** -np.arange(15.0, 60.0, 5.0), 0.0, RIGHT, 0.0, 1.0)
+    less = arc_bridge(0.0, 10.0 ** -np.arange(15.0, 60.0, 5.0), 0.0, RIGHT, 0.0, 1.0)
     assert np.all(np.diff(less.force) > 0.0)  # rises to 2 pi R as the liquid vanishes
     assert less.force[-1] == pytest.approx(2.0 * math.pi, rel=1e-10)
 
 
 def test_bodies_as_small_and_as_large_as_they_come():
-    unit = bridge(0.01, 1e-3, 1.0, 0.5, 0.3, 1.0)
+    unit = arc_bridge(0.01, 1e-3, 1.0, 0.5, 0.3, 1.0)
     for scale in (1e-12, 1e-9, 1e6):
-        state = bridge(0.01 * scale, 1e-3 * scale**3, 1.0, 0.5, 0.3 / scale, 1.0 / scale)
+        state = arc_bridge(0.01 * scale, 1e-3 * scale**3, 1.0, 0.5, 0.3 / scale, 1.0 / scale)
         assert state.force / scale == pytest.approx(unit.force, rel=1e-12)
 
 
 def test_gap_ratio_of_a_million_in_one_call():
     gaps = np.append(0.0, np.geomspace(1e-7, 0.1, 200))
-    state = bridge(gaps, 1e-3, 60 * DEG, 60 * DEG, 0.0, 1.0)
+    state = arc_bridge(gaps, 1e-3, 60 * DEG, 60 * DEG, 0.0, 1.0)
     assert np.all(np.isfinite(state.force))
     assert np.all(np.diff(state.force) < 0.0)
     assert state.force[1] == pytest.approx(state.force[0], rel=1e-5)
@@ -69,14 +70,14 @@ def test_gap_ratio_of_a_million_in_one_call():
 
 def test_films_a_hundred_thousand_times_wider_than_high():
     case = EXACT["flat_0_60_x/h~100000"]
-    state = bridge(case["D"], case["V"], 0.0, 60 * DEG)
+    state = arc_bridge(case["D"], case["V"], 0.0, 60 * DEG)
     assert state.force == pytest.approx(case["F_over_gamma"], rel=1e-5)
     assert state.neck == pytest.approx(case["neck"], rel=1e-10)
 
 
 def test_two_flats_of_almost_no_curvature_touch():
     """The film spreads over a hundred radii of its own drop, and Newton must not mind."""
-    state = bridge(0.0, 1.0, 1.0, 1.0, 1e-12, 1e-9)
+    state = arc_bridge(0.0, 1.0, 1.0, 1.0, 1e-12, 1e-9)
     curvature = 1e-12 + 1e-9
     film = 2.0 * math.pi / curvature * 2.0 * math.cos(1.0)
     assert state.force == pytest.approx(film, rel=1e-3)
@@ -84,13 +85,13 @@ def test_two_flats_of_almost_no_curvature_touch():
 
 def test_repulsion_between_wetted_bodies_on_a_wide_film():
     """On a sphere the slope adds to the contact angle: 85/85 deg pushes."""
-    state = bridge(0.0, 0.1, 85 * DEG, 85 * DEG, 0.0, 1.0)
+    state = arc_bridge(0.0, 0.1, 85 * DEG, 85 * DEG, 0.0, 1.0)
     case = EXACT["sphere/flat_85_85_V0.1_D0"]
     assert state.force == pytest.approx(case["F_over_gamma"], rel=0.06)
 
 
 def test_repelled_pair_turns_from_push_to_pull():
-    state = bridge([0.5, 1.0], 1.0, 120 * DEG, 120 * DEG)
+    state = arc_bridge([0.5, 1.0], 1.0, 120 * DEG, 120 * DEG)
     assert state.force[0] < 0.0 < state.force[1]
 
 
@@ -109,7 +110,7 @@ def test_a_drop_that_swallows_much_of_the_sphere(gap, profile):
 
 
 def test_drop_beyond_the_equator():
-    state = bridge(0.0, 8.0, 0.0, 0.0, 0.0, 1.0)
+    state = arc_bridge(0.0, 8.0, 0.0, 0.0, 0.0, 1.0)
     assert 0.0 < state.radius_upper <= 1.0
     assert np.isfinite(state.force)
 
@@ -135,7 +136,7 @@ def test_points_that_newton_misses_from_a_cold_start(lower, upper, volume, curva
 def test_branch_with_an_open_neck_is_taken_up_to_its_end():
     limit = arc_sphere.zero_neck_gap(1e-3, 40 * DEG, 40 * DEG, 0.0, 1.0)
     gaps = limit * (1.0 - np.geomspace(1e-9, 1.0, 100))
-    state = bridge(gaps, 1e-3, 40 * DEG, 40 * DEG, 0.0, 1.0)
+    state = arc_bridge(gaps, 1e-3, 40 * DEG, 40 * DEG, 0.0, 1.0)
     assert np.all(state.neck > 0.0)
     assert np.all(np.diff(state.neck) > 0.0)
     assert state.force[0] == pytest.approx(0.0, abs=1e-8)  # goes to zero with the neck
@@ -153,7 +154,7 @@ def test_nearly_a_cylinder_lets_go_very_late():
 def test_needle_between_a_sphere_and_a_flat_keeps_its_cone():
     """For 90/90 deg the contact radii differ as 1 + D / 2R, however thin the bridge."""
     gaps = np.array([0.1, 1.0, 10.0, 50.0])
-    state = bridge(gaps, 1e-9, RIGHT, RIGHT, 0.0, 1.0)
+    state = arc_bridge(gaps, 1e-9, RIGHT, RIGHT, 0.0, 1.0)
     np.testing.assert_allclose(state.radius_lower / state.radius_upper, 1.0 + gaps / 2.0, rtol=1e-6)
 
 

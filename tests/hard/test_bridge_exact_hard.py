@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.bridge import KINDS, bridge, bridge_at_pressure
+from contactkit.capillary.exact.profile import profile
+from contactkit.capillary.exact.stability import LIMITS, stability_limit
 from contactkit.errors import DescriptionError, InfeasibleError
-from contactkit.kernels.bridge_exact import KINDS, bridge, bridge_at_pressure
-from contactkit.kernels.bridge_limit import LIMITS, stability_limit
-from contactkit.kernels.bridge_pressure import longest_at_pressure
-from contactkit.kernels.bridge_profile import profile
 
 DEG = math.pi / 180.0
 RIGHT = math.pi / 2

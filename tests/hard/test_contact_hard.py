@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.kernels.kkt import height_scale
+from contactkit.contact.solver.optimality import height_scale
 
 E, NU = 1e9, 0.3
 SOLID = ck.Material(young_modulus=E, poisson_ratio=NU, hardness=5e7)
@@ -290,8 +290,8 @@ def test_a_load_just_below_the_hardness_times_the_area_is_carried(short):
 
 @pytest.mark.parametrize("load", [1e7, 1e7 * (1.0 + 1e-9), 1e9])
 def test_a_load_above_the_hardness_times_the_area_is_refused_before_any_work(monkeypatch, load):
-    import contactkit.contact_engine as engine
-    import contactkit.realise as realise
+    import contactkit.contact.engine as engine
+    import contactkit.contact.grid as realise
 
     def never(*_args, **_kwargs):
         raise AssertionError("work was done")
@@ -344,7 +344,7 @@ def test_where_the_literal_rule_jumps_it_is_said_and_never_cycled_through(pressu
 
 
 def literal(run):
-    from contactkit.kernels.hardness import effective_hardness_literal
+    from contactkit.contact.effects.hardness_rules import effective_hardness_literal
 
     layers = JUMPING.young_moduli, [m.hardness for m in JUMPING.materials], JUMPING.thicknesses
     return float(effective_hardness_literal(run.max_displacement, *layers))
@@ -375,7 +375,7 @@ INTERLAYER = ck.Stack(
 def test_the_continuous_rule_agrees_with_the_displacement_it_leads_to(
     stack, displacement, pressure
 ):
-    from contactkit.kernels.hardness import effective_hardness
+    from contactkit.contact.effects.hardness_rules import effective_hardness
 
     limit = ck.HardnessLimit(displacement=displacement)
     run = solved(limit, lower=stack, pressure=pressure)
@@ -576,7 +576,7 @@ def test_snap_in_is_reported_and_the_smallest_equilibrium_is_taken():
 
 def test_results_do_not_depend_on_what_was_solved_before():
     """One engine for many loads, each from the last, and back again."""
-    from contactkit.contact_engine import Engine
+    from contactkit.contact.engine import Engine
 
     plans = [made(pressure=p) for p in (1e5, 1e6, 1e7, 1e6, 1e5)]
     plans = [attrs.evolve(plan, grid=plan.grid) for plan in plans]

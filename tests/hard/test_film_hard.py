@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.kernels import squeeze
+from contactkit.lubrication import squeeze_film as squeeze
 
 # Most of these films are outside the range of their models, and say so.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactkit.kernels import free_kernel, layered, love, point_load
+from contactkit.elasticity import influence as free_kernel
+from contactkit.elasticity import layered, love, point_load
 
 CONTRASTS = [1e-6, 0.25, 4.0, 1e6]
 

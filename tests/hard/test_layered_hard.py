@@ -15,10 +15,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contactkit.elasticity.depths import default_depths, locate
+from contactkit.elasticity.layered import compliance, normal_symbol, uniform_compliance
+from contactkit.elasticity.layered_fields import plane_states
 from contactkit.errors import DescriptionError
-from contactkit.kernels.layer_planes import default_depths, locate
-from contactkit.kernels.layered import compliance, normal_symbol, uniform_compliance
-from contactkit.kernels.layered_fields import plane_states
 
 DIGITS = 120
 

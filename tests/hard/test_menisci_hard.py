@@ -9,13 +9,13 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.divide import divide_meniscus
-from contactkit.effects.asperity_law import force_curve, gaussian_average
-from contactkit.humidity_curves import humidity_curve
-from contactkit.io import load_scene, save_scene
-from contactkit.kernels import asperities as laws
-from contactkit.kernels.bridge_exact import bridge_at_pressure
-from contactkit.kernels.condensed import condensed_bridges, reach_at_pressure
+from contactkit.analyses.division import divide_meniscus
+from contactkit.analyses.humidity_curve import humidity_curve
+from contactkit.capillary import asperities as laws
+from contactkit.capillary.condensed import condensed_bridges, reach_at_pressure
+from contactkit.capillary.exact.bridge import bridge_at_pressure
+from contactkit.files.scenes import load_scene, save_scene
+from contactkit.separation.effects.zz_asperity_law import force_curve, gaussian_average
 
 WATER = ck.Liquid(
     name="water", surface_tension=0.072, viscosity=0.9e-3, density=1000.0, molar_mass=0.018

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.kernels import arc_sphere, published
-from contactkit.kernels.bridge_exact import bridge
+from contactkit.as_published.printed import common as published
+from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.capillary.exact.bridge import bridge
 
 TENSION, ANGLES, RADIUS, VOLUME = 0.02, (1.0, 0.2), 7e-3, 3e-12
 

@@ -7,9 +7,9 @@ import math
 import pytest
 
 import contactkit as ck
-from contactkit.kernels import squeeze
-from contactkit.kernels.stiff_step import coordinate
-from contactkit.motion_state import Pull, outputs, start
+from contactkit.lubrication import squeeze_film as squeeze
+from contactkit.separation.integrator.radau import coordinate
+from contactkit.separation.motion.state import Pull, outputs, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from contactkit.errors import DescriptionError
-from contactkit.kernels import roughness
-from contactkit.kernels import roughness_statistics as stats
-from contactkit.kernels.detrend import detrended
+from contactkit.roughness import roughness
+from contactkit.roughness import statistics as stats
+from contactkit.roughness.zz_detrend import detrended
 
 
 def test_a_cutoff_at_the_window_leaves_the_longest_waves():

@@ -15,15 +15,16 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.kernels import bridge_arc, squeeze
-from contactkit.kernels.bridge_exact import (
+from contactkit.capillary.arc import bridge as bridge_arc
+from contactkit.capillary.exact.bridge import (
     KINDS,
     bridge,
     bridge_at_pressure,
     laterally_stable,
     margin,
 )
-from contactkit.kernels.bridge_limit import LIMITS, stability_limit
+from contactkit.capillary.exact.stability import LIMITS, stability_limit
+from contactkit.lubrication import squeeze_film as squeeze
 from contactkit.reference import elliptic_bridge
 
 DATA = Path(__file__).parents[1] / "data"
@@ -122,7 +123,7 @@ def test_wetted_against_repelled_there_is_no_bridge():
             with pytest.raises(ck.InfeasibleError, match="spreads"):
                 margin(0.1, 1.0, one, two, 0.0, bend)
             with pytest.raises(ck.InfeasibleError, match="spreads"):
-                bridge_arc.bridge(0.1, 1.0, one, two, 0.0, bend)
+                bridge_arc.arc_bridge(0.1, 1.0, one, two, 0.0, bend)
             nothing = bridge([0.1, 0.2], 1.0, one, two, 0.0, bend, beyond="nan")
             assert np.isnan(nothing.force).all()
             assert nothing.kind.tolist() == [-1, -1]
@@ -148,7 +149,7 @@ def test_wetted_against_repelled_a_scene_is_refused(effect, upper):
 def test_the_arc_passes_through_a_straight_line(one, two):
     """A frustum of a cone: volume, and slope, by hand; the case file has 60/120 at D = 1."""
     gap = 0.3 if one == 15 else 1.0
-    arc = bridge_arc.bridge(gap, 1.0, one * DEG, two * DEG)
+    arc = bridge_arc.arc_bridge(gap, 1.0, one * DEG, two * DEG)
     low, high = float(arc.radius_lower), float(arc.radius_upper)
     assert math.pi * gap * (low * low + low * high + high * high) / 3.0 == approx(1.0, 1e-12)
     assert high - low == pytest.approx(-gap / math.tan(one * DEG), rel=1e-12, abs=1e-15)
@@ -157,7 +158,7 @@ def test_the_arc_passes_through_a_straight_line(one, two):
         assert low == approx(case["x1"], 1e-12)
         assert float(arc.force) == approx(case["F_consistent"], 1e-12)
     for off in (1e-13, 1e-9):  # and nothing happens beside it
-        near = bridge_arc.bridge(gap, 1.0, one * DEG + off, two * DEG)
+        near = bridge_arc.arc_bridge(gap, 1.0, one * DEG + off, two * DEG)
         assert float(near.force) == approx(float(arc.force), 1e-7)
 
 
@@ -269,7 +270,7 @@ def test_limits_of_the_case_file(case):
 
 def test_the_arc_goes_on_where_the_bridge_has_broken():
     case = next(c for c in CASES["arc_flat"] if c["id"] == "arc_flat_60_60_D2")
-    arc = bridge_arc.bridge(2.0, 1.0, 60 * DEG, 60 * DEG)
+    arc = bridge_arc.arc_bridge(2.0, 1.0, 60 * DEG, 60 * DEG)
     assert float(arc.radius_lower) == approx(case["x1"], 1e-12)
     assert float(arc.neck) == approx(case["neck"], 1e-12)
     with pytest.raises(ck.InfeasibleError):
@@ -320,7 +321,7 @@ def test_a_trace_of_liquid():
     assert force(0.0, 1e-15, 40 * DEG, 40 * DEG, 0.0, 1.0) == approx(9.625869604487512)
     assert force(1e-5, 1e-8, 0.0, 0.0, 1.0, 1.0) == approx(5.486245554756386)
     arc = next(c for c in CASES["arc_sphere"] if c["id"] == "arc_sphere_sphere_40_40_V1e-09_D0")
-    mine = bridge_arc.bridge(0.0, 1e-9, 40 * DEG, 40 * DEG, 0.0, 1.0)
+    mine = bridge_arc.arc_bridge(0.0, 1e-9, 40 * DEG, 40 * DEG, 0.0, 1.0)
     assert float(mine.radius_upper) == approx(arc["x_n"], 1e-12)
     assert float(mine.force) == approx(arc["F_consistent"], 1e-12)
 

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.kernels import sliding, sliding_sphere
-from contactkit.kernels.sliding_lubrication import lubrication_factor
-from contactkit.vibration_path import VibrationPath, panels
+from contactkit.lubrication import couette_flat as sliding
+from contactkit.lubrication import couette_sphere as sliding_sphere
+from contactkit.lubrication.couette_reynolds import lubrication_factor
+from contactkit.separation.zz_vibration_path import VibrationPath, panels
 
 
 def approx(value, rel):

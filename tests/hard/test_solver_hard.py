@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from contactkit.contact.solver import press as active_set
+from contactkit.contact.solver.press import Press
+from contactkit.elasticity import layered
 from contactkit.errors import DescriptionError, InfeasibleError
-from contactkit.kernels import active_set, layered
-from contactkit.kernels.active_set import Press
 
 N = 64
 PIXEL = (1e-8, 1e-8)

@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.columns import COLUMNS
-from contactkit.effects import SEPARATION_EFFECTS
-from contactkit.effects.base import SeparationForce
-from contactkit.film_laws import impulse_name
-from contactkit.io import structure, unstructure
-from contactkit.kernels import dmt, jkr, maugis_dugdale, van_der_waals
-from contactkit.separation import simulate
+from contactkit.adhesion import dmt, jkr, maugis_dugdale, van_der_waals
+from contactkit.files.scenes import structure, unstructure
+from contactkit.separation.columns import COLUMNS
+from contactkit.separation.effects.base import SeparationForce
+from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+from contactkit.separation.film import impulse_name
+from contactkit.separation.simulate import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from contactkit.kernels import arc_flat, arc_sphere
-from contactkit.kernels.bridge_arc import bridge
+from contactkit.capillary.arc import flat as arc_flat
+from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.capillary.arc.bridge import arc_bridge
 
 ANGLE = st.one_of(st.sampled_from([0.0, math.pi / 2, math.pi]), st.floats(0.0, math.pi))
 SHARE = st.floats(1e-6, 0.95)  # of the gap at which the neck closes
@@ -28,7 +29,7 @@ def test_lengths_scale_between_flats(lower, upper, share, power):
     assume(abs(lower - upper) < HALF)
     limit = arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0)
     gap, scale = share * min(limit, 10.0), 10.0**power
-    one, two = bridge(gap, 1.0, lower, upper), bridge(gap * scale, scale**3, lower, upper)
+    one, two = arc_bridge(gap, 1.0, lower, upper), arc_bridge(gap * scale, scale**3, lower, upper)
     width = abs(one.force) + one.neck  # a force may pass through zero
     np.testing.assert_allclose(two.force / scale, one.force, rtol=1e-11, atol=1e-11 * width)
     np.testing.assert_allclose(two.radius_lower, scale * one.radius_lower, rtol=1e-11)
@@ -40,8 +41,8 @@ def test_lengths_scale_between_flats(lower, upper, share, power):
 def test_lengths_scale_between_curved_bodies(lower, upper, volume, share, ratio, power):
     assume(abs(lower - upper) < HALF)
     gap, scale = share * volume ** (1 / 3), 10.0**power
-    one = bridge(gap, volume, lower, upper, ratio, 1.0, beyond="nan")
-    two = bridge(
+    one = arc_bridge(gap, volume, lower, upper, ratio, 1.0, beyond="nan")
+    two = arc_bridge(
         gap * scale, volume * scale**3, lower, upper, ratio / scale, 1.0 / scale, beyond="nan"
     )
     near = 1e-10 * (abs(one.force) + abs(one.radius_lower))
@@ -54,8 +55,8 @@ def test_lengths_scale_between_curved_bodies(lower, upper, volume, share, ratio,
 def test_bodies_may_be_swapped(lower, upper, volume, share, one_curved, two_curved):
     assume(abs(lower - upper) < HALF)
     gap = max(share, 1e-3) * volume ** (1 / 3)
-    one = bridge(gap, volume, lower, upper, one_curved, two_curved, beyond="nan")
-    two = bridge(gap, volume, upper, lower, two_curved, one_curved, beyond="nan")
+    one = arc_bridge(gap, volume, lower, upper, one_curved, two_curved, beyond="nan")
+    two = arc_bridge(gap, volume, upper, lower, two_curved, one_curved, beyond="nan")
     size = np.maximum(abs(one.radius_lower), gap)
     for here, there in (
         (one.radius_lower, two.radius_upper), (one.radius_upper, two.radius_lower),
@@ -114,11 +115,11 @@ def test_weakly_curved_bodies_join_the_flats(lower, upper, share, which):
     """Two kernels that share no formula for the volume meet as curvature vanishes."""
     assume(abs(lower - upper) < HALF)
     gap = share * min(arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0), 3.0)
-    flat = bridge(gap, 1.0, lower, upper)
+    flat = arc_bridge(gap, 1.0, lower, upper)
     size = abs(flat.force) + flat.bulge + flat.bulge**2 / gap
     for curvature in (1e-6, 1e-9, 1e-14):
         bend = [curvature * (which != other) for other in ("upper", "lower")]
-        curved = bridge(gap, 1.0, lower, upper, *bend)
+        curved = arc_bridge(gap, 1.0, lower, upper, *bend)
         assert curved.force == pytest.approx(flat.force, abs=1e4 * curvature * size + 1e-10 * size)
         assert curved.radius_lower == pytest.approx(
             flat.radius_lower, abs=1e4 * curvature * flat.bulge / share + 1e-10 * flat.bulge
@@ -148,19 +149,19 @@ def test_arcs_exist_up_to_the_closed_neck_and_not_beyond(lower, upper, volume, c
 def test_a_point_does_not_depend_on_its_neighbours(points):
     lower, upper, volume, curvature = (np.array(column) for column in zip(*points, strict=True))
     gap = 0.1 * np.cbrt(volume)
-    many = bridge(gap, volume, lower, upper, 0.0, curvature, beyond="nan")
+    many = arc_bridge(gap, volume, lower, upper, 0.0, curvature, beyond="nan")
     for i in range(len(points)):
-        one = bridge(gap[i], volume[i], lower[i], upper[i], 0.0, curvature[i], beyond="nan")
+        one = arc_bridge(gap[i], volume[i], lower[i], upper[i], 0.0, curvature[i], beyond="nan")
         for name in NAMES:
             np.testing.assert_array_equal(getattr(many, name)[i], getattr(one, name))
             assert getattr(one, name).shape == ()
 
 
 def test_arguments_broadcast():
-    state = bridge(np.full((3, 1), 0.1), [1e-3, 1e-2], 0.5, 0.7, 0.0, np.zeros((2, 1, 1)))
+    state = arc_bridge(np.full((3, 1), 0.1), [1e-3, 1e-2], 0.5, 0.7, 0.0, np.zeros((2, 1, 1)))
     assert {column.shape for column in state} == {(2, 3, 2)}
-    assert bridge([], 1.0, 0.5, 0.7).force.shape == (0,)
-    assert bridge([], 1.0, 0.5, 0.7, 0.0, 1.0).force.shape == (0,)
+    assert arc_bridge([], 1.0, 0.5, 0.7).force.shape == (0,)
+    assert arc_bridge([], 1.0, 0.5, 0.7, 0.0, 1.0).force.shape == (0,)
 
 
 def test_floats_and_arrays_agree():

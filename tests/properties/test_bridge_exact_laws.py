@@ -8,9 +8,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from contactkit.kernels.bridge_exact import bridge, bridge_at_pressure, margin
-from contactkit.kernels.bridge_limit import stability_limit
-from contactkit.kernels.bridge_pressure import longest_at_pressure
+from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure, margin
+from contactkit.capillary.exact.stability import stability_limit
 
 few = settings(max_examples=12, deadline=None, derandomize=True)
 angles = st.floats(0.0, math.pi)

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.kernels.bridge_exact import ExactBridge, bridge, bridge_at_pressure
-from contactkit.kernels.bridge_limit import stability_limit
-from contactkit.kernels.bridge_pressure import longest_at_pressure
-from contactkit.kernels.flat_law import flat_law
+from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.bridge import ExactBridge, bridge, bridge_at_pressure
+from contactkit.capillary.exact.stability import stability_limit
+from contactkit.capillary.flats.force_law import flat_law
 
 SHARES = np.array([1e-3, 0.05, 0.3, 0.7, 0.95, 0.9999])  # of the limit
 EXACT = (0.0, 0.5 * math.pi, math.pi, 1e-6, 0.5 * math.pi - 1e-6)

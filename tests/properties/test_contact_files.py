@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.archive import from_bytes, to_bytes
-from contactkit.effects.contact import CONTACT_EFFECTS
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.files.results import from_bytes, to_bytes
 
 
 def decades(low, high):

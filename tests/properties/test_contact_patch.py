@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactkit.kernels import fft_backends
-from contactkit.kernels.active_set import Press
-from contactkit.kernels.active_set_patch import Patch, patch_symbol
-from contactkit.kernels.convolve import Convolution
-from contactkit.kernels.free_kernel import symbol
+from contactkit.contact.solver.convolution import Convolution
+from contactkit.contact.solver.patch import Patch, patch_symbol
+from contactkit.contact.solver.press import Press
+from contactkit.elasticity.influence import symbol
+from contactkit.numerics import fft as fft_backends
 
 MODULI, POISSON, NO_LAYERS = np.array([0.75]), (0.5,), ()
 

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigvalsh
 
-from contactkit.kernels import free_kernel, love
+from contactkit.elasticity import influence as free_kernel
+from contactkit.elasticity import love
 
 modulus = st.floats(-3.0, 3.0).map(lambda exponent: 10.0**exponent)
 ratio = st.floats(-0.5, 0.5)

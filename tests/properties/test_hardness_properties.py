@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactkit.kernels.hardness import (
+from contactkit.contact.effects.hardness_rules import (
     effective_hardness,
     effective_hardness_literal,
     layer_on_substrate,

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactkit.kernels.layer_planes import default_depths, locate
-from contactkit.kernels.layered import compliance
-from contactkit.kernels.layered_fields import plane_states, unit_stresses
+from contactkit.elasticity.depths import default_depths, locate
+from contactkit.elasticity.layered import compliance
+from contactkit.elasticity.layered_fields import plane_states, unit_stresses
 
 ALPHA = np.geomspace(1e-3, 1e2, 24)
 moduli = st.floats(-3.0, 3.0).map(lambda exponent: 10.0**exponent)

@@ -9,11 +9,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from contactkit.errors import DescriptionError, ValidityWarning
-from contactkit.liquids import LAWS, Liquid
-from contactkit.temperature_laws import LinearDensity, LinearSurfaceTension
+from contactkit.liquids.liquid import LAWS, Liquid
+from contactkit.liquids.temperature_laws import LinearDensity, LinearSurfaceTension
+from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
+from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
 from contactkit.units import cSt
-from contactkit.viscosity_laws import VogelViscosity, WaltherViscosity
-from contactkit.water_laws import IapwsSurfaceTension, KellWaterDensity
 
 ANY = st.floats(min_value=0.0, allow_nan=False, exclude_min=True)
 

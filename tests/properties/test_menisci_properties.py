@@ -10,11 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.divide import divide_meniscus
-from contactkit.kernels import asperities as laws
-from contactkit.kernels import kelvin, menisci
-from contactkit.kernels.condensed import condensed_bridges
-from contactkit.kernels.island_bridges import curvature_of_area, measure_islands
+from contactkit.analyses.division import divide_meniscus
+from contactkit.capillary import asperities as laws
+from contactkit.capillary import kelvin
+from contactkit.capillary import many_menisci as menisci
+from contactkit.capillary.condensed import condensed_bridges
+from contactkit.capillary.island_bridges import curvature_of_area, measure_islands
 
 few = settings(max_examples=25, deadline=None)
 angles = st.floats(0.0, 1.4)
@@ -113,7 +114,7 @@ def test_division_raises_attraction_and_lowers_repulsion(angle, sign):
 @few
 @given(st.integers(0, 10_000), st.floats(0.5, 3.0))
 def test_islands_keep_the_area_of_their_map(seed, height):
-    from contactkit.kernels.film_islands import islands
+    from contactkit.capillary.film_islands import islands
 
     gap = np.abs(np.random.default_rng(seed).normal(size=(12, 15)))
     gap[gap < 0.2] = 0.0

@@ -9,14 +9,14 @@ import pytest
 from attrs import evolve
 from scipy.integrate import solve_ivp
 
-from contactkit.models.mirror import acceleration, electrode_volts, root_height
-from contactkit.models.mirror_film import separation_energy, tip_law
-from contactkit.models.mirror_flight import Flight, Root, landing_time
-from contactkit.models.mirror_motion import couple
-from contactkit.models.mirror_plate import capacitance
-from contactkit.models.mirror_tip import advance_tip, free_start, landed_start, tip_force
-from contactkit.models.mirror_whole import simulate_whole
-from contactkit.models.scenes import open_scene
+from contactkit.app.micromirror.run.coupling import couple
+from contactkit.app.micromirror.run.electrostatics import capacitance
+from contactkit.app.micromirror.run.flight import Flight, Root, landing_time
+from contactkit.app.micromirror.run.mirror import acceleration, electrode_volts, root_height
+from contactkit.app.micromirror.run.monolithic import simulate_whole
+from contactkit.app.micromirror.run.tip import advance_tip, free_start, landed_start, tip_force
+from contactkit.app.micromirror.run.tip_film import separation_energy, tip_law
+from contactkit.app.scenes import open_scene
 
 PULSE = 34.0
 

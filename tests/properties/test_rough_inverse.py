@@ -7,13 +7,14 @@ import importlib.util
 import numpy as np
 import pytest
 
+from contactkit.contact.solver import loops_numpy as active_set_loops
+from contactkit.contact.solver.convolution import Convolution
+from contactkit.contact.solver.dense import influence_matrix
+from contactkit.contact.solver.press import Press
+from contactkit.contact.solver.sparse_inverse import NearInverse, lattice_strides
+from contactkit.contact.solver.warm_start import first_pressure
+from contactkit.elasticity import layered
 from contactkit.errors import DescriptionError
-from contactkit.kernels import active_set_loops, layered
-from contactkit.kernels.active_set import Press
-from contactkit.kernels.active_set_direct import influence_matrix
-from contactkit.kernels.active_set_inverse import NearInverse, lattice_strides
-from contactkit.kernels.active_set_start import first_pressure
-from contactkit.kernels.convolve import Convolution
 
 NUMBA = importlib.util.find_spec("numba") is not None
 
@@ -79,7 +80,7 @@ def test_the_spectrum_of_inverse_times_operator_is_narrow(contrast):
 @pytest.mark.parametrize("periodic", [True, False])
 @pytest.mark.parametrize("shape", [(24, 24), (5, 40), (2, 3)])
 def test_compiled_and_plain_factors_are_the_same(shape, periodic):
-    from contactkit.kernels.active_set_numba import compiled
+    from contactkit.contact.solver.loops_numba import compiled
 
     y, x = np.indices(shape)
     dy, dx = (np.minimum(v, n - v) if periodic else v for v, n in zip((y, x), shape, strict=True))

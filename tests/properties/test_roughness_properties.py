@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import fft
 
-from contactkit.kernels import roughness
-from contactkit.kernels import roughness_statistics as stats
-from contactkit.kernels.detrend import detrended
+from contactkit.roughness import roughness
+from contactkit.roughness import statistics as stats
+from contactkit.roughness.zz_detrend import detrended
 
 few = settings(deadline=None, max_examples=30)
 SIDE = st.integers(3, 40)

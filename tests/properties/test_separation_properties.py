@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.motion_state import start
+from contactkit.separation.motion.state import start
 from contactkit.units import celsius, parse_quantity, parse_unit
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -10,16 +10,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contactkit.contact.solver.blocks import CoarseBlocks
+from contactkit.contact.solver.convolution import Convolution, self_influence, symbol_of
+from contactkit.contact.solver.dense import influence_matrix, solve_directly
+from contactkit.contact.solver.press import Press
+from contactkit.contact.solver.problem import clip_to_load
+from contactkit.contact.solver.stencil import inverse_stencil, least_eigenvalue
+from contactkit.contact.solver.transfer import block_shape, nested_shapes, prolong, restrict
+from contactkit.elasticity import influence as free_kernel
 from contactkit.errors import DescriptionError
-from contactkit.kernels import free_kernel
-from contactkit.kernels.active_set import Press
-from contactkit.kernels.active_set_direct import influence_matrix, solve_directly
-from contactkit.kernels.coarse_blocks import CoarseBlocks
-from contactkit.kernels.convolve import Convolution, self_influence, symbol_of
-from contactkit.kernels.fft_backends import fast_transforms_installed
-from contactkit.kernels.grid_transfer import block_shape, nested_shapes, prolong, restrict
-from contactkit.kernels.near_stencil import inverse_stencil, least_eigenvalue
-from contactkit.kernels.press_problem import clip_to_load
+from contactkit.numerics.fft import fast_transforms_installed
 
 ANY = np.random.default_rng(0)
 INSTALLED = fast_transforms_installed() and importlib.util.find_spec("numba") is not None

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from contactkit.errors import DescriptionError
-from contactkit.kernels.spline import cubic_spline
+from contactkit.numerics.cubic_spline import cubic_spline
 
 
 @given(

@@ -18,8 +18,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.effects.base import Effect, FilmEnd, FilmLimit, SeparationEffect, SeparationForce
-from contactkit.effects.contact_base import (
+from contactkit.contact.effects.base import (
     Compliance,
     ContactEffect,
     DisplacementTerm,
@@ -27,8 +26,15 @@ from contactkit.effects.contact_base import (
     Observer,
     PressureCap,
 )
-from contactkit.effects.sliding_base import SlidingForce
-from contactkit.liquids import LAWS
+from contactkit.liquids.liquid import LAWS
+from contactkit.separation.effects.base import (
+    Effect,
+    FilmEnd,
+    FilmLimit,
+    SeparationEffect,
+    SeparationForce,
+)
+from contactkit.separation.sliding.zz_sliding_base import SlidingForce
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")

@@ -53,7 +53,7 @@ def test_an_extra_is_not_brought_along_by_the_library(extra):
     """Neither by the import nor by a contact that runs without it."""
     contact = (
         "import contactkit as ck; ck.solve; ck.press; ck.load_scene; ck.study;"
-        "import contactkit.contact_result, contactkit.effects.stress_scan, contactkit.realise"
+        "import contactkit.contact_result, contactkit.contact.effects.zz_stress_scan, contactkit.realise"
     )
     assert extra not in roots(loaded_by(contact))
 
@@ -84,9 +84,9 @@ def test_the_control_sees_what_is_heavy():
 @pytest.mark.parametrize(
     "module",
     ["contactkit.plan", "contactkit.motion", "contactkit.effects", "contactkit.liquids",
-     "contactkit.planner", "contactkit.contact_plan", "contactkit.effects.registry",
-     "contactkit.kernels.arc_flat", "contactkit.kernels.squeeze", "contactkit.kernels.film_limits",
-     "contactkit.kernels.stiff_step"],
+     "contactkit.planner", "contactkit.contact_plan", "contactkit.effects",
+     "contactkit.capillary.arc.flat", "contactkit.lubrication.squeeze_film", "contactkit.lubrication.film_limits",
+     "contactkit.separation.integrator.radau"],
 )  # fmt: skip
 def test_what_runs_inside_an_fmu_needs_no_numpy(module):
     assert roots(loaded_by(f"import {module}")) & HEAVY == set()

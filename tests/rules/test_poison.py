@@ -15,11 +15,11 @@ import scipy.fft
 
 import contactkit as ck
 import contactkit.kernels
-from contactkit import separation
-from contactkit.contact import solve
-from contactkit.effects import SEPARATION_EFFECTS
-from contactkit.effects.contact import CONTACT_EFFECTS
-from contactkit.effects.modes import mixed
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.contact.solve import solve
+from contactkit.separation import simulate as separation
+from contactkit.separation.effects.as_published import mixed
+from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

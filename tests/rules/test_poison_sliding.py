@@ -12,8 +12,8 @@ import pytest
 
 import contactkit as ck
 import contactkit.kernels
-from contactkit import separation
-from contactkit.effects.sliding import SLIDING_EFFECTS
+from contactkit.separation import simulate as separation
+from contactkit.separation.sliding.effects import SLIDING_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.effects.contact import CONTACT_EFFECTS
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
 
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
 DLC = ck.Material(name="dlc", young_modulus=140e9, poisson_ratio=0.25, hardness=20e9)

@@ -9,8 +9,8 @@ import attrs
 import pytest
 
 import contactkit as ck
+from contactkit.app.scenes import open_scene
 from contactkit.cli import main
-from contactkit.models.scenes import open_scene
 
 SMALL = """
 name = "small contact"

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from contactkit.models.injector import mass_values
-from contactkit.models.injector_report import cycles, dry_delay, report, run_error
-from contactkit.models.scenes import open_scene
-from contactkit.motion_state import LimitKind
+from contactkit.app.injector.report import cycles, dry_delay, report, run_error
+from contactkit.app.injector.run import mass_values
+from contactkit.app.scenes import open_scene
+from contactkit.separation.motion.state import LimitKind
 from contactkit.units import celsius
 
 MODELS = Path(__file__).parents[2] / "models"

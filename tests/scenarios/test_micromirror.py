@@ -10,11 +10,11 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.models.micromirror import Micromirror
-from contactkit.models.micromirror_report import flip_times, report, run_errors
-from contactkit.models.mirror_film import adhesion, tip_law
-from contactkit.models.mirror_release import landing, release, release_curve, smallest_reset
-from contactkit.models.scenes import open_scene
+from contactkit.app.micromirror.report import flip_times, report, run_errors
+from contactkit.app.micromirror.run import Micromirror
+from contactkit.app.micromirror.run.release import landing, release, release_curve, smallest_reset
+from contactkit.app.micromirror.run.tip_film import adhesion, tip_law
+from contactkit.app.scenes import open_scene
 
 
 @pytest.fixture(scope="module")

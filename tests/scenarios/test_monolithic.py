@@ -10,13 +10,13 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.io import read_tables, structure
-from contactkit.models import valve as law
-from contactkit.models.monolithic import simulate
-from contactkit.models.valve import Valve
-from contactkit.motion import advance
-from contactkit.motion_state import FilmStatus, start
-from contactkit.plan import plan
+from contactkit.app.injector.run import valve as law
+from contactkit.app.injector.run.monolithic import simulate
+from contactkit.app.injector.run.valve import Valve
+from contactkit.files.scenes import read_tables, structure
+from contactkit.separation.motion.advance import advance
+from contactkit.separation.motion.state import FilmStatus, start
+from contactkit.separation.plan import plan
 from contactkit.units import celsius
 
 MODEL = Path(__file__).parents[2] / "models" / "fuel_injector.toml"

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.effects.modes import mixed, mode, printed_equations
-from contactkit.kernels.bridge_exact import bridge
-from contactkit.kernels.bridge_limit import stability_limit
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.exact.stability import stability_limit
+from contactkit.separation.effects.as_published import mixed, mode, printed_equations
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

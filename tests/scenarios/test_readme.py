@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
-from contactkit.models.scenes import open_scene
+from contactkit.app.scenes import open_scene
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -15,8 +15,8 @@ import pytest
 from matplotlib.figure import Figure
 
 import contactkit as ck
-from contactkit import plot
-from contactkit.kernels.bridge_exact import bridge, bridge_at_pressure
+from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
+from contactkit.plot import separation as plot
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

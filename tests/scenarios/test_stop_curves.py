@@ -12,12 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.kernels.monotone_cubic import monotone_curve, monotone_slopes, power_curve
-from contactkit.models.mirror_landing import land, tip_faces
-from contactkit.models.scenes import open_scene
-from contactkit.stop_impact import impact, in_series
-from contactkit.stop_tables import StopCurve
-from contactkit.stop_ways import StopBranch
+from contactkit.analyses.load_displacement.curve import StopCurve
+from contactkit.analyses.load_displacement.impact import impact, in_series
+from contactkit.analyses.load_displacement.zz_stop_ways import StopBranch
+from contactkit.app.micromirror.run.landing import land, tip_faces
+from contactkit.app.scenes import open_scene
+from contactkit.numerics.monotone_cubic import monotone_curve, monotone_slopes, power_curve
 
 HARDNESS = 7.5e9
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=HARDNESS)

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit import study_run
-from contactkit.studies import StudyPoint
+from contactkit.studies import run as study_run
+from contactkit.studies.study import StudyPoint
 
 ACCURACY = ck.Accuracy(grid=32, rtol=1e-9)
 PRESSURES = [2e7, 4e7, 8e7, 1.6e8]
@@ -337,8 +337,8 @@ def test_workers_begin_with_one_thread_each(monkeypatch):
 
 
 def test_chains_are_spread_and_cut():
-    from contactkit.studies import _Run
-    from contactkit.study_paths import axes
+    from contactkit.studies.paths import axes
+    from contactkit.studies.study import _Run
 
     def lengths(slots, **vary):
         varied = axes(contact(), ACCURACY, {k.replace("_", "."): v for k, v in vary.items()})

@@ -1,0 +1,287 @@
+"""One meniscus divided into many: how the forces change, and which number is best."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from attrs import field, frozen
+
+from ..capillary import many_menisci as menisci
+from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
+from ..numerics.roots import bracketed_root
+from ..separation.effects.registry import MeniscusForce, ViscousForce
+from .division_laws import SOURCES, DivisionLaw, Name, law_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..scene.scenes import SeparationScene
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["CriticalMeniscus", "DivisionResult", "critical_meniscus", "divide_meniscus"]
+
+_AT_ONCE = 200  # numbers of menisci looked at together
+
+
+@frozen(eq=False)
+class DivisionResult:
+    """What the division of one film into N equal menisci does to the forces.
+
+    Curves are over `counts`, read-only. The criterion of the best number is the least sum of the
+    forces that the scene calls for: the meniscus force at the start and the mean viscous force
+    over the opening.
+
+    Attributes
+    ----------
+    law : str
+        ``exact``, ``arc`` or ``as-published``: one law for both forces.
+    counts : ndarray of int (n,)
+        Numbers of menisci that were asked for and are stable.
+    unstable : tuple of int
+        Those asked for of which no bridge spans the gap.
+    largest_stable_count : int
+        Largest number of menisci that span the gap.
+    best_count : int
+        Number, of all up to that, with the least total force.
+    best_force : float
+        That force [N].
+    limit_gap : ndarray (n,)
+        Gap at which the menisci break [m].
+    contact_radius : ndarray (n,)
+        Larger contact radius of one meniscus [m].
+    """
+
+    scene: SeparationScene = field(repr=False)
+    law: Name
+    counts: NDArray[np.int64]
+    unstable: tuple[int, ...]
+    largest_stable_count: int
+    best_count: int
+    best_force: float
+    limit_gap: Floats = field(repr=False)
+    contact_radius: Floats = field(repr=False)
+    _forces: DivisionLaw = field(repr=False)
+
+    @property
+    def meniscus_force(self) -> Floats:
+        """Force of all menisci together at the initial gap [N]; positive resists."""
+        return self._forces.demand(MeniscusForce)(self._volumes, self.counts.astype(float))
+
+    @property
+    def viscous_force(self) -> Floats:
+        """Mean viscous force of all over the opening [N]: impulse over its duration."""
+        return self._forces.demand(ViscousForce)(self._volumes, self.counts.astype(float))
+
+    @property
+    def total_force(self) -> Floats:
+        """Sum of the forces that the scene calls for [N]."""
+        return self._forces.total(self._volumes, self.counts.astype(float))
+
+    @property
+    def cover(self) -> Floats:
+        """Sum of the contact circles over the area of the face [-]; needs `Flat.radius`."""
+        rim = self.scene.interface.rim_radius
+        if math.isinf(rim):
+            raise NotSimulatedError("the cover needs the radius [m] of a Flat face")
+        return np.asarray(menisci.cover(self.counts, self.contact_radius, math.pi * rim**2))
+
+    @property
+    def overlaps(self) -> NDArray[np.bool_]:
+        """Whether the menisci cannot lie side by side on the face, however they are placed."""
+        most = np.where(self.counts > 1, menisci.DENSEST_COVER, 1.0)
+        # A face that one film fills to the rim is full, not too small.
+        return np.asarray(self.cover > most * (1.0 + 1e-9))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Where the equations of the law come from."""
+        return (SOURCES[self.law],)
+
+    @property
+    def _volumes(self) -> Floats:
+        volume = self.scene.interface.meniscus.volume
+        assert volume is not None
+        return np.asarray(volume / self.counts)
+
+    def __str__(self) -> str:
+        return (
+            f"division by the {self.law} law: best {self.best_count} menisci, {self.best_force:.4g}"
+            f" N in total; at most {self.largest_stable_count} are stable"
+        )
+
+
+def divide_meniscus(
+    scene: SeparationScene, counts: Sequence[int] | None = None, *, law: Name | None = None
+) -> DivisionResult:
+    r"""Divide the liquid between two flats into N equal menisci, at constant volume.
+
+    Parameters
+    ----------
+    scene : SeparationScene
+        Two flats, a meniscus with a volume (its own `count` does not matter here), the initial
+        gap, and either the time or the speed of the opening. Its effects, `MeniscusForce` and
+        `ViscousForce`, say which forces are compared; the viscous force acts up to the break of
+        the menisci or the final gap, whichever comes first.
+    counts : sequence of int, optional
+        Numbers of menisci of the curves. None: up to 61 from 1 to the largest stable number,
+        spaced as a geometric series.
+    law : {"exact", "arc", "as-published"}, optional
+        Law of both forces and of the break. None: the profile of the scene's `MeniscusForce`.
+
+    Returns
+    -------
+    DivisionResult
+        Curves, the largest stable number, the best one, and the law they follow.
+
+    Raises
+    ------
+    PlanError
+        If the scene is not one of a film between flats, or lacks something.
+    InfeasibleError
+        If not even one meniscus spans the gap.
+
+    Notes
+    -----
+    Both forces are those of free contact lines; a film that fills the faces is pinned at the rim,
+    which `overlaps` shows. At fixed time the viscous force falls as 1/N, at fixed speed as
+    1/N too but for the shorter way to the break; the meniscus force of a hydrophilic film rises,
+    slower than the root of N of Eq. (3.33).
+
+    Examples
+    --------
+    >>> import math
+    >>> import contactkit as ck
+    >>> water = ck.Liquid(name="water", surface_tension=0.072, viscosity=0.89e-3)
+    >>> film = ck.Meniscus(
+    ...     liquid=water, volume=2e-21,
+    ...     contact_angle_lower=math.pi / 3, contact_angle_upper=math.pi / 3)
+    >>> scene = ck.SeparationScene(
+    ...     interface=ck.Interface(meniscus=film),
+    ...     opening=ck.Opening(initial_gap=2e-9, final_gap=1e-6, time=1e-7),
+    ...     effects=(ck.MeniscusForce(), ck.ViscousForce()))
+    >>> print(divide_meniscus(scene, law="as-published"))
+    division by the as-published law: best 285 menisci, 4.159e-05 N in total; at most 23108052 are stable
+    """  # noqa: E501
+    volume = _volume(scene)
+    made = law_of(scene, law, volume)
+    most = menisci.largest_stable_count(made.gap, float(made.limit(np.asarray(volume))))
+    if most < 1:
+        raise InfeasibleError(
+            f"no meniscus spans the initial gap of {made.gap:g} m: this volume reaches "
+            f"{float(made.limit(np.asarray(volume))):g} m at most"
+        )
+    asked = _asked(counts, most)
+    stable = np.array([n for n in asked if n <= most], dtype=np.int64)
+    best, force = _best(made, volume, most)
+    volumes = volume / stable
+    found = DivisionResult(
+        scene, made.name, stable, tuple(n for n in asked if n > most), most, best, force,
+        made.limit(volumes), made.radius(volumes), made,
+    )  # fmt: skip
+    for array in (found.counts, found.limit_gap, found.contact_radius):
+        array.flags.writeable = False
+    return found
+
+
+def _volume(scene: SeparationScene) -> float:
+    volume = scene.interface.meniscus.volume
+    if volume is None:
+        raise PlanError("a division needs interface.meniscus.volume [m3]: what is to be divided")
+    return volume
+
+
+def _asked(counts: Sequence[int] | None, most: int) -> list[int]:
+    if counts is None:
+        return sorted({round(x) for x in np.geomspace(1.0, most, 61)})
+    for n in counts:
+        if isinstance(n, bool) or int(n) != n or n < 1:
+            raise DescriptionError("divide_meniscus(counts)", n, "hold whole numbers of at least 1")
+    return [int(n) for n in counts]
+
+
+def _best(law: DivisionLaw, volume: float, most: int) -> tuple[int, float]:
+    """Whole number with the least total force: a coarse look at all, finer ones near the least."""
+    low, high = 1, most
+    while True:
+        count = high - low + 1
+        if count <= _AT_ONCE:
+            tried = np.arange(low, high + 1)
+        else:
+            tried = np.unique(np.round(np.geomspace(low, high, _AT_ONCE)).astype(np.int64))
+        total = law.total(volume / tried, tried.astype(float))
+        at = int(np.argmin(total))
+        if count <= _AT_ONCE:
+            return int(tried[at]), float(total[at])
+        low, high = int(tried[max(at - 1, 0)]), int(tried[min(at + 1, len(tried) - 1)])
+
+
+@frozen
+class CriticalMeniscus:
+    """Meniscus whose two forces are equal: above its area the viscous one is the larger.
+
+    `area` is volume over gap [m2], `force` either force [N], `law` the one they follow.
+    """
+
+    law: Name
+    area: float
+    volume: float
+    force: float
+
+
+def critical_meniscus(scene: SeparationScene, *, law: Name | None = None) -> CriticalMeniscus:
+    """Size at which meniscus force and mean viscous force of one film between flats are equal.
+
+    Parameters
+    ----------
+    scene, law
+        As in `divide_meniscus`; gap, time and liquid are taken from the scene, its volume is not.
+
+    Raises
+    ------
+    InfeasibleError
+        If the meniscus repels, or the viscous force is the larger one for every stable bridge.
+
+    Examples
+    --------
+    >>> import math
+    >>> import contactkit as ck
+    >>> water = ck.Liquid(name="water", surface_tension=0.072, viscosity=0.89e-3)
+    >>> film = ck.Meniscus(
+    ...     liquid=water, contact_angle_lower=math.pi / 3, contact_angle_upper=math.pi / 3)
+    >>> scene = ck.SeparationScene(
+    ...     interface=ck.Interface(meniscus=film),
+    ...     opening=ck.Opening(initial_gap=2e-9, final_gap=1e-3, time=1e-7),
+    ...     effects=(ck.MeniscusForce(), ck.ViscousForce()))
+    >>> round(critical_meniscus(scene, law="as-published").area * 1e12, 4)
+    0.0694
+    """
+    gap = scene.opening.initial_gap
+    made = law_of(scene, law, gap**3 if gap > 0.0 else 1.0)
+    meniscus, viscous = made.demand(MeniscusForce), made.demand(ViscousForce)
+    one = np.asarray(1.0)
+
+    def excess(log: float) -> float:
+        volume = np.asarray(math.exp(log))
+        return float(viscous(volume, one) / meniscus(volume, one)) - 1.0
+
+    least = math.log(gap**3) - 3.0 * math.log(float(made.limit(np.asarray(gap**3))) / gap)
+    low = least + 1e-3
+    high = max(low, math.log(gap**3)) + 1.0
+    film = scene.interface.meniscus
+    if math.cos(film.contact_angle_lower) + math.cos(film.contact_angle_upper) < -1e-12:
+        # Attractive near its break only, which is not a size to compare at.
+        raise InfeasibleError("the meniscus repels: there is no size at which it balances the film")
+    if excess(low) > 0.0:
+        raise InfeasibleError(
+            "the viscous force is the larger one for every bridge that spans the initial gap; give "
+            "a longer time or a larger gap"
+        )
+    while excess(high) < 0.0:
+        low, high = high, high + 2.0
+    volume = math.exp(bracketed_root(excess, low, high, 1e-13))
+    force = float(meniscus(np.asarray(volume), one))
+    return CriticalMeniscus(made.name, volume / gap, volume, force)

@@ -1,0 +1,194 @@
+"""What N equal menisci between two flats pull, by the law chosen: exact, arc, or as printed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from ..errors import InfeasibleError, NotSimulatedError, PlanError
+from ..lubrication import squeeze_film as squeeze
+from ..separation.effects.as_published import mixed
+from ..separation.effects.registry import MeniscusForce, ViscousForce
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..scene.scenes import SeparationScene
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["DivisionLaw", "law_of"]
+
+Name = Literal["exact", "arc", "as-published"]
+
+SOURCES = {
+    "exact": "exact bridge (Young-Laplace), broken at its stability limit; Stefan's film",
+    "arc": "arc of Eqs. (3.38)-(3.41), broken at the exact stability limit; Stefan's film",
+    "as-published": "Eqs. (3.33) and (3.34) as printed, broken where the neck of the arc closes",
+}
+
+
+class DivisionLaw(NamedTuple):
+    """Forces of N menisci that share a volume, at the gap and in the time of a scene.
+
+    `meniscus` and `viscous` take the volume of one meniscus [m3] and its number and give the force
+    of all [N]; None where the scene does not call for it. `radius` gives the larger contact
+    radius of one [m], `limit` the gap at which it breaks [m].
+    """
+
+    name: Name
+    gap: float
+    meniscus: Callable[[Floats, Floats], Floats] | None
+    viscous: Callable[[Floats, Floats], Floats] | None
+    radius: Callable[[Floats], Floats]
+    limit: Callable[[Floats], Floats]
+
+    def total(self, volume: Floats, number: Floats) -> Floats:
+        """Sum of the forces that the scene calls for [N]."""
+        found = [force(volume, number) for force in (self.meniscus, self.viscous) if force]
+        return np.asarray(sum(found[1:], found[0]))
+
+    def demand(self, kind: type) -> Callable[[Floats, Floats], Floats]:
+        """Return a force, or say which effect the scene does not call for."""
+        force = self.meniscus if kind is MeniscusForce else self.viscous
+        if force is None:
+            name = f"{kind.__name__}()"
+            raise NotSimulatedError(f"the scene does not call for it: add {name} to its effects")
+        return force
+
+
+def law_of(scene: SeparationScene, name: Name | None, least_volume: float) -> DivisionLaw:
+    """Law of a scene; `least_volume` [m3] is any volume, from which the limits are scaled."""
+    effect = scene.effect(MeniscusForce)
+    name = name or _own_law(scene)
+    _check(scene, name)
+    gap, limit = scene.opening.initial_gap, _limits(scene, name, least_volume)
+    meniscus, radius = _meniscus(scene, name)
+    viscous = _viscous(scene, name, limit) if scene.effect(ViscousForce) is not None else None
+    return DivisionLaw(name, gap, meniscus if effect is not None else None, viscous, radius, limit)
+
+
+def _own_law(scene: SeparationScene) -> Name:
+    """Law that the effects of a scene choose."""
+    if both := mixed(scene):
+        raise PlanError(both)
+    meniscus, viscous = scene.effect(MeniscusForce), scene.effect(ViscousForce)
+    if meniscus is not None:
+        return meniscus.profile
+    is_printed = viscous is not None and viscous.closure == "as-published"
+    return "as-published" if is_printed else "exact"
+
+
+def _check(scene: SeparationScene, name: str) -> None:
+    """Refuse what the division of a film between flats has no answer to."""
+    interface, opening = scene.interface, scene.opening
+    known = (MeniscusForce, ViscousForce)
+    others = [type(e).__name__ for e in scene.effects if not isinstance(e, known)]
+    if name not in SOURCES:
+        raise PlanError(f"a division has no law {name!r}; known: {', '.join(SOURCES)}")
+    if others or not scene.effects:
+        raise PlanError(
+            "a division knows MeniscusForce() and ViscousForce() only, and needs one of them: "
+            f"leave out {', '.join(others) or 'nothing, and add one'}"
+        )
+    viscous = scene.effect(ViscousForce)
+    if viscous is not None and viscous.closure == "as-published" and name != "as-published":
+        raise PlanError(
+            f"ViscousForce(closure='as-published') does not go with the {name} law of a division: "
+            "a result takes the equations as printed or the consistent ones, never both"
+        )
+    if not interface.is_flat:
+        raise PlanError(
+            "a division is of a film between two flats; for asperities in place of a sphere see "
+            "AsperityPopulation.split and AsperityMenisci"
+        )
+    if opening.imposed == "force" and viscous is not None:
+        raise PlanError(
+            "a division needs Opening.time [s] or Opening.speed [m/s]: under an imposed force "
+            "there is no mean viscous force to compare, only a time"
+        )
+    if opening.initial_gap <= 0.0:
+        raise InfeasibleError("Opening.initial_gap is 0 m: touching flats hold no film to divide")
+    state = interface.meniscus.liquid.at(scene.temperature)
+    lacks = {
+        "liquid.surface_tension [N/m]": state.surface_tension is None,
+        "liquid.viscosity [Pa.s]": viscous is not None and state.viscosity is None,
+    }
+    if missing := [what for what, is_missing in lacks.items() if is_missing]:
+        raise PlanError(f"a division needs {' and '.join(missing)}")
+
+
+def _angles(scene: SeparationScene) -> tuple[float, float]:
+    meniscus = scene.interface.meniscus
+    return meniscus.contact_angle_lower, meniscus.contact_angle_upper
+
+
+def _limits(scene: SeparationScene, name: str, volume: float) -> Callable[[Floats], Floats]:
+    """Break gap [m] by volume: it scales as the cube root."""
+    if name == "as-published":
+        from ..capillary.arc import flat as arc_flat
+
+        one = float(arc_flat.zero_neck_gap(arc_flat.shape(*_angles(scene)), volume))
+    else:
+        from ..capillary.exact.stability import stability_limit
+
+        one = float(stability_limit(volume, *_angles(scene)).gap)
+    return lambda v: np.asarray(one * np.cbrt(v / volume))
+
+
+def _meniscus(
+    scene: SeparationScene, name: str
+) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats], Floats]]:
+    gap, angles = scene.opening.initial_gap, _angles(scene)
+    tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None  # `_check` has asked
+    if name == "as-published":
+        effect = scene.effect(MeniscusForce)
+        pulled = effect.pulled if effect is not None else "lower"
+        from ..as_published.printed.common import meniscus_divided_3_33
+
+        def printed(volume: Floats, number: Floats) -> Floats:
+            whole = squeeze.disc_radius(volume * number, gap)
+            return np.asarray(meniscus_divided_3_33(whole, gap, tension, *angles, number, pulled))
+
+        return printed, lambda volume: np.asarray(squeeze.disc_radius(volume, gap))
+    if name == "arc":
+        from ..capillary.arc.bridge import arc_bridge as bridge
+    else:
+        from ..capillary.exact.bridge import bridge  # type: ignore[assignment]
+
+    def force(volume: Floats, number: Floats) -> Floats:
+        return np.asarray(number * tension * bridge(gap, volume, *angles).force)
+
+    def radius(volume: Floats) -> Floats:
+        state = bridge(gap, volume, *angles)
+        return np.maximum(state.radius_lower, state.radius_upper)
+
+    return force, radius
+
+
+def _viscous(
+    scene: SeparationScene, name: str, limit: Callable[[Floats], Floats]
+) -> Callable[[Floats, Floats], Floats]:
+    """Mean viscous force over the opening, up to the break or the final gap."""
+    opening, effect = scene.opening, scene.effect(ViscousForce)
+    assert effect is not None
+    viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
+    assert viscosity is not None
+    start = opening.initial_gap
+    constant = effect.closure != "volume-conserving" or name == "as-published"
+
+    def force(volume: Floats, number: Floats) -> Floats:
+        end = np.minimum(limit(volume), opening.final_gap)
+        if constant:  # the radius at the start is kept, as printed
+            radius = squeeze.disc_radius(volume, start)
+            impulse = squeeze.disc_impulse_flooded(radius, start, end, viscosity)
+        else:
+            impulse = squeeze.disc_impulse_conserved(volume, start, end, viscosity)
+        duration = opening.time or (end - start) / (opening.speed or math.inf)
+        return np.asarray(number * impulse / duration)
+
+    return force

@@ -1,0 +1,300 @@
+"""Meniscus force against relative humidity: of a sphere, of asperities, of a solved contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
+
+import numpy as np
+from attrs import evolve, field, frozen
+
+from ..accuracy import Accuracy
+from ..capillary import kelvin
+from ..contact.effects.base import Contact
+from ..contact.effects.island_bridges import IslandBridges
+from ..contact.result import ContactResult
+from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
+from ..scene.meniscus import Meniscus
+from ..scene.scenes import SeparationScene
+from ..separation.effects.asperities import AsperityMenisci
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["HumidityCurve", "humidity_curve"]
+
+Law = Literal["islands", "cross-cut"]
+_T = TypeVar("_T")
+
+
+class _Point(NamedTuple):
+    """What condenses at one humidity: force [N], menisci, volume of all [m3], circles [m2]."""
+
+    force: float
+    n_menisci: float
+    volume: float | None
+    circles: float | None
+    largest: float | None = None
+
+
+@frozen(eq=False)
+class HumidityCurve:
+    """Meniscus force against humidity; arrays (n,), read-only.
+
+    Attributes
+    ----------
+    law : str
+        What the force is made of; different laws are not to be compared without saying so.
+    relative_humidity : ndarray
+        As given [-].
+    kelvin_radius, meniscus_height : ndarray
+        Radius of curvature of the menisci, and the height of a thin one, ``r_K (cos + cos)`` [m].
+    pressure : ndarray
+        Laplace pressure [Pa].
+    force : ndarray
+        Pull of all menisci [N]; 0 where the gap is too wide for any.
+    n_menisci : ndarray
+        Number of menisci [-].
+    """
+
+    law: str
+    relative_humidity: Floats = field(repr=False)
+    kelvin_radius: Floats = field(repr=False)
+    meniscus_height: Floats = field(repr=False)
+    pressure: Floats = field(repr=False)
+    force: Floats = field(repr=False)
+    n_menisci: Floats = field(repr=False)
+    _volume: Floats | None = field(repr=False)
+    _circles: Floats | None = field(repr=False)
+    _largest: Floats | None = field(repr=False)
+    _area: float | None = field(repr=False)
+
+    @property
+    def volume(self) -> Floats:
+        """Liquid in all menisci [m3]."""
+        return _known(self._volume, "volume", self.law)
+
+    @property
+    def cover(self) -> Floats:
+        """Sum of the contact circles over the nominal area [-]; above 0.9 neighbours overlap."""
+        area = _known(self._area, "cover", self.law)
+        return np.asarray(_known(self._circles, "cover", self.law) / area)
+
+    @property
+    def largest_share(self) -> Floats:
+        """Largest island over the window [-]: from about 0.25 on the menisci have joined."""
+        return _known(self._largest, "islands", self.law)
+
+
+def _known(value: _T | None, what: str, law: str) -> _T:
+    if value is None:
+        raise NotSimulatedError(f"the law {law!r} has no {what}")
+    return value
+
+
+def humidity_curve(
+    wetted: SeparationScene | ContactResult,
+    relative_humidity: Sequence[float],
+    *,
+    gap: float | None = None,
+    law: Law = "islands",
+    accuracy: Accuracy | None = None,
+) -> HumidityCurve:
+    r"""Meniscus force of what condenses between two bodies, against the relative humidity.
+
+    Parameters
+    ----------
+    wetted : SeparationScene or ContactResult
+        A scene with a sphere, whose bridge is exact; one with `AsperityMenisci` among its effects,
+        whose law it follows; or a solved contact with a meniscus in its interface. The liquid
+        needs surface tension, density and molar mass; volume and pressure of the scene's own
+        meniscus do not matter.
+    relative_humidity : sequence of float
+        Above 0 and below 1 [-].
+    gap : float, optional
+        Gap of a scene [m]. None: that at the start of its opening.
+    law : {"islands", "cross-cut"}
+        For a solved contact: an exact bridge on each island (`IslandBridges`, as listed in its
+        scene), or Laplace pressure times area, Eq. (2.43). Every gap that is thinner than the
+        height of a meniscus is wet.
+    accuracy : Accuracy, optional
+        Of the curves that `AsperityMenisci` makes.
+
+    Raises
+    ------
+    InfeasibleError
+        At a humidity of 0, or of 1 and above; between smooth flats.
+    PlanError
+        If the liquid or the scene lacks something.
+
+    Notes
+    -----
+    The bodies do not yield to the force. Adsorbed films, which join in above about 90 %, and what
+    is dissolved are left out.
+
+    Examples
+    --------
+    >>> import contactkit as ck
+    >>> scene = ck.SeparationScene(
+    ...     interface=ck.Interface(
+    ...         upper=ck.Sphere(radius=1e-6), meniscus=ck.Meniscus(liquid=ck.load_liquid("water"))),
+    ...     opening=ck.Opening(initial_gap=0.3e-9, final_gap=1e-7, speed=1e-6),
+    ...     effects=(ck.MeniscusForce(),))
+    >>> found = humidity_curve(scene, [0.3, 0.6, 0.9])
+    >>> [round(1e9 * f) for f in found.force]
+    [598, 771, 861]
+    """
+    humidity = np.array(relative_humidity, dtype=np.float64).reshape(-1)
+    if not np.all(np.isfinite(humidity)) or not len(humidity):
+        where = "humidity_curve(relative_humidity)"
+        raise DescriptionError(where, relative_humidity, "be numbers between 0 and 1")
+    meniscus, temperature = _meniscus(wetted)
+    tension = meniscus.liquid.at(temperature).surface_tension
+    if tension is None:
+        raise PlanError("a humidity curve needs interface.meniscus.liquid.surface_tension [N/m]")
+    molar = meniscus.liquid.molar_volume(temperature)
+    pressure = np.asarray(kelvin.laplace_pressure(molar, temperature, humidity))
+    if isinstance(wetted, ContactResult):
+        name, points, area = _contact(wetted, pressure, law)
+    else:
+        name, points, area = _scene(wetted, pressure, gap, accuracy or Accuracy.standard)
+    wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
+    columns = (
+        humidity,
+        -tension / pressure,
+        np.asarray(kelvin.meniscus_height(pressure, tension, wetting)),
+        pressure,
+        np.array([p.force for p in points]),
+        np.array([p.n_menisci for p in points], dtype=np.float64),
+        _column([p.volume for p in points]),
+        _column([p.circles for p in points]),
+        _column([p.largest for p in points]),
+    )
+    for column in columns:
+        if column is not None:
+            column.flags.writeable = False
+    return HumidityCurve(name, *columns, area)
+
+
+def _column(values: list[float | None]) -> Floats | None:
+    known = [value for value in values if value is not None]
+    return np.array(known) if len(known) == len(values) else None
+
+
+def _meniscus(wetted: SeparationScene | ContactResult) -> tuple[Meniscus, float]:
+    if isinstance(wetted, SeparationScene):
+        return wetted.interface.meniscus, wetted.temperature
+    if not isinstance(wetted, ContactResult):
+        raise PlanError(f"a humidity curve is of a SeparationScene or a ContactResult: {wetted!r}")
+    scene = wetted.plan.scene
+    if scene.interface.meniscus is None:
+        raise PlanError("a humidity curve needs interface.meniscus: the liquid that condenses")
+    return scene.interface.meniscus, scene.temperature
+
+
+def _scene(
+    scene: SeparationScene, pressure: Floats, gap: float | None, accuracy: Accuracy
+) -> tuple[str, list[_Point], float | None]:
+    gap = scene.opening.initial_gap if gap is None else gap
+    if not (math.isfinite(gap) and gap >= 0.0):
+        raise DescriptionError("humidity_curve(gap)", gap, "be zero or positive, and finite")
+    rough = scene.effect(AsperityMenisci)
+    if rough is not None:
+        area = math.pi * scene.interface.rim_radius**2
+        points = [_asperities(rough, _at(scene, p), gap, accuracy) for p in pressure.tolist()]
+        return f"{rough.law}, {rough.profile} bridges", points, area
+    if scene.interface.is_flat:
+        raise InfeasibleError(
+            "between smooth flats no meniscus of a fixed pressure is stable: it dries up, or fills "
+            "the gap to the rim; give a sphere, or AsperityMenisci(...) among the effects"
+        )
+    return "exact bridge on a sphere", _sphere(scene, pressure, gap), None
+
+
+def _at(scene: SeparationScene, pressure: float) -> SeparationScene:
+    meniscus = evolve(scene.interface.meniscus, volume=None, pressure=pressure)
+    return evolve(scene, interface=evolve(scene.interface, meniscus=meniscus))
+
+
+def _asperities(
+    rough: AsperityMenisci, scene: SeparationScene, gap: float, accuracy: Accuracy
+) -> _Point:
+    rough = evolve(rough, meniscus_height=None)
+    if missing := rough.lacks(scene):
+        raise PlanError(f"AsperityMenisci needs {'; '.join(missing)}")
+    sums = rough.sums(scene, gap)
+    law = rough.prepare(scene, accuracy)
+    force = law.force(gap, 0.0) if gap <= law.end else 0.0
+    area = math.pi * scene.interface.rim_radius**2
+    return _Point(force, sums.n_wet, None, sums.cover * area)
+
+
+def _sphere(scene: SeparationScene, pressure: Floats, gap: float) -> list[_Point]:
+    from ..capillary.exact.bridge import bridge_at_pressure
+
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    tension = meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None
+    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+    curvatures = (interface.lower.curvature, interface.upper.curvature)
+    try:
+        state = bridge_at_pressure(gap, pressure / tension, *angles, *curvatures, beyond="nan")
+    except InfeasibleError as error:
+        largest = -tension / float(pressure.max())
+        raise InfeasibleError(
+            f"at the highest humidity the Kelvin radius is {largest:.3g} m, and no ring of liquid "
+            f"is stable around a sphere of {interface.sphere_radius:.3g} m: it would grow without "
+            "end; lower the humidity, or give the meniscus a volume"
+        ) from error
+    n, points = meniscus.count, []
+    for i, force in enumerate(state.force.tolist()):
+        if not math.isfinite(force):
+            points.append(_Point(0.0, 0, 0.0, 0.0))
+            continue
+        circle = math.pi * max(float(state.radius_lower[i]), float(state.radius_upper[i])) ** 2
+        points.append(_Point(n * tension * force, n, n * float(state.volume[i]), n * circle))
+    return points
+
+
+def _contact(
+    result: ContactResult, pressure: Floats, law: Law
+) -> tuple[str, list[_Point], float | None]:
+    plan = result.plan
+    contact = Contact(plan.scene, plan.grid, result.pressure, result.displacement, result.gap)
+    effect = plan.scene.effect(IslandBridges) or IslandBridges()
+    effect = evolve(effect, film_thickness=None, meniscus_height=None)
+    if law == "cross-cut":
+        found = [_cross_cut(effect, contact, p) for p in pressure.tolist()]
+        return "cross-cut of the gap, Eq. (2.43)", found, None
+    if law != "islands":
+        raise DescriptionError("humidity_curve(law)", law, "be 'islands' or 'cross-cut'")
+    parts = [effect.at_pressure(contact, p) for p in pressure.tolist()]
+    area = plan.grid.area
+    points = [
+        _Point(p.force, p.n_menisci, float(p.volume.sum()), p.cover * area, p.largest_share)
+        for p in parts
+    ]
+    name = f"exact bridge on each island, {effect.curvature} curvature"
+    return name, points, area
+
+
+def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float) -> _Point:
+    """Laplace pressure on every gap that is thinner than a meniscus is high, Eq. (2.43)."""
+    from ..capillary.film_islands import film_force, meniscus_area
+
+    meniscus = contact.scene.interface.meniscus
+    assert meniscus is not None
+    tension = meniscus.liquid.at(contact.scene.temperature).surface_tension
+    assert tension is not None
+    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+    wetting = sum(map(math.cos, angles))
+    if wetting <= 0.0:
+        return _Point(0.0, 0, None, None)
+    height = float(kelvin.meniscus_height(pressure, tension, wetting))
+    touching, grid = contact.pressure > 0.0, contact.grid
+    found = meniscus_area(contact.gap, height, height, touching, grid.periodic, effect.connectivity)
+    area = found.n_meniscus * grid.pixel_area
+    return _Point(float(film_force(area, tension, *angles, height)), found.n_islands, None, None)

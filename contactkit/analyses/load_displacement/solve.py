@@ -1,0 +1,299 @@
+"""The load-approach curve of a rough contact: what an end stop pushes back with, out and in.
+
+Loads or approaches are solved one after the other, each from where the last one ended. Where
+pixels have yielded, the surface is what plastic flow has left: heights less the overlap it made
+room for. The elastic contact of that surface is the way out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from attrs import evolve
+
+from ...accuracy import Accuracy
+from ...contact.effects.base import Compliance, DisplacementTerm, LoadTerm, PressureCap
+from ...contact.effects.plasticity import HardnessLimit
+from ...contact.engine import Engine
+from ...contact.plan import plan_contact
+from ...contact.result import ContactResult
+from ...contact.solve import solve
+from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
+from ...numerics.monotone_cubic import power_curve
+from ...scene.bodies import Pressing
+from ...scene.contact_scene import ContactScene
+from .curve import StopCurve
+from .zz_stop_ways import HERTZ, Unloading
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = ["stop_curve"]
+
+Progress = Callable[[float], None]
+
+_MOST_BEFORE = 2
+_WAYS = (0.01, 0.025, 0.05, 0.09, 0.15, 0.23, 0.33, 0.45, 0.58, 0.72, 0.86)  # shares; 1 is known
+
+
+class _Node(NamedTuple):
+    """One load: what goes into the tables, and the surface that it leaves."""
+
+    approach: float
+    force: float
+    contact_area: float
+    plastic_area: float
+    pressure: Map
+    overlap: Map | None
+
+
+def stop_curve(
+    scene: ContactScene,
+    *,
+    loads: Sequence[float] | None = None,
+    approaches: Sequence[float] | None = None,
+    points: int = 32,
+    decades: float = 4.0,
+    ways: int = 12,
+    accuracy: Accuracy | None = None,
+    progress: Progress | None = None,
+) -> StopCurve:
+    r"""Force and areas of a contact over its approach, with what plasticity does to the way out.
+
+    Parameters
+    ----------
+    scene : ContactScene
+        Bodies, window and effects: how they yield and, if they are to be plastic, a
+        `HardnessLimit`. Observers are not run. What it imposes is the end of the tables, unless
+        `loads` or `approaches` are given.
+    loads : sequence of float, optional
+        Forces on the window at which to solve [N], ascending.
+    approaches : sequence of float, optional
+        Approaches from first touch at which to solve [m], ascending, in the place of loads.
+    points : int
+        Number of loads if none are given, in a geometric series.
+    decades : float
+        Over how many powers of ten of the force they reach down; of an approach two thirds of it.
+    ways : int
+        At most so many ways out are solved.
+    accuracy : Accuracy, optional
+        Grid and tolerance of each contact.
+    progress : callable, optional
+        Called with the share that is done.
+
+    Returns
+    -------
+    StopCurve
+        Monotone tables that need no numpy, for the area of the window.
+
+    Raises
+    ------
+    PlanError
+        If the scene has a film or a friction that acts back, which know no such curve.
+    InfeasibleError
+        If the hardness cannot carry a load, or grows so much with it that dents shrink; or if a
+        periodic window is in full contact, from where on it has no more approach.
+    DescriptionError
+        If a number is impossible.
+
+    Notes
+    -----
+    The approach counts from the first touch of the undeformed surfaces: in a free window that of
+    points far away, in a periodic one that of the mean planes of the deformed surfaces, so that
+    the bodies behind it have to be added as a spring in series.
+
+    On the way out no pixel meets the hardness again, as pressures fall with the approach; so the
+    way is elastic, and pressing again leads back along it and then on along the first curve. For
+    a constant hardness the work lost is the hardness times the plastic volume. A hardness that
+    depends on the load is taken as it was at the largest approach. Left out: pile-up around a
+    plastic spot, the elastic stress locked in, hardening, and time.
+
+    Examples
+    --------
+    Hertz: 4/3 E* sqrt(R) d^1.5.
+
+    >>> import contactkit as ck
+    >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+    >>> scene = ck.ContactScene(
+    ...     interface=ck.ContactInterface(
+    ...         lower=ck.Body(solid=steel), upper=ck.Body(surface=ck.Paraboloid(radius=1e-3))
+    ...     ),
+    ...     window=ck.Window(width=30e-6, periodic=False),
+    ...     pressing=ck.Pressing(force=0.2),
+    ...     effects=(ck.HalfSpace(),),
+    ... )
+    >>> curve = stop_curve(scene, points=8, decades=1.0, accuracy=ck.Accuracy(grid=96))
+    >>> f"{curve.at(50e-9).force:.4f} N, Hertz {4 / 3 * 2.3077e11 * 1e-3**0.5 * 50e-9**1.5:.4f} N"
+    '0.1088 N, Hertz 0.1088 N'
+    """
+    scene = _plain(scene)
+    key, values = _ladder(scene, loads, approaches, points, decades)
+    n_ways = _count("ways", ways, 1)
+    first = evolve(scene, pressing=Pressing(**{key: values[-1]}))
+    engine = Engine(plan_contact(first, accuracy))  # the largest load is checked before any work
+    tell = progress or (lambda share: None)
+    nodes: list[_Node] = []
+    before: list[ContactResult] = []
+    # Where pixels are capped, nested grids are a better start than the loads before.
+    is_capped = scene.effect(PressureCap) is not None  # type: ignore[type-abstract]
+    for i, value in enumerate(values):
+        at = evolve(scene, pressing=Pressing(**{key: value}))
+        result = solve(plan_contact(at, accuracy), start=before or None, engine=engine)
+        before = [] if is_capped else [result, *before][:_MOST_BEFORE]
+        if result.load > 0.0:
+            nodes.append(_node(result, nodes))
+        tell(0.5 * (i + 1) / len(values))
+    if len(nodes) < 2:
+        raise InfeasibleError(
+            f"only {len(nodes)} of {len(values)} points touch; ask for larger loads or approaches"
+        )
+    return _tables(scene, nodes, engine, n_ways, accuracy or Accuracy.standard, result, tell)
+
+
+def _plain(scene: ContactScene) -> ContactScene:
+    """Leave out what only looks at a contact; refuse what acts back on it."""
+    kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureCap))
+    acting = [e for e in scene.effects if isinstance(e, DisplacementTerm | LoadTerm)]
+    if acting:
+        names = ", ".join(e.name for e in acting)
+        raise PlanError(
+            f"a stop curve is that of a dry contact without friction; leave out {names}"
+        )
+    return evolve(scene, effects=kept)
+
+
+def _count(name: str, value: int, least: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise DescriptionError(
+            f"stop_curve({name})", value, f"be a whole number of at least {least}"
+        )
+    return value
+
+
+def _ladder(
+    scene: ContactScene, loads: Sequence[float] | None, approaches: Sequence[float] | None,
+    points: int, decades: float,
+) -> tuple[str, list[float]]:  # fmt: skip
+    """What is imposed, and its values."""
+    if loads is not None and approaches is not None:
+        raise DescriptionError("stop_curve", "both", "be given loads [N] or approaches [m]")
+    given = loads if loads is not None else approaches
+    if given is not None:
+        key, unit = ("force", "N") if loads is not None else ("approach", "m")
+        values = [float(value) for value in given]
+        pairs = zip([0.0, *values], values, strict=False)
+        if len(values) < 2 or not all(a < b < math.inf for a, b in pairs):
+            expected = "be two or more, positive and ascending"
+            raise DescriptionError(f"stop_curve({key})", given, expected, unit=unit)
+        return key, values
+    _count("points", points, 4)
+    if not (math.isfinite(decades) and decades > 0.0):
+        raise DescriptionError("stop_curve(decades)", decades, "be positive and finite")
+    for key in ("pressure", "force", "approach"):
+        most = getattr(scene.pressing, key)
+        if most is not None:
+            if most <= 0.0:
+                raise DescriptionError(f"Pressing.{key}", most, "be positive for a stop curve")
+            reach = decades / HERTZ if key == "approach" else decades
+            return key, [float(x) for x in np.geomspace(most * 10.0**-reach, most, points)]
+    raise AssertionError("exactly one is imposed")
+
+
+def _node(result: ContactResult, nodes: list[_Node]) -> _Node:
+    before = nodes[-1].approach if nodes else 0.0
+    if result.approach <= before * (1.0 + 1e-9):
+        raise InfeasibleError(
+            f"at {result.load:.6g} N the approach of {result.approach:.6g} m no longer grows: in "
+            "full contact a periodic window has no approach of its own, and flat faces have none "
+            "at all; end the loads below that, or use a window that is not periodic"
+        )
+    part = result.parts.get(HardnessLimit)
+    area, overlap = (part.area, part.overlap) if part is not None and part.area else (0.0, None)
+    dented = nodes[-1].overlap if nodes else None
+    if dented is not None and (overlap is None or overlap.sum() < 0.999 * dented.sum()):
+        raise InfeasibleError(
+            f"at {result.load:.6g} N the plastic spots are smaller than at {nodes[-1].force:.6g} "
+            "N: the hardness grows with the load, and the dents of smaller loads are forgotten; "
+            "use HardnessLimit(rule='material') or rule='constant', or end the loads below that"
+        )
+    return _Node(result.approach, result.load, result.contact_area, area, result.pressure, overlap)
+
+
+def _tables(
+    scene: ContactScene, nodes: list[_Node], engine: Engine, n_ways: int, accuracy: Accuracy,
+    last: ContactResult, tell: Progress,
+) -> StopCurve:  # fmt: skip
+    plastic = [i for i, node in enumerate(nodes) if node.overlap is not None]
+    begins = plastic[0] if plastic else len(nodes)
+    limit = nodes[begins - 1].approach if begins else 0.0
+    chosen = np.unique(np.linspace(begins, len(nodes) - 1, n_ways).round().astype(int))
+    picked = [nodes[i] for i in chosen] if plastic else []
+    out = []
+    for i, node in enumerate(picked):
+        if node.overlap is not None:
+            out.append(_way_out(engine, node, accuracy))
+        tell(0.5 + 0.5 * (i + 1) / len(picked))
+    approach, force = [node.approach for node in nodes], [node.force for node in nodes]
+    return StopCurve(
+        approach=tuple(approach),
+        force=tuple(force),
+        # Counted in pixels, areas may fall by rounding of a contact condition.
+        contact_area=tuple(np.maximum.accumulate([node.contact_area for node in nodes])),
+        plastic_area=tuple(np.maximum.accumulate([node.plastic_area for node in nodes])),
+        unloading=tuple(out),
+        elastic_limit=limit,
+        nominal_area=engine.grid.area,
+        datum=last.approach_datum,
+        error=_error(approach, force),
+    )
+
+
+def _error(approach: list[float], force: list[float]) -> float:
+    """Largest relative difference from the table that every other point makes."""
+    if len(approach) < 5:
+        return 1.0  # nothing to tell it by
+    last = (len(approach) - 1) % 2  # the table of every other point must reach to the end
+    coarse = power_curve(approach[last::2], force[last::2], HERTZ)
+    pairs = zip(approach[last:], force[last:], strict=True)
+    return max(abs(coarse(d)[0] / f - 1.0) for d, f in pairs)
+
+
+def _way_out(engine: Engine, node: _Node, accuracy: Accuracy) -> Unloading:
+    """Solve the elastic contact of the surface that a largest approach leaves."""
+    assert node.overlap is not None
+    left = engine.heights - node.overlap
+    touch = float(left.max())
+    residual = float(engine.heights.max()) - touch
+    length, pixel = node.approach - residual, engine.grid.pixel_area
+    start, found = node.pressure, [(1.0, 1.0, 1.0)]
+    for way in reversed(_WAYS):
+        solution = engine.press.solve(
+            left, level=way * length - touch, rtol=accuracy.rtol, start=start,
+            max_iterations=accuracy.max_iterations, method=accuracy.method,
+        )  # fmt: skip
+        if not solution.converged:
+            raise ConvergenceError(
+                f"the way out from {node.approach:.6g} m is not solved: contact conditions are "
+                f"violated by {solution.kkt:.2g} of the rms height; raise "
+                "Accuracy.max_iterations or rtol",
+                solution,
+            )
+        start = solution.pressure
+        force = float(start.sum()) * pixel / node.force
+        area = float((start > 0.0).sum()) * pixel / node.contact_area
+        if not 0.0 < force <= found[-1][1]:
+            break  # nothing touches to the tolerance any more: below it is the power law
+        found.append((way, force, min(area, found[-1][2])))
+    if len(found) == 1:
+        raise ConvergenceError(
+            f"the way out from {node.approach:.6g} m is shorter than the tolerance of the solver; "
+            "lower Accuracy.rtol, or begin with larger loads"
+        )
+    shares, forces, areas = zip(*reversed(found), strict=True)
+    volume = float(node.overlap.sum()) * pixel
+    return Unloading(node.approach, residual, shares, forces, areas, volume)

@@ -1,0 +1,221 @@
+"""Running a contact scene from the command line: its numbers, files and figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import evolve, field, frozen
+
+from ..accuracy import Accuracy
+from ..contact.effects.film import FilmMeniscus
+from ..contact.effects.stress import SubsurfaceStress
+from ..errors import DescriptionError, PlanError
+from ..files.structure import structure
+from ..planning import plan
+from ..scene.contact_scene import ContactScene
+from .report import Report
+
+if TYPE_CHECKING:
+    from ..contact.plan import ContactPlan
+    from ..contact.result import ContactResult
+    from ..studies.study import Study
+
+__all__ = ["PlainContact", "open_contact"]
+
+Progress = Callable[[float], None]
+
+_TOLD = (
+    "max_pressure", "contact_fraction", "plastic_fraction", "max_displacement",
+    "relative_meniscus_force",
+)  # fmt: skip
+
+
+def open_contact(tables: Mapping[str, Any], origin: str) -> PlainContact:
+    """Read a contact scene with its tables ``accuracy`` and ``study``, if it has them.
+
+    Raises
+    ------
+    DescriptionError
+        Listing every mistake and where it is.
+    """
+    rest = dict(tables)
+    accuracy = structure(rest.pop("accuracy", {}), Accuracy, f"{origin}, accuracy")
+    study = rest.pop("study", {})
+    if not isinstance(study, Mapping) or not all(isinstance(v, list) for v in study.values()):
+        raise DescriptionError(
+            f"{origin}, study", study, "be a table of lists", hint='"pressing.pressure" = [...]'
+        )
+    return PlainContact(structure(rest, ContactScene, origin), accuracy, study)
+
+
+@frozen
+class PlainContact:
+    """A contact scene as the command line runs it."""
+
+    scene: ContactScene
+    accuracy: Accuracy = field(factory=Accuracy)
+    vary: Mapping[str, list[Any]] = field(factory=dict)
+
+    @property
+    def name(self) -> str:
+        """Title of the scene."""
+        return self.scene.name or "contact"
+
+    def plan_text(self) -> str:
+        """See `Runnable.plan_text`."""
+        made = plan(self.scene, self.accuracy)
+        return f"{made}\nsources:\n" + "\n".join(f"  {line}" for line in made.cite().splitlines())
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `Runnable.fmu_start`."""
+        from ..analyses.load_displacement.solve import stop_curve
+
+        try:
+            return "contact-stop", {"curve": stop_curve(self.scene, accuracy=self.accuracy)}
+        except PlanError as error:
+            raise PlanError(
+                "of a contact scene the FMU contact-stop is built, whose tables are its stop "
+                f"curve, force and areas over the approach; {error}"
+            ) from error
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `Runnable.run`."""
+        from ..contact.solve import solve
+
+        result = solve(plan(self.scene, self.accuracy))
+        share = 0.5 if self.vary else 1.0
+        progress(share)
+        studies = self._studies(lambda done: progress(share + (1.0 - share) * done))
+        scalars: dict[str, tuple[Any, str]] = dict(result.scalars())
+        files = _write(result, studies, out) if out is not None else ()
+        return Report(scalars, _text(result, studies), files)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `Runnable.cost`."""
+        from .cost.contact import contact_cost
+
+        return contact_cost(self, out, progress, error)
+
+    def _studies(self, progress: Progress) -> tuple[tuple[str, Study], ...]:
+        """The sweep of the file, as it is and, where a film is listed, with its pull added."""
+        from ..studies.study import study
+
+        if not self.vary:
+            return ()
+        light = _without(self.scene, SubsurfaceStress)
+        film = light.effect(FilmMeniscus)
+        variants = [("dry" if film is None else "wet, film reported only", light)]
+        if film is not None:
+            pulled = evolve(film, self_consistent=not film.self_consistent)
+            effects = tuple(pulled if e is film else e for e in light.effects)
+            variants.append(("wet, film pulls too", evolve(light, effects=effects)))
+            if film.self_consistent:
+                variants = [(variants[1][0], variants[0][1]), (variants[0][0], variants[1][1])]
+        done: list[tuple[str, Study]] = []
+        for label, scene in variants:
+
+            def shared(share: float, before: int = len(done)) -> None:
+                progress((before + share) / len(variants))
+
+            done.append((label, study(scene, self.vary, self.accuracy, progress=shared)))
+        return tuple(done)
+
+
+def _without(scene: ContactScene, kind: type) -> ContactScene:
+    return evolve(scene, effects=tuple(e for e in scene.effects if not isinstance(e, kind)))
+
+
+def _text(result: ContactResult, studies: tuple[tuple[str, Study], ...]) -> str:
+    """Say the numbers, each with its unit, and the tables of the sweeps."""
+    lines = [str(result.plan), "", result.message]
+    for name, (value, unit) in result.scalars().items():
+        shown = f"{value:.6g}" + ("" if unit == "-" else f" {unit}")
+        lines.append(f"  {name.replace('_', ' '):34s} {shown}")
+    lines.append(f"  approach and displacement from {result.approach_datum}")
+    work = result.work
+    lines.append(
+        f"  {work.n_solves} solves, {work.n_operator_applications} operator applications, "
+        f"{work.seconds:.2f} s"
+    )
+    for label, made in studies:
+        names = [n for n in _TOLD if n in made.units]
+        lines += ["", f"load curve, {label}:", made.table(*names)]
+    return "\n".join(lines)
+
+
+def _write(
+    result: ContactResult, studies: tuple[tuple[str, Study], ...], out: Path
+) -> tuple[Path, ...]:
+    from ..files.results import save_result
+
+    files = [save_result(result, out / "result")]
+    for label, made in studies:
+        name = "load-curve" if len(studies) == 1 else f"load-curve-{_slug(label)}"
+        files.append(made.save_csv(out / name))
+    files += _figures(result, studies, out)
+    return tuple(files)
+
+
+def _slug(label: str) -> str:
+    return "-".join(label.replace(",", "").split())
+
+
+def _figures(
+    result: ContactResult, studies: tuple[tuple[str, Study], ...], out: Path
+) -> list[Path]:
+    from ..plot import contact as contact_plot
+    from ..plot import separation as plot
+
+    title = result.plan.scene.name
+    made, axes = plot.figure(1, 2, size=(11.0, 5.2))
+    contact_plot.pressure(result, axes[0])
+    contact_plot.contact_spots(result, axes[1])
+    plot.title(axes[0], f"{title}, {result.mean_pressure / 1e6:.3g} MPa")
+    files = [plot.save(made, out / "contact")]
+    if result.plan.has(SubsurfaceStress):
+        made, ax = plot.figure(size=(8.0, 5.5))
+        contact_plot.von_mises_section(result, ax)
+        plot.title(ax, f"{title}: under the largest pressure")
+        files.append(plot.save(made, out / "stress"))
+    files.append(_stacks(result.plan, out))
+    if studies:
+        files.append(_load_curves(studies, title, out))
+    return files
+
+
+def _stacks(made_plan: ContactPlan, out: Path) -> Path:
+    from ..plot import contact as contact_plot
+    from ..plot import separation as plot
+
+    interface = made_plan.scene.interface
+    bodies = [("upper body", interface.upper.stack), ("lower body", interface.lower.stack)]
+    shown = [(label, stack) for label, stack in bodies if stack is not None]
+    heights = [len(stack.materials) for _, stack in shown]
+    made, axes = plot.figure(
+        len(shown), 1, size=(6.0, 0.9 * sum(heights) + 0.6 * len(shown)), squeeze=False,
+        height_ratios=heights,
+    )  # fmt: skip
+    for ax, (label, stack) in zip(axes[:, 0], shown, strict=True):
+        contact_plot.stack_section(stack, ax, f"{label} (not to scale)")
+    return plot.save(made, out / "stack")
+
+
+def _load_curves(studies: tuple[tuple[str, Study], ...], title: str, out: Path) -> Path:
+    from ..plot import contact as contact_plot
+    from ..plot import separation as plot
+
+    curves = [(label, {name: made.column(name) for name in made.units}) for label, made in studies]
+    panels = contact_plot.panels_of(curves)
+    columns = min(3, len(panels))
+    rows = -(-len(panels) // columns)
+    made, axes = plot.figure(rows, columns, size=(4.0 * columns, 3.4 * rows), squeeze=False)
+    flat = list(axes.flat)
+    contact_plot.load_curve(curves, flat)
+    for ax in flat[len(panels) :]:
+        ax.set_visible(False)
+    plot.title(flat[0], f"{title}: load curve")
+    if len(studies) > 1:
+        plot.shared_legend(made, flat[0])
+    return plot.save(made, out / "load-curve")

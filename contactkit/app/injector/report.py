@@ -1,0 +1,225 @@
+"""What the injector's co-simulations come to: a table, signals in files, figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from attrs import evolve
+
+from ...files.results import save_csv, save_npz
+from ...files.scenes import unstructure
+from ...models.injector.monolithic import simulate
+from ...models.injector.valve import energising_times
+from ...separation.effects.registry import TensionLimit, ViscousForce
+from ...separation.motion.state import FilmStatus, LimitKind
+from ...separation.plan import plan
+from ...separation.validity import check
+from ...units import bar, celsius
+from ..end_stop import valve_numbers
+from ..scenes import Report
+from .run import InjectorScene, Run
+
+__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report", "run_error", "stem"]
+
+
+class Cycle(NamedTuple):
+    """One firing cycle of a co-simulation; times [s] from energising, nan if never released."""
+
+    delay: float
+    peak_force: float
+    viscous_impulse: float
+    meniscus_impulse: float
+    limited_share: float
+
+
+def cycles(run: Run, scene: InjectorScene) -> list[Cycle]:
+    """Read each firing cycle off the signals of a co-simulation."""
+    signals, profile = run.coupled, scene.valve.profile
+    time = signals.time
+    releases = np.unique(signals["t_release"])
+    found = []
+    for start in energising_times(profile):
+        after = [float(t) for t in releases if start <= t < start + profile.period]
+        delay = after[0] - start if after else math.nan
+        until = after[0] if after else start + profile.on_time
+        inside = (time >= start) & (time <= until)
+        acts = signals["limit"][inside] == LimitKind.TENSION
+        viscous, meniscus = (
+            float(np.interp(until, time, signals[n]) - np.interp(start, time, signals[n]))
+            for n in ("J", "J_m")
+        )
+        found.append(
+            Cycle(delay, float(signals["F"][inside].max()), viscous, meniscus, float(acts.mean()))
+        )
+    return found
+
+
+def stem(temperature: float) -> str:
+    """Temperature [K] as part of a file name: ``minus20degC``, ``80degC``."""
+    degrees = temperature - celsius(0.0)
+    return f"{'minus' if degrees < 0.0 else ''}{abs(degrees):.0f}degC"
+
+
+def dry_delay(scene: InjectorScene) -> float:
+    """Release delay [s] of a spool without a film: what magnet, spring and mass alone take."""
+    film = scene.separation(scene.temperature)
+    meniscus = film.interface.meniscus
+    thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
+    interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
+    dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))
+    return float(simulate(dry, scene.valve, scene.first_pulse_end).cycles[0].release_time)
+
+
+def delays_over_temperature(
+    scene: InjectorScene, *, limited: bool, tension: float | None = None, n: int = 9
+) -> tuple[list[float], list[float]]:
+    """Temperatures [K] over the range of the study, and the release delay [s] at each."""
+    span = scene.study.temperatures
+    temperatures = sorted({*np.linspace(min(span), max(span), n).tolist(), *span})
+    delays = []
+    for temperature in temperatures:
+        made = plan(scene.separation(temperature, limited=limited, tension=tension))
+        first = simulate(made, scene.valve, scene.first_pulse_end, rtol=1e-6).cycles[0]
+        delays.append(float(first.release_time))
+    return temperatures, delays
+
+
+def run_error(run: Run, found: Sequence[Cycle]) -> float:
+    """Coupling error of a run and its cycles against the monolithic solve, see `coupling_error`."""
+    from ...fmu.master.injector import coupling_error
+
+    coupled = [cycle.delay for cycle in found]
+    return coupling_error(coupled, [cycle.release_time for cycle in run.whole.cycles])
+
+
+def _held_by(run: Run, found: Sequence[Cycle], dry: float) -> str:
+    """Which force held the spool, in words."""
+    first = found[0]
+    total = first.viscous_impulse + first.meniscus_impulse
+    viscous = first.viscous_impulse / total if total > 0.0 else 0.0
+    name = "viscous film" if viscous >= 0.5 else "meniscus"
+    text = f"{name} ({100 * max(viscous, 1.0 - viscous):.0f} % of the impulse)"
+    if first.limited_share > 0.0:
+        cap = _tension(run) * math.pi * run.plan.scene.interface.rim_radius**2
+        text += f", cut off near {cap:.1f} N {100 * first.limited_share:.0f} % of the time"
+    if not math.isnan(first.delay) and first.delay < 1.1 * dry:
+        text += "; hardly: mostly mass and coil"
+    return text
+
+
+def _tension(run: Run) -> float:
+    """Tension [Pa] the oil bears in a run; inf without a limit."""
+    limit = run.plan.scene.effect(TensionLimit)
+    return math.inf if limit is None else limit.pressure_drop
+
+
+def _limit_text(run: Run) -> str:
+    tension = _tension(run)
+    return "none" if math.isinf(tension) else f"{tension / bar:g} bar"
+
+
+def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Report:
+    """Turn the runs into a table and, with a folder, into signals and figures."""
+    dry = dry_delay(scene)
+    lines = [
+        f"{scene.name}: {scene.valve.profile.cycles} firing cycles, FMUs valve-drive and "
+        f"stiction-mass, communication step {scene.study.communication_step * 1e6:g} us",
+        f"a dry spool would be released {dry * 1e3:.3f} ms after energising",
+        "",
+        f"{'oil':>9s}  {'tension':>8s}  {'release':>9s}  {'sticks':>9s}  {'peak force':>10s}  "
+        f"{'impulse':>9s}  {'coupling':>8s}  {'seconds':>7s}  held by",
+        f"{'':>9s}  {'limit':>8s}  {'[ms]':>9s}  {'[ms]':>9s}  {'[N]':>10s}  {'[N.s]':>9s}  "
+        f"{'error':>8s}  {'':>7s}",
+    ]
+    scalars: dict[str, tuple[Any, str]] = {"dry_release_delay": (dry, "s")}
+    spread = [""]
+    for run in runs:
+        found = cycles(run, scene)
+        delays = [c.delay for c in found]
+        delay = delays[0]
+        spread.append(_spread(run, delays))
+        error = run_error(run, found)
+        peak = max(c.peak_force for c in found)
+        stuck = math.isnan(delay)
+        lines.append(
+            f"{run.label:>9s}  {_limit_text(run):>8s}  "
+            f"{'never' if stuck else f'{delay * 1e3:.4f}':>9s}  "
+            f"{'all pulse' if stuck else f'{(delay - dry) * 1e3:.4f}':>9s}  {peak:10.2f}  "
+            f"{found[0].viscous_impulse + found[0].meniscus_impulse:9.2e}  "
+            f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
+            f"{_held_by(run, found, dry)}"
+        )
+        key = f"{stem(run.temperature)}_{_limited(run)}"
+        scalars |= {
+            f"release_delay_{key}": (delay, "s"),
+            f"sticking_time_{key}": (delay - dry, "s"),
+            f"releases_{key}": (sum(not math.isnan(d) for d in delays), "-"),
+            f"peak_force_{key}": (peak, "N"),
+            f"viscous_impulse_{key}": (found[0].viscous_impulse, "N.s"),
+            f"meniscus_impulse_{key}": (found[0].meniscus_impulse, "N.s"),
+            f"coupling_error_{key}": (error, "-"),
+            f"seconds_{key}": (run.seconds, "s"),
+        }
+    keys = [f"{stem(run.temperature)}_{_limited(run)}" for run in runs]
+    told, numbers = valve_numbers(scene, runs, keys)
+    scalars |= numbers
+    lines += [*spread, *told, *_validity(runs)]
+    files = _write(scene, runs, out, dry) if out is not None else ()
+    return Report(scalars, "\n".join(lines), files)
+
+
+def _limited(run: Run) -> str:
+    return "limited" if run.limited else "unlimited"
+
+
+def _spread(run: Run, delays: Sequence[float]) -> str:
+    """Say how many cycles of a run were released, and how far they agree."""
+    good = [d for d in delays if not math.isnan(d)]
+    text = (
+        f"{run.label}, tension limit {_limit_text(run)}: "
+        f"{len(good)} of {len(delays)} cycles released"
+    )
+    if good:
+        text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
+    return text
+
+
+def _validity(runs: Sequence[Run]) -> list[str]:
+    """Say for each temperature how far the models were inside their ranges."""
+    lines = [""]
+    for run in runs:
+        if not run.limited:
+            continue
+        whole = run.coupled["state"] != FilmStatus.BROKEN
+        gaps, speeds = run.coupled["h"][whole], run.coupled["v"][whole]
+        found = check(run.plan, zip(gaps.tolist(), speeds.tolist(), strict=True))
+        told = [
+            f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
+            for n in found
+            if n.value is not None
+        ]
+        lines.append(f"validity, {run.label}: {', '.join(told)}")
+    return lines
+
+
+def _write(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> tuple[Path, ...]:
+    from .figures import draw
+
+    files = []
+    for run in runs:
+        limit = "" if run.limited else "_without_tension_limit"
+        file = out / f"signals_{stem(run.temperature)}{limit}"
+        columns = {"time": run.coupled.time, **run.coupled.columns}
+        headings = {"time": "time [s]"} | {n: p.heading for n, p in run.coupled.ports.items()}
+        header = {
+            "scene": unstructure(scene),
+            "temperature": run.temperature,
+            "tension_limit": run.limited,
+            "units": {n: p.unit for n, p in run.coupled.ports.items()} | {"time": "s"},
+        }
+        files += [save_csv(file, columns, headings), save_npz(file, columns, header)]
+    return (*files, *draw(scene, runs, out, dry))

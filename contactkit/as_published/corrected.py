@@ -1,0 +1,262 @@
+"""The right value beside each printed capillary equation: exact bridges, one force, their limit.
+
+Every function takes the arguments of its equation. Where no right value exists, such as beyond
+the stability of a bridge, InfeasibleError says why. Nothing is imported before it is needed.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..errors import InfeasibleError
+
+__all__ = [
+    "break_gap", "film_volume", "kelvin_radius", "laplace_sphere", "meniscus_at_volume",
+    "meniscus_divided", "meniscus_flat", "meniscus_of_n", "meniscus_rough", "meniscus_sphere",
+    "meniscus_touching",
+    "printed_break_gap", "printed_film_volume", "printed_rough", "printed_sphere", "sphere_height",
+]  # fmt: skip
+
+
+def _exact(
+    gap: float, volume: float, tension: float, lower: float, upper: float, radius: float = math.inf
+) -> float:
+    """Force [N] of the exact bridge on a flat, under another one or under a sphere."""
+    from ..capillary.exact.bridge import bridge
+
+    return tension * float(bridge(gap, volume, lower, upper, 0.0, 1.0 / radius).force)
+
+
+def meniscus_at_volume(
+    gap: float, volume: float, surface_tension: float, angle_lower: float, angle_upper: float
+) -> float:
+    """Exact force [N] between flats of a bridge of given volume."""
+    return _exact(gap, volume, surface_tension, angle_lower, angle_upper)
+
+
+def _arc_volume(radius: float, gap: float, lower: float, upper: float, pulled: str) -> float:
+    """Volume [m3] of the arc between flats with this contact circle on the pulled body."""
+    from ..capillary.arc import flat as arc_flat
+
+    arc = arc_flat.shape(lower, upper)
+    circle = radius if pulled == "lower" else radius - gap * arc.upper_offset
+    if not min(circle, arc_flat.neck(arc, gap, circle)) > 0.0:
+        raise InfeasibleError(
+            f"no arc spans a gap of {gap:g} m with a contact circle of {radius:g} m: its neck "
+            f"would be closed"
+        )
+    return arc_flat.volume(arc, gap, circle)
+
+
+def meniscus_flat(
+    radius: float,
+    gap: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+    pulled: str = "lower",
+) -> float:
+    """Exact force [N] between flats; the volume is that of the arc with this contact circle."""
+    film = (radius, gap, surface_tension, angle_lower, angle_upper)
+    return meniscus_of_n(*film, 1.0, pulled)
+
+
+def meniscus_of_n(
+    radius: float,
+    gap: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+    number: float,
+    pulled: str = "lower",
+) -> float:
+    """Exact force [N] of one of N equal menisci, which share the volume of the undivided arc."""
+    volume = _arc_volume(radius, gap, angle_lower, angle_upper, pulled) / number
+    return _exact(gap, volume, surface_tension, angle_lower, angle_upper)
+
+
+def meniscus_divided(
+    radius: float,
+    gap: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+    number: float,
+    pulled: str = "lower",
+) -> float:
+    """Exact force [N] of N equal menisci, which share the volume of the undivided arc."""
+    film = (radius, gap, surface_tension, angle_lower, angle_upper, number, pulled)
+    return number * meniscus_of_n(*film)
+
+
+def printed_sphere(
+    sphere_radius: float,
+    gap: float,
+    volume: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+) -> float:
+    """Eq. (3.12) [N] of the arc of a volume under a paraboloid."""
+    from ..capillary.arc import sphere as arc_sphere
+    from .printed import common as published
+
+    shape = (angle_lower, angle_upper, 0.0, 1.0 / sphere_radius)
+    state = arc_sphere.solve(gap, volume, *shape, profile="parabola")
+    if not bool(state.found):
+        raise InfeasibleError(
+            f"Eq. (3.12) has no value: no arc of {volume:g} m3 spans a gap of {gap:g} m"
+        )
+    return float(published.meniscus_sphere_3_12(state, surface_tension, angle_upper))
+
+
+def meniscus_sphere(
+    sphere_radius: float,
+    gap: float,
+    volume: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+) -> float:
+    """Exact force [N] on a sphere."""
+    return _exact(gap, volume, surface_tension, angle_lower, angle_upper, sphere_radius)
+
+
+def laplace_sphere(
+    sphere_radius: float,
+    gap: float,
+    immersion: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+) -> float:
+    """Exact force [N] on a sphere; the volume is that of the film with an upright rim."""
+    volume = math.pi * sphere_radius * immersion * (immersion + 2.0 * gap)
+    return _exact(gap, volume, surface_tension, angle_lower, angle_upper, sphere_radius)
+
+
+def meniscus_touching(
+    sphere_radius: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+    filling_angle: float,
+) -> float:
+    """Exact force [N] on a touching sphere; the volume is that of the arc of a filling angle."""
+    from ..capillary.arc import sphere as arc_sphere
+
+    circle = sphere_radius * math.sin(filling_angle)
+    shape = (angle_lower, angle_upper, 0.0, 1.0 / sphere_radius)
+    volume = arc_sphere.volume(0.0, circle, *shape)
+    return _exact(0.0, volume, surface_tension, angle_lower, angle_upper, sphere_radius)
+
+
+def _asperity_film(
+    radius: float, gap: float, film_height: float, lower: float, upper: float
+) -> tuple[float, float]:
+    """Contact circle [m] and volume [m3] of the arc under a paraboloid wetted up to a height."""
+    from ..capillary.arc import sphere as arc_sphere
+
+    circle = math.sqrt(2.0 * radius * (film_height - gap))
+    shape = (lower, upper, 0.0, 1.0 / radius)
+    return circle, arc_sphere.volume(gap, circle, *shape, profile="parabola")
+
+
+def printed_rough(
+    sphere_radius: float,
+    gap: float,
+    film_height: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+    number: float,
+) -> float:
+    """Eq. (3.14) [N] of N asperities of radius R/n, each by Eq. (3.12)."""
+    small = sphere_radius / math.sqrt(number)
+    angles = (angle_lower, angle_upper)
+    _, volume = _asperity_film(small, gap, film_height, *angles)
+    return number * printed_sphere(small, gap, volume, surface_tension, *angles)
+
+
+def meniscus_rough(
+    sphere_radius: float,
+    gap: float,
+    film_height: float,
+    surface_tension: float,
+    angle_lower: float,
+    angle_upper: float,
+    number: float,
+) -> float:
+    """Exact force [N] of N asperities of radius R/n, as long as their menisci stay apart."""
+    small = sphere_radius / math.sqrt(number)
+    circle, volume = _asperity_film(small, gap, film_height, angle_lower, angle_upper)
+    if number > 1.0 and circle > small:
+        most = max(sphere_radius / (2.0 * (film_height - gap)), 1.0)
+        raise InfeasibleError(
+            f"menisci of neighbouring asperities overlap: keep n = sqrt(number) below "
+            f"R/(2 (s - D)) = {most:.4g}"
+        )
+    one = _exact(gap, volume, surface_tension, angle_lower, angle_upper, small)
+    return number * one
+
+
+def printed_film_volume(
+    sphere_radius: float, gap: float, film_height: float, angle_lower: float, angle_upper: float
+) -> float:
+    """Eq. (3.23) [m3]; the contact angles are not in it."""
+    from .printed.films import film_volume_3_23
+
+    return float(film_volume_3_23(sphere_radius, gap, film_height))
+
+
+def film_volume(
+    sphere_radius: float, gap: float, film_height: float, angle_lower: float, angle_upper: float
+) -> float:
+    """Volume [m3] of the arc turned about the axis."""
+    return _asperity_film(sphere_radius, gap, film_height, angle_lower, angle_upper)[1]
+
+
+def kelvin_radius(
+    surface_tension: float, molar_volume: float, temperature: float, relative_humidity: float
+) -> float:
+    """Kelvin radius [m], positive."""
+    from ..capillary import kelvin
+
+    vapour = (molar_volume, temperature, relative_humidity)
+    return float(kelvin.kelvin_radius(surface_tension, *vapour))
+
+
+def sphere_height(sphere_radius: float, gap: float, position: float) -> float:
+    """Height [m] of the sphere itself."""
+    if position > sphere_radius:
+        raise InfeasibleError(f"the sphere ends at its radius of {sphere_radius:g} m")
+    rest = math.sqrt((sphere_radius - position) * (sphere_radius + position))
+    return gap + position * position / (sphere_radius + rest)
+
+
+def printed_break_gap(
+    volume: float,
+    angle_lower: float,
+    angle_upper: float,
+    curvature_lower: float = 0.0,
+    curvature_upper: float = 0.0,
+) -> float:
+    """Gap [m] at which the neck of the arc closes, spheres as paraboloids."""
+    from ..capillary.arc import sphere as arc_sphere
+
+    shape = (angle_lower, angle_upper, curvature_lower, curvature_upper)
+    return float(arc_sphere.zero_neck_gap(volume, *shape, profile="parabola"))
+
+
+def break_gap(
+    volume: float,
+    angle_lower: float,
+    angle_upper: float,
+    curvature_lower: float = 0.0,
+    curvature_upper: float = 0.0,
+) -> float:
+    """Gap [m] at which the exact bridge loses its stability."""
+    from ..capillary.exact.stability import stability_limit
+
+    bodies = (curvature_lower, curvature_upper)
+    return float(stability_limit(volume, angle_lower, angle_upper, *bodies).gap)

@@ -1,0 +1,153 @@
+"""The source's equations by their numbers: as printed, what is wrong, and the right value beside.
+
+For reproduction only: nothing else in contactkit takes a printed equation that is wrong, unless a
+scene asks for it by ``"as-published"``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any
+
+from ..errors import ConvergenceError, DescriptionError, InfeasibleError
+from .arguments import PublishedFormula, PublishedValue, checked_arguments
+from .capillary_and_viscous import ROWS
+from .printed.errata import ERRATA
+from .sliding import SLIDING_ROWS
+
+__all__ = ["PUBLISHED", "TABLE_4_1", "PublishedFormula", "PublishedValue", "erratum", "published"]
+
+
+def _order(number: str) -> tuple[int, str]:
+    digits = "".join(c for c in number.rpartition(".")[2] if c.isdigit())
+    return (int(digits) if digits else 1000, number)
+
+
+PUBLISHED: Mapping[str, PublishedFormula] = MappingProxyType(
+    {row.number: row for row in sorted((*ROWS, *SLIDING_ROWS), key=lambda row: _order(row.number))}
+)
+"""Every printed equation that gives a number, by its own number."""
+
+TABLE_4_1: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "flats, static meniscus force": ("3.5",),
+        "flats, meniscus force": ("3.11",),
+        "flats, viscous force": ("3.19",),
+        "sphere, static meniscus force": ("3.10", "3.6", "3.7", "3.8"),
+        "sphere, meniscus force": ("3.12",),
+        "sphere, viscous force": ("3.26", "3.27"),
+        "N menisci, apart": ("3.13", "3.28"),
+        "N menisci, side by side, flats": ("3.14a", "3.29a"),
+        "N asperities, side by side": ("3.14b", "3.29b"),
+        "division, meniscus force": ("3.33", "3.35"),
+        "division, viscous force": ("3.34", "3.36"),
+        "sliding flats, viscous force": ("3.53", "3.57", "3.61"),
+        "sliding sphere, viscous force": ("3.56", "3.57", "3.59"),
+    }
+)
+"""Rows of Table 4.1 of the source, and the numbers of the equations in each."""
+
+
+def erratum(number: str) -> str:
+    """What is wrong with a printed equation, in a sentence or two; empty if nothing is.
+
+    Examples
+    --------
+    >>> erratum("3.22")
+    ''
+    """
+    formula = _formula(number)
+    found = (ERRATA.get(n, "") for n in formula.errata or (formula.number,))
+    return " ".join(text for text in found if text)
+
+
+def published(number: str, /, **arguments: Any) -> PublishedValue:
+    r"""Value of an equation of the source as printed, its erratum, and the right value beside it.
+
+    Parameters
+    ----------
+    number : str
+        Number of the equation, such as ``"3.19"``; `PUBLISHED` lists them all. ``"zero neck"``
+        is the break distance of section 3.2.1.4.
+    **arguments : float or str
+        What the equation needs, in SI units and by name; ``PUBLISHED[number].signature`` says
+        which, with their units. Angles in radians.
+
+    Returns
+    -------
+    PublishedValue
+        The value as printed, the corrected one, the erratum, and where the corrected one is
+        from; ``corrected`` is None where there is none, such as where no bridge is stable.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such equation, or an argument is missing, unknown or impossible.
+    InfeasibleError
+        Where the printed equation has no finite value.
+
+    Notes
+    -----
+    Viscous forces that the source calls those at the break are impulses over the separation
+    time. Resistance and attraction are positive, where some printed signs are not.
+
+    References
+    ----------
+    .. [1] The numbers are those of chapter 3; Table 4.1 collects the most important ones, see
+       `TABLE_4_1`.
+
+    Examples
+    --------
+    >>> found = published("3.19", radius=100e-9, gap_start=2e-9, gap_end=180e-9,
+    ...                   separation_time=1e-7, viscosity=0.89e-3)
+    >>> print(str(found).rpartition("\n")[0])
+    Eq. (3.19) viscous force on flats at the break: 5.24189e-07 N as printed
+      right: 2.62127e-07 N, impulse over time of a film that keeps its volume
+    >>> found.erratum.partition(",")[0], round(found.relative_error, 3)
+    ('It is the impulse over the separation time', 1.0)
+    >>> PUBLISHED["3.22"].signature
+    'sphere_radius [m], gap [m], film_height [m], speed [m/s], viscosity [Pa.s]'
+    """
+    formula = _formula(number)
+    given = checked_arguments(formula, arguments)
+    value = _printed(formula, given)
+    corrected, by = _corrected(formula, given, value)
+    return PublishedValue(
+        formula.number, formula.name, value, formula.unit, corrected, erratum(number), by
+    )
+
+
+def _formula(number: str) -> PublishedFormula:
+    key = number.strip().removeprefix("Eq.").strip(" ()") if isinstance(number, str) else number
+    if key in PUBLISHED:
+        return PUBLISHED[key]
+    several = [n for n in PUBLISHED if isinstance(key, str) and n[:-1] == key]
+    hint = f"did you mean {' or '.join(several)}?" if several else ""
+    raise DescriptionError(
+        "published, number", number, f"be one of {', '.join(PUBLISHED)}", hint=hint
+    )
+
+
+def _printed(formula: PublishedFormula, given: Mapping[str, Any]) -> float:
+    try:
+        value = float(formula.printed(*given.values()))
+    except (ZeroDivisionError, OverflowError):
+        value = math.nan
+    if math.isnan(value):
+        named = ", ".join(f"{name} = {value}" for name, value in given.items())
+        raise InfeasibleError(f"Eq. ({formula.number}) has no finite value for {named}")
+    return value
+
+
+def _corrected(
+    formula: PublishedFormula, given: Mapping[str, Any], value: float
+) -> tuple[float | None, str]:
+    """Right value, or None with the reason; a refusal of the right model is no error here."""
+    if formula.right is None:
+        return value, formula.by
+    try:
+        return float(formula.right(*given.values())), formula.by
+    except (ConvergenceError, InfeasibleError) as reason:
+        return None, str(reason)

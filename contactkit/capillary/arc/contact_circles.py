@@ -1,0 +1,281 @@
+r"""The two contact circles of an arc between curved bodies: equations, Newton iteration, branch.
+
+Symbols and conventions are those of `arc_sphere`, which is the door to this module.
+
+Two equations fix the circles: the chord lies at the mean of the tangent angles at its ends, and
+the volume is given. The volume is that of a frustum and of a circular
+segment turned about the axis, less the caps of the bodies; all of it is closed and regular, for
+straight arcs, flat bodies and contact angles of 0, 90 and 180 deg alike. The unknowns are the
+distances along the bodies, which stay regular at the equator and for vanishing curvature.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .zz_arc_segment import segment
+
+__all__ = [
+    "Circle",
+    "Problem",
+    "circle",
+    "acceptable",
+    "equations",
+    "follow",
+    "iterate",
+    "outline",
+]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_RIGHT = np.pi / 2.0
+_COLD, _WARM = 30, 12  # iterations; what takes more is tracked, or tried with half the step
+_STEEP = np.pi / 4.0  # a steeper paraboloid has a second, far-away family of arcs
+_SETTLED = 1e-9  # a relative Newton step this small leaves its square, once it is taken
+
+
+class Circle(NamedTuple):
+    """Contact circle on a body, with derivatives by the distance along the body."""
+
+    radius: Array
+    sag: Array
+    slope: Array
+    cap: Array
+    d_radius: Array
+    d_sag: Array
+    d_slope: Array
+
+
+class Problem(NamedTuple):
+    """What is given; arrays of one length."""
+
+    gap: Array
+    volume: Array
+    angle_lower: Array
+    angle_upper: Array
+    curvature_lower: Array
+    curvature_upper: Array
+
+    def at(self, index: NDArray[np.intp] | Flags) -> Problem:
+        """Take some of the points."""
+        return Problem(*(value[index] for value in self))
+
+
+class Outline(NamedTuple):
+    """Neck, bulge, force plane (radius, sine of the tangent angle), height and 1/r1 of arcs."""
+
+    neck: Array
+    bulge: Array
+    plane_radius: Array
+    plane_sine: Array
+    height: Array
+    inverse_arc_radius: Array
+
+
+class Equations(NamedTuple):
+    """Residuals, their slopes by the two distances, and the turn of the chord from upright."""
+
+    tilt: Array
+    excess: Array
+    tilt_lower: Array
+    tilt_upper: Array
+    excess_lower: Array
+    excess_upper: Array
+    height: Array
+    turn: Array
+    turn_lower: Array
+    turn_upper: Array
+
+
+def circle(distance: Array, curvature: Array, profile: str) -> Circle:
+    """Contact circle at that distance from the pole; on a parabola it is the radius itself."""
+    steep = curvature * distance
+    if profile == "parabola":
+        sag = 0.5 * steep * distance
+        cap = _RIGHT * distance**2 * sag
+        d_slope = curvature / (1.0 + steep**2)
+        return Circle(
+            distance, sag, np.arctan(steep), cap, np.ones_like(steep), steep, d_slope
+        )  # fmt: skip
+    sine, cosine = np.sin(steep), np.cos(steep)
+    radius = np.divide(sine, curvature, out=distance.copy(), where=curvature > 0.0)
+    sag = radius * np.tan(0.5 * steep)
+    cap = np.pi / 6.0 * sag * (3.0 * radius**2 + sag**2)
+    return Circle(radius, sag, steep, cap, cosine, sine, curvature)
+
+
+def _distance(radius: Array, curvature: Array, profile: str) -> Array:
+    """Distance along a body of the circle of that radius, kept short of the equator."""
+    if profile == "parabola":
+        return radius
+    sine = np.clip(curvature * radius, -0.95, 0.95)
+    return np.divide(np.arcsin(sine), curvature, out=radius.copy(), where=curvature > 0.0)
+
+
+def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
+    """Contact circles between cones that touch the bodies where a film would end.
+
+    A film with an upright rim gives the place; the volume of an arc between cones is a
+    quadratic in the mean contact radius, and its larger root is the branch with an open neck.
+    """
+    gap, volume, angle_lower, angle_upper, lower, upper = problem
+    bias = angle_upper - angle_lower
+    spread = np.sqrt(gap**2 + (lower + upper) * volume / np.pi)
+    one = two = np.sqrt(2.0 * volume / (np.pi * (gap + spread)))
+    for _ in range(2):
+        below = circle(_distance(one, lower, profile), lower, profile)
+        above = circle(_distance(two, upper, profile), upper, profile)
+        height = gap + below.sag + above.sag
+        # a film may end where the chord would point down: stay half way to that
+        turn = np.clip(bias + above.slope - below.slope, 0.5 * (bias - np.pi), 0.5 * (bias + np.pi))
+        lean = -np.tan(0.5 * turn) * height
+        half = 0.5 * (angle_lower + below.slope + angle_upper + above.slope) - _RIGHT
+        area, moment, _, _ = segment(half)
+        chord2 = height**2 + lean**2
+        bend = area * chord2 / height
+        square = (volume + below.cap + above.cap) / (np.pi * height)
+        square = square - lean**2 / 12.0 - 2.0 * moment * chord2
+        mean = np.sqrt(np.maximum(bend**2 + square, 0.0)) - bend
+        one = np.maximum(mean - 0.5 * lean, 0.05 * mean)
+        two = np.maximum(mean + 0.5 * lean, 0.05 * mean)
+    return _distance(one, lower, profile), _distance(two, upper, profile)
+
+
+def equations(problem: Problem, one: Array, two: Array, profile: str) -> Equations:
+    """Residuals at two contact circles: the lean of the chord and the excess of volume."""
+    gap, volume, angle_lower, angle_upper, lower, upper = problem
+    b, t = circle(one, lower, profile), circle(two, upper, profile)
+    height, lean = gap + b.sag + t.sag, t.radius - b.radius
+    chord2, mean = height**2 + lean**2, 0.5 * (b.radius + t.radius)
+    # slopes are added last, for they may be tiny against the angles and the height huge
+    turn = (angle_upper - angle_lower) + (t.slope - b.slope)
+    sine, cosine = np.cos(0.5 * turn), -np.sin(0.5 * turn)  # of the angle of the chord
+    half = 0.5 * ((angle_lower - _RIGHT) + (angle_upper - _RIGHT) + (b.slope + t.slope))
+    area, moment, d_area, d_moment = segment(half)
+    disc = mean**2 + lean**2 / 12.0  # mean square radius of the frustum
+    ring = area * mean + moment * height  # first moment of the segment over chord squared
+    d_ring_half = 0.5 * (d_area * mean + d_moment * height)
+    d_tilt_half = 0.5 * (lean * cosine + height * sine)
+
+    def slopes(end: Circle, sign: float) -> tuple[Array, Array]:
+        d_tilt = sign * (end.d_radius * sine + end.d_slope * d_tilt_half) - end.d_sag * cosine
+        d_chord2 = 2.0 * (sign * lean * end.d_radius + height * end.d_sag)
+        d_disc = end.d_radius * (mean + sign * lean / 6.0)
+        d_ring = end.d_slope * d_ring_half + 0.5 * area * end.d_radius + moment * end.d_sag
+        d_volume = end.d_sag * disc + height * d_disc + 2.0 * (d_chord2 * ring + chord2 * d_ring)
+        return d_tilt, np.pi * (d_volume - end.radius**2 * end.d_sag)
+
+    (t1, v1), (t2, v2) = slopes(b, -1.0), slopes(t, 1.0)
+    excess = np.pi * (height * disc + 2.0 * chord2 * ring) - b.cap - t.cap - volume
+    tilt = lean * sine - height * cosine
+    return Equations(tilt, excess, t1, t2, v1, v2, height, turn, -b.d_slope, t.d_slope)
+
+
+def iterate(
+    problem: Problem, profile: str, start: tuple[Array, Array] | None = None
+) -> tuple[Array, Array, Flags]:
+    """Newton on all points at once; those that have settled are frozen and dropped.
+
+    Returns the two distances and whether they settled.
+    """
+    settled = np.zeros(problem.gap.shape, dtype=np.bool_)
+    with np.errstate(all="ignore"):  # hopeless points overflow, and are left unsettled
+        one, two = _start(problem, profile) if start is None else (start[0].copy(), start[1].copy())
+        active = np.arange(problem.gap.size)
+        for _ in range(_COLD if start is None else _WARM):
+            e = equations(problem.at(active), one[active], two[active], profile)
+            determinant = e.tilt_lower * e.excess_upper - e.tilt_upper * e.excess_lower
+            step1 = (e.tilt_upper * e.excess - e.tilt * e.excess_upper) / determinant
+            step2 = (e.tilt * e.excess_lower - e.tilt_lower * e.excess) / determinant
+            wide = np.maximum(abs(one[active]), abs(two[active]))
+            size = np.maximum(wide, e.height)
+            longest = np.maximum(abs(step1), abs(step2))
+            d_turn = e.turn_lower * step1 + e.turn_upper * step2
+            room = np.where(d_turn > 0.0, np.pi - e.turn, np.pi + e.turn)
+            # halve at most, and never turn the chord past the horizontal
+            bound = np.where(room > 0.0, 0.8 * room / abs(d_turn), 1.0)
+            scale = np.fmin(1.0, np.fmin(0.5 * size / longest, bound))
+            one[active] += scale * step1
+            two[active] += scale * step2
+            done = longest <= np.maximum(_SETTLED * wide, 4e-15 * e.height)
+            settled[active[done]] = True
+            active = active[~done & np.isfinite(longest)]
+            if not active.size:
+                break
+    return one, two, settled
+
+
+def outline(problem: Problem, below: Circle, above: Circle) -> Outline:
+    """Neck, belly and force plane of the arcs between two contact circles."""
+    lower = (_RIGHT - problem.angle_lower) - below.slope
+    upper = (_RIGHT - problem.angle_upper) - above.slope
+    height = problem.gap + below.sag + above.sag
+    inverse = 2.0 * np.sin(0.5 * (lower + upper)) * np.cos(0.5 * (lower - upper))
+    extreme = (lower * upper >= 0.0) & (lower != -upper)
+    offset = 2.0 * np.sin(0.5 * lower) ** 2 / np.where(extreme, inverse, 1.0)
+    first = below.radius <= above.radius
+    least, most = np.minimum(below.radius, above.radius), np.maximum(below.radius, above.radius)
+    plane = np.where(extreme, below.radius - height * offset, least)
+    sine = np.where(extreme, 1.0, np.where(first, np.cos(lower), np.cos(upper)))
+    return Outline(
+        np.minimum(least, plane), np.maximum(most, plane), plane, sine, height, inverse / height
+    )
+
+
+def acceptable(problem: Problem, one: Array, two: Array, profile: str) -> Flags:
+    """Whether roots are on the branch wanted: neck open, chord upright, more liquid is wider."""
+    below = circle(one, problem.curvature_lower, profile)
+    above = circle(two, problem.curvature_upper, profile)
+    e = equations(problem, one, two, profile)
+    steepest = np.maximum(abs(below.slope), abs(above.slope))
+    return (
+        (outline(problem, below, above).neck > 0.0)
+        & (abs(e.turn) < np.pi)
+        & (steepest < (_STEEP if profile == "parabola" else np.pi))
+        & (e.tilt_lower * e.excess_upper < e.tilt_upper * e.excess_lower)
+    )
+
+
+def _stage(problem: Problem, share: Array) -> Problem:
+    """Point of a path from a trace of liquid between touching bodies to what is given.
+
+    Volume first (share 0 to 1) and gap second (1 to 2), which keeps the neck open on the way.
+    """
+    bend = problem.curvature_lower + problem.curvature_upper
+    film = np.minimum(problem.gap, 0.1 * np.sqrt(bend * problem.volume))
+    volume = problem.volume * 1e-6 ** np.maximum(1.0 - share, 0.0)
+    rise = np.clip(share - 1.0, 0.0, 1.0)
+    gap = film ** (1.0 - rise) * problem.gap**rise
+    return problem._replace(gap=np.where(share > 1.0, gap, 0.0), volume=volume)
+
+
+def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
+    """Track the branch with an open neck step by step, for points that a cold start missed.
+
+    Steps that fail are halved. Returns the two distances, whether the end was reached with an
+    open neck, and whether the neck closed on the way. One body at least must be curved.
+    """
+    share, step = np.zeros_like(problem.gap), np.full_like(problem.gap, 0.1)
+    one, two, good = iterate(_stage(problem, share), profile)
+    closed = np.zeros_like(good)
+    live = np.flatnonzero(good)
+    while live.size:
+        target = np.minimum(share[live] + step[live], np.where(share[live] < 1.0, 1.0, 2.0))
+        part = _stage(problem.at(live), target)
+        new1, new2, good = iterate(part, profile, (one[live], two[live]))
+        with np.errstate(all="ignore"):
+            below = circle(new1, part.curvature_lower, profile)
+            above = circle(new2, part.curvature_upper, profile)
+            size = one[live] + two[live] + part.gap
+            good &= abs(new1 - one[live]) + abs(new2 - two[live]) < size
+            shut = good & ~(outline(part, below, above).neck > 0.0)
+        moved = live[good]
+        one[moved], two[moved], share[moved] = new1[good], new2[good], target[good]
+        closed[live[shut]] = True
+        step[live] = np.where(good, step[live], 0.5 * step[live])
+        live = live[~shut & (target < 2.0) & (step[live] > 1e-4) | (~good & (step[live] > 1e-4))]
+    return one, two, (share == 2.0) & ~closed, closed

@@ -1,0 +1,194 @@
+"""Gap, volume and pressure of a bridge as functions of two numbers, with derivatives, on arrays.
+
+Symbols are those of `delaunay`: a point is the logarithm of the waist and the chart coordinate
+zeta. Everything about a bridge is explicit there.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.quadrature import gauss_legendre
+from .delaunay import Body, Elementary, End, Ends, body, ends, integrand, is_round, reach
+
+__all__ = ["ARRAYS", "Pair", "Point", "integrals_between", "pair", "point", "solids"]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+
+def _stacked(first: Any, last: Any) -> Any:
+    result = np.empty(
+        (
+            2,
+            *np.broadcast_shapes(first.shape, last.shape),
+        ),
+        np.result_type(first, last),
+    )
+    result[0], result[1] = first, last
+    return result[:, None] if first.ndim == 1 else result
+
+
+ARRAYS = Elementary(
+    np.sin,
+    np.cos,
+    np.sqrt,
+    np.sinh,
+    np.cosh,
+    np.arcsinh,
+    np.arctan,
+    np.expm1,
+    np.where,
+    _stacked,
+)
+_STEP = 1e-30  # of the complex step
+_DIRECTIONS = np.array([[0.0], [_STEP]])
+_COUNTS = (16, 24, 32, 40, 48, 64, 96, 128)
+
+
+class Pair(NamedTuple):
+    """Two bodies, the binding one first; entries are arrays of one length."""
+
+    binder: Body
+    other: Body
+    twin: Flags
+
+    def at(self, index: NDArray[np.intp] | Flags) -> Pair:
+        """Take some of the points."""
+        return Pair(
+            Body(*(value[index] for value in self.binder)),
+            Body(*(value[index] for value in self.other)),
+            self.twin[index],
+        )
+
+    def swapped(self, flip: Flags) -> Pair:
+        """Exchange the bodies of some points."""
+        first = Body(*(np.where(flip, o, b) for b, o in zip(self.binder, self.other, strict=True)))
+        last = Body(*(np.where(flip, b, o) for b, o in zip(self.binder, self.other, strict=True)))
+        return Pair(first, last, self.twin)
+
+
+class Point(NamedTuple):
+    """Bridges at points of the chart.
+
+    Attributes
+    ----------
+    ends : Ends
+        Shape and ends, lengths over the waist.
+    gap, volume : ndarray
+        Gap [m] and volume [m^3].
+    gap_waist, gap_chart, volume_waist, volume_chart : ndarray
+        Derivatives of the gap and of the volume by the logarithm of the waist and by zeta.
+    shape_waist, shape_chart : ndarray
+        Derivatives of the shape e.
+    """
+
+    ends: Ends
+    gap: Array
+    volume: Array
+    gap_waist: Array
+    gap_chart: Array
+    volume_waist: Array
+    volume_chart: Array
+    shape_waist: Array
+    shape_chart: Array
+
+
+def solids(angle: Array, curvature: Array) -> Body:
+    """A body at each point, from its contact angle [rad] and curvature [1/m]."""
+    return body(ARRAYS, angle, curvature)
+
+
+def pair(lower: Body, upper: Body, twin: Flags) -> Pair:
+    """Bodies in the order lower, upper."""
+    return Pair(lower, upper, twin)
+
+
+@lru_cache(maxsize=16)
+def _nodes(count: int) -> tuple[Array, Array]:
+    nodes, weights = gauss_legendre(count)
+    return np.array(nodes), np.array(weights)
+
+
+def _real(found: Ends) -> Ends:
+    """Real parts in the first row of a complex step."""
+
+    def first(end: End) -> End:
+        return End(*(value[0].real for value in end))
+
+    return Ends(
+        found.shape[0].real, found.pressure[0].real, found.force[0].real,
+        first(found.binder), first(found.other),
+        found.sine_binder[0].real, found.sine_other[0].real,
+    )  # fmt: skip
+
+
+def integrals(e: Array, first: End, last: End) -> Array:
+    """Height and volume over pi of the meridian between its ends, then their slopes by e."""
+    from_bulge = is_round(e)
+    result = np.empty((4, e.size))
+    for flag in (False, True):
+        part = np.flatnonzero(from_bulge == flag)
+        if part.size == e.size:
+            return _stretched(e, first, last, flag)
+        one, two = (End(*(value[part] for value in end)) for end in (first, last))
+        result[:, part] = _stretched(e[part], one, two, flag)
+    return result
+
+
+def integrals_between(shape: Array, low: Array, high: Array) -> Array:
+    """The integrals of meridians between two arc lengths, see `integrals`."""
+
+    def end(arc: Array) -> End:
+        return End(arc, np.tan(0.5 * (1.0 - shape) * arc), arc, arc, arc, arc)
+
+    return integrals(shape, end(-low), end(high))
+
+
+def _stretched(e: Array, first: End, last: End, from_bulge: bool) -> Array:
+    low = -reach(ARRAYS, e, first, from_bulge=from_bulge)
+    span = reach(ARRAYS, e, last, from_bulge=from_bulge) - low
+    longest = float(np.max(abs(span), initial=0.0, where=np.isfinite(span)))
+    wanted = 6.0 + 20.0 / np.arcsinh(np.pi / max(longest, 1e-3))
+    nodes, weights = _nodes(next((n for n in _COUNTS if n >= wanted), _COUNTS[-1]))
+    # nodes first, so that all but the last operation run along whole rows
+    values = integrand(ARRAYS, e, low + span * nodes[:, None], from_bulge=from_bulge)
+    return np.stack([span * (weights @ value) for value in values])
+
+
+def point(where: Pair, waist: Array, chart: Array) -> Point:
+    """Bridges at points of the chart, lengths in the unit of the waist (given by its logarithm)."""
+    flat = not (where.binder.curvature.any() or where.other.curvature.any())
+    # between flats nothing but the scale depends on the waist
+    directions = _DIRECTIONS[1:] if flat else _DIRECTIONS
+    coordinate = chart + 1j * directions
+    a = np.exp(waist + 0.0 * directions if flat else waist + 1j * _DIRECTIONS[::-1])
+    found = ends(ARRAYS, a, coordinate, where.binder, where.other, where.twin)
+    real = _real(found)
+    height, content, height_e, content_e = integrals(real.shape, real.binder, real.other)
+    size = a[0].real
+
+    def slope(value: NDArray[np.complex128]) -> Array:
+        result: Array = value.imag / _STEP
+        return result if len(result) == 2 else np.concatenate((0.0 * result, result))
+
+    b, o = real.binder, real.other
+    shape = slope(found.shape)
+    arc_b, arc_o = slope(found.binder.arc), slope(found.other.arc)
+    sags = slope(found.binder.sag + found.other.sag)
+    caps = slope(found.binder.cap + found.other.cap)
+    gap = size * (height - b.sag - o.sag)
+    volume = size**3 * (np.pi * content - b.cap - o.cap)
+    d_gap = size * (height_e * shape + b.sine * arc_b + o.sine * arc_o - sags)
+    d_volume = size**3 * (
+        np.pi * (content_e * shape + b.radius**2 * b.sine * arc_b + o.radius**2 * o.sine * arc_o)
+        - caps
+    )
+    return Point(
+        real, gap, volume, d_gap[0] + gap, d_gap[1], d_volume[0] + 3.0 * volume, d_volume[1],
+        shape[0], shape[1],
+    )  # fmt: skip

@@ -1,0 +1,124 @@
+"""Bridges of given pressure, as a vapour sets it: starts, and the curve up to its limit.
+
+Symbols are those of `delaunay`; lengths are in the unit of the caller. The pressure is held, so a
+bridge is stable only if it takes up liquid when the pressure rises: that is less than at fixed
+volume, and between flats no bridge is.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ConvergenceError, InfeasibleError
+from .chart import Pair
+from .continuation import FreeBranch, march_free
+from .newton import Problem, Solution, problem, solve
+from .volume_branch import Branch, march
+from .zz_bridge_start import from_waist
+
+__all__ = ["branch_at_pressure", "from_film", "holds"]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Two = tuple[Array, Array]
+
+_RADII = np.geomspace(1e-9, 0.98, 400)  # of the contact circles, over the smaller radius
+
+
+def holds(found: Solution) -> Flags:
+    """Whether a bridge was found that is stable at fixed pressure."""
+    at = found.found
+    second_waist = -at.shape_waist - at.ends.pressure
+    determinant = -at.gap_waist * at.shape_chart - at.gap_chart * second_waist
+    result: Flags = found.good & (determinant > 0.0)
+    return result
+
+
+def _film(gap: Array, pressure: Array, angles: Two, curvatures: Two) -> tuple[Array, Flags]:
+    """Radius at which a film of two arcs has the pressure, the widest one, and if there is any."""
+    sharp = np.maximum(curvatures[0], curvatures[1])
+    x = _RADII[:, None] / sharp
+    height, pull = gap + 0.0 * x, 0.0 * x
+    for angle, curvature in zip(angles, curvatures, strict=True):
+        slope = np.arcsin(curvature * x)
+        height = height + x * np.tan(0.5 * slope)
+        pull = pull + np.cos(angle + slope)
+    excess = pull / height - 1.0 / x + pressure
+    falls = (excess[:-1] > 0.0) & (excess[1:] <= 0.0)
+    i = falls.shape[0] - 1 - np.argmax(falls[::-1], axis=0)
+    column = np.arange(gap.size)
+    high, low = excess[i, column], excess[i + 1, column]
+    share = high / (high - low)
+    radius: Array = x[i, column] ** (1.0 - share) * x[i + 1, column] ** share
+    wet: Flags = np.any(falls, axis=0)
+    return radius, wet
+
+
+def from_film(given: Problem, angles: Two, curvatures: Two) -> tuple[Solution, Flags]:
+    """Newton from a thin film, and whether there is such a film."""
+    assert given.pressure is not None
+    radius, wet = _film(given.gap, given.pressure, angles, curvatures)
+    return from_waist(given, np.log(radius), 1.0 - radius * given.pressure), wet
+
+
+@lru_cache(maxsize=512)
+def branch_at_pressure(
+    pressure: float, angle_lower: float, angle_upper: float,
+    curvature_lower: float, curvature_upper: float,
+) -> Branch | FreeBranch:  # fmt: skip
+    """Curve of bridges of one pressure from touching bodies to its limit."""
+    angles = np.array([angle_lower]), np.array([angle_upper])
+    curvatures = np.array([curvature_lower]), np.array([curvature_upper])
+
+    def given(level: float) -> Problem:
+        return problem(np.zeros(1), None, np.array([level]), angles, curvatures)
+
+    with np.errstate(all="ignore"):
+        sharp = max(curvature_lower, curvature_upper)
+        drop, level = 0.0, pressure
+        found, _ = from_film(given(level), angles, curvatures)
+        while not holds(found)[0]:
+            drop = max(4.0 * drop, sharp, abs(pressure))
+            if drop > 1e9 * (sharp + abs(pressure)):
+                raise InfeasibleError(_DRY)
+            level = pressure - drop
+            found, _ = from_film(given(level), angles, curvatures)
+        ratio = 0.5
+        while drop > 0.0:
+            trial = drop * ratio if drop > 1e-3 * (sharp + abs(pressure)) else 0.0
+            part = given(pressure - trial)
+            part = part._replace(bodies=part.bodies.swapped(found.flipped))
+            new = solve(part, found.waist, found.chart, found.flipped)
+            if holds(new)[0]:
+                drop, found = trial, new
+            elif ratio > 0.99:
+                if found.found.ends.sine_other[0] < -0.99:
+                    raise InfeasibleError(_DROWNED)
+                raise InfeasibleError(_DRY)
+            else:
+                ratio = math.sqrt(ratio)
+        return _followed(found, given(pressure).bodies, pressure)
+
+
+def _followed(found: Solution, bodies: Pair, pressure: float) -> Branch | FreeBranch:
+    try:
+        return march(
+            found.bodies, bool(found.flipped[0]), float(found.waist[0]), float(found.chart[0]),
+            pressure,
+        )  # fmt: skip
+    except ConvergenceError:
+        return march_free(bodies, found.unknowns[:, 0], 0.0, pressure)
+
+
+_DROWNED = (
+    "no bridge of this pressure was found between touching bodies: it would hold more liquid than "
+    "the smaller sphere and drown it; a smaller pressure (a lower humidity) may hold one"
+)
+_DRY = (
+    "no bridge holds at this pressure even between touching bodies: it would dry up, or grow "
+    "without end; a smaller pressure (a lower humidity) or smaller contact angles may hold one"
+)

@@ -1,0 +1,242 @@
+r"""The force of the exact bridge between flats as a law of the gap, without numpy, made once.
+
+Conventions and symbols are those of `delaunay`. Between flats a bridge is, but for its size, one
+of a family of one parameter, in which everything is explicit; a law is a spline through some
+hundreds of members of the family. Two laws serve two kinds of film:
+
+* *free*: of constant volume; lengths are over its cube root;
+* *pinned*: held by the rim of the smaller face, which its larger contact circle has reached;
+  lengths are over that radius, and the volume follows.
+
+The splines are in :math:`u = \sqrt{\ln(h_{end}/h)}`, in which a force that ends in a fold, with
+an infinite slope, is smooth as well. A film so thin that the arc of a circle errs by 1e-8 is
+taken for that arc, and its error for one that falls with the thickness over the radius.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+from ...numerics.cubic_spline import Piece, cubic_spline, spline_pieces
+from ..arc import flat as arc_flat
+from ..arc.shape import refuse_spreading, wetting
+from .family import Member, family, last_member
+from .sampling import members_along
+
+__all__ = ["FlatLaw", "Series", "flat_end", "flat_law"]
+
+Series = Callable[[float], tuple[float, float, float] | None]
+"""A force at a gap, its slope times the gap, and its second derivative times the gap squared."""
+
+_THIN = 1e-8  # gap over radius below which a film is taken for its arc
+_RIGHT_CLOSE = 1e-12  # cosine of two angles that make a cylinder
+
+
+class FlatLaw(NamedTuple):
+    """Force and volume of bridges between flats at a gap up to `end`, lengths over the law's.
+
+    The force is over surface tension and length, the volume over the cube of length. `series`
+    makes, for a length and a surface tension, what gives a force [N] and its slopes at a gap [m]:
+    the same force, in fewer calls; None for a film that is taken for its arc.
+    """
+
+    end: float
+    force: Callable[[float], float]
+    volume: Callable[[float], float]
+    series: Callable[[float, float], Series]
+
+
+@lru_cache(maxsize=64)
+def flat_law(
+    angle_lower: float, angle_upper: float, *, pinned: bool = False, rtol: float = 1e-9
+) -> FlatLaw:
+    """Law of the exact bridge between flats, for two contact angles [rad].
+
+    Parameters
+    ----------
+    angle_lower, angle_upper : float
+        Contact angles [rad], 0 to pi.
+    pinned : bool
+        Whether the larger contact circle keeps its radius, rather than the bridge its volume.
+    rtol : float
+        Error allowed to the splines [-], relative to what the curvatures of the rim, taken one by
+        one, would pull.
+
+    Raises
+    ------
+    InfeasibleError
+        If one body is wetted fully and the other not at all: such a liquid spreads.
+
+    Examples
+    --------
+    >>> law = flat_law(math.pi / 3, math.pi / 3)
+    >>> round(law.end, 4), round(law.force(0.02), 3)
+    (1.4205, 2511.989)
+    """
+    refuse_spreading(angle_lower, angle_upper)
+    if max(abs(math.cos(angle_lower)), abs(math.cos(angle_upper))) < _RIGHT_CLOSE:
+        return _cylinder(pinned)
+    one = family(angle_lower, angle_upper, pinned)
+    last = last_member(angle_lower, angle_upper, pinned)
+    measure = _Measure(last.gap, abs(wetting(angle_lower, angle_upper)), pinned)
+    members = members_along(one, last, measure.depth, measure.columns, measure.thinnest, rtol)
+    places, forces, contents = _points(members, measure)
+    force, content = cubic_spline(places, forces), cubic_spline(places, contents)
+    arc, thin = arc_flat.shape(angle_lower, angle_upper), members[-1]
+    floor, power = thin.gap, 1.0 if pinned else 1.5
+
+    def arc_force(gap: float) -> float:
+        return float(arc_flat.force(arc, gap, _arc_radius(arc, gap, pinned)))
+
+    def arc_volume(gap: float) -> float:
+        return float(arc_flat.volume(arc, gap, _arc_radius(arc, gap, pinned)))
+
+    @lru_cache(maxsize=1)
+    def lacks() -> tuple[float, float]:
+        """What the arc lacks at the floor, of the scaled force and of the volume."""
+        force = (thin.force - arc_force(floor)) / measure.scale(floor)
+        return force, thin.volume / arc_volume(floor) - 1.0
+
+    def law_force(gap: float) -> float:
+        if gap < floor:
+            return arc_force(gap) + lacks()[0] * measure.scale(gap) * math.pow(gap / floor, power)
+        return force(measure.depth(gap))[0] * measure.scale(gap)
+
+    def law_volume(gap: float) -> float:
+        if not pinned:
+            return 1.0
+        if gap < floor:
+            return arc_volume(gap) * (1.0 + lacks()[1] * gap / floor)
+        return content(measure.depth(gap))[0] * math.pi * gap
+
+    def law_series(length: float, tension: float) -> Series:
+        return _series(spline_pieces(places, forces), measure, floor, length, tension)
+
+    return FlatLaw(last.gap, law_force, law_volume, law_series)
+
+
+@lru_cache(maxsize=64)
+def flat_end(
+    angle_lower: float, angle_upper: float, *, pinned: bool = False
+) -> tuple[float, float]:
+    """Largest gap of a law and the volume there, without the law; arguments as in `flat_law`.
+
+    Examples
+    --------
+    >>> round(flat_end(math.pi / 2, math.pi / 2)[0] ** 3 / math.pi, 12)
+    1.0
+    """
+    refuse_spreading(angle_lower, angle_upper)
+    if max(abs(math.cos(angle_lower)), abs(math.cos(angle_upper))) < _RIGHT_CLOSE:
+        law = _cylinder(pinned)
+        return law.end, law.volume(law.end)
+    last = last_member(angle_lower, angle_upper, pinned)
+    return last.gap, last.volume
+
+
+class _Measure(NamedTuple):
+    """What the splines run along and what they are of."""
+
+    end: float
+    cosines: float
+    pinned: bool
+
+    def depth(self, gap: float) -> float:
+        """Place of a gap along the splines, zero at the end."""
+        return math.sqrt(max(math.log(self.end / gap), 0.0))
+
+    def scale(self, gap: float) -> float:
+        """Force that the splines are relative to: that of both curvatures, one by one."""
+        radius = 1.0 if self.pinned else math.sqrt(1.0 / (math.pi * gap))
+        return math.pi * radius * (radius * self.cosines / gap + 1.0)
+
+    def columns(self, member: Member) -> tuple[float, ...]:
+        """What the splines follow: the scaled force and, at a rim, the volume over a disc's."""
+        force = member.force / self.scale(member.gap)
+        return (force, member.volume / (math.pi * member.gap)) if self.pinned else (force,)
+
+    @property
+    def thinnest(self) -> float:
+        """Gap below which a film is an arc."""
+        return _THIN if self.pinned else (_THIN**2 / math.pi) ** (1.0 / 3.0)
+
+
+def _arc_radius(arc: arc_flat.ArcShape, gap: float, pinned: bool) -> float:
+    if pinned:
+        return arc_flat.rim_contact_radius(arc, gap, 1.0)
+    return arc_flat.contact_radius(arc, gap, 1.0)
+
+
+def _cylinder(pinned: bool) -> FlatLaw:
+    """Law for two right angles, whose bridges are cylinders: F = pi gamma r, up to h = pi r."""
+
+    def series(length: float, tension: float) -> Series:
+        def at(gap: float) -> tuple[float, float, float]:
+            force = tension * (
+                length * (math.pi if pinned else math.sqrt(math.pi / (gap / length)))
+            )
+            return (force, 0.0, 0.0) if pinned else (force, -0.5 * force, 0.75 * force)
+
+        return at
+
+    if pinned:
+        return FlatLaw(math.pi, lambda gap: math.pi, lambda gap: math.pi * gap, series)
+    end = math.pi ** (1.0 / 3.0)
+    return FlatLaw(end, lambda gap: math.sqrt(math.pi / gap), lambda gap: 1.0, series)
+
+
+def _series(
+    curve: tuple[tuple[float, ...], list[Piece]],
+    measure: _Measure,
+    floor: float,
+    length: float,
+    tension: float,
+) -> Series:
+    """Force of the spline and its slopes along the logarithm of the gap, as far as it goes."""
+    (inner, pieces), (end, cosines, pinned) = curve, measure
+    log, sqrt, pi = math.log, math.sqrt, math.pi
+
+    def at(size: float) -> tuple[float, float, float] | None:
+        gap = size / length
+        depth = sqrt(max(log(end / gap), 0.0))
+        if gap < floor or not depth > 0.0:
+            return None
+        x0, a, b, c, d = pieces[bisect_right(inner, depth)]
+        t = depth - x0
+        share = a + t * (b + t * (c + t * d))
+        first, second = b + t * (2.0 * c + 3.0 * t * d), 2.0 * c + 6.0 * t * d
+        along = -0.5 / depth  # slope of the depth
+        first, second = first * along, (second - first / depth) * along * along
+        radius = 1.0 if pinned else sqrt(1.0 / (pi * gap))
+        scale = pi * radius * (radius * cosines / gap + 1.0)
+        ring = pi * radius
+        disc = scale - ring  # as 1/gap pinned, 1/gap^2 free; the ring not at all, as gap^-1/2
+        rise, bend = (
+            (-disc, disc) if pinned else (-2.0 * disc - 0.5 * ring, 4.0 * disc + 0.25 * ring)
+        )
+        factor = tension * length
+        slope = factor * (first * scale + share * rise)
+        curved = factor * (second * scale + 2.0 * first * rise + share * bend)
+        return tension * (length * (share * scale)), slope, curved - slope
+
+    return at
+
+
+def _points(
+    members: list[Member], measure: _Measure
+) -> tuple[list[float], list[float], list[float]]:
+    """Depths of splines, and there the scaled force, and the volume over that of a disc."""
+    places, good = [0.0], [members[0]]
+    for member in members[1:]:
+        if member.gap > 0.0 and (place := measure.depth(member.gap)) > places[-1]:
+            places.append(place)
+            good.append(member)
+    return (
+        places,
+        [m.force / measure.scale(m.gap) for m in good],
+        [m.volume / (math.pi * m.gap) for m in good],
+    )

@@ -1,0 +1,129 @@
+r"""Members of the family of bridges between flats, as close together as a spline needs them.
+
+A force may end smoothly, in a fold, or where a contact circle shrinks to a point: there it
+vanishes like :math:`\delta / \ln\delta`, over the way :math:`\delta` that is left, and no even
+spacing follows that. So members are added where the spline between two of them misses the one
+half way, in its value or in its slope.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ...numerics.cubic_spline import cubic_spline
+from .family import Member
+
+__all__ = ["members_along"]
+
+_COARSE = 64  # members along a law before any is added
+_FAR = 500.0  # chart coordinate of a film thinner than any
+_SLOPES = 30.0  # error of a slope, over that of a value
+_ROUNDING = 5e-16  # of the logarithm of the gap, to which the places of members are known
+_MOST = 20_000  # members; what is still missed is noise
+
+Place = Callable[[float], float]
+Columns = Callable[[Member], tuple[float, ...]]
+
+
+def members_along(
+    one: Callable[[float], Member],
+    last: Member,
+    depth: Place,
+    columns: Columns,
+    thinnest: float,
+    rtol: float,
+) -> list[Member]:
+    """Members from the longest to one no thicker than `thinnest`, for splines in the depth.
+
+    Parameters
+    ----------
+    one : callable
+        Member of a chart coordinate.
+    last : Member
+        The longest.
+    depth : callable
+        Place of a gap along the splines, zero at the longest.
+    columns : callable
+        What the splines are to follow, numbers of order one.
+    thinnest : float
+        Gap, in the length of the family.
+    rtol : float
+        Error allowed to the splines [-].
+    """
+    found = _spread(one, last, depth, thinnest, depth(thinnest) / _COARSE)
+    wanted = [True] * (len(found) - 1)
+    while any(wanted) and len(found) < _MOST:
+        found, missed = _halved(one, found, wanted, depth, columns, rtol)
+        # An error may vanish half way by chance, but not in two stretches side by side.
+        wanted = [any(missed[max(i - 1, 0) : i + 2]) for i in range(len(missed))]
+    return found
+
+
+def _spread(
+    one: Callable[[float], Member], last: Member, depth: Place, thinnest: float, distance: float
+) -> list[Member]:
+    """Members from the longest to a thin one, at most a distance of depth apart."""
+    far, step = last, 1.0
+    while far.gap > thinnest and far.chart < _FAR:
+        far = one(last.chart + step)
+        step *= 2.0
+    found, waiting = [last], [far]
+    while waiting:
+        here, there = found[-1], waiting[-1]
+        middle = 0.5 * (here.chart + there.chart)
+        between = here.chart < middle < there.chart
+        near = there.gap > 0.0 and depth(there.gap) <= depth(here.gap) + distance
+        if between and not near:
+            waiting.append(one(middle))
+            continue
+        there = waiting.pop()
+        if there.gap > 0.0 and depth(there.gap) > depth(here.gap):
+            found.append(there)
+        if there.gap <= thinnest:
+            break
+    return found
+
+
+def _halved(
+    one: Callable[[float], Member],
+    found: list[Member],
+    wanted: list[bool],
+    depth: Place,
+    columns: Columns,
+    rtol: float,
+) -> tuple[list[Member], list[bool]]:
+    """Members, with one more half way where wanted, and the stretches where splines miss it."""
+    places = [depth(member.gap) for member in found]
+    values = zip(*(columns(member) for member in found), strict=True)
+    curves = [cubic_spline(places, column) for column in values]
+    result, missed = [found[0]], []
+    for i in range(len(wanted)):
+        low, high = places[i : i + 2]
+        if wanted[i]:
+            middle = one(0.5 * (found[i].chart + found[i + 1].chart))
+            place = depth(middle.gap) if middle.gap > 0.0 else low
+            if low < place < high:
+                width = high - low
+                exact = columns(middle)
+                miss = _misses(*curves[0](place), exact[0], place, width, rtol) or any(
+                    abs(curve(place)[0] - y) > 8.0 * rtol * max(abs(y), 1.0)
+                    for curve, y in zip(curves[1:], exact[1:], strict=True)
+                )
+                result.append(middle)
+                missed.append(miss)
+                missed.append(miss)
+                result.append(found[i + 1])
+                continue
+        result.append(found[i + 1])
+        missed.append(False)
+    return result, missed
+
+
+def _misses(
+    value: float, slope: float, exact: float, place: float, width: float, rtol: float
+) -> bool:
+    """Whether a spline is off half way along a stretch, in its value or in its slope."""
+    # The spline of the halves errs sixteen times less in values, eight times in slopes.
+    fine = rtol * min(8.0, _SLOPES * width * (abs(slope) + place * abs(value)))
+    noise = _ROUNDING * (abs(slope) / place + 1.0)
+    return abs(value - exact) > max(fine, noise)

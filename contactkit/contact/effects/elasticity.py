@@ -1,0 +1,110 @@
+"""How the bodies yield: homogeneous half-spaces, or stacks of layers."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar
+
+from attrs import frozen
+
+from .base import Compliance
+
+if TYPE_CHECKING:
+    from ...scene.contact_scene import ContactScene
+    from ...scene.materials import Stack
+    from ...scene.topography import Grid
+    from .base import Map, SymbolMaker
+
+__all__ = ["HalfSpace", "LayeredHalfSpace"]
+
+_FREE = "Love 1929, square patch on a half-space"
+_SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
+
+
+@frozen(kw_only=True)
+class HalfSpace(Compliance):
+    """Homogeneous elastic half-spaces, one or two.
+
+    In a periodic window the transformed compliance is ``2 (1 - nu^2)/(E alpha)``; without
+    neighbours it is that of uniform pressure on each pixel (Love). Slopes are taken small: what
+    is left out is of the order of the squared slope.
+    """
+
+    name: ClassVar[str] = "half-space"
+    summary: ClassVar[str] = "homogeneous elastic half-spaces"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return ("Boussinesq's half-space, Eq. (2.34) without layers", _FREE, _SUM)
+
+    def cites(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.cites`."""
+        return _cited(self, scene)
+
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        layered = any(stack.layers for stack in scene.interface.stacks)
+        return ("bodies without layers (or LayeredHalfSpace() in its place)",) if layered else ()
+
+    def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
+        """See `Compliance.prepare`."""
+        return tuple(_maker(stack, grid.periodic) for stack in scene.interface.stacks)
+
+
+@frozen(kw_only=True)
+class LayeredHalfSpace(Compliance):
+    """Any number of bonded elastic layers on half-spaces, for one body or both.
+
+    The compliance is exact for each wavenumber, whatever the contrast of the layers.
+    """
+
+    name: ClassVar[str] = "layered-half-space"
+    summary: ClassVar[str] = "bonded elastic layers on half-spaces"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return (
+            "bonded layers, Eqs. (2.15) to (2.34), as a projective recursion from the substrate up",
+            _FREE,
+            _SUM,
+        )
+
+    def cites(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.cites`."""
+        return _cited(self, scene)
+
+    def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
+        """See `Compliance.prepare`."""
+        return tuple(_maker(stack, grid.periodic) for stack in scene.interface.stacks)
+
+
+def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
+    first, free, two = effect.sources
+    found = [first]
+    if not scene.window.periodic:
+        found.append(free)
+    if len(scene.interface.stacks) > 1:
+        found.append(two)
+    return tuple(found)
+
+
+def _maker(stack: Stack, periodic: bool) -> SymbolMaker:
+    elastic = (stack.young_moduli, stack.poisson_ratios, stack.thicknesses)
+    return partial(_periodic if periodic else _free, elastic=elastic)
+
+
+Elastic = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+
+
+def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], elastic: Elastic) -> Map:
+    from ...elasticity.layered import normal_symbol
+
+    return normal_symbol(shape, pixel_size, *elastic)
+
+
+def _free(shape: tuple[int, int], pixel_size: tuple[float, float], elastic: Elastic) -> Map:
+    from ...elasticity.influence import symbol
+
+    return symbol(shape, pixel_size, *elastic)

@@ -1,0 +1,132 @@
+"""The meniscus force of a thin liquid film on a rough contact."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
+
+from attrs import Attribute, field, frozen
+
+from ...units import si
+from ...validators import optional, part, positive, refuse
+from .base import Contact, LoadTerm
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...scene.contact_scene import ContactScene
+    from ...scene.topography import Grid
+
+__all__ = ["FilmMeniscus", "FilmPart"]
+
+
+class FilmPart(NamedTuple):
+    """Meniscus force [N], its area [m2], the number of menisci, and where they are (ny, nx).
+
+    `force` pulls the bodies together. `relative_force` is force over imposed load [-], infinite
+    without a load. `equilibria` are the loads [N] on the contact at which load, film and elastic
+    bodies are in balance: one where the force does not act back on the contact or does so mildly;
+    with more, the bodies snap in beyond the second. `imbalance` is what a step of the force, which
+    is a sum of pixels, leaves of load and force out of balance, over the load [-].
+    """
+
+    force: float
+    area: float
+    n_menisci: int
+    is_meniscus: NDArray[np.bool_]
+    relative_force: float
+    equilibria: tuple[float, ...] = ()
+    imbalance: float = 0.0
+
+
+def _connectivity(owner: object, attribute: Attribute[int], value: int) -> None:
+    if value not in (4, 8):
+        raise refuse(owner, attribute, value, "be 4 or 8 neighbours")
+
+
+@frozen(kw_only=True)
+class FilmMeniscus(LoadTerm):
+    """Menisci of a film that lies on a rough surface: Laplace pressure times projected area.
+
+    A meniscus fills an island of the gap below `meniscus_height` that somewhere dips into the film.
+    Its line tension is left out: force of order perimeter x surface tension.
+
+    Parameters
+    ----------
+    film_thickness : float
+        Thickness of the film on the surface [m].
+    meniscus_height : float, optional
+        Height of the menisci [m]. None: the thickness of the film.
+    connectivity : int
+        Whether pixels join an island across edges (4) or across corners too (8).
+    self_consistent : bool
+        Whether the force adds to the load that presses the bodies together. Off, as published: it
+        is reported only.
+    """
+
+    name: ClassVar[str] = "film-meniscus"
+    summary: ClassVar[str] = "meniscus force of a thin film on a rough contact"
+
+    film_thickness: float = field(validator=positive, metadata=si("m"))
+    meniscus_height: float | None = field(
+        default=None, validator=optional(positive), metadata=si("m")
+    )
+    connectivity: Literal[4, 8] = field(default=8, validator=_connectivity, metadata=si("-"))
+    self_consistent: bool = field(default=False, validator=part(bool))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return ("meniscus force of a thin film, Eq. (2.43) (Tian and Bhushan 1996)",)
+
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        meniscus = scene.interface.meniscus
+        if meniscus is None:
+            return ("interface.meniscus (the liquid and its contact angles)",)
+        lacking = []
+        if meniscus.liquid.at(scene.temperature).surface_tension is None:
+            lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
+        if meniscus.volume is not None:
+            lacking.append("a film thickness, not interface.meniscus.volume [m3]: leave that out")
+        if meniscus.pressure is not None:
+            lacking.append("a film thickness, not interface.meniscus.pressure [Pa]: leave that out")
+        return tuple(lacking)
+
+    def _force(self, scene: ContactScene, area: float) -> float:
+        """Meniscus force [N] of an area [m2], Eq. (2.43)."""
+        from ...capillary.film_islands import film_force
+
+        meniscus = scene.interface.meniscus
+        assert meniscus is not None
+        tension = meniscus.liquid.at(scene.temperature).surface_tension
+        assert tension is not None
+        angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+        return float(film_force(area, tension, *angles, self._height))
+
+    @property
+    def _height(self) -> float:
+        return self.meniscus_height if self.meniscus_height is not None else self.film_thickness
+
+    def largest_force(self, scene: ContactScene, grid: Grid) -> float:
+        """Force [N] of a film that fills the whole window: no contact has more."""
+        return self._force(scene, grid.area)
+
+    def observe(self, contact: Contact) -> FilmPart:
+        """See `LoadTerm.observe`."""
+        from ...capillary.film_islands import meniscus_area
+
+        found = meniscus_area(
+            contact.gap,
+            self.film_thickness,
+            self._height,
+            contact.pressure > 0.0,
+            contact.grid.periodic,
+            self.connectivity,
+        )
+        area = found.n_meniscus * contact.grid.pixel_area
+        force = self._force(contact.scene, area)
+        load = float(contact.pressure.sum()) * contact.grid.pixel_area
+        relative = force / load if load > 0.0 else math.inf
+        return FilmPart(force, area, int(found.n_islands), found.meniscus, relative, (load,))

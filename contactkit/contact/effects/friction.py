@@ -1,0 +1,110 @@
+"""Quasi-static sliding: the traction that friction puts on the bodies, and what it displaces."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from attrs import field, frozen
+
+from ...units import si
+from ...validators import finite, fraction
+from .base import Contact, DisplacementTerm, Observer
+
+if TYPE_CHECKING:
+    from ...scene.contact_scene import ContactScene
+    from ...scene.topography import Grid
+    from .base import Map
+
+__all__ = ["FrictionCoupling", "FrictionPart", "FrictionTraction"]
+
+
+class FrictionPart(NamedTuple):
+    """Traction on the lower body [Pa], (ny, nx) each, and its sum [N]."""
+
+    traction_x: Map
+    traction_y: Map
+    force: float
+
+
+@frozen(kw_only=True)
+class FrictionTraction(Observer):
+    """Sliding contact: each pixel carries a traction of friction times pressure.
+
+    The traction on the lower body points where the upper body slides, the one on the upper body
+    against it: ``sigma_xz(0) = -mu p`` for sliding along +x. The pressure is that of the contact
+    without friction (Goodman); `FrictionCoupling` takes the difference into account.
+
+    Parameters
+    ----------
+    coefficient : float
+        Coefficient of friction [-], 0 to 1.
+    direction : float
+        Direction in which the upper body slides, from the x axis towards y [rad].
+    """
+
+    name: ClassVar[str] = "friction-traction"
+    summary: ClassVar[str] = "tangential traction of quasi-static sliding"
+
+    coefficient: float = field(validator=fraction, metadata=si("-"))
+    direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return ("traction mu p on the pressure without friction: Goodman 1962, Eq. (2.24)",)
+
+    def shares(self) -> tuple[float, float]:
+        """Traction on the lower body along x and y per unit of pressure [-]."""
+        along_x, along_y = math.cos(self.direction), math.sin(self.direction)
+        return self.coefficient * along_x, self.coefficient * along_y
+
+    def observe(self, contact: Contact) -> FrictionPart:
+        """See `Observer.observe`."""
+        along_x, along_y = self.shares()
+        load = float(contact.pressure.sum()) * contact.grid.pixel_area
+        pressure = contact.pressure
+        return FrictionPart(along_x * pressure, along_y * pressure, self.coefficient * load)
+
+
+@frozen(kw_only=True)
+class FrictionCoupling(DisplacementTerm):
+    """The normal displacement that friction causes, fed back into the contact.
+
+    Traction presses the surface in ahead of a contact and lifts it behind; the effect vanishes for
+    incompressible bodies and for two equal ones. With it the problem has no energy any more: it
+    is solved by repeating the contact with the displacement of the last traction, which contracts
+    by about mu (1 - 2 nu)/(2 (1 - nu)).
+    """
+
+    name: ClassVar[str] = "friction-coupling"
+    summary: ClassVar[str] = "normal displacement caused by the tangential traction"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return ("coupling compliance F12 of the layered half-space, Eq. (2.34)",)
+
+    def displacement(self, scene: ContactScene, grid: Grid, pressure: Map) -> Map:
+        """See `DisplacementTerm.displacement`."""
+        import numpy as np
+
+        from ...elasticity.stress.planes import normal_displacement_of_traction
+
+        friction = scene.effect(FrictionTraction)
+        assert friction is not None
+        along_x, along_y = friction.shares()
+        total: Map = np.zeros(grid.shape)
+        for body, sign in ((scene.interface.lower, 1.0), (scene.interface.upper, -1.0)):
+            stack = body.stack
+            if stack is not None:
+                total += normal_displacement_of_traction(
+                    sign * along_x * pressure if along_x else None,
+                    sign * along_y * pressure if along_y else None,
+                    grid.pixel_size,
+                    stack.young_moduli,
+                    stack.poisson_ratios,
+                    stack.thicknesses,
+                    mean="periodic" if grid.periodic else "free",
+                )
+        return total

@@ -1,0 +1,174 @@
+"""The largest pressure that the bodies bear."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+from attrs import Attribute, field, frozen
+
+from ...errors import DescriptionError
+from ...units import si
+from ...validators import choice, non_negative, positive
+from .base import Cap, PressureCap
+
+if TYPE_CHECKING:
+    from ...scene.contact_scene import ContactScene
+    from ...scene.materials import Stack
+    from ...scene.topography import Grid
+    from .base import Map
+
+__all__ = ["HardnessLimit", "HardnessMap"]
+
+
+def _as_map(value: Any) -> Map:
+    import numpy as np
+
+    made = np.array(value, dtype=float, order="C")
+    made.flags.writeable = False
+    return made
+
+
+@frozen(eq=False)
+class HardnessMap:
+    """A hardness for each pixel, for people who come with an array.
+
+    Parameters
+    ----------
+    values : array_like (ny, nx)
+        Hardness [Pa], zero or positive.
+    """
+
+    values: Map = field(converter=_as_map, repr=False, metadata=si("Pa"))
+
+    @values.validator
+    def _check_values(self, attribute: Attribute[Any], value: Map) -> None:
+        import numpy as np
+
+        if value.ndim != 2 or not (np.isfinite(value) & (value >= 0.0)).all():
+            raise DescriptionError(
+                "HardnessMap.values", f"an array of shape {value.shape}",
+                "have two dimensions and be finite, zero or positive everywhere", unit="Pa",
+            )  # fmt: skip
+
+
+def _hardness(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if value is not None and not isinstance(value, HardnessMap):
+        positive(owner, attribute, value)
+
+
+@frozen(kw_only=True)
+class HardnessLimit(PressureCap):
+    """Elastic-perfectly plastic contact: no pressure exceeds the hardness.
+
+    A pixel whose pressure reaches the hardness is plastic; its gap is closed by plastic flow,
+    whose own geometry is left out. The hardness is that of the softer of the two bodies.
+
+    Parameters
+    ----------
+    rule : {"continuous", "literal", "material", "constant"}
+        Hardness of a layered body. ``continuous``: Eq. (2.41) summed over all interfaces, without
+        jumps, any number of layers. ``literal``: Eq. (2.41) by the criteria of the source, which
+        jump, and for two layers at most. ``material``: that of the topmost material, whatever
+        lies below. ``constant``: `hardness`.
+    hardness : float or HardnessMap, optional
+        Hardness [Pa] for the rule ``constant``, one for all pixels or one for each.
+    shift : float
+        Depth of indentation, as a share of the depth of an interface, up to which that interface
+        is not felt, for the rule ``continuous`` [-]; 0 gives Eq. (2.41) itself.
+    displacement : {"largest", "local"}
+        Which displacement of the surface the layered rules take for the depth of indentation: the
+        largest under contact, one hardness for all; or that of each pixel. In a periodic window
+        displacements count from the mean of the surface; else from far away.
+    """
+
+    name: ClassVar[str] = "hardness-limit"
+    summary: ClassVar[str] = "perfectly plastic where the pressure reaches the hardness"
+
+    rule: Literal["continuous", "literal", "material", "constant"] = field(
+        default="continuous", validator=choice("continuous", "literal", "material", "constant")
+    )
+    hardness: float | HardnessMap | None = field(
+        default=None, validator=_hardness, metadata=si("Pa")
+    )
+    shift: float = field(default=0.3, validator=non_negative, metadata=si("-"))
+    displacement: Literal["largest", "local"] = field(
+        default="largest", validator=choice("largest", "local")
+    )
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        bound = "pressure bounded by the hardness, section 2.1.3.2"
+        rules = {
+            "continuous": "Eq. (2.41) summed over all interfaces, docs/physics.md, Hardness",
+            "literal": "Eq. (2.41) and the three criteria after it (Bhushan and Venkatesan 2005)",
+            "material": "hardness of the topmost material",
+            "constant": "hardness given with the scene",
+        }
+        return (bound, rules[self.rule])
+
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        if self.rule == "constant":
+            return () if self.hardness is not None else ("HardnessLimit.hardness [Pa]",)
+        if self.hardness is not None:
+            return (f"no hardness [Pa] with rule={self.rule!r} (or rule='constant')",)
+        missing = [
+            f"hardness [Pa] of {material.name!r}"
+            for stack in scene.interface.stacks
+            for material in (stack.materials[:1] if self.rule == "material" else stack.materials)
+            if material.hardness is None
+        ]
+        if self.rule == "literal" and any(len(s.layers) > 2 for s in scene.interface.stacks):
+            missing.append("at most two layers with rule='literal' (or rule='continuous')")
+        return tuple(dict.fromkeys(missing))
+
+    def prepare(self, scene: ContactScene, grid: Grid) -> Cap:
+        """See `PressureCap.prepare`."""
+        if self.rule == "constant":
+            assert self.hardness is not None
+            return _constant(self.hardness, grid)
+        stacks = scene.interface.stacks
+        values = [[m.hardness or math.inf for m in stack.materials] for stack in stacks]
+        if self.rule == "material" or all(len(set(v)) == 1 for v in values):
+            hardness = min(v[0] for v in values)
+            return Cap(hardness, hardness)
+        least, most = min(min(v) for v in values), min(max(v) for v in values)
+        rules = [self._of_body(stack) for stack in stacks]
+
+        def at(displacements: tuple[Map, ...]) -> Map | float:
+            import numpy as np
+
+            found = [rule(u) for rule, u in zip(rules, displacements, strict=True)]
+            lowest: Map = np.minimum.reduce(found)
+            return lowest if lowest.ndim else float(lowest)
+
+        return Cap(
+            least, most, at, is_local=self.displacement == "local",
+            has_jumps=self.rule == "literal",
+        )  # fmt: skip
+
+    def _of_body(self, stack: Stack) -> Callable[[Map], Map]:
+        """Hardness of one body for the displacement [m] of its surface."""
+        from . import hardness_rules as kernel
+
+        values = tuple(m.hardness or math.inf for m in stack.materials)
+        layered = (stack.young_moduli, values, stack.thicknesses)
+        if self.rule == "literal":
+            return lambda u: kernel.effective_hardness_literal(u, *layered)
+        return lambda u: kernel.effective_hardness(u, *layered, shift=self.shift)
+
+
+def _constant(hardness: float | HardnessMap, grid: Grid) -> Cap:
+    if not isinstance(hardness, HardnessMap):
+        return Cap(hardness, hardness)
+    if hardness.values.shape != grid.shape:
+        raise DescriptionError(
+            "HardnessMap.values",
+            f"an array of shape {hardness.values.shape}",
+            f"have the {grid.shape} pixels of the surface",
+        )
+    mean = float(hardness.values.mean())
+    return Cap(mean, mean, given=hardness.values)

@@ -1,0 +1,24 @@
+"""The physics a contact scene may call for: `CONTACT_EFFECTS` is the whole registry."""
+
+from __future__ import annotations
+
+from .base import ContactEffect
+from .elasticity import HalfSpace, LayeredHalfSpace
+from .film import FilmMeniscus
+from .friction import FrictionCoupling, FrictionTraction
+from .island_bridges import IslandBridges
+from .plasticity import HardnessLimit
+from .stress import SubsurfaceStress
+
+__all__ = ["CONTACT_EFFECTS"]
+
+CONTACT_EFFECTS: tuple[type[ContactEffect], ...] = (
+    HalfSpace,
+    LayeredHalfSpace,
+    HardnessLimit,
+    FrictionTraction,
+    FrictionCoupling,
+    SubsurfaceStress,
+    FilmMeniscus,
+    IslandBridges,
+)

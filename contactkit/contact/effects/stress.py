@@ -1,0 +1,143 @@
+"""Stress below the surface, plane by plane."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+
+from attrs import Attribute, field, frozen
+
+from ...units import si
+from ...validators import choice, non_negative, positive, refuse
+from .base import Contact, Observer
+from .friction import FrictionTraction
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...elasticity.stress.maxima import Maximum
+    from ...scene.contact_scene import ContactScene
+    from ...scene.topography import Grid
+    from .base import Map
+
+__all__ = ["StressPart", "SubsurfaceStress"]
+
+
+def _tuple(value: Any) -> tuple[float, ...] | None:
+    return tuple(value) if value is not None else None
+
+
+def _depths(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if value is None:
+        return
+    for depth in value:
+        non_negative(owner, attribute, depth)
+    if not value or any(b <= a for a, b in pairwise(value)):
+        raise refuse(owner, attribute, value, "be depths that grow")
+
+
+class StressPart(NamedTuple):
+    """Stress in the lower body: its maxima, a section, and all planes if they were kept.
+
+    `depth` [m], `side` ("+" below a depth, "-" above) and `layer` (0: the topmost) name the
+    planes, n of them; at an interface there are two. `maxima` holds value and place of the
+    largest "von_mises", "sqrt_j2", "tension" (largest principal stress), "tresca" (largest shear
+    stress) and "sigma_xz". `section` (6, n, nx) is the stress [Pa] under the row of pixels `row`
+    with the largest pressure; `largest_von_mises` (n) [Pa] that of each plane. `planes` (6, n,
+    ny, nx) is there with ``keep="planes"`` only.
+    """
+
+    depth: Map
+    side: tuple[str, ...]
+    layer: NDArray[np.int_]
+    maxima: Mapping[str, Maximum]
+    row: int
+    section: Map
+    largest_von_mises: Map
+    planes: Map | None
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return value and place of each maximum, with units."""
+        found: dict[str, tuple[float, str]] = {}
+        for name, one in self.maxima.items():
+            found[f"max_{name}"] = (one.value, "Pa")
+            found[f"max_{name}_depth"] = (one.z, "m")
+            found[f"max_{name}_layer"] = (one.layer, "-")
+        return found
+
+
+@frozen(kw_only=True)
+class SubsurfaceStress(Observer):
+    """Stress in the lower body, on planes at given depths and on both faces of each interface.
+
+    In-plane stresses jump at interfaces, so a maximum may sit on either face. Where friction
+    acts its traction is included. Maxima are those of the pixels of the planes: choose depths
+    closer than the size of a contact spot.
+
+    Parameters
+    ----------
+    depths : tuple of float, optional
+        Depths of the planes [m], growing. None: the surface and 24 depths down to a
+        quarter of the window, closer together towards the surface.
+    keep : {"section", "planes"}
+        Whether to keep one section and the maxima, or all planes: six arrays for each depth.
+    window : float
+        Without neighbours: distance of the repetitions that the transforms leave over the size of
+        the window [-]; stiff layers need a hundred contact radii for four digits.
+    """
+
+    name: ClassVar[str] = "subsurface-stress"
+    summary: ClassVar[str] = "stress below the surface of the lower body"
+
+    depths: tuple[float, ...] | None = field(
+        default=None,
+        converter=_tuple,
+        validator=_depths,
+        metadata=si("m"),
+    )
+    keep: Literal["section", "planes"] = field(
+        default="section", validator=choice("section", "planes")
+    )
+    window: float = field(default=128.0, validator=positive, metadata=si("-"))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return (
+            "stress of the layered half-space, Eq. (2.20), by a sweep down the layers",
+            "von Mises, principal and shear stress: Appendix A, in three dimensions",
+        )
+
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        if scene.interface.lower.solid is None:
+            return ("interface.lower.solid: the stress of a rigid body is not defined",)
+        return ()
+
+    def planes_of(self, scene: ContactScene, grid: Grid) -> tuple[tuple[float, str], ...]:
+        """Depth [m] and side of each plane: those asked for, and both faces of interfaces."""
+        stack = scene.interface.lower.stack
+        assert stack is not None
+        wanted = self.depths
+        if wanted is None:
+            from ...elasticity.depths import default_depths
+
+            (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
+            deepest = 0.25 * min(ny * dy, nx * dx)
+            return tuple(zip(*default_depths(stack.thicknesses, deepest), strict=True))
+        faces = [z for z in stack.depths if z <= wanted[-1] * (1.0 + 1e-12)]
+        planes = {(z, side) for z in faces for side in "-+"}
+        planes |= {(z, "+") for z in wanted if not any(math.isclose(z, f) for f in faces)}
+        return tuple(sorted(planes, key=lambda plane: (plane[0], plane[1] == "+")))
+
+    def observe(self, contact: Contact) -> StressPart:
+        """See `Observer.observe`."""
+        from .zz_stress_scan import scan
+
+        friction = contact.scene.effect(FrictionTraction)
+        shares = friction.shares() if friction is not None else (0.0, 0.0)
+        planes = self.planes_of(contact.scene, contact.grid)
+        return scan(contact, planes, shares, self.keep == "planes", self.window)

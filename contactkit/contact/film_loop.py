@@ -1,0 +1,148 @@
+"""The load that a film adds to the one imposed, and how many equilibria there are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..errors import InfeasibleError
+from .effects.film import FilmMeniscus, FilmPart
+from .engine import Counts, Engine, Target, cap_of
+from .hardness_loop import Solved, contact_of, solve_capped
+from .plan import ContactPlan
+
+if TYPE_CHECKING:
+    from .effects.base import Contact
+
+__all__ = ["Pulled", "pulled_together"]
+
+_MOST_ROUNDS = 60
+_MOST_IMBALANCE = 0.05  # of the load, at a step of the force
+
+
+class Pulled(NamedTuple):
+    """A contact under its load and the pull of the film."""
+
+    solved: Solved
+    contact: Contact
+    film: FilmPart
+
+
+class _Trial(NamedTuple):
+    load: float
+    excess: float  # imposed load + film force - load on the contact [N]
+    solved: Solved
+    contact: Contact
+    film: FilmPart
+
+
+_Attempt = Callable[[float, _Trial | None], _Trial | None]
+
+
+def pulled_together(
+    plan: ContactPlan, engine: Engine, film: FilmMeniscus, target: Target, counts: Counts
+) -> Pulled:
+    """Find a load N on the contact with N = W + F(N), the smallest, and look for further ones.
+
+    Steps N <- W + F(N) climb from W, sped up by secants where they crawl, inside a bracket that
+    always exists: the film cannot pull harder than over the whole window, and where the bodies
+    touch everywhere it does not pull at all. The force is a sum of pixels and has steps: if the
+    two sides meet at one, N is there, and `FilmPart.imbalance` says how high it is. Then loads
+    above N are tried, by factors of four: a change of sign is another equilibrium, and more than
+    one means that the bodies snap in when pressed beyond the second.
+    """
+    area = plan.grid.area
+    assert plan.mean_pressure is not None
+    imposed = plan.mean_pressure * area
+    largest = imposed + film.largest_force(plan.scene, plan.grid)
+    cap = cap_of(plan)
+    if cap is not None:
+        largest = min(largest, cap.most * area * (1.0 - 1e-6))
+
+    def attempt(load: float, start: _Trial | None) -> _Trial | None:
+        near = target._replace(mean_pressure=load / area)
+        if start is not None:
+            hardness = start.solved.hardness if isinstance(start.solved.hardness, float) else None
+            near = near._replace(start=start.solved.solution.pressure, hardness=hardness)
+        try:
+            solved = solve_capped(plan, engine, near, counts)
+        except InfeasibleError:  # beyond what the hardness there can carry
+            return None
+        contact = contact_of(plan, engine, solved)
+        part = film.observe(contact)
+        return _Trial(load, imposed + part.force - load, solved, contact, part)
+
+    found = _smallest(plan, attempt, imposed, largest)
+    others = _further(attempt, found, largest)
+    # At a step of the force the balance says how much of it acts.
+    force = found.load - imposed if found.load > imposed else found.film.force
+    gap = abs(found.excess) / found.load if found.load > 0.0 else 0.0
+    part = found.film._replace(
+        force=force,
+        relative_force=force / imposed if imposed > 0.0 else math.inf,
+        equilibria=(found.load, *others),
+        imbalance=gap,
+    )
+    solved = found.solved
+    if gap > _MOST_IMBALANCE and not solved.problem:
+        solved = solved._replace(problem=_step(found, gap))
+    return Pulled(solved, found.contact, part)
+
+
+def _step(found: _Trial, gap: float) -> str:
+    return (
+        f"the force of the film steps over the balance at a load of {found.load:.6g} N, which "
+        f"it misses by {100.0 * gap:.2g} %: its menisci are a few pixels wide; use a finer "
+        "Accuracy.grid or a smaller window"
+    )
+
+
+def _smallest(plan: ContactPlan, attempt: _Attempt, imposed: float, largest: float) -> _Trial:
+    tolerance = max(plan.accuracy.outer_rtol, 1e-9)
+    first = attempt(imposed, None)
+    if first is None:
+        raise InfeasibleError(
+            f"the bodies cannot carry the load of {imposed:.6g} N at the hardness that its "
+            "displacement leads to; lower the load"
+        )
+    low, high, top = first, None, largest
+    before = None
+    for _ in range(_MOST_ROUNDS):
+        best = low if high is None or abs(low.excess) < abs(high.excess) else high
+        if abs(best.excess) <= tolerance * best.load or top - low.load <= tolerance * top:
+            return best
+        load = low.load + low.excess
+        if before is not None:
+            load = max(load, _secant(before, low))
+        if high is not None or load >= top:
+            load = min(load, 0.5 * (low.load + top))
+        trial = attempt(load, low)
+        if trial is None or trial.excess < 0.0:
+            high, top = trial or high, load
+        else:
+            before, low = low, trial
+    return best
+
+
+def _secant(before: _Trial, now: _Trial) -> float:
+    """Where the line through two trials meets zero, at most four fixed-point steps ahead."""
+    slope = (now.excess - before.excess) / (now.load - before.load)
+    ahead = now.excess / max(-slope, 0.25)
+    return now.load + ahead
+
+
+def _further(attempt: _Attempt, found: _Trial, largest: float) -> tuple[float, ...]:
+    """Loads of further equilibria [N], each to the factor of four it was found in."""
+    others: list[float] = []
+    above, last = False, found
+    load = max(4.0 * found.load, 1e-6 * largest)
+    while load < largest:
+        trial = attempt(load, last)
+        if trial is None:
+            break
+        if (trial.excess > 0.0) != above:
+            others.append((last.load * load) ** 0.5 if last.load > 0.0 else load)
+            above = not above
+        last, load = trial, 4.0 * load
+    return (*others, largest) if above else tuple(others)

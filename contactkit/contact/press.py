@@ -1,0 +1,103 @@
+"""The front door for people who come with a height map in an array."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..accuracy import Accuracy
+from ..scene.bodies import Body, ContactInterface, Pressing, Window
+from ..scene.contact_scene import ContactScene
+from ..scene.materials import Material, Stack
+from ..scene.topography import Heights
+from .effects.base import ContactEffect
+from .effects.elasticity import HalfSpace, LayeredHalfSpace
+from .effects.plasticity import HardnessLimit, HardnessMap
+from .plan import plan_contact
+from .result import ContactResult
+from .solve import solve
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["press"]
+
+
+def press(
+    heights: ArrayLike,
+    pixel_size: float | tuple[float, float],
+    stack: Stack | Material,
+    mean_pressure: float,
+    hardness: float | NDArray[np.float64] | None = None,
+    periodic: bool = True,
+    rtol: float = 1e-8,
+    threads: int = 1,
+) -> ContactResult:
+    """Press a rigid rough body on a flat solid.
+
+    Parameters
+    ----------
+    heights : array_like (ny, nx)
+        Heights [m] of the rough body that faces the flat, peaks up.
+    pixel_size : float or (float, float)
+        Size of a pixel [m]; a pair is (dy, dx).
+    stack : Stack or Material
+        What the flat is made of: layers on a substrate, or a half-space.
+    mean_pressure : float
+        Mean pressure over the map [Pa].
+    hardness : float or array (ny, nx), optional
+        Largest pressure the flat bears [Pa]; None: elastic.
+    periodic : bool
+        Whether the map repeats beyond its edges; if not, an isolated contact.
+    rtol : float
+        Largest violation of the contact conditions over the rms height [-].
+    threads : int
+        Threads of the transforms.
+
+    Returns
+    -------
+    ContactResult
+        With ``pressure``, ``gap``, ``displacement`` (ny, nx), ``contact_area``, ``status``,
+        ``work`` and, with a hardness, ``plastic_area``.
+
+    Raises
+    ------
+    DescriptionError
+        If the map has holes, one row, or a number is impossible.
+    InfeasibleError
+        If the hardness cannot carry the load.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> x = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
+    >>> heights = 1e-8 * np.cos(x)[None, :] * np.ones((64, 1))
+    >>> steel = Material(young_modulus=210e9, poisson_ratio=0.3)
+    >>> result = press(heights, 1e-6 / 64, steel, 1e9)
+    >>> result.status, round(result.contact_fraction, 2)
+    ('converged', 0.23)
+    """
+    effects: list[ContactEffect] = [
+        LayeredHalfSpace() if isinstance(stack, Stack) and stack.layers else HalfSpace()
+    ]
+    if hardness is not None:
+        given = float(hardness) if np.ndim(hardness) == 0 else HardnessMap(hardness)
+        effects.append(HardnessLimit(rule="constant", hardness=given))
+    scene = ContactScene(
+        interface=ContactInterface(
+            lower=Body(solid=stack),
+            upper=Body(surface=Heights(heights=heights, pixel_size=_floats(pixel_size))),
+        ),
+        window=Window(periodic=periodic),
+        pressing=Pressing(pressure=float(mean_pressure)),
+        effects=tuple(effects),
+    )
+    return solve(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
+
+
+def _floats(size: float | tuple[float, float]) -> float | tuple[float, float]:
+    """Take numbers of numpy as well as Python's."""
+    if np.ndim(size) == 0:
+        return float(size)  # type: ignore[arg-type]
+    return tuple(float(item) for item in size)  # type: ignore[return-value, union-attr]

@@ -1,0 +1,252 @@
+"""What a contact gives: maps, numbers, and how well they can be trusted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from attrs import field, frozen
+
+from ..errors import NotSimulatedError
+from .effects.base import ContactEffect
+from .effects.film import FilmMeniscus
+from .effects.friction import FrictionCoupling, FrictionTraction
+from .effects.island_bridges import IslandBridges, scalars_of
+from .effects.plasticity import HardnessLimit
+from .effects.stress import SubsurfaceStress
+from .plan import ContactPlan
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = ["ContactResult", "ContactWork", "CouplingPart", "PlasticPart"]
+
+
+class ContactWork(NamedTuple):
+    """What a contact cost: counts on the full grid, and seconds by stage."""
+
+    n_solves: int
+    n_operator_applications: int
+    n_ffts: int
+    n_coarse_iterations: int
+    n_iterations: int
+    has_fallen_back: bool
+    seconds: float
+    stages: Mapping[str, float]
+
+
+class PlasticPart(NamedTuple):
+    """Where the bodies are plastic (ny, nx), over which area [m2], at which hardness [Pa].
+
+    `overlap` is the depth (ny, nx) [m] that the elastic surfaces would overlap there: what
+    plastic flow has to make room for.
+    """
+
+    is_plastic: NDArray[np.bool_]
+    area: float
+    hardness: Map | float
+    overlap: Map
+
+
+class CouplingPart(NamedTuple):
+    """Normal displacement that friction causes (ny, nx) [m], and what it changed.
+
+    `pressure_change` is the largest change of the pressure over its maximum [-], `area_change`
+    the change of the contact area over that without coupling [-].
+    """
+
+    displacement: Map
+    pressure_change: float
+    area_change: float
+
+
+@frozen(eq=False)
+class ContactResult:
+    """Maps and numbers of one contact; arrays are read-only.
+
+    Attributes
+    ----------
+    plan : ContactPlan
+        What was run.
+    status : str
+        ``converged``, ``no contact``, or ``not converged``.
+    message : str
+        The same as a sentence, with its cure.
+    pressure, gap, displacement, heights : ndarray (ny, nx)
+        Pressure [Pa], gap [m], normal displacement of both surfaces together [m], and heights of
+        both bodies together [m].
+    level : float
+        Rigid displacement of the heights [m]: gap = displacement - heights - level.
+    residual : float
+        Largest violation of the contact conditions over the rms height [-].
+    energy : float
+        Complementary energy ``1/2 p C p - p h`` [J]; the solution is its minimum.
+    work : ContactWork
+        What it cost.
+    """
+
+    plan: ContactPlan = field(repr=False)
+    status: str
+    message: str
+    pressure: Map = field(repr=False)
+    gap: Map = field(repr=False)
+    displacement: Map = field(repr=False)
+    heights: Map = field(repr=False)
+    level: float
+    residual: float
+    energy: float
+    work: ContactWork
+    parts: Mapping[type[ContactEffect], Any] = field(repr=False)
+
+    @property
+    def contact(self) -> NDArray[np.bool_]:
+        """Where the bodies touch (ny, nx): where the pressure is not zero."""
+        touching: NDArray[np.bool_] = self.pressure > 0.0
+        return touching
+
+    @property
+    def contact_area(self) -> float:
+        """Real area of contact [m2], counted in pixels."""
+        return float(self.contact.sum()) * self.plan.grid.pixel_area
+
+    @property
+    def corrected_contact_area(self) -> float:
+        """Real area of contact [m2] without the excess of pixels cut by its edge.
+
+        The edges between pixels in and out of contact, of total length S, carry an excess of
+        ``(pi - 1 + ln 2)/24 S dx`` on average over the directions of a smooth edge (Yastrebov,
+        Anciaux and Molinari 2017). Spots should be several pixels wide; the result is at least 0.
+        """
+        touching, (dy, dx) = self.contact, self.plan.grid.pixel_size
+        along_x = _edges(touching, 1, self.plan.grid.periodic)
+        along_y = _edges(touching, 0, self.plan.grid.periodic)
+        excess = (math.pi - 1.0 + math.log(2.0)) / 24.0 * (along_x + along_y) * dx * dy
+        return max(self.contact_area - excess, 0.0)
+
+    @property
+    def contact_fraction(self) -> float:
+        """Real area of contact over the window [-]."""
+        return float(self.contact.mean())
+
+    @property
+    def load(self) -> float:
+        """Normal force that the contact carries [N]."""
+        return float(self.pressure.sum()) * self.plan.grid.pixel_area
+
+    @property
+    def mean_pressure(self) -> float:
+        """Load over the window [Pa]."""
+        return float(self.pressure.mean())
+
+    @property
+    def max_pressure(self) -> float:
+        """Largest pressure [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def max_displacement(self) -> float:
+        """Largest displacement under contact [m], from the datum of `approach_datum`."""
+        return float(self.displacement[self.contact].max(initial=0.0))
+
+    @property
+    def approach(self) -> float:
+        """Rigid approach of the bodies from first touch [m]."""
+        return self.level + float(self.heights.max())
+
+    @property
+    def approach_datum(self) -> str:
+        """What approach and displacement are measured against."""
+        if self.plan.grid.periodic:
+            return "the mean plane of the deformed surfaces"
+        return "points of the bodies far from the contact"
+
+    @property
+    def plastic_area(self) -> float:
+        """Area at the hardness [m2]; raises without `HardnessLimit`."""
+        return float(self.of(HardnessLimit).area)
+
+    def of(self, kind: type[ContactEffect]) -> Any:
+        """Return what an effect did.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the scene does not call for the effect.
+        """
+        if not self.plan.has(kind):
+            raise NotSimulatedError(
+                f"the scene does not call for {kind.name}: add {kind.__name__}(...) to its effects"
+            )
+        if kind not in self.parts:
+            raise NotSimulatedError(
+                f"{kind.__name__} has no part of its own; see result.displacement"
+            )
+        return self.parts[kind]
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return the numbers of the run, each with its unit."""
+        found = {
+            "load": (self.load, "N"),
+            "mean_pressure": (self.mean_pressure, "Pa"),
+            "max_pressure": (self.max_pressure, "Pa"),
+            "contact_area": (self.contact_area, "m2"),
+            "contact_fraction": (self.contact_fraction, "-"),
+            "corrected_contact_area": (self.corrected_contact_area, "m2"),
+            "max_displacement": (self.max_displacement, "m"),
+            "approach": (self.approach, "m"),
+        }
+        for kind, scalars in _SCALARS.items():
+            if kind in self.parts:
+                found |= scalars(self.parts[kind], self)
+        return found | {"residual": (self.residual, "-"), "energy": (self.energy, "J")}
+
+
+def _edges(touching: NDArray[np.bool_], axis: int, periodic: bool) -> int:
+    """Number of edges between pixels in and out of contact that are neighbours along an axis."""
+    if periodic:
+        return int((touching ^ np.roll(touching, 1, axis)).sum())
+    inner = int(np.diff(touching, axis=axis).sum())
+    return inner + int(touching.take([0, -1], axis).sum())
+
+
+def _plastic_scalars(part: PlasticPart, result: ContactResult) -> dict[str, tuple[float, str]]:
+    area = result.plan.grid.area
+    found = {
+        "plastic_area": (part.area, "m2"),
+        "plastic_fraction": (part.area / area, "-"),
+        "max_overlap": (float(part.overlap.max()), "m"),
+    }
+    if isinstance(part.hardness, float):
+        found["hardness"] = (part.hardness, "Pa")
+    return found
+
+
+def _film_scalars(part: Any, result: ContactResult) -> dict[str, tuple[float, str]]:
+    return {
+        "meniscus_force": (part.force, "N"),
+        "relative_meniscus_force": (part.relative_force, "-"),
+        "meniscus_area": (part.area, "m2"),
+        "n_menisci": (part.n_menisci, "-"),
+        "n_equilibria": (len(part.equilibria), "-"),
+    }
+
+
+def _coupling_scalars(part: CouplingPart, result: ContactResult) -> dict[str, tuple[float, str]]:
+    return {
+        "coupling_pressure_change": (part.pressure_change, "-"),
+        "coupling_area_change": (part.area_change, "-"),
+    }
+
+
+_SCALARS: dict[type[ContactEffect], Any] = {
+    HardnessLimit: _plastic_scalars,
+    FrictionTraction: lambda part, result: {"friction_force": (part.force, "N")},
+    FrictionCoupling: _coupling_scalars,
+    FilmMeniscus: _film_scalars,
+    IslandBridges: lambda part, result: scalars_of(part),
+    SubsurfaceStress: lambda part, result: part.scalars(),
+}

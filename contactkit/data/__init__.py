@@ -1,0 +1,1 @@
+"""Data of liquids and materials, with their sources."""

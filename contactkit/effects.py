@@ -1,0 +1,16 @@
+"""Every effect there is: `EFFECTS` is the whole registry, and names in files come from it."""
+
+from __future__ import annotations
+
+from .contact.effects.registry import CONTACT_EFFECTS
+from .separation.effects.base import Effect
+from .separation.effects.registry import SEPARATION_EFFECTS
+from .separation.sliding.effects import SLIDING_EFFECTS
+
+__all__ = ["EFFECTS"]
+
+EFFECTS: tuple[type[Effect], ...] = (
+    *SEPARATION_EFFECTS,
+    *SLIDING_EFFECTS,
+    *CONTACT_EFFECTS,
+)

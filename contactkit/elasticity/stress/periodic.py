@@ -1,0 +1,248 @@
+"""Fourier modes of a map and the stresses each of them causes on one plane of a layered solid.
+
+Conventions as in `layered`: z into the solid, tension positive, ``exp(+i (xi x + eta y))`` carries
+a mode, components ordered xx, yy, zz, xy, xz, yz (then the displacements x, y, z).
+
+The states of a plane depend on the length of the wave vector alone, so they are evaluated once for
+each length and looked up.  A mode whose alpha z is beyond the cut-off is left out, and with it the
+rows and columns of the transforms that hold no other.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from ..layered_fields import PlaneStates, unit_stresses
+
+__all__ = ["Modes", "component", "grid_of_modes", "into_space", "spectrum", "table_of", "within"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+
+IMAGINARY = (4, 5, 6, 7)  # components a quarter of a wave apart from the load of their equation
+SWAPPED = (1, 0, 2, 3, 5, 4, 7, 6, 8)  # the component that x and y exchanged make of each
+
+
+class Modes(NamedTuple):
+    """Half plane of modes of a periodic grid, or the part of it that reaches a plane.
+
+    `length` are the distinct wavenumbers, ascending, without zero; `rank` counts them from 1 for
+    each mode (0 is the mean).  `x` and `y` are the cosines of the wave vector, zero at the highest
+    wavenumber of an even grid, where an odd function has no mode; `xx` and `yy` their squares.
+    """
+
+    shape: tuple[int, int]
+    length: Array
+    rows: Indices
+    rank: Indices
+    x: Array
+    y: Array
+    xx: Array
+    yy: Array
+
+
+def grid_of_modes(shape: tuple[int, int], pixel_size: tuple[float, float]) -> Modes:
+    """All modes of the real transform of a periodic grid.
+
+    Examples
+    --------
+    >>> modes = grid_of_modes((4, 4), (0.25, 0.25))
+    >>> print((modes.length / (2 * np.pi)).round(3), modes.rank.shape)
+    [1.    1.414 2.    2.236 2.828] (4, 3)
+    """
+    (ny, nx), (dy, dx) = shape, pixel_size
+    ky = 2.0 * np.pi / (ny * dy) * np.arange(ny // 2 + 1.0)
+    kx = 2.0 * np.pi / (nx * dx) * np.arange(nx // 2 + 1.0)
+    length, rank = np.unique(np.hypot(ky[:, None], kx), return_inverse=True)
+    back = slice((ny - 1) // 2, 0, -1)
+    rank = rank.reshape(ky.size, kx.size)
+    rank, signed = np.concatenate([rank, rank[back]]), np.concatenate([ky, -ky[back]])
+    over = 1.0 / np.where(rank == 0, 1.0, length[rank])
+    x, y = kx * over, signed[:, None] * over
+    xx, yy = x * x, y * y
+    if nx % 2 == 0:
+        x[:, -1] = 0.0
+    if ny % 2 == 0:
+        y[ny // 2] = 0.0
+    return Modes(shape, length[1:], np.arange(ny), rank, x, y, xx, yy)
+
+
+def within(modes: Modes, count: int, pixel_size: tuple[float, float]) -> Modes:
+    """The modes in the smallest box around the `count` longest waves.
+
+    Examples
+    --------
+    >>> modes = within(grid_of_modes((8, 8), (1.0, 1.0)), 1, (1.0, 1.0))
+    >>> modes.rows.tolist(), modes.rank.tolist()
+    ([0, 1, 7], [[0, 1], [1, 2], [1, 2]])
+    """
+    if count >= modes.length.size:
+        return modes
+    (ny, nx), (dy, dx) = modes.shape, pixel_size
+    most = modes.length[count - 1] * (1.0 + 1e-12) if count else 0.0
+    up = min(int(most * ny * dy / (2.0 * np.pi)), ny // 2)
+    across = min(int(most * nx * dx / (2.0 * np.pi)), nx // 2) + 1
+    down = min(up, (ny - 1) // 2)
+    rows = np.concatenate([np.arange(up + 1), np.arange(ny - down, ny)])
+    if rows.size == ny and across == modes.rank.shape[1]:
+        return modes
+    x, y, xx, yy = (a[rows, :across] for a in modes[4:])
+    return Modes(modes.shape, modes.length, rows, modes.rank[rows, :across], x, y, xx, yy)
+
+
+def spectrum(values: Array, shape: tuple[int, int], workers: int | None = None) -> Complex:
+    """Real transform of a map, padded with zeros to a grid.
+
+    Examples
+    --------
+    >>> spectrum(np.ones((2, 2)), (2, 4)).real.tolist()
+    [[4.0, 2.0, 0.0], [0.0, 0.0, 0.0]]
+    """
+    rows = scipy.fft.rfft(values, n=shape[1], axis=1, workers=workers)
+    return scipy.fft.fft(rows, n=shape[0], axis=0, workers=workers, overwrite_x=True)
+
+
+def into_space(
+    values: Complex, modes: Modes, window: tuple[int, int], workers: int | None = None
+) -> Array:
+    """Real map of a spectrum given on some of the modes, cut to a window at the origin.
+
+    Examples
+    --------
+    >>> modes = grid_of_modes((2, 4), (1.0, 1.0))
+    >>> into_space(spectrum(np.ones((2, 2)), (2, 4)), modes, (2, 2)).tolist()
+    [[1.0, 1.0], [1.0, 1.0]]
+    """
+    if values.shape[0] < modes.shape[0]:
+        full = np.zeros((modes.shape[0], values.shape[1]), dtype=np.complex128)
+        full[modes.rows] = values
+        values = full
+    rows = scipy.fft.ifft(values, axis=0, workers=workers, overwrite_x=True)[: window[0]]
+    return scipy.fft.irfft(rows, n=modes.shape[1], axis=1, workers=workers)[:, : window[1]]
+
+
+def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> tuple[Array, Array]:
+    """Rows LL, TT, S, T, U, W for a unit pressure and for a unit traction, then V, Q, uV.
+
+    Zeros stand before and after the wavenumbers, for the mean and for those left out.
+
+    Examples
+    --------
+    >>> from .layered_fields import plane_states
+    >>> states = next(plane_states([1.0], [1.0], [0.3], [], [0.0]))
+    >>> print(table_of(states, np.ones(1), displacement=True)[0][4:, 1].round(2))
+    [0.52 1.82]
+    """
+    pressure, traction, transverse = unit_stresses(states)
+    alpha = length[: transverse.size]
+    unit = 1.0 / (2.0 * states.shear_modulus * alpha) if displacement else np.zeros(alpha.size)
+    loads = []
+    for stress, state in ((pressure, states.pressure), (traction, states.traction)):
+        U, W, T, S = state
+        loads.append([*stress, S, T, U * unit, W * unit])
+    shear = [transverse, states.transverse[1], 2.0 * unit * transverse]
+    tables = np.zeros((2, 9, alpha.size + 2))
+    tables[0, :6, 1:-1] = loads[0]
+    tables[1, :, 1:-1] = loads[1] + shear
+    return tables[0, :6], tables[1]
+
+
+def component(
+    k: int, loads: list[Complex | None], tables: tuple[Array, Array], modes: Modes
+) -> Complex:
+    """Spectrum of component k caused by a pressure and by tractions along x and y.
+
+    Parameters
+    ----------
+    k : int
+        0 to 5 for the stresses, 6 to 8 for the displacements.
+    loads : list of (ndarray or None)
+        Spectra of the pressure and, times -i, of both tractions on the modes.
+    tables
+        From `table_of`.
+    modes : Modes
+        Those of the loads.
+
+    Returns
+    -------
+    ndarray
+        Without its mean, in the shape of the loads.
+
+    Examples
+    --------
+    On the surface sigma_zz is the pressure, with the other sign:
+
+    >>> from .layered_fields import plane_states
+    >>> modes = grid_of_modes((1, 4), (1.0, 1.0))
+    >>> states = next(plane_states(modes.length, [1.0], [0.3], [], [0.0]))
+    >>> tables = table_of(states, modes.length, displacement=False)
+    >>> component(2, [np.ones((1, 3), complex), None, None], tables, modes).real.round(3).tolist()
+    [[0.0, -1.0, -1.0]]
+    """
+    pressure, traction_x, traction_y = loads
+    x, y, xx, yy = modes.x, modes.y, modes.xx, modes.yy
+    terms: list[Complex] = []
+    if pressure is not None:
+        terms.append(_of_pressure(k, tables[0], modes.rank, x, y, xx, yy) * pressure)
+    if traction_x is not None:
+        terms.append(_of_traction(k, tables[1], modes.rank, x, y, xx, yy) * traction_x)
+    if traction_y is not None:
+        swapped = _of_traction(SWAPPED[k], tables[1], modes.rank, y, x, yy, xx)
+        terms.append(swapped * traction_y)
+    total = terms[0]
+    for term in terms[1:]:
+        total += term
+    if k in IMAGINARY:
+        total *= 1j
+    return total
+
+
+def _of_pressure(
+    k: int, table: Array, rank: Indices, x: Array, y: Array, xx: Array, yy: Array
+) -> Array:
+    def at(row: int | Array) -> Array:
+        return np.take(table[row] if isinstance(row, int) else row, rank, mode="clip")
+
+    LL, TT, S, T, U, W = table
+    if k in (0, 1):
+        along, across = (xx, yy) if k == 0 else (yy, xx)
+        return at(LL) * along + at(TT) * across
+    if k == 3:
+        return at(LL - TT) * x * y
+    direction = (1.0, x, y)[{2: 0, 4: 1, 5: 2, 6: 1, 7: 2, 8: 0}[k]]
+    return at({2: S, 4: T, 5: T, 6: U, 7: U, 8: W}[k]) * direction
+
+
+def _of_traction(
+    k: int, table: Array, rank: Indices, x: Array, y: Array, xx: Array, yy: Array
+) -> Array:
+    """Weights of a traction along x; exchange x and y for the other."""
+
+    def at(row: Array) -> Array:
+        return np.take(row, rank, mode="clip")
+
+    LL, TT, S, T, U, W, V, Q, uV = table
+    match k:
+        case 0:
+            return x * (at(LL) * xx + at(TT - 2.0 * V) * yy)
+        case 1:
+            return x * (at(LL + 2.0 * V) * yy + at(TT) * xx)
+        case 2:
+            return x * at(S)
+        case 3:
+            return y * (at(LL - TT + V) * xx - at(V) * yy)
+        case 4:
+            return at(T) * xx + at(Q) * yy
+        case 5:
+            return x * y * at(T - Q)
+        case 6:
+            return at(U) * xx + at(uV) * yy
+        case 7:
+            return x * y * at(U - uV)
+        case _:
+            return x * at(W)

@@ -1,0 +1,133 @@
+"""Contact results as arrays and a header of plain values, and back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from ..accuracy import Accuracy
+from ..contact.effects.film import FilmPart
+from ..contact.effects.friction import FrictionPart
+from ..contact.effects.island_bridges import IslandPart
+from ..contact.effects.registry import CONTACT_EFFECTS
+from ..contact.effects.stress import StressPart
+from ..contact.plan import ContactPlan
+from ..contact.result import ContactResult, ContactWork, CouplingPart, PlasticPart
+from ..scene.contact_scene import ContactScene
+from ..scene.topography import Grid
+from .structure import structure, unstructure, with_arrays
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Arrays = dict[str, NDArray[Any]]
+
+__all__ = ["pack_contact", "unpack_contact"]
+
+_MAPS = ("pressure", "gap", "displacement", "heights")
+_EFFECTS = {kind.name: kind for kind in CONTACT_EFFECTS}
+
+
+def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
+    """Take a result apart into a header of plain values and its arrays by name.
+
+    The header has the scene (arrays in it by a key), the grid, the accuracy, the status, the
+    numbers with their units and what each effect did.
+    """
+    arrays: Arrays = {name: getattr(result, name) for name in _MAPS}
+    parts = {
+        kind.name: _encode(part, kind.name, arrays)
+        for kind, part in sorted(result.parts.items(), key=lambda item: item[0].name)
+    }
+    made = result.plan
+    header = {
+        "kind": "contact",
+        "scene": unstructure(made.scene, arrays),
+        "grid": [list(made.grid.shape), list(made.grid.pixel_size), made.grid.periodic],
+        "accuracy": attrs.asdict(made.accuracy),
+        "status": result.status,
+        "message": result.message,
+        "level": result.level,
+        "residual": result.residual,
+        "energy": result.energy,
+        "scalars": {n: [_encode(v, n, arrays), unit] for n, (v, unit) in result.scalars().items()},
+        "work": result.work._asdict() | {"stages": dict(result.work.stages)},
+        "parts": parts,
+    }
+    return header, arrays
+
+
+def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> ContactResult:
+    """Put a result together again from what `pack_contact` gave.
+
+    The plan is not made anew: a file that the scene names may have moved since.
+    """
+    scene = structure(with_arrays(header["scene"], arrays), ContactScene, name)
+    (ny, nx), (dy, dx), periodic = header["grid"]
+    made = ContactPlan(scene, Accuracy(**header["accuracy"]), Grid((ny, nx), (dy, dx), periodic))
+    work = header["work"]
+    return ContactResult(
+        made,
+        header["status"],
+        header["message"],
+        arrays["pressure"],
+        arrays["gap"],
+        arrays["displacement"],
+        arrays["heights"],
+        header["level"],
+        header["residual"],
+        header["energy"],
+        ContactWork(**work | {"stages": MappingProxyType(work["stages"])}),
+        MappingProxyType({_EFFECTS[n]: _decode(p, arrays) for n, p in header["parts"].items()}),
+    )
+
+
+def _encode(value: Any, name: str, arrays: Arrays) -> Any:
+    """Turn a value into what JSON has; arrays go to `arrays`, under the path they are found at."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        arrays[name] = value
+        return {"array": name}
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.item()
+    if hasattr(value, "_fields"):
+        fields = {f: _encode(getattr(value, f), f"{name}.{f}", arrays) for f in value._fields}
+        return {"record": type(value).__name__, "fields": fields}
+    if isinstance(value, Mapping):
+        return {"mapping": {k: _encode(v, f"{name}.{k}", arrays) for k, v in value.items()}}
+    if isinstance(value, tuple | list):
+        return {"tuple": [_encode(v, f"{name}.{i}", arrays) for i, v in enumerate(value)]}
+    if isinstance(value, float) and not math.isfinite(value):
+        return {"float": str(value)}
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    raise TypeError(f"{name}: a {type(value).__name__} has no place in a result file")
+
+
+def _decode(value: Any, arrays: Arrays) -> Any:
+    if not isinstance(value, Mapping):
+        return value
+    if "array" in value:
+        return arrays[value["array"]]
+    if "record" in value:
+        fields = {n: _decode(v, arrays) for n, v in value["fields"].items()}
+        return _record(value["record"])(**fields)
+    if "mapping" in value:
+        return MappingProxyType({k: _decode(v, arrays) for k, v in value["mapping"].items()})
+    if "tuple" in value:
+        return tuple(_decode(v, arrays) for v in value["tuple"])
+    return float(value["float"])
+
+
+def _record(name: str) -> Any:
+    """Find the kind of a record by its name."""
+    if name == "Maximum":
+        from ..elasticity.stress.measures import Maximum
+
+        return Maximum
+    kinds = (CouplingPart, FilmPart, FrictionPart, IslandPart, PlasticPart, StressPart)
+    return {kind.__name__: kind for kind in kinds}[name]

@@ -1,0 +1,201 @@
+"""Result files: npz with a JSON header, and CSV. Never half a file."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from ..accuracy import Accuracy
+from ..contact.result import ContactResult
+from ..errors import ContactkitError, DescriptionError
+from ..scene.scenes import SeparationScene, SlidingScene
+from ..separation.motion.state import MotionState
+from ..separation.plan import plan
+from ..separation.results import SeparationResult, Work
+from ..separation.sliding.plan import plan_sliding
+from ..separation.sliding.result import SlidingResult
+from ..separation.sliding.run import check_sliding
+from ..separation.validity import check, path_of
+from .contact_results import pack_contact, unpack_contact
+from .scenes import structure, unstructure, write_whole
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Arrays = dict[str, NDArray[Any]]
+
+Result = SeparationResult | SlidingResult | ContactResult
+
+__all__ = ["from_bytes", "load_result", "save_csv", "save_npz", "save_result", "to_bytes"]
+
+# What reading anything but a whole result may raise.
+_UNREADABLE = (
+    OSError, ValueError, KeyError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error,
+    EOFError, NotImplementedError,
+)  # fmt: skip
+
+
+def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, Any]) -> Path:
+    """Write columns to an npz file, with a header as JSON; no pickle."""
+    path = Path(path).with_suffix(".npz")
+    with write_whole(path) as temporary:
+        np.savez_compressed(temporary, header=np.array(json.dumps(header)), **columns)
+    return path
+
+
+def save_result(result: Result, path: str | Path) -> Path:
+    """Write a result to an npz file without pickle, whole or not at all.
+
+    Parameters
+    ----------
+    result : SeparationResult, SlidingResult or ContactResult
+        What to write: its curves or maps as arrays, the arrays that its scene and its effects
+        hold, and as ``header`` a JSON text with the scene, the accuracy, the status and the
+        numbers.
+    path : str or Path
+        The file; its suffix becomes ``.npz``.
+
+    Returns
+    -------
+    Path
+        The file that was written; `load_result` reads it.
+    """
+    header, columns = _pack(result)
+    return save_npz(path, columns, header)
+
+
+def load_result(path: str | Path) -> Result:
+    """Read a result written by `save_result`.
+
+    A `ContactResult` answers ``of`` and ``scalars`` as the one that was saved did. What it was
+    made from, such as the file of a measured surface, need not be there.
+
+    Raises
+    ------
+    DescriptionError
+        If the file is none of ours, or is cut short.
+    """
+    try:
+        # Opened here, for numpy leaves a file open that it cannot read.
+        with Path(path).open("rb") as file:
+            return _read(file, Path(path).name)
+    except _UNREADABLE as error:
+        raise _no_result(str(path), error) from None
+
+
+def to_bytes(result: Result) -> bytes:
+    """Return a result as `save_result` would write it, to send or to store."""
+    header, columns = _pack(result)
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, header=np.array(json.dumps(header)), **columns)
+    return buffer.getvalue()
+
+
+def from_bytes(data: bytes) -> Result:
+    """Read what `to_bytes` gave."""
+    try:
+        return _read(io.BytesIO(data), "result")
+    except _UNREADABLE as error:
+        raise _no_result("result", error) from None
+
+
+def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
+    from .. import __version__
+
+    if isinstance(result, ContactResult):
+        header, columns = pack_contact(result)
+    elif isinstance(result, SlidingResult):
+        header, columns = _pack_sliding(result), dict(result.columns)
+    else:
+        header, columns = _pack_separation(result), dict(result.columns)
+    return {"contactkit": __version__} | header, columns
+
+
+def _no_result(where: str, error: Exception) -> ContactkitError:
+    if isinstance(error, ContactkitError):
+        return error  # a result, of something that this version refuses
+    return DescriptionError(
+        "file", where, "be a result of contactkit", hint=f"{type(error).__name__}: {error}"
+    )
+
+
+def _read(source: IO[bytes], name: str) -> Result:
+    with np.load(source, allow_pickle=False) as file:
+        header = json.loads(str(file["header"]))
+        columns = {key: file[key] for key in file.files if key != "header"}
+    for column in columns.values():
+        column.flags.writeable = False
+    if header.get("kind") == "contact":
+        return unpack_contact(header, columns, name)
+    if header.get("kind") == "sliding":
+        return _unpack_sliding(header, columns, name)
+    return _unpack_separation(header, columns, name)
+
+
+def _pack_separation(result: SeparationResult) -> dict[str, Any]:
+    return {
+        "kind": "separation",
+        "scene": unstructure(result.plan.scene),
+        "accuracy": attrs.asdict(result.plan.accuracy),
+        "status": result.status,
+        "message": result.message,
+        "impulses": dict(result.impulses),
+        "state": list(result.state) if result.state is not None else None,
+        "work": result.work._asdict(),
+        "errata": [one._asdict() for one in result.errata],
+    }
+
+
+def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> SeparationResult:
+    scene = structure(header["scene"], SeparationScene, name)
+    made = plan(scene, Accuracy(**header["accuracy"]))
+    state = header["state"]
+    return SeparationResult(
+        made,
+        header["status"],
+        header["message"],
+        columns,
+        header["impulses"],
+        MotionState(*state) if state is not None else None,
+        check(made, path_of(made, columns)),
+        Work(**header["work"]),
+    )
+
+
+def _pack_sliding(result: SlidingResult) -> dict[str, Any]:
+    return {
+        "kind": "sliding",
+        "scene": unstructure(result.plan.scene),
+        "accuracy": attrs.asdict(result.plan.accuracy),
+        "status": result.status,
+        "message": result.message,
+        "totals": dict(result.totals),
+        "work": result.work._asdict(),
+        "errata": [one._asdict() for one in result.errata],
+    }
+
+
+def _unpack_sliding(header: dict[str, Any], columns: Arrays, name: str) -> SlidingResult:
+    scene = structure(header["scene"], SlidingScene, name)
+    made = plan_sliding(scene, Accuracy(**header["accuracy"]))
+    said = (header["status"], header["message"])
+    work = Work(**header["work"])
+    return SlidingResult(made, *said, columns, header["totals"], check_sliding(made), work)
+
+
+def save_csv(path: str | Path, columns: Mapping[str, Any], headings: Mapping[str, str]) -> Path:
+    """Write columns as a CSV file with a heading of name and unit for each."""
+    path = Path(path).with_suffix(".csv")
+    header = ",".join(headings[name] for name in columns)
+    table = np.column_stack([np.asarray(column, dtype=float) for column in columns.values()])
+    with write_whole(path) as temporary:
+        np.savetxt(temporary, table, delimiter=",", header=header, comments="", fmt="%.10g")
+    return path

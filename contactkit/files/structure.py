@@ -1,0 +1,293 @@
+"""Tables of plain values to nouns and back: quantities by their units, kinds by their names."""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from collections.abc import Callable, Mapping
+from importlib import resources
+from typing import Any, TypeVar, get_args
+
+import attrs
+import cattrs
+from cattrs.gen import make_dict_structure_fn, override
+
+from .. import data
+from ..contact.effects.base import ContactEffect
+from ..contact.effects.plasticity import HardnessMap
+from ..errors import DescriptionError
+from ..liquids.liquid import Liquid
+from ..liquids.temperature_laws import TemperatureLaw
+from ..scene.materials import Material, Stack
+from ..scene.shapes import Flat, Sphere
+from ..scene.topography import Shape, Topography
+from ..separation.effects.registry import SeparationEffect
+from ..units import parse_quantity
+from .unstructure import (
+    ARRAY_FIELDS,
+    FACE_KINDS,
+    LAW_KINDS,
+    OPENING_KINDS,
+    PRESSING_KINDS,
+    SURFACE_KINDS,
+    unstructure,
+    with_arrays,
+)
+
+__all__ = [
+    "FileError", "field_value", "load_liquid", "load_material", "nearest", "structure",
+    "unstructure", "with_arrays",
+]  # fmt: skip
+
+_T = TypeVar("_T")
+
+
+def nearest(name: object, known: list[str]) -> str:
+    """Hint at the nearest of the known names, or list them."""
+    close = difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
+    return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
+
+
+def _tagged(tag: str, kinds: Mapping[str, type]) -> Callable[[Any, Any], Any]:
+    """Structure a table by the kind it names under `tag`."""
+
+    def hook(value: Any, _: Any) -> Any:
+        if not isinstance(value, Mapping):
+            raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
+        rest = dict(value)
+        name = rest.pop(tag, None)
+        if name not in kinds:
+            raise DescriptionError(
+                tag, name, "name a known kind", hint=nearest(name, sorted(kinds))
+            )
+        return _CONVERTER.structure(rest, kinds[name])
+
+    return hook
+
+
+def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any], Any]:
+    unit, field = attribute.metadata["unit"], f"{kind.__name__}.{attribute.name}"
+    cure = ARRAY_FIELDS.get((kind, attribute.name))
+    # Words that may stand in place of a number, such as "vapour".
+    words = [w for one in get_args(attribute.type) for w in get_args(one) if isinstance(w, str)]
+
+    def hook(value: Any, target: Any) -> Any:
+        if getattr(value, "ndim", 0):
+            return value
+        if cure is not None:
+            raise DescriptionError(field, value, "be an array in hand", unit=unit, hint=cure)
+        if isinstance(value, Mapping):
+            if "values" in value:
+                return _CONVERTER.structure(value, HardnessMap)
+            return _law(value, TemperatureLaw)
+        if value in words or isinstance(value, bool) or (unit == "-" and isinstance(value, int)):
+            return value
+        if isinstance(value, list | tuple):
+            return tuple(hook(item, target) for item in value)
+        return parse_quantity(value, unit, field)
+
+    return hook
+
+
+def field_value(kind: type, name: str, value: Any) -> Any:
+    """Read a value for a field as a file would: quantities by their units, nouns by their names.
+
+    Parameters
+    ----------
+    kind : type
+        Noun that has the field.
+    name : str
+        Name of the field.
+    value : object
+        What is to be read; what is an object of contactkit, or None, stays as it is.
+
+    Examples
+    --------
+    >>> from contactkit.materials import Layer
+    >>> field_value(Layer, "thickness", "5 nm")
+    5e-09
+    >>> field_value(Layer, "material", "dlc").name
+    'diamond-like carbon'
+    """
+    _resolved(kind)
+    attribute: attrs.Attribute[Any] = getattr(attrs.fields(kind), name)
+    if value is None or attrs.has(type(value)):
+        return value
+    if "unit" in attribute.metadata:
+        return _quantity(kind, attribute)(value, attribute.type)
+    nouns = any(attrs.has(one) for one in get_args(attribute.type) or (attribute.type,))
+    if nouns and isinstance(value, str | Mapping):
+        try:
+            return _CONVERTER.structure(value, attribute.type)  # type: ignore[arg-type]
+        except cattrs.ClassValidationError as error:
+            raise FileError(f"{kind.__name__}.{name}", _reasons(error)) from None
+    return value
+
+
+def _resolved(kind: type) -> None:
+    """Make the types of the fields of a noun known, those that modules import for checkers too."""
+    names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect, "Map": Any}
+    attrs.resolve_types(kind, localns=names)
+
+
+def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
+    """Structure an attrs class: quantities by their units, unknown keys refused with a guess."""
+    _resolved(kind)
+    hooks = {
+        a.name: override(struct_hook=_quantity(kind, a))
+        for a in attrs.fields(kind)
+        if "unit" in a.metadata
+    }
+    inner: Callable[[Any, Any], Any] = make_dict_structure_fn(kind, _CONVERTER, **hooks)  # type: ignore[arg-type]
+    known = [a.alias for a in attrs.fields(kind) if a.init]
+
+    def hook(value: Any, target: Any) -> Any:
+        if not isinstance(value, Mapping):
+            raise DescriptionError(kind.__name__, value, "be a table")
+        for key in value:
+            if key not in known:
+                raise DescriptionError(
+                    f"{kind.__name__}.{key}",
+                    value[key],
+                    "be a known key",
+                    hint=nearest(key, known),
+                )
+        return inner(value, target)
+
+    return hook
+
+
+def _liquid(value: Any, _: Any) -> Liquid:
+    if isinstance(value, str):
+        return load_liquid(value)
+    made: Liquid = _LIQUID(value, Liquid)
+    return made
+
+
+def _material(value: Any, _: Any) -> Material:
+    if isinstance(value, str):
+        return load_material(value)
+    made: Material = _MATERIAL(value, Material)
+    return made
+
+
+def _bool(value: Any, _: Any) -> bool:
+    """Only true and false: a text would be true whatever it says."""
+    if not isinstance(value, bool):
+        raise DescriptionError("value", value, "be true or false")
+    return value
+
+
+def _solid(value: Any, _: Any) -> Material | Stack | None:
+    """A material, by name or as a table; a stack, which has a substrate; or "rigid"."""
+    if value is None or value == "rigid":
+        return None
+    if isinstance(value, Mapping) and ("substrate" in value or "layers" in value):
+        stack: Stack = _CONVERTER.structure(value, Stack)
+        return stack
+    return _material(value, Material)
+
+
+_CONVERTER = cattrs.Converter()
+_CONVERTER.register_structure_hook(bool, _bool)
+_CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
+_LIQUID, _MATERIAL = _attrs_class(Liquid), _attrs_class(Material)
+for _matches, _hook in (
+    (lambda kind: kind is Liquid, _liquid),
+    (lambda kind: kind is Material, _material),
+    (lambda kind: kind == Material | Stack | None, _solid),
+    (lambda kind: kind == Flat | Sphere, _tagged("shape", FACE_KINDS)),
+    (lambda kind: kind in (Shape, Topography), _tagged("shape", SURFACE_KINDS)),
+    (lambda kind: kind is SeparationEffect, _tagged("effect", OPENING_KINDS)),
+    (lambda kind: kind is ContactEffect, _tagged("effect", PRESSING_KINDS)),
+):
+    _CONVERTER.register_structure_hook_func(_matches, _hook)
+_law = _tagged("law", LAW_KINDS)
+
+
+def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
+    """Build an attrs object from tables.
+
+    Parameters
+    ----------
+    tables : mapping
+        As read from a TOML file.
+    kind : type
+        Attrs class to build.
+    origin : str
+        Where the tables come from, for messages.
+
+    Raises
+    ------
+    DescriptionError
+        Listing every mistake and where it is.
+    """
+    try:
+        return _CONVERTER.structure(tables, kind)
+    except DescriptionError as error:
+        raise DescriptionError(origin, kind.__name__, f"describe a scene; {error}") from None
+    except cattrs.ClassValidationError as error:
+        raise FileError(origin, _reasons(error)) from None
+
+
+def _reasons(error: cattrs.ClassValidationError) -> str:
+    found = cattrs.transform_error(error, format_exception=_say)
+    return "\n  ".join(
+        reason.replace(" @ $", "  at ", 1).replace("at .", "at ") for reason in found
+    )
+
+
+class FileError(DescriptionError):
+    """A file with mistakes: the message is the list of them."""
+
+    def __init__(self, origin: str, reasons: str) -> None:
+        super().__init__(origin, "", "be right")
+        self.args = (f"{origin} cannot be used:\n  {reasons}",)
+
+
+def _say(error: BaseException, _: type | None) -> str:
+    if isinstance(error, KeyError):
+        return f"missing key {error.args[0]!r}"
+    return str(error)
+
+
+def load_liquid(name: str) -> Liquid:
+    """Load a liquid of the library by its name, such as ``"engine-oil-15w-40"`` or ``"water"``.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such liquid.
+
+    Examples
+    --------
+    >>> round(load_liquid("water").at(298.15).viscosity * 1e3, 5)
+    0.89044
+    """
+    return _of_library(name, Liquid, "liquids.toml")
+
+
+def load_material(name: str) -> Material:
+    """Load a material of the library by its name, such as ``"dlc"`` or ``"al2o3-tic"``.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such material.
+
+    Examples
+    --------
+    >>> load_material("dlc").young_modulus
+    140000000000.0
+    """
+    return _of_library(name, Material, "materials.toml")
+
+
+def _of_library(name: str, kind: type[_T], file: str) -> _T:
+    text = resources.files(data).joinpath(file).read_text("utf-8")
+    tables, what = tomllib.loads(text), kind.__name__.lower()
+    if name not in tables:
+        raise DescriptionError(
+            what, name, f"be a {what} of the library", hint=nearest(name, sorted(tables))
+        )
+    return structure(tables[name], kind, f"{file}, {name}")

@@ -1,0 +1,124 @@
+"""Nouns to tables of plain values, and the names that their kinds have there."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import attrs
+
+from ..contact.effects.plasticity import HardnessMap
+from ..contact.effects.registry import CONTACT_EFFECTS
+from ..errors import DescriptionError
+from ..liquids.liquid import LAWS
+from ..scene.shapes import Flat, Sphere
+from ..scene.topography import (
+    CombinedSurface,
+    GaussianRoughness,
+    Heights,
+    Measured,
+    Paraboloid,
+    SelfAffineRoughness,
+    Wave,
+)
+from ..separation.effects.registry import SEPARATION_EFFECTS
+from ..separation.sliding.effects import SLIDING_EFFECTS
+
+__all__ = [
+    "ARRAY_FIELDS", "FACE_KINDS", "LAW_KINDS", "OPENING_KINDS", "PRESSING_KINDS", "SURFACE_KINDS",
+    "unstructure", "with_arrays",
+]  # fmt: skip
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Arrays = dict[str, NDArray[np.float64]]
+
+FACE_KINDS: dict[str, type] = {"flat": Flat, "sphere": Sphere}
+SURFACE_KINDS: dict[str, type] = FACE_KINDS | {
+    "paraboloid": Paraboloid,
+    "wave": Wave,
+    "gaussian-roughness": GaussianRoughness,
+    "self-affine-roughness": SelfAffineRoughness,
+    "measured": Measured,
+    "heights": Heights,
+    "combined": CombinedSurface,
+}
+OPENING_KINDS: dict[str, type] = {
+    kind.name: kind for kind in (*SEPARATION_EFFECTS, *SLIDING_EFFECTS)
+}
+PRESSING_KINDS: dict[str, type] = {kind.name: kind for kind in CONTACT_EFFECTS}
+LAW_KINDS: dict[str, type] = {kind.kind: kind for kind in LAWS}
+_TAGS: tuple[tuple[str, dict[str, type]], ...] = (
+    ("shape", SURFACE_KINDS),
+    ("effect", OPENING_KINDS | PRESSING_KINDS),
+    ("law", LAW_KINDS),
+)
+# Fields that hold an array: what a file can have in its place.
+ARRAY_FIELDS: dict[tuple[type, str], str] = {
+    (Heights, "heights"): "save the array as .npy and use Measured(path=..., pixel_size=..., "
+    "unit='m', detrend='none'), in a file shape = 'measured'",
+    (HardnessMap, "values"): "a scene file holds one hardness; a map of it stays in Python, and "
+    "in what save_result writes",
+}
+
+_ARRAY = "scene-array-"  # how the keys of arrays begin, as no other array of a result does
+
+
+def unstructure(value: Any, arrays: Arrays | None = None) -> Any:
+    """Turn attrs objects into tables of plain values; what is at its default is left out.
+
+    Parameters
+    ----------
+    value : object
+        A scene, or a part of one.
+    arrays : dict, optional
+        Where arrays go, under a key that is made from their content and stands for them in the
+        tables. None: arrays are refused.
+
+    Raises
+    ------
+    DescriptionError
+        If there is an array and no place for it; says what to use instead.
+    """
+    if attrs.has(type(value)):
+        table: dict[str, Any] = {}
+        for tag, kinds in _TAGS:
+            names = [name for name, kind in kinds.items() if type(value) is kind]
+            table |= dict.fromkeys([tag], names[0]) if names else {}
+        for a in attrs.fields(type(value)):
+            item = getattr(value, a.name)
+            if getattr(item, "ndim", 0):
+                table[a.alias] = _put_away(item, type(value), a.name, arrays)
+            elif a.init and item is not None and item != a.default:
+                table[a.alias] = unstructure(item, arrays)
+        return table
+    if isinstance(value, tuple | list):
+        return [unstructure(item, arrays) for item in value]
+    return value
+
+
+def _put_away(item: Any, kind: type, name: str, arrays: Arrays | None) -> str:
+    if arrays is None:
+        raise DescriptionError(
+            f"{kind.__name__}.{name}",
+            f"an array of shape {item.shape}",
+            "not be an array, to be written as text",
+            hint=ARRAY_FIELDS[kind, name],
+        )
+    shape = "x".join(map(str, item.shape))
+    key = f"{_ARRAY}{shape}-{hashlib.sha256(item.tobytes()).hexdigest()}"
+    arrays[key] = item
+    return key
+
+
+def with_arrays(tables: Any, arrays: Mapping[str, Any]) -> Any:
+    """Put arrays back into tables, in the place of the keys that stand for them."""
+    if isinstance(tables, Mapping):
+        return {name: with_arrays(item, arrays) for name, item in tables.items()}
+    if isinstance(tables, list):
+        return [with_arrays(item, arrays) for item in tables]
+    stands_for_one = isinstance(tables, str) and tables.startswith(_ARRAY)
+    return arrays.get(tables, tables) if stands_for_one else tables

@@ -1,1 +1,0 @@
-"""Formulas as pure functions, on arrays or floats; only public doors check what they get."""

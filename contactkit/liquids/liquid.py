@@ -1,0 +1,226 @@
+"""Liquids: surface tension, viscosity and density, as constants or as laws of temperature."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from attrs import Attribute, field, fields, frozen
+
+from ..errors import DescriptionError
+from ..units import si
+from ..validators import optional, positive, refuse
+from .temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw, celsius_hint
+from .viscosity import MOST_KINEMATIC_VISCOSITY, VogelViscosity, WaltherViscosity, centistokes_hint
+from .water import IapwsSurfaceTension, KellWaterDensity
+
+__all__ = ["LAWS", "Liquid", "LiquidState"]
+
+LAWS: tuple[type[TemperatureLaw], ...] = (
+    WaltherViscosity,
+    VogelViscosity,
+    LinearSurfaceTension,
+    IapwsSurfaceTension,
+    LinearDensity,
+    KellWaterDensity,
+)
+"""Every law a file can name, by its `kind`; which property it gives follows from its `unit`."""
+
+_MOST_TENSION = 10.0  # [N/m]
+_MOST_MOLAR_MASS = 10.0  # [kg/mol]
+
+
+class LiquidState(NamedTuple):
+    """A liquid at one temperature; None is what the liquid does not tell."""
+
+    surface_tension: float | None
+    """[N/m]"""
+    viscosity: float | None
+    """Dynamic viscosity [Pa.s]."""
+    density: float | None
+    """[kg/m3]"""
+    temperature: float
+    """[K]"""
+
+
+def _constant_or_law(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything but a positive number or a law that gives this very property."""
+    if not isinstance(value, TemperatureLaw):
+        positive(owner, attribute, value)
+    elif value.unit != attribute.metadata["unit"]:
+        kinds = ", ".join(repr(law.kind) for law in LAWS if law.unit == attribute.metadata["unit"])
+        raise refuse(
+            owner,
+            attribute,
+            value.kind,
+            "be a number or a law of the same unit",
+            f"the law {value.kind!r} gives {value.unit}; laws that fit: {kinds}",
+        )
+
+
+def _tension(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """As `_constant_or_law`, and suspect millinewtons; molten metals reach 2.5 N/m."""
+    _constant_or_law(owner, attribute, value)
+    if not isinstance(value, TemperatureLaw) and value > _MOST_TENSION:
+        cure = f"was it given in mN/m? write '{value:g} mN/m' in a file, or {value:g}*mN"
+        raise refuse(owner, attribute, value, f"be at most {_MOST_TENSION:g}", cure)
+
+
+def _kinematic(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """As `_constant_or_law`, and suspect centistokes."""
+    _constant_or_law(owner, attribute, value)
+    if not isinstance(value, TemperatureLaw) and value > MOST_KINEMATIC_VISCOSITY:
+        expected = f"be at most {MOST_KINEMATIC_VISCOSITY:g}"
+        raise refuse(owner, attribute, value, expected, centistokes_hint(value))
+
+
+def _molar(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse what is not positive, and suspect g/mol; the heaviest oils have about 1 kg/mol."""
+    positive(owner, attribute, value)
+    if value > _MOST_MOLAR_MASS:
+        cure = f"was it given in g/mol? write '{value:g} g/mol' in a file, or {value:g}e-3"
+        raise refuse(owner, attribute, value, f"be at most {_MOST_MOLAR_MASS:g}", cure)
+
+
+@frozen(kw_only=True)
+class Liquid:
+    """A Newtonian liquid; what no effect needs may be left out.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    surface_tension : float or TemperatureLaw, optional
+        Surface tension against air [N/m].
+    viscosity : float or TemperatureLaw, optional
+        Dynamic viscosity [Pa.s].
+    kinematic_viscosity : float or TemperatureLaw, optional
+        Kinematic viscosity [m2/s], instead of `viscosity` and only together with a density:
+        forces follow the dynamic viscosity, so a number in cSt alone says nothing about them.
+    density : float or TemperatureLaw, optional
+        Density [kg/m3].
+    molar_mass : float, optional
+        Mass of a mole [kg/mol], of a liquid that condenses from its vapour.
+    source : str
+        Where the constants come from; laws carry their own source.
+
+    Raises
+    ------
+    DescriptionError
+        If a constant is not positive and finite, or seems to be in mN/m or cSt; if a law gives
+        something else than the field holds; if both viscosities are given; if a kinematic
+        viscosity comes without a density.
+
+    Notes
+    -----
+    Left out: pressure (viscosity doubles every 30 to 50 MPa in mineral oil), shear thinning,
+    and the ageing of an oil.
+
+    Examples
+    --------
+    >>> from contactkit.units import celsius, cSt
+    >>> oil = Liquid(
+    ...     name="mineral oil",
+    ...     surface_tension=30e-3,
+    ...     kinematic_viscosity=WaltherViscosity(
+    ...         temperature_1=celsius(40.0),
+    ...         kinematic_viscosity_1=105 * cSt,
+    ...         temperature_2=celsius(100.0),
+    ...         kinematic_viscosity_2=14.2 * cSt,
+    ...     ),
+    ...     density=880.0,
+    ... )
+    >>> cold, warm = oil.at(celsius(-20.0)), oil.at(celsius(40.0))
+    >>> f"{cold.viscosity / warm.viscosity:.0f} times as thick"
+    '80 times as thick'
+    """
+
+    name: str = field()
+    surface_tension: float | TemperatureLaw | None = field(
+        default=None, validator=optional(_tension), metadata=si("N/m")
+    )
+    viscosity: float | TemperatureLaw | None = field(
+        default=None, validator=optional(_constant_or_law), metadata=si("Pa.s")
+    )
+    kinematic_viscosity: float | TemperatureLaw | None = field(
+        default=None, validator=optional(_kinematic), metadata=si("m2/s")
+    )
+    density: float | TemperatureLaw | None = field(
+        default=None, validator=optional(_constant_or_law), metadata=si("kg/m3")
+    )
+    molar_mass: float | None = field(
+        default=None, validator=optional(_molar), metadata=si("kg/mol")
+    )
+    source: str = ""
+
+    def __attrs_post_init__(self) -> None:
+        if self.kinematic_viscosity is None:
+            return
+        attribute, value = fields(Liquid).kinematic_viscosity, _shown(self.kinematic_viscosity)
+        if self.viscosity is not None:
+            expected = "be left out where viscosity is given"
+            raise refuse(self, attribute, value, expected, "keep one of the two")
+        if self.density is None:
+            cure = "give density too, or viscosity in Pa.s"
+            raise refuse(self, attribute, value, "come together with a density", cure)
+
+    def at(self, temperature: float) -> LiquidState:
+        """State of the liquid at `temperature` [K].
+
+        Raises
+        ------
+        DescriptionError
+            If the temperature is not positive and finite, or a law has no meaning there.
+
+        Warns
+        -----
+        ValidityWarning
+            If a law is used outside the range it was fitted for.
+        """
+        if not 0.0 < temperature < float("inf"):
+            raise DescriptionError(
+                "Liquid.at(temperature)",
+                temperature,
+                "be positive and finite",
+                unit="K",
+                hint=celsius_hint(temperature),
+            )
+        viscosity = _value(self.viscosity, temperature)
+        density = _value(self.density, temperature)
+        kinematic = _value(self.kinematic_viscosity, temperature)
+        if kinematic is not None and density is not None:
+            viscosity = kinematic * density
+        surface_tension = _value(self.surface_tension, temperature)
+        return LiquidState(surface_tension, viscosity, density, float(temperature))
+
+    def molar_volume(self, temperature: float) -> float:
+        """Volume of a mole of the liquid [m3/mol] at `temperature` [K].
+
+        Raises
+        ------
+        DescriptionError
+            If molar mass or density is not given.
+
+        Examples
+        --------
+        >>> water = Liquid(name="water", density=998.2, molar_mass=0.018015)
+        >>> round(water.molar_volume(293.15) * 1e6, 3)
+        18.047
+        """
+        density = self.at(temperature).density
+        if self.molar_mass is None or density is None:
+            name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
+            raise DescriptionError(
+                f"Liquid.{name}", None, "be given for a liquid in equilibrium with its vapour",
+                unit=unit, hint="or give the meniscus a volume, or its pressure",
+            )  # fmt: skip
+        return self.molar_mass / density
+
+
+def _value(given: float | TemperatureLaw | None, temperature: float) -> float | None:
+    if given is None:
+        return None
+    return given(temperature) if isinstance(given, TemperatureLaw) else float(given)
+
+
+def _shown(given: float | TemperatureLaw) -> float | str:
+    return given.kind if isinstance(given, TemperatureLaw) else given

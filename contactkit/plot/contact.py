@@ -1,0 +1,216 @@
+"""Figures of contacts, on axes that `plot` makes; they draw, and compute nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.effects.film import FilmMeniscus
+from ..contact.effects.plasticity import HardnessLimit
+from ..contact.effects.stress import StressPart, SubsurfaceStress
+from ..contact.result import ContactResult
+from ..scene.materials import Stack
+from .separation import Axes, ListedColormap, Patch, Rectangle, figure, legend
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = [
+    "contact_spots", "length_unit", "load_curve", "pressure", "stack_section",
+    "von_mises_section",
+]  # fmt: skip
+
+SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plastic": "#c1440e"}
+"""Colours of what a pixel is."""
+
+_LAYER_COLOURS = ("#264653", "#2a9d8f", "#8ab17d", "#e9c46a", "#f4a261", "#e76f51")
+
+
+def length_unit(length: float) -> tuple[float, str]:
+    """Factor and name of the unit in which a length [m] reads best."""
+    for factor, name in ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")):
+        if length >= factor:
+            return factor, name
+    return 1e-9, "nm"
+
+
+def _extent(result: ContactResult) -> tuple[tuple[float, float, float, float], str]:
+    (ny, nx), (dy, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
+    factor, unit = length_unit(max(nx * dx, ny * dy))
+    return (0.0, nx * dx / factor, 0.0, ny * dy / factor), unit
+
+
+def _place(ax: Axes, unit: str) -> None:
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
+    ax.grid(visible=False)
+
+
+def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
+    """Draw the map of the pressure; what is not in contact stays white."""
+    ax = ax if ax is not None else figure()[1]
+    extent, unit = _extent(result)
+    touching = np.ma.masked_less_equal(result.pressure / 1e9, 0.0)
+    image = ax.imshow(
+        touching, origin="lower", extent=extent, cmap="viridis", interpolation="nearest"
+    )
+    _place(ax, unit)
+    bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
+    bar.set_label("pressure [GPa]")
+    return ax
+
+
+def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
+    """Draw where the bodies touch, where they are plastic, and where menisci are."""
+    ax = ax if ax is not None else figure()[1]
+    extent, unit = _extent(result)
+    kinds = np.zeros(result.pressure.shape, dtype=int)
+    if result.plan.has(FilmMeniscus):
+        wet = result.of(FilmMeniscus).is_meniscus
+        kinds[wet] = 1
+    kinds[result.contact] = 2
+    if result.plan.has(HardnessLimit):
+        kinds[result.of(HardnessLimit).is_plastic] = 3
+    ax.imshow(
+        kinds, origin="lower", extent=extent, interpolation="nearest", vmin=0, vmax=3,
+        cmap=ListedColormap(list(SPOTS.values())),
+    )  # fmt: skip
+    _place(ax, unit)
+    if 0 < (kinds == 3).sum() < 2e-3 * kinds.size:  # too few to be seen as pixels
+        found = np.argwhere(kinds == 3)
+        rows, columns = found[:, 0], found[:, 1]
+        ny, nx = result.plan.grid.shape
+        x, y = (columns + 0.5) * extent[1] / nx, (rows + 0.5) * extent[3] / ny
+        ax.plot(x, y, "o", ms=4, mfc="none", mec=SPOTS["plastic"], mew=1.0)
+    n = kinds.size
+    names = {1: "meniscus", 2: "elastic", 3: "plastic"}
+    shown = [k for k in names if k == 2 or (kinds == k).any()]
+    handles = [
+        Patch(
+            color=SPOTS[names[k]],
+            label=f"{names[k]} {100.0 * float((kinds == k).sum()) / n:.2g} % of the window",
+        )
+        for k in shown
+    ]
+    legend(ax, handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=1)
+    return ax
+
+
+def von_mises_section(result: ContactResult, ax: Axes | None = None) -> Axes:
+    """Draw the von Mises stress under the row of largest pressure, depth on a stretched scale."""
+    from ..elasticity.stress.measures import von_mises
+
+    ax = ax if ax is not None else figure()[1]
+    part: StressPart = result.of(SubsurfaceStress)
+    stack = result.plan.scene.interface.lower.stack
+    assert stack is not None
+    dx, nx = result.plan.grid.pixel_size[1], result.plan.grid.shape[1]
+    values = von_mises(part.section) / 1e9
+    centre = int(np.argmax(result.pressure[part.row]))
+    half = min(nx // 2, max(16, round(float(part.depth[-1]) / dx)))
+    columns = np.arange(centre - half, centre + half) % nx
+    factor, unit = length_unit(half * dx)
+    x = np.arange(-half, half + 1) * dx / factor
+    edges = _faces(part)
+    image = ax.pcolormesh(x, np.arange(len(edges)), values[:, columns], cmap="inferno")
+    _depth_axis(ax, part, edges, stack)
+    ax.set(xlabel=f"x from the largest pressure [{unit}]", ylabel="depth")
+    ax.grid(visible=False)
+    bar = ax.figure.colorbar(image, ax=ax)
+    bar.set_label("von Mises stress [GPa]")
+    return ax
+
+
+def _faces(part: StressPart) -> NDArray[np.float64]:
+    """Edges between planes: one row of the picture for each plane, in order of depth."""
+    return np.arange(len(part.depth) + 1, dtype=float)
+
+
+def _depth_axis(ax: Axes, part: StressPart, edges: NDArray[np.float64], stack: Stack) -> None:
+    """Label the rows by their depths, draw interfaces, and name the layers."""
+    labels, places = [], []
+    for i, depth in enumerate(part.depth):
+        factor, unit = length_unit(float(depth)) if depth > 0.0 else (1e-9, "nm")
+        labels.append(f"{depth / factor:.3g} {unit}")
+        places.append(i + 0.5)
+    ax.set_yticks(places, labels, fontsize=7)
+    ax.invert_yaxis()
+    for i in range(1, len(part.depth)):
+        if part.layer[i] != part.layer[i - 1]:
+            ax.axhline(edges[i], color="w", lw=1.0)
+    for number in sorted(set(part.layer.tolist())):
+        rows = np.flatnonzero(part.layer == number)
+        ax.text(
+            0.01, 1.0 - (rows[0] + 0.75) / len(part.depth), stack.materials[number].name,
+            transform=ax.transAxes, color="w", fontsize=8, va="center",
+        )  # fmt: skip
+
+
+def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes:
+    """Draw a stack as a cross-section; thicknesses are written, not to scale."""
+    ax = ax if ax is not None else figure()[1]
+    rows = len(stack.materials)
+    for i, material in enumerate(stack.materials):
+        colour = _LAYER_COLOURS[i % len(_LAYER_COLOURS)]
+        ax.add_patch(_block(i, colour))
+        if i < rows - 1:
+            factor, unit = length_unit(stack.thicknesses[i])
+            thickness = f"{stack.thicknesses[i] / factor:.3g} {unit}"
+        else:
+            thickness = "half-space"
+        hardness = f", H {material.hardness / 1e9:.3g} GPa" if material.hardness else ""
+        numbers = f"E {material.young_modulus / 1e9:.4g} GPa, nu {material.poisson_ratio:g}"
+        light = i % len(_LAYER_COLOURS) < 2
+        ax.text(
+            0.5, i + 0.5, f"{material.name}, {thickness}\n{numbers}{hardness}",
+            ha="center", va="center", color="w" if light else "k", fontsize=9,
+        )  # fmt: skip
+    ax.set(xlim=(0.0, 1.0), ylim=(float(rows), 0.0), xticks=[], yticks=[])
+    ax.grid(visible=False)
+    for spine in ax.spines.values():
+        spine.set_visible(False)
+    ax.set_title(title, loc="left", fontsize=11)
+    return ax
+
+
+def _block(row: int, colour: str) -> Any:
+    return Rectangle((0.0, float(row)), 1.0, 1.0, facecolor=colour, edgecolor="w", lw=1.5)
+
+
+def load_curve(
+    curves: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[Axes]
+) -> Sequence[Axes]:
+    """Draw what changes with the load, one panel for each quantity.
+
+    Parameters
+    ----------
+    curves : sequence of (label, columns)
+        Columns by the names of `ContactResult.scalars`, over the pressure that is imposed.
+    axes : sequence of Axes
+        One for each quantity of `LOAD_PANELS` that the columns have.
+    """
+    for ax, (name, label, factor) in zip(axes, panels_of(curves), strict=False):
+        for (title, columns), style in zip(curves, ("o-", "s--", "^:"), strict=False):
+            if name in columns:
+                imposed = columns.get("pressing.pressure", columns["mean_pressure"])
+                mean = np.asarray(imposed) / 1e6
+                ax.plot(mean, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
+        ax.set(xscale="log", xlabel="mean pressure [MPa]", ylabel=label)
+    return axes
+
+
+LOAD_PANELS = (
+    ("max_pressure", "largest pressure [GPa]", 1e9),
+    ("contact_fraction", "contact area [% of the window]", 0.01),
+    ("plastic_fraction", "plastic area [% of the window]", 0.01),
+    ("max_displacement", "largest displacement [nm]", 1e-9),
+    ("relative_meniscus_force", "meniscus force / load [-]", 1.0),
+)
+
+
+def panels_of(
+    curves: Sequence[tuple[str, Mapping[str, Any]]],
+) -> list[tuple[str, str, float]]:
+    """Panels of `LOAD_PANELS` that some curve has a column for."""
+    return [panel for panel in LOAD_PANELS if any(panel[0] in c for _, c in curves)]

@@ -1,0 +1,252 @@
+"""Figures. The only module that imports matplotlib; it draws, and computes nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import cycle
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from ..files.scenes import write_whole
+from ..separation.parts import known
+from ..separation.results import COLUMNS, SeparationResult
+from ..separation.sliding.result import SlidingResult
+from ..work_precision import WorkPrecision
+
+__all__ = [
+    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "closures", "cycles",
+    "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save", "shared_legend",
+    "slide", "title", "work_precision",
+]  # fmt: skip
+
+COLORS = {
+    "gap": "#1f4e79", "speed": "#7f7f7f", "meniscus": "#2a9d8f", "viscous": "#c1440e",
+    "limit": "#e9c46a", "magnet": "#6a4c93", "spring": "#8d6b3d", "stop": "#444444",
+    "pull": "#6a4c93", "solids": "#8d6e63",
+}  # fmt: skip
+"""One colour for each quantity, the same in every figure."""
+
+_STYLE: Any = {
+    "font.size": 10.0, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+    "grid.alpha": 0.3, "grid.linewidth": 0.6, "legend.frameon": False, "lines.linewidth": 1.6,
+    "figure.dpi": 110, "savefig.dpi": 160, "axes.titlelocation": "left", "axes.titlesize": 11.0,
+    "figure.constrained_layout.use": True,
+}  # fmt: skip
+
+_THREE = ("#1f4e79", "#2a9d8f", "#c1440e")  # exact, arc, as published
+_LABELS = {column.name: column for column in COLUMNS}
+
+
+def figure(
+    rows: int = 1, columns: int = 1, size: tuple[float, float] = (7.0, 4.5), **grid: Any
+) -> tuple[Figure, Any]:
+    """Make a figure in the house style, without a window: the figure and its axes."""
+    with mpl.rc_context(_STYLE):
+        made = Figure(figsize=size)
+        return made, made.subplots(rows, columns, **grid)
+
+
+def save(made: Figure, path: str | Path) -> Path:
+    """Write a figure as a PNG file, whole or not at all."""
+    path = Path(path).with_suffix(".png")
+    with write_whole(path) as temporary, mpl.rc_context(_STYLE):
+        made.savefig(temporary, format="png")
+    return path
+
+
+def title(ax: Axes, text: str) -> None:
+    """Title of a panel, at its left."""
+    ax.set_title(text, loc="left", fontsize=11)
+
+
+def legend(ax: Axes, **more: Any) -> None:
+    """Legend without a frame."""
+    ax.legend(**({"frameon": False, "fontsize": 9} | more))
+
+
+def shared_legend(made: Figure, ax: Axes) -> None:
+    """One legend below all panels, from the curves of one of them, in as many rows as it takes."""
+    handles, labels = ax.get_legend_handles_labels()
+    widest = 0.6 + 0.085 * max(map(len, labels))  # [inch]
+    columns = max(1, min(len(labels), int(made.get_figwidth() / widest)))
+    made.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False)
+
+
+def plain_log(axis: Axis) -> None:
+    """Label a logarithmic axis with plain numbers, at 1, 2 and 5."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def label_axis(name: str, display: str = "") -> str:
+    """Label of a column of a result, with its unit, or with the unit it is displayed in."""
+    column = _LABELS[name]
+    unit = display or column.unit
+    return column.label if unit == "-" else f"{column.label} [{unit}]"
+
+
+def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
+    """Draw the gap over time."""
+    ax = ax if ax is not None else figure()[1]
+    ax.plot(result.time * 1e3, result.gap * 1e6, color=COLORS["gap"])
+    ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("gap", "um"), yscale="log")
+    plain_log(ax.yaxis)
+    if result.state is not None and result.state.n_releases:
+        ax.axvline(result.state.release_time * 1e3, color="0.5", lw=0.8, ls="--")
+    return ax
+
+
+def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
+    """Draw the forces over the gap, and shade where a limit of the liquid acts.
+
+    Raises
+    ------
+    NotSimulatedError
+        If the run has no force: with only a time imposed a viscous film has but its impulse.
+    """
+    curves: Mapping[str, tuple[str, str]] = {
+        "newtonian_force": ("viscous", ":"), "viscous_force": ("viscous", "-"),
+        "meniscus_force": ("meniscus", "-"), "asperity_force": ("meniscus", "-."),
+        "van_der_waals_force": ("solids", "-."), "adhesion_force": ("solids", "-"),
+        "pull": ("pull", "--"),
+    }  # fmt: skip
+    drawn = [name for name in curves if name in result.columns]
+    if not drawn:
+        known(None, "force to draw", result.plan)
+    ax = ax if ax is not None else figure()[1]
+    gap = result.gap * 1e6
+    for name in drawn:
+        color, style = curves[name]
+        ax.plot(gap, result.columns[name], style, color=COLORS[color], label=_LABELS[name].label)
+    if "limit" in result.columns:
+        acts = result.columns["limit"] > 1.0
+        ax.fill_between(
+            gap, 0, 1, where=acts, transform=ax.get_xaxis_transform(), color=COLORS["limit"],
+            alpha=0.3, label="limit of the liquid acts",
+        )  # fmt: skip
+    ax.set(xlabel=label_axis("gap", "um"), ylabel="force [N]", xscale="log")
+    shown = [result.columns[name] for name in drawn if name != "newtonian_force"]
+    least = [
+        result.columns[name].min() for name in drawn if name not in ("newtonian_force", "pull")
+    ]
+    top = max([0.0, *(float(curve.max()) for curve in shown)])
+    bottom = min([0.0, *map(float, least)])
+    if top > bottom:  # else there is no force anywhere
+        ax.set_ylim(1.1 * bottom, 1.15 * top)
+    plain_log(ax.xaxis)
+    legend(ax)
+    return ax
+
+
+def cycles(result: SeparationResult, ax: Axes | None = None) -> Axes:
+    """Draw the pull over the cycles of a vibration, its mean, and the pull without vibration."""
+    ax = ax if ax is not None else figure()[1]
+    time = result.time * 1e3
+    ax.plot(time, result.pull, color=COLORS["speed"], lw=0.8, label=_LABELS["pull"].label)
+    ax.plot(time, result.mean_pull, color=COLORS["pull"], label=_LABELS["mean_pull"].label)
+    ax.plot(time, result.steady_pull, "--", color=COLORS["gap"], label=_LABELS["steady_pull"].label)
+    ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("pull"))
+    legend(ax)
+    return ax
+
+
+def slide(result: SlidingResult, ax: Axes | None = None) -> Axes:
+    """Draw the tangential forces over the travel, or the impulse where only a time is given."""
+    ax = ax if ax is not None else figure()[1]
+    travel = result.travel * 1e6
+    curves: Mapping[str, tuple[str, str]] = {
+        "couette_force": ("viscous", "-"), "hysteresis_force": ("meniscus", "-"),
+        "tangential_force": ("pull", "--"), "couette_impulse": ("viscous", ":"),
+    }  # fmt: skip
+    shown = [name for name in curves if name in result.columns]
+    if any(name.endswith("_force") for name in shown):
+        shown = [name for name in shown if name.endswith("_force")]
+    for name in shown:
+        color, style = curves[name]
+        ax.plot(travel, result.columns[name], style, color=COLORS[color], label=label_axis(name))
+    ax.set(xlabel=label_axis("travel", "um"), ylabel="force [N]", ylim=(0.0, None))
+    if shown == ["couette_impulse"]:
+        ax.set_ylabel(label_axis("couette_impulse"))
+    legend(ax)
+    return ax
+
+
+def bars(names: Sequence[str], values: Sequence[float], ax: Axes, label: str) -> Axes:
+    """Draw a bar for each of some names, from the top down."""
+    places = list(range(len(names)))
+    ax.barh(places, values, color=COLORS["gap"], height=0.6)
+    ax.set_yticks(places, names)
+    ax.invert_yaxis()
+    ax.set_xlabel(label)
+    ax.grid(visible=False, axis="y")
+    return ax
+
+
+def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
+    """Draw error against seconds for each gap: a colour for each closure, a sign for each bridge.
+
+    Full signs stand for whole curves or whole answers, open ones for one gap at a time.
+    """
+    colors = dict(zip(dict.fromkeys(p.method for p in found.points), _THREE, strict=False))
+    for p in found.points:
+        name = next(b for b in bridges if p.label.startswith(b))
+        full = "none" if "one gap" in p.label or "first" in p.label else colors[p.method]
+        ax.plot(
+            p.seconds, max(p.error, 1e-16), "osD^vP*X"[bridges.index(name)], ms=6.5,
+            color=colors[p.method], mfc=full, ls="none",
+        )  # fmt: skip
+    for method, color in colors.items():
+        ax.plot([], [], "-", lw=5, color=color, label=method)
+    for name, marker in zip(bridges, "osD^vP*X", strict=False):
+        ax.plot([], [], marker, color="0.3", ls="none", label=name)
+    ax.plot([], [], "o", color="0.3", mfc="none", ls="none", label="open: one gap, or first time")
+    low = 0.1 * min([found.floor, *(p.error for p in found.points if p.error > 0.0)])
+    ax.axhspan(max(low, 1e-16), found.floor, color="0.9", label="error of the reference")
+    each = "gap" if any("gap" in p.label for p in found.points) else "bridge"
+    ax.set(xscale="log", yscale="log", xlabel=f"seconds for each {each}")
+    ax.set_ylabel(f"relative error of the {found.quantity}")
+    return ax
+
+
+def work_precision(
+    found: WorkPrecision,
+    ax: Axes | None = None,
+    markers: Sequence[str] = "osD^vP*X",
+    *,
+    beside: bool = True,
+) -> Axes:
+    """Draw error against seconds, one line for each method; models of the physics lie flat.
+
+    `beside` puts the legend at the side of the panel, else below it.
+    """
+    ax = ax if ax is not None else figure()[1]
+    methods = list(dict.fromkeys(p.method for p in found.points))
+    for method, marker in zip(methods, cycle(markers), strict=False):  # as many as there are
+        points = [p for p in found.points if p.method == method]
+        good = [p for p in points if p.error == p.error]
+        style = "--" if any(p.is_model for p in points) else "-"
+        drawn = [max(p.error, 1e-16) for p in good]
+        ax.plot([p.seconds for p in good], drawn, style, marker=marker, label=method)
+        for p in points:
+            if p.error != p.error and not p.problem.startswith("not tried"):
+                ax.plot([], [], "x", color="k", label=f"{method}, {p.label}: failed")
+    worst = [p.error for p in found.points if p.error == p.error]
+    low = 0.1 * min(found.floor, *worst)
+    ax.axhspan(low, found.floor, color="0.9", label="error of the reference")
+    ax.set(xscale="log", yscale="log", xlabel="seconds", ylim=(max(low, 1e-16), None))
+    ax.set_ylabel(f"relative error of the {found.quantity}")
+    plain_log(ax.xaxis)
+    if beside:
+        legend(ax, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    else:
+        legend(ax, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+    return ax

@@ -1,0 +1,272 @@
+"""Measured height maps: reads files, and says of a map that cannot be used why, and the cure.
+
+Heights [m] are measured out of the body, peaks up; arrays are ``[y, x]``, the first line of a file
+is the row y = 0. Maps are taken as they are: no hole is filled, nothing is interpolated.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import struct
+import warnings
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import DescriptionError
+from ..units import parse_unit
+from .zz_detrend import detrended
+from .zz_height_texts import read_matrix, read_points
+
+__all__ = ["HeightMap", "checksum", "detrended", "read_height_map"]
+
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+
+_MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")
+_UNMARKED = ("hgt", "nms")
+
+
+class HeightMap(NamedTuple):
+    """A measured map."""
+
+    heights: Array
+    """Heights [m], (ny, nx), peaks up."""
+    pixel_size: Pair
+    """Size of a pixel (dy, dx) [m]."""
+    source: str
+    """Name of the file, and the channel if it has several."""
+    checksum: str
+    """SHA-256 of the file."""
+
+
+def checksum(path: str | PathLike[str]) -> str:
+    """SHA-256 of a file, in hexadecimal digits.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such file.
+    """
+    return _digest(_existing(path))
+
+
+def read_height_map(
+    path: str | PathLike[str],
+    *,
+    pixel_size: float | Pair | None = None,
+    unit: str | None = None,
+    checksum: str | None = None,
+    channel: int | None = None,
+) -> HeightMap:
+    r"""Read a height map from a file.
+
+    ====================== ==============================================================
+    ending                 holds
+    ====================== ==============================================================
+    npy                    an array (ny, nx) of numbers; needs `pixel_size` and `unit`
+    csv txt dat tsv asc    one row per line, split by commas, semicolons, tabs or spaces;
+                           lines that begin with ``#`` are skipped; needs both as well
+    xyz                    a point x, y, z per line, on a full regular grid in any order;
+                           needs `unit`, that of all three
+    any other              whatever SurfaceTopography reads (extra ``contactkit[maps]``);
+                           `pixel_size` and `unit` only if the file does not say them
+    ====================== ==============================================================
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    pixel_size : float or (float, float), optional
+        Size of a pixel [m], one number or (dy, dx).
+    unit : str, optional
+        Unit of the heights, such as "nm".
+    checksum : str, optional
+        SHA-256 that the file must have.
+    channel : int, optional
+        Which of several maps in a file of an instrument; without it, the instrument's first.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such file or it is another one; if it is not a map of at least 2 x 2
+        numbers; if a height is missing or not finite; if a size or a unit is missing, wrong or
+        contradicts the file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "map.csv"
+    ...     _ = file.write_text("0, 1, 2\n2, 1, 0\n")
+    ...     found = read_height_map(file, pixel_size=1e-6, unit="nm")
+    >>> found.heights[0].tolist(), found.pixel_size, found.source
+    ([0.0, 1e-09, 2e-09], (1e-06, 1e-06), 'map.csv')
+    """
+    file = _existing(path)
+    found = _digest(file)
+    if checksum is not None and checksum.lower().removeprefix("sha256:") != found:
+        raise DescriptionError(
+            "HeightMap.checksum", checksum, f"be that of {file.name}, {found}",
+            hint="the file has changed since, or is another one",
+        )  # fmt: skip
+    size = _checked_size(pixel_size)
+    ending = file.suffix.lower()
+    source = file.name
+    if ending == ".npy" or ending in _MATRICES:
+        size = _needed(size, "pixel_size", "1e-9 or (2e-9, 1e-9) [m]", file)
+        raw = _load_npy(file) if ending == ".npy" else read_matrix(file)
+        heights = raw * _length_unit(unit, file)
+    elif ending == ".xyz":
+        if size is not None:
+            raise _double("pixel_size", pixel_size, file)
+        factor = _length_unit(unit, file)
+        raw, own = read_points(file)
+        heights, size = raw * factor, (own[0] * factor, own[1] * factor)
+    else:
+        heights, size, source = _read_instrument(file, size, unit, channel)
+    return HeightMap(_checked(heights, file), size, source, found)
+
+
+def _existing(path: str | PathLike[str]) -> Path:
+    file = Path(path)
+    if not file.is_file():
+        raise DescriptionError("HeightMap.path", str(path), "be a file that exists")
+    return file
+
+
+def _digest(file: Path) -> str:
+    with file.open("rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+def _checked_size(given: float | Pair | None) -> Pair | None:
+    if given is None:
+        return None
+    pair = given if isinstance(given, tuple) else (given, given)
+    if len(pair) != 2 or not all(math.isfinite(d) and d > 0.0 for d in pair):
+        raise DescriptionError(
+            "HeightMap.pixel_size", given, "be one or two positive, finite lengths", unit="m"
+        )
+    return pair
+
+
+def _needed(value: Any, field: str, example: str, file: Path) -> Any:
+    if value is None:
+        raise DescriptionError(
+            f"HeightMap.{field}", None, f"be given: {file.name} does not say it",
+            hint=f"for example {field}={example}",
+        )  # fmt: skip
+    return value
+
+
+def _length_unit(unit: str | None, file: Path) -> float:
+    """Length of a unit [m]."""
+    found = parse_unit(_needed(unit, "unit", "'nm'", file))
+    if dict(found.dimension) != {"m": 1}:
+        raise DescriptionError("HeightMap.unit", unit, "be a unit of length", hint="such as 'nm'")
+    return found.factor
+
+
+def _double(field: str, value: object, file: Path) -> DescriptionError:
+    return DescriptionError(f"HeightMap.{field}", value, f"be left out: {file.name} says it itself")
+
+
+def _load_npy(file: Path) -> Array:
+    try:
+        raw = np.load(file, allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        raise DescriptionError(
+            "HeightMap.path", str(file), "be a numpy file of plain numbers", hint=str(error)
+        ) from error
+    if not isinstance(raw, np.ndarray) or raw.dtype.kind not in "fiu":
+        kind = raw.dtype if isinstance(raw, np.ndarray) else type(raw).__name__
+        raise DescriptionError("HeightMap.heights", str(kind), "be real numbers")
+    return raw.astype(np.float64)
+
+
+def _checked(heights: Array, file: Path) -> Array:
+    if heights.ndim != 2 or min(heights.shape) < 2:
+        raise DescriptionError(
+            "HeightMap.heights", f"shape {heights.shape}",
+            f"be a map (ny, nx) of at least 2 x 2 pixels in {file.name}",
+            hint="a profile along one line is no surface",
+        )  # fmt: skip
+    holes = ~np.isfinite(np.ma.filled(heights, np.nan))
+    if holes.any():
+        i, j = (int(k) for k in np.argwhere(holes)[0])
+        raise DescriptionError(
+            "HeightMap.heights", f"{int(holes.sum())} that are not, the first at [{i}, {j}]",
+            f"be finite in every pixel of {file.name}", unit="m",
+            hint="fill the holes in the instrument's software, or cut out a part without any",
+        )  # fmt: skip
+    return np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
+
+
+def _read_instrument(
+    file: Path, size: Pair | None, unit: str | None, channel: int | None
+) -> tuple[Array, Pair, str]:
+    """Heights [m], pixel size [m] and source of a file of an instrument."""
+    try:
+        from SurfaceTopography import open_topography
+        from SurfaceTopography.Exceptions import ReadFileError
+    except ImportError as error:
+        raise DescriptionError(
+            "HeightMap.path", str(file), f"end in .npy, .xyz, {', '.join(_MATRICES)}",
+            hint="files of instruments need pip install 'contactkit[maps]'",
+        ) from error  # fmt: skip
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a reader, about matters that are checked below
+            with open_topography(str(file)) as reader:
+                return _read_channel(reader, file, size, unit, channel)
+    except DescriptionError:
+        raise
+    except (ReadFileError, LookupError, OSError, ValueError, struct.error) as error:
+        raise DescriptionError(
+            "HeightMap.path", str(file), "be in a format that SurfaceTopography reads",
+            hint="export it as text or npy from the instrument's software",
+        ) from error  # fmt: skip
+
+
+def _read_channel(
+    reader: Any, file: Path, size: Pair | None, unit: str | None, channel: int | None
+) -> tuple[Array, Pair, str]:
+    # These readers take any file of some length, for lack of a mark at its beginning.
+    if reader.format() in _UNMARKED and file.suffix.lower() != f".{reader.format()}":
+        raise DescriptionError(
+            "HeightMap.path", str(file), "be in a format that says what it is",
+            hint=f"it looks like {reader.format()!r}, but only by its length",
+        )  # fmt: skip
+    channels = reader.channels
+    if channel is not None and not 0 <= channel < len(channels):
+        names = ", ".join(f"{i}: {c.name}" for i, c in enumerate(channels))
+        raise DescriptionError("HeightMap.channel", channel, f"be one of {names}")
+    info = channels[channel] if channel is not None else reader.default_channel
+    if info.dim != 2 or not getattr(info, "is_height_channel", True):
+        raise DescriptionError(
+            "HeightMap.channel", info.name, f"be a map of heights in {file.name}",
+            hint="a profile along one line is no surface; a phase or a voltage is no height",
+        )  # fmt: skip
+    if info.unit is not None and unit is not None:
+        raise _double("unit", unit, file)
+    if info.physical_sizes is not None and size is not None:
+        raise _double("pixel_size", size, file)
+    given: dict[str, Any] = {}
+    factor = 1.0
+    if info.unit is None:
+        factor, given["unit"] = _length_unit(unit, file), "m"  # numbers are converted below
+    if info.physical_sizes is None:
+        dy, dx = _needed(size, "pixel_size", "1e-9 [m]", file)
+        nx, ny = info.nb_grid_pts
+        given["physical_sizes"] = (nx * dx, ny * dy)  # needed there, but not used here
+    found = reader.topography(channel_index=info.index, **given).to_unit("m")
+    if size is None:
+        size = (factor * float(found.pixel_size[1]), factor * float(found.pixel_size[0]))
+    heights = factor * np.ma.asarray(found.heights()).T  # there, arrays are [x, y]
+    name = f"{file.name}, {info.name}" if len(channels) > 1 else file.name
+    return heights, size, name

@@ -1,0 +1,62 @@
+"""The summits of a rough surface as a population of spheres."""
+
+from __future__ import annotations
+
+from attrs import field, frozen
+
+from ..units import si
+from ..validators import non_negative, positive
+
+__all__ = ["AsperityPopulation"]
+
+
+@frozen(kw_only=True)
+class AsperityPopulation:
+    """Spherical summits of one radius on a flat face, of one height or of normal heights.
+
+    Parameters
+    ----------
+    density : float
+        Number of summits per area of the face [1/m2].
+    radius : float
+        Radius of curvature of a summit [m].
+    rms_height : float
+        Standard deviation of the heights of the summits about their mean plane [m]; 0: all are
+        equally high. That of the surface is larger, and its mean plane lies below.
+
+    Notes
+    -----
+    The three numbers depend on the shortest wave that a measurement resolves: a finer pixel has
+    more and sharper summits. Say where they come from.
+
+    Examples
+    --------
+    >>> round(AsperityPopulation(density=1e14, radius=1e-6).spacing * 1e9, 6)
+    100.0
+    """
+
+    density: float = field(validator=positive, metadata=si("1/m2"))
+    radius: float = field(validator=positive, metadata=si("m"))
+    rms_height: float = field(default=0.0, validator=non_negative, metadata=si("m"))
+
+    @property
+    def spacing(self) -> float:
+        """Side of the square that a summit has on average [m]."""
+        return float(self.density**-0.5)
+
+    @classmethod
+    def split(cls, *, radius: float, count: int) -> AsperityPopulation:
+        r"""Equal summits, n x n = `count`, side by side in place of one sphere of a radius R [m].
+
+        .. math:: R' = R/n, \qquad \text{one to each square of side } 2R/n
+
+        Eq. (3.14). Their menisci stay apart up to n = R/(2 (s - D)) only, with the height s of
+        the film and the gap D: see the cover in the results.
+
+        Examples
+        --------
+        >>> AsperityPopulation.split(radius=50e-6, count=100).radius
+        5e-06
+        """
+        side = count**0.5
+        return cls(density=count / (2.0 * radius) ** 2, radius=radius / side)

@@ -1,0 +1,126 @@
+"""What the bodies are made of: materials, and layers of them bonded to a substrate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import Attribute, field, frozen
+
+from ..units import si
+from ..validators import as_tuple, optional, part, positive, refuse
+
+__all__ = ["Layer", "Material", "Stack"]
+
+
+def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not (number and -1.0 < value <= 0.5):
+        raise refuse(owner, attribute, value, "lie above -1 and not above 0.5")
+
+
+@frozen(kw_only=True)
+class Material:
+    """An isotropic elastic material; with a hardness, elastic-perfectly plastic in contact.
+
+    Parameters
+    ----------
+    name : str
+        What it is, for tables and figures.
+    young_modulus : float
+        Young's modulus [Pa].
+    poisson_ratio : float
+        Poisson's ratio [-], above -1 and at most 0.5 (incompressible).
+    hardness : float, optional
+        Indentation hardness [Pa]; only `HardnessLimit` asks for it.
+
+    Examples
+    --------
+    >>> steel = Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+    >>> round(steel.plane_strain_modulus / 1e9, 2)
+    230.77
+    """
+
+    name: str = "material"
+    young_modulus: float = field(validator=positive, metadata=si("Pa"))
+    poisson_ratio: float = field(validator=_poisson, metadata=si("-"))
+    hardness: float | None = field(default=None, validator=optional(positive), metadata=si("Pa"))
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """Plane strain modulus E/(1 - nu^2) [Pa]: the contact modulus against a rigid body."""
+        return self.young_modulus / (1.0 - self.poisson_ratio**2)
+
+
+@frozen(kw_only=True)
+class Layer:
+    """A layer bonded to what lies below it.
+
+    Parameters
+    ----------
+    material : Material
+        What it is made of.
+    thickness : float
+        How thick it is [m].
+    """
+
+    material: Material = field(validator=part(Material))
+    thickness: float = field(validator=positive, metadata=si("m"))
+
+
+def _all_layers(owner: object, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
+    for layer in value:
+        if not isinstance(layer, Layer):
+            raise refuse(owner, attribute, layer, "hold Layer objects only")
+
+
+@frozen(kw_only=True)
+class Stack:
+    """Layers on a substrate without end.
+
+    Parameters
+    ----------
+    layers : tuple of Layer
+        From the surface down; none for a homogeneous solid.
+    substrate : Material
+        What carries them; it fills the half-space below.
+
+    Examples
+    --------
+    >>> steel = Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
+    >>> dlc = Material(name="DLC", young_modulus=280e9, poisson_ratio=0.25, hardness=24e9)
+    >>> coated = Stack(layers=(Layer(material=dlc, thickness=2e-6),), substrate=steel)
+    >>> [m.name for m in coated.materials], coated.depths
+    (['DLC', 'steel'], (2e-06,))
+    """
+
+    layers: tuple[Layer, ...] = field(default=(), converter=as_tuple, validator=_all_layers)
+    substrate: Material = field(validator=part(Material))
+
+    @property
+    def materials(self) -> tuple[Material, ...]:
+        """Materials from the surface down, the substrate last."""
+        return (*(layer.material for layer in self.layers), self.substrate)
+
+    @property
+    def young_moduli(self) -> tuple[float, ...]:
+        """Young's moduli [Pa], surface first."""
+        return tuple(m.young_modulus for m in self.materials)
+
+    @property
+    def poisson_ratios(self) -> tuple[float, ...]:
+        """Poisson's ratios [-], surface first."""
+        return tuple(m.poisson_ratio for m in self.materials)
+
+    @property
+    def thicknesses(self) -> tuple[float, ...]:
+        """Thicknesses of the layers [m], surface first."""
+        return tuple(layer.thickness for layer in self.layers)
+
+    @property
+    def depths(self) -> tuple[float, ...]:
+        """Depths of the interfaces below the layers [m]."""
+        found, depth = [], 0.0
+        for thickness in self.thicknesses:
+            depth += thickness
+            found.append(depth)
+        return tuple(found)

@@ -1,0 +1,275 @@
+"""Surfaces of bodies in contact: recipes that are made into heights on a grid when asked.
+
+A height [m] is measured out of its own body: a peak is positive. Nothing here holds an array,
+but `Heights`, which is made from one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from attrs import Attribute, field, frozen
+
+from ..errors import DescriptionError
+from ..units import si
+from ..validators import as_pair, as_tuple, choice, optional, positive, refuse
+from .shapes import Flat, Sphere
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = [
+    "SHAPES", "CombinedSurface", "GaussianRoughness", "Grid", "Heights", "Measured",
+    "Paraboloid", "SelfAffineRoughness", "Topography", "Wave",
+]  # fmt: skip
+
+
+class Grid(NamedTuple):
+    """A window cut into pixels: counts (ny, nx), pixel sizes (dy, dx) [m], edges joined or not."""
+
+    shape: tuple[int, int]
+    pixel_size: tuple[float, float]
+    periodic: bool
+
+    @property
+    def area(self) -> float:
+        """Area of the window [m2]."""
+        return self.shape[0] * self.pixel_size[0] * self.shape[1] * self.pixel_size[1]
+
+    @property
+    def pixel_area(self) -> float:
+        """Area of a pixel [m2]."""
+        return self.pixel_size[0] * self.pixel_size[1]
+
+
+def _seed(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise refuse(owner, attribute, value, "be a whole number of at least 0")
+
+
+def _length_or_pair(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    for item in value if isinstance(value, tuple) else (value,):
+        positive(owner, attribute, item)
+    if isinstance(value, tuple) and len(value) != 2:
+        raise refuse(owner, attribute, value, "be one length or a pair (along y, along x)")
+
+
+@frozen(kw_only=True)
+class GaussianRoughness:
+    """Gaussian heights with the exponential autocorrelation of Eq. (2.42).
+
+    Parameters
+    ----------
+    rms : float
+        Standard deviation of the heights [m], of the waves longer than `cutoff`.
+    correlation_length : float or (float, float)
+        Length beta* at which the autocorrelation has fallen to 10 % [m]; a pair is (along y,
+        along x). The decay length is beta*/2.3.
+    cutoff : float
+        Shortest wavelength the surface has [m]. This autocorrelation has no finite slope: without
+        a cut-off, area, pressure and stress are properties of the grid.
+    seed : int
+        Which surface of this kind.
+    """
+
+    rms: float = field(validator=positive, metadata=si("m"))
+    correlation_length: float | tuple[float, float] = field(
+        converter=as_pair, validator=_length_or_pair, metadata=si("m")
+    )
+    cutoff: float = field(validator=positive, metadata=si("m"))
+    seed: int = field(default=1, validator=_seed, metadata=si("-"))
+
+
+@frozen(kw_only=True)
+class SelfAffineRoughness:
+    """Gaussian heights with a power-law spectrum between two wavelengths.
+
+    Parameters
+    ----------
+    rms : float
+        Standard deviation of the heights [m].
+    hurst : float
+        Hurst exponent [-], 0 to 1.
+    rolloff : float
+        Wavelength above which the spectrum is flat [m].
+    cutoff : float
+        Shortest wavelength the surface has [m].
+    seed : int
+        Which surface of this kind.
+    """
+
+    rms: float = field(validator=positive, metadata=si("m"))
+    hurst: float = field(metadata=si("-"))
+    rolloff: float = field(validator=positive, metadata=si("m"))
+    cutoff: float = field(validator=positive, metadata=si("m"))
+    seed: int = field(default=1, validator=_seed, metadata=si("-"))
+
+    @hurst.validator
+    def _check_hurst(self, attribute: Attribute[Any], value: Any) -> None:
+        positive(self, attribute, value)
+        if value > 1.0:
+            raise refuse(self, attribute, value, "lie above 0 and not above 1")
+
+    def __attrs_post_init__(self) -> None:
+        if self.cutoff >= self.rolloff:
+            raise DescriptionError(
+                "SelfAffineRoughness.cutoff",
+                self.cutoff,
+                f"be smaller than rolloff = {self.rolloff:g} m",
+                unit="m",
+            )
+
+
+@frozen(kw_only=True)
+class Wave:
+    """A wavy surface ``amplitude*cos(2 pi x/wavelength)``, or the product of two such waves.
+
+    Parameters
+    ----------
+    amplitude : float
+        Half of the height between trough and crest [m].
+    wavelength : float
+        Length of the wave along x [m].
+    wavelength_y : float, optional
+        Length of the wave along y [m]; the heights are then the product of both cosines.
+    """
+
+    amplitude: float = field(validator=positive, metadata=si("m"))
+    wavelength: float = field(validator=positive, metadata=si("m"))
+    wavelength_y: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
+
+
+@frozen(kw_only=True)
+class Paraboloid:
+    """The body of Hertz's theory, ``-x^2/(2 R_x) - y^2/(2 R_y)``.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature at the apex along x [m].
+    radius_y : float, optional
+        The same along y [m]; None: as along x.
+    """
+
+    radius: float = field(validator=positive, metadata=si("m"))
+    radius_y: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
+
+
+@frozen(kw_only=True)
+class Measured:
+    """A height map from a file: the formats of instruments, npy, or plain columns of text.
+
+    Parameters
+    ----------
+    path : str
+        The file. Formats of instruments need the extra ``contactkit[maps]``.
+    pixel_size : float or (float, float), optional
+        Size of a pixel [m], a pair is (along y, along x); for files that do not say it.
+    unit : str, optional
+        Unit of the heights, for files that do not say it.
+    detrend : {"tilt", "none", "mean", "curvature"}
+        What is taken off by least squares.
+    flipped : bool
+        Whether the map shows the counter body as a mould, so that its valleys are the peaks.
+    checksum : str, optional
+        SHA-256 of the file; a file that differs is refused.
+    """
+
+    path: str
+    pixel_size: float | tuple[float, float] | None = field(
+        default=None, converter=as_pair, validator=optional(_length_or_pair), metadata=si("m")
+    )
+    unit: str | None = None
+    detrend: Literal["tilt", "none", "mean", "curvature"] = field(
+        default="tilt", validator=choice("tilt", "none", "mean", "curvature")
+    )
+    flipped: bool = False
+    checksum: str | None = None
+
+
+def _as_map(value: Any) -> Map:
+    import numpy as np
+
+    given = np.asarray(value)
+    if given.dtype.kind not in "fiu":
+        raise DescriptionError(
+            "Heights.heights", value if given.ndim == 0 else f"an array of {given.dtype}",
+            "be an array of real numbers", unit="m",
+            hint="for a file use Measured(path=...)",
+        )  # fmt: skip
+    made = np.array(given, dtype=float, order="C")
+    made.flags.writeable = False
+    return made
+
+
+@frozen(kw_only=True, eq=False)
+class Heights:
+    """Heights in hand, for people who come with an array.
+
+    Parameters
+    ----------
+    heights : array_like (ny, nx)
+        Heights out of the body [m], peaks positive.
+    pixel_size : float or (float, float)
+        Size of a pixel [m]; a pair is (dy, dx).
+    """
+
+    heights: Map = field(converter=_as_map, repr=False, metadata=si("m"))
+    pixel_size: float | tuple[float, float] = field(
+        converter=as_pair, validator=_length_or_pair, metadata=si("m")
+    )
+
+    @heights.validator
+    def _check_heights(self, attribute: Attribute[Any], value: Map) -> None:
+        import numpy as np
+
+        if value.ndim != 2 or min(value.shape) < 2:
+            raise DescriptionError(
+                "Heights.heights", f"an array of shape {value.shape}",
+                "have two dimensions (ny, nx) of at least 2 pixels each", unit="m",
+            )  # fmt: skip
+        if not np.isfinite(value).all():
+            first = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
+            n = int((~np.isfinite(value)).sum())
+            raise DescriptionError(
+                "Heights.heights", float(value[first]), f"be finite everywhere; at [y, x] = "
+                f"{list(first)} and {n - 1} more pixels they are not", unit="m",
+                hint="fill the holes of the measurement first",
+            )  # fmt: skip
+
+    @property
+    def checksum(self) -> str:
+        """SHA-256 of the heights."""
+        return hashlib.sha256(self.heights.tobytes()).hexdigest()
+
+
+Shape = (
+    Flat | Sphere | Paraboloid | Wave | GaussianRoughness | SelfAffineRoughness | Measured | Heights
+)
+SHAPES: tuple[type, ...] = Shape.__args__
+
+
+@frozen(kw_only=True)
+class CombinedSurface:
+    """Shapes added up, such as a rough sphere.
+
+    Parameters
+    ----------
+    parts : tuple of shapes
+        What is added.
+    """
+
+    parts: tuple[Shape, ...] = field(converter=as_tuple)
+
+    @parts.validator
+    def _check_parts(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
+        for item in value:
+            if not isinstance(item, SHAPES):
+                raise refuse(self, attribute, item, "hold shapes only")
+
+
+Topography = Shape | CombinedSurface

@@ -1,0 +1,120 @@
+"""How far the film reaches, as the viscous force and its limits see it: with an upright rim."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...lubrication import squeeze_film as squeeze
+
+if TYPE_CHECKING:
+    from ...scene.scenes import SeparationScene, SlidingScene
+
+__all__ = ["FilmShape", "film_shape", "needs_extent"]
+
+
+class FilmShape(NamedTuple):
+    """One of `menisci` equal films.
+
+    `radius` is the distance from the axis to the rim of the film [m] at a gap, `height` the
+    thickness of the film there [m]; the film is pinned at `rim` below `full_gap`. `level` is the
+    height [m] that the rim of a film of fixed pressure keeps; inf for films of a given volume.
+    """
+
+    menisci: int
+    volume: float
+    rim: float
+    full_gap: float
+    sphere_radius: float
+    radius: Callable[[float], float]
+    height: Callable[[float], float]
+    level: float = math.inf
+
+
+def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+    """Ask for a volume or a rim where the film between two flats would have no end."""
+    interface = scene.interface
+    meniscus = interface.meniscus
+    if meniscus.pressure is not None:
+        if interface.is_flat:
+            return ("interface.meniscus.volume [m3] between flats",)
+        wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
+        if meniscus.liquid.at(scene.temperature).surface_tension is None:
+            return ("liquid.surface_tension [N/m], for the height of a film of fixed pressure",)
+        return () if wetting > 0.0 else ("contact angles that add up to less than 180 deg",)
+    if interface.is_flat and meniscus.volume is None and math.isinf(interface.rim_radius):
+        return ("interface.meniscus.volume [m3], or the radius [m] of a Flat face",)
+    return ()
+
+
+def film_shape(
+    scene: SeparationScene | SlidingScene, *, constant_radius: bool = False
+) -> FilmShape:
+    """Shape of one film of the scene; with `constant_radius` it never draws in."""
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    n = meniscus.count
+    volume = math.inf if meniscus.volume is None else meniscus.volume / n
+    # The faces are shared out: n films, each with its part of the area.
+    rim = interface.rim_radius / math.sqrt(n)
+    if meniscus.pressure is not None:
+        return _at_pressure(scene, rim)
+    if interface.is_flat:
+        return _between_flats(n, volume, rim, scene.initial_gap, constant_radius)
+    return _under_sphere(
+        n, volume, rim, interface.sphere_radius, scene.initial_gap, constant_radius
+    )
+
+
+def _between_flats(n: int, volume: float, rim: float, start: float, constant: bool) -> FilmShape:
+    if constant:
+        rim, volume = min(rim, squeeze.disc_radius(volume, start)), math.inf
+    full_gap = volume / (math.pi * rim * rim) if math.isfinite(rim) else 0.0
+
+    def radius(gap: float) -> float:
+        return rim if gap <= full_gap else float(squeeze.disc_radius(volume, gap))
+
+    return FilmShape(n, volume, rim, full_gap, math.inf, radius, lambda gap: gap)
+
+
+def _under_sphere(
+    n: int, volume: float, rim: float, sphere: float, start: float, constant: bool
+) -> FilmShape:
+    def free_height(gap: float) -> float:
+        return float(squeeze.sphere_film_height(gap, volume, sphere))
+
+    if constant:
+        rim, volume = min(rim, math.sqrt(2.0 * sphere * (free_height(start) - start))), math.inf
+    sag = rim * rim / (2.0 * sphere)
+    # Full to the rim while D^2 + V/(pi R) >= (D + sag)^2.
+    full_gap = 0.5 * (volume / (math.pi * sphere * sag) - sag) if 0.0 < sag < math.inf else 0.0
+    full_gap = max(full_gap, 0.0)
+
+    def height(gap: float) -> float:
+        return gap + sag if gap < full_gap or math.isinf(volume) else free_height(gap)
+
+    def radius(gap: float) -> float:
+        return math.sqrt(2.0 * sphere * max(height(gap) - gap, 0.0))
+
+    return FilmShape(n, volume, rim, full_gap, sphere, radius, height)
+
+
+def _at_pressure(scene: SeparationScene | SlidingScene, rim: float) -> FilmShape:
+    """Film under a sphere whose rim keeps its height: that of the hollow arc of its pressure."""
+    meniscus, sphere = scene.interface.meniscus, scene.interface.sphere_radius
+    tension = meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None  # plan() has asked lacks() first
+    assert meniscus.pressure is not None
+    wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
+    level = -tension * wetting / meniscus.pressure
+
+    sag = rim * rim / (2.0 * sphere)
+
+    def height(gap: float) -> float:
+        return max(min(level, gap + sag), gap)
+
+    def radius(gap: float) -> float:
+        return math.sqrt(2.0 * sphere * (height(gap) - gap))
+
+    full_gap = max(level - sag, 0.0)
+    return FilmShape(meniscus.count, math.inf, rim, full_gap, sphere, radius, height, level=level)

@@ -1,0 +1,185 @@
+"""The meniscus force between flats: free at constant volume, or held by the rim of the faces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...capillary.arc import flat as arc_flat
+from ...capillary.flats import force_law as flat_law
+from ...numerics.roots import bracketed_root
+from .base import ForceLaw
+from .film_shape import FilmShape, film_shape
+
+if TYPE_CHECKING:
+    from ...accuracy import Accuracy
+    from ...scene.scenes import SeparationScene
+
+__all__ = ["arc_law", "exact_end", "exact_law", "series_by_differences", "surface_tension"]
+
+Curve = Callable[[float], float]
+Series = flat_law.Series
+
+_NEAR = 1e-4  # share of the gap for differences: second ones are good to 1e-8 of the force
+
+
+class _Film(NamedTuple):
+    """Force over surface tension [m] of one film in both its states, over the gap [m].
+
+    `pinned_volume` [m3] is that of the film which reaches the rim. With the series of both, what
+    `force` gives is there with its slopes, over the whole.
+    """
+
+    free: Curve
+    pinned: Curve
+    pinned_volume: Curve
+    free_end: float
+    pinned_end: float
+    free_series: Series | None = None
+    pinned_series: Series | None = None
+
+
+def surface_tension(scene: SeparationScene) -> float:
+    """Surface tension [N/m] of the liquid of a scene that has one."""
+    tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None  # plan() has asked lacks() first
+    return tension
+
+
+def _angles(scene: SeparationScene) -> tuple[float, float]:
+    meniscus = scene.interface.meniscus
+    return meniscus.contact_angle_lower, meniscus.contact_angle_upper
+
+
+def _nothing(gap: float) -> float:
+    raise AssertionError("a film without this state was asked for it")
+
+
+def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    """Force of the exact bridge, which ends where it loses stability."""
+    film, angles = film_shape(scene), _angles(scene)
+    rtol = max(0.1 * accuracy.time_rtol, 1e-11)
+    free: Curve = _nothing
+    pinned: Curve = _nothing
+    pinned_volume: Curve = _nothing
+    free_end = pinned_end = math.inf
+    free_series: Series | None = None
+    pinned_series: Series | None = None
+    whole = film.menisci * surface_tension(scene)
+    if math.isfinite(film.volume):
+        bridges = flat_law.flat_law(*angles, rtol=rtol)
+        size = math.cbrt(film.volume)
+        free, free_end = _sized(bridges.force, size, size), bridges.end * size
+        free_series = bridges.series(size, whole)
+    if math.isfinite(film.rim):
+        held = flat_law.flat_law(*angles, pinned=True, rtol=rtol)
+        pinned = _sized(held.force, film.rim, film.rim)
+        pinned_volume = _sized(held.volume, film.rim, film.rim**3)
+        pinned_end = held.end * film.rim
+        pinned_series = held.series(film.rim, whole)
+    both = _Film(
+        free, pinned, pinned_volume, free_end, pinned_end, free_series, pinned_series
+    )  # fmt: skip
+    return _law(both, film, surface_tension(scene))
+
+
+def _sized(curve: Curve, length: float, factor: float) -> Curve:
+    """Curve of a pure number over a pure number, for a size."""
+    return lambda gap: factor * curve(gap / length)
+
+
+def exact_end(scene: SeparationScene) -> float:
+    """Gap [m] at which the exact bridge loses stability, without the forces on the way."""
+    film, angles = film_shape(scene), _angles(scene)
+    if math.isinf(film.rim):
+        return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
+    longest, volume = flat_law.flat_end(*angles, pinned=True)
+    if film.volume >= volume * film.rim**3:
+        return longest * film.rim
+    return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
+
+
+def arc_law(scene: SeparationScene) -> ForceLaw:
+    """Force of the arc, which ends where its neck closes."""
+    film = film_shape(scene)
+    arc = arc_flat.shape(*_angles(scene))
+    volume, rim = film.volume, film.rim
+    free, pinned = math.isfinite(volume), math.isfinite(rim)
+
+    def free_force(gap: float) -> float:
+        return float(arc_flat.force(arc, gap, arc_flat.contact_radius(arc, gap, volume)))
+
+    def pinned_force(gap: float) -> float:
+        return float(arc_flat.force(arc, gap, arc_flat.rim_contact_radius(arc, gap, rim)))
+
+    def pinned_volume(gap: float) -> float:
+        return float(arc_flat.volume(arc, gap, arc_flat.rim_contact_radius(arc, gap, rim)))
+
+    both = _Film(
+        free_force,
+        pinned_force,
+        pinned_volume,
+        float(arc_flat.zero_neck_gap(arc, volume)) if free else math.inf,
+        arc_flat.zero_neck_gap_at_rim(arc, rim) if pinned else math.inf,
+    )
+    return _law(both, film, surface_tension(scene))
+
+
+def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
+    """Join both states where the liquid just reaches the rim."""
+    n = film.menisci
+    free, pinned = math.isfinite(film.volume), math.isfinite(film.rim)
+    full_gap = _full_gap(both, film) if free and pinned else 0.0
+    if not free:
+        full_gap = math.inf
+    end = both.pinned_end if full_gap >= both.pinned_end else both.free_end
+    last = end * (1.0 - 1e-12)  # a trial step may look beyond the end: the force stays as there
+
+    def force(gap: float, speed: float) -> float:
+        gap = min(gap, last)
+        return n * tension * (both.pinned(gap) if gap < full_gap else both.free(gap))
+
+    kinks = (full_gap,) if 0.0 < full_gap < end else ()
+    first, second = both.pinned_series, both.free_series
+    if first is None and second is None:
+        return ForceLaw(force, kinks, end=end, series=series_by_differences(force, (*kinks, last)))
+
+    def series(gap: float) -> tuple[float, float, float] | None:
+        one = first if gap < full_gap else second
+        return one(gap) if one is not None and gap < last else None
+
+    return ForceLaw(force, kinks, end=end, series=series)
+
+
+def series_by_differences(
+    force: Callable[[float, float], float], kinks: tuple[float, ...]
+) -> Series:
+    """Series of an explicit law of the gap; none next to a kink."""
+
+    def series(gap: float) -> tuple[float, float, float] | None:
+        near = _NEAR * gap
+        for kink in kinks:
+            if abs(kink - gap) <= near:
+                return None
+        low, here, high = force(gap - near, 0.0), force(gap, 0.0), force(gap + near, 0.0)
+        return here, 0.5 * (high - low) / _NEAR, ((high - here) - (here - low)) / _NEAR**2
+
+    return series
+
+
+def _full_gap(both: _Film, film: FilmShape) -> float:
+    """Gap [m] below which a film of this volume reaches the rim of the faces; inf for always."""
+
+    def excess(gap: float) -> float:
+        return both.pinned_volume(gap) / film.volume - 1.0
+
+    last = min(both.free_end, both.pinned_end) * (1.0 - 1e-9)
+    low = high = min(film.volume / (math.pi * film.rim * film.rim), last)
+    while excess(low) > 0.0:
+        low *= 0.5
+    while excess(high) < 0.0:
+        if high >= last:
+            return math.inf
+        high = min(2.0 * high, last)
+    return bracketed_root(excess, low, high)

@@ -1,0 +1,141 @@
+"""The state of the motion, and the forces that belong to it: plain numbers, ready to be saved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import IntEnum
+from typing import NamedTuple
+
+from attrs import field, frozen
+
+from ...units import si
+from ..effects.registry import SeparationEffect, ShearLimit, TensionLimit
+from ..plan import Plan
+
+__all__ = [
+    "LIMITS",
+    "Drive",
+    "FilmStatus",
+    "LimitKind",
+    "MotionState",
+    "Outputs",
+    "Pull",
+    "outputs",
+    "start",
+]
+
+Drive = Callable[[float], float]
+"""Pull [N] at a time [s]; a `Pull`, or any function that is smooth within a step."""
+
+
+class FilmStatus(IntEnum):
+    """What the film does."""
+
+    CONTACT = 1
+    STUCK = 2
+    FULL = 3
+    BRIDGE = 4
+    BROKEN = 5
+
+
+class LimitKind(IntEnum):
+    """Which limit of the liquid acts."""
+
+    NONE = 1
+    TENSION = 2
+    SHEAR = 3
+
+
+LIMITS: dict[type[SeparationEffect] | None, LimitKind] = {
+    None: LimitKind.NONE,
+    TensionLimit: LimitKind.TENSION,
+    ShearLimit: LimitKind.SHEAR,
+}
+"""Kind of a limit that acts, by its effect."""
+
+
+@frozen
+class Pull:
+    """A pull that changes linearly in time: force [N] at a time [s] and its rate [N/s]."""
+
+    force: float = field(metadata=si("N"))
+    rate: float = field(default=0.0, metadata=si("N/s"))
+    time: float = field(default=0.0, metadata=si("s"))
+
+    def __call__(self, time: float, /) -> float:
+        """Pull [N] at a time [s]."""
+        return self.force + self.rate * (time - self.time)
+
+
+class MotionState(NamedTuple):
+    """Everything the motion remembers; SI units, times -1 before the event."""
+
+    time: float
+    gap: float
+    speed: float
+    share: float = 1.0  # volume of the film, as a share of the scene's
+    broken: bool = False
+    held: bool = False  # resting on the asperities
+    armed: bool = True  # closed since the last release, so that the next one counts
+    viscous_impulse: float = 0.0
+    meniscus_impulse: float = 0.0
+    dissipated_work: float = 0.0
+    given_impulse: float = 0.0  # sum of all |force| dt, the scale of the momentum error
+    break_time: float = -1.0
+    release_time: float = -1.0
+    release_speed: float = 0.0
+    n_breaks: int = 0
+    n_releases: int = 0
+    peak_force: float = 0.0
+    peak_time: float = -1.0
+    step: float = 0.0  # length of the next internal step
+    n_steps: int = 0
+    n_rejected: int = 0
+    n_evaluations: int = 0
+    detached: bool = False  # the solids have let go of each other
+    van_der_waals_impulse: float = 0.0
+    adhesion_impulse: float = 0.0
+    asperity_impulse: float = 0.0
+
+
+class Outputs(NamedTuple):
+    """Forces [N] at a state, positive where they resist opening.
+
+    `static` is the sum of those that do not depend on speed: the meniscus, and the solids.
+    """
+
+    film: float
+    static: float
+    viscous: float
+    status: FilmStatus
+    limit: LimitKind
+
+
+_NOTHING = Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
+
+
+def start(plan: Plan) -> MotionState:
+    """State of a scene at time 0."""
+    opening = plan.scene.opening
+    held = opening.rest_gap >= opening.initial_gap and opening.initial_speed <= 0.0
+    return MotionState(0.0, opening.initial_gap, 0.0 if held else opening.initial_speed, held=held)
+
+
+def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
+    """Forces at a state under a pull [N], and what they mean."""
+    opening = plan.scene.opening
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    if film is None:
+        return _NOTHING
+    gap, speed = state.gap, state.speed
+    static, viscous, acting = film.forces(gap, speed)
+    net = pull - opening.stiffness * (gap - opening.initial_gap) - static
+    if speed <= 0.0 < pull and net <= 0.0:
+        status = FilmStatus.STUCK
+    elif state.held:
+        status = FilmStatus.CONTACT
+    elif state.broken:
+        status = FilmStatus.BROKEN
+    else:
+        status = FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE
+    return Outputs(static + viscous, static, viscous, status, LIMITS[acting])

@@ -1,0 +1,156 @@
+"""Separations of which the motion is given: forces at a speed, the impulse within a time."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .effects.registry import ViscousForce
+from .film import Film, impulse_name
+from .motion.state import LIMITS, FilmStatus
+from .plan import Plan
+from .results import SeparationResult, Work
+from .validity import check, path_of
+
+__all__ = ["at_speed", "frozen", "newtonian_impulses", "simulated", "within_time"]
+
+
+def frozen(values: object) -> NDArray[np.float64]:
+    """Make a read-only array of a curve."""
+    array = np.array(values, dtype=np.float64)
+    array.flags.writeable = False
+    return array
+
+
+def _grid(plan: Plan) -> list[float]:
+    """Gaps of a curve, closer where the film is thin, up to the end of all forces.
+
+    Where something lets go before, the last gap that it spans is one of them.
+    """
+    opening, film = plan.scene.opening, plan.film
+    low, high = opening.initial_gap, opening.final_gap
+    if film.left(broken=True, detached=False) is None:  # no force of the solids is left
+        high = min(high, film.end)
+    # An offset keeps the first step finite where the curve begins at a touching sphere.
+    offset = 0.0 if low > 0.0 else 1e-3 * high
+    gaps = np.geomspace(low + offset, high + offset, max(plan.accuracy.points, 2)) - offset
+    gaps[0], gaps[-1] = low, high
+    ends = {end for end in (film.end, film.release) if low < end < high}
+    return sorted({*map(float, gaps), *ends})
+
+
+def acting(plan: Plan, gap: float) -> Film | None:
+    """What acts at a gap [m] of a plan that is opened once."""
+    film = plan.film
+    return plan.film_left(1.0, broken=gap > film.end, detached=gap > film.release)
+
+
+def at_speed(plan: Plan, begun: float) -> SeparationResult:
+    """Forces along the gap at an imposed speed."""
+    opening = plan.scene.opening
+    speed = opening.speed or 0.0
+    gaps = _grid(plan)
+    rows = [_forces(plan, gap, speed) for gap in gaps]
+    columns = {
+        "time": frozen([(gap - opening.initial_gap) / speed for gap in gaps]),
+        "gap": frozen(gaps),
+        "speed": frozen([speed] * len(gaps)),
+        "pull": frozen([row["pull"] for row in rows]),
+        "film_status": frozen([row["film_status"] for row in rows]),
+    } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
+    impulses = {}
+    film = plan.film
+    for kind, law in film.laws.items():
+        if kind is not ViscousForce:
+            end = min(law.release, film.end if kind.needs_film else math.inf)
+            running = _running(law.force, speed, gaps, end)
+            impulses[impulse_name(kind.column)] = running[-1]
+    if plan.has(ViscousForce):
+        running = _running(lambda gap, v: film.viscous_force(gap, v)[0], speed, gaps, film.end)
+        columns["viscous_impulse"] = frozen(running)
+        impulses |= newtonian_impulses(plan)
+        if plan.film.limits:
+            impulses["viscous_impulse"] = running[-1]
+    validity = check(plan, path_of(plan, columns))
+    work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
+    message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m"
+    return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
+
+
+def simulated(plan: Plan) -> list[str]:
+    """Names of the curves that the effects of a plan give."""
+    names = list(plan.film.static_columns)
+    if plan.has(ViscousForce):
+        names += ["viscous_force", "newtonian_force"]
+    if plan.film.limits:
+        names.append("limit")
+    return names
+
+
+def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
+    film, broken = acting(plan, gap), gap > plan.film.end
+    row = dict.fromkeys(plan.film.static_columns, 0.0)
+    row |= film.static_forces(gap) if film is not None else {}
+    static = sum(row.values())
+    viscous, limit = film.viscous_force(gap, speed) if film is not None else (0.0, None)
+    row |= {"pull": static + viscous, "viscous_force": viscous, "newtonian_force": 0.0}
+    if plan.has(ViscousForce) and not broken:
+        row["newtonian_force"] = plan.film.laws[ViscousForce].force(gap, speed)
+    row["limit"] = float(LIMITS[limit])
+    whole = FilmStatus.FULL if gap <= plan.film.full_gap else FilmStatus.BRIDGE
+    row["film_status"] = float(FilmStatus.BROKEN if broken else whole)
+    return row
+
+
+def _running(
+    force: Callable[[float, float], float], speed: float, gaps: list[float], end: float
+) -> list[float]:
+    """Time integral of a force [N.s] up to each gap of a curve, at an imposed speed.
+
+    The force lasts to the gap `end` [m], which is one of the curve if it lies within.
+    """
+    from scipy.integrate import quad
+
+    total, found = 0.0, [0.0]
+    for a, b in pairwise(gaps):
+        if a >= end:
+            found.append(total)
+            continue
+        # Relative to the largest value there could be, as a force may change its sign.
+        floor = 1e-13 * b * max(abs(force(a, speed)), abs(force(b, speed)))
+        total += quad(force, a, b, (speed,), epsabs=floor, epsrel=1e-10, limit=500)[0] / speed
+        found.append(total)
+    return found
+
+
+def newtonian_impulses(plan: Plan) -> dict[str, float]:
+    """Impulse [N.s] of the film without limits; no path in time changes it."""
+    opening, impulse = plan.scene.opening, plan.film.laws[ViscousForce].impulse
+    assert impulse is not None  # a viscous force always has one
+    value = impulse(opening.initial_gap, min(opening.final_gap, plan.film.end))
+    return {"viscous_impulse": value, "newtonian_impulse": value}
+
+
+def within_time(plan: Plan, begun: float) -> SeparationResult:
+    """Impulse and mean force of an opening of which only the duration is given."""
+    gaps = _grid(plan)
+    columns = {"gap": frozen(gaps)}
+    rows = [_forces(plan, gap, 0.0) for gap in gaps] if plan.film.static_columns else []
+    columns |= {name: frozen([row[name] for row in rows]) for name in plan.film.static_columns}
+    impulses = {}
+    if plan.has(ViscousForce):
+        impulses = newtonian_impulses(plan)
+        impulse = plan.film.laws[ViscousForce].impulse
+        assert impulse is not None
+        last = plan.film.end
+        columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
+    opening = plan.scene.opening
+    validity = check(plan, path_of(plan, columns))
+    work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
+    message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {opening.time:g} s"
+    return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

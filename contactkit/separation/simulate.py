@@ -1,0 +1,226 @@
+"""Run a plan: the curve of a speed, the impulse of a time, or the motion under a pull."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable
+from typing import TYPE_CHECKING, overload
+
+from ..errors import ConvergenceError
+from .effects.registry import ViscousForce
+from .film import impulse_name
+from .motion.advance import advance, rest_once, step_once
+from .motion.state import MotionState, outputs, start
+from .plan import Plan
+from .prescribed import at_speed, frozen, newtonian_impulses, simulated, within_time
+from .results import SeparationResult, Work
+from .sliding.plan import SlidingPlan
+from .sliding.result import SlidingResult
+from .sliding.run import slide
+from .validity import check, path_of, warn
+from .vibration import vibrating
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["advance", "simulate"]
+
+Progress = Callable[[float], None]
+"""Called now and then with the share of the run that is done, 0 to 1."""
+
+
+@overload
+def simulate(
+    plan: Plan, *, throw: bool = True, progress: Progress | None = None
+) -> SeparationResult: ...
+
+
+@overload
+def simulate(
+    plan: SlidingPlan, *, throw: bool = True, progress: Progress | None = None
+) -> SlidingResult: ...
+
+
+def simulate(
+    plan: Plan | SlidingPlan, *, throw: bool = True, progress: Progress | None = None
+) -> SeparationResult | SlidingResult:
+    """Run a plan.
+
+    Parameters
+    ----------
+    plan : Plan or SlidingPlan
+        What to run.
+    throw : bool
+        Raise where an integration does not reach its tolerance; otherwise return what was
+        reached, with status ``not converged``.
+    progress : callable, optional
+        Called with the share that is done.
+
+    Returns
+    -------
+    SeparationResult or SlidingResult
+        Curves, numbers, validity and cost.
+
+    Raises
+    ------
+    ConvergenceError
+        If no step of time meets the tolerance; carries the result so far.
+    """
+    begun = clock.perf_counter()
+    if isinstance(plan, SlidingPlan):
+        slid = slide(plan, begun)
+        warn(slid.validity)
+        return slid
+    imposed = plan.scene.opening.imposed
+    if imposed == "force":
+        result = _motion(plan, begun, throw, progress)
+    elif plan.scene.opening.vibration is not None:
+        result = vibrating(plan, begun)
+    elif imposed == "speed":
+        result = at_speed(plan, begun)
+    else:
+        result = within_time(plan, begun)
+    warn(result.validity)
+    return result
+
+
+def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) -> SeparationResult:
+    """Motion of a mass under a pull, one internal step at a time, to its release."""
+    opening = plan.scene.opening
+    pull = drive(plan)
+    states = [start(plan)]
+    problem = None
+    while states[-1].n_releases == 0 and states[-1].time < opening.time_limit:
+        if len(states) > plan.accuracy.max_steps:
+            problem = (
+                f"not released after {plan.accuracy.max_steps} steps; raise Accuracy.max_steps"
+            )
+            break
+        if _is_stuck(plan, states, pull):
+            break
+        try:
+            states.append(_one_step(plan, states[-1], pull))
+        except ConvergenceError as error:
+            problem = str(error)
+            break
+        if progress is not None and len(states) % 64 == 0:
+            progress(_share(plan, states[-1]))
+    result = _motion_result(plan, states, pull, begun, problem)
+    if problem is not None and throw:
+        raise ConvergenceError(problem, result)
+    return result
+
+
+def drive(plan: Plan) -> Callable[[float], float]:
+    """Pull [N] of the scene at a time [s]."""
+    force, rise = plan.scene.opening.force or 0.0, plan.scene.opening.rise_time
+    if rise == 0.0:
+        return lambda time: force
+    return lambda time: -force * math.expm1(-time / rise)
+
+
+def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
+    """Advance by one internal step, or to the next event."""
+    end = plan.scene.opening.time_limit
+    one = rest_once if state.held else step_once
+    return one(plan, state, pull, end)
+
+
+def _share(plan: Plan, state: MotionState) -> float:
+    opening = plan.scene.opening
+    share = math.log(max(state.gap / opening.initial_gap, 1.0))
+    return min(share / math.log(opening.final_gap / opening.initial_gap), 1.0)
+
+
+def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:
+    """Whether the pull, once risen, can never open the gap from here."""
+    state, opening = states[-1], plan.scene.opening
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    if film is None or len(states) < 2:
+        return False
+    if opening.rise_time and state.time < 40.0 * opening.rise_time:
+        return False
+    held = film.static_force(state.gap) + opening.stiffness * (state.gap - opening.initial_gap)
+    return pull(state.time) <= held and state.speed <= 0.0 and state.gap <= opening.initial_gap
+
+
+def _motion_result(
+    plan: Plan,
+    states: list[MotionState],
+    pull: Callable[[float], float],
+    begun: float,
+    problem: str | None,
+) -> SeparationResult:
+    last = states[-1]
+    named = [impulse_name(column) for column in plan.film.static_columns]
+    impulses = {name: getattr(last, name) for name in named if name in last._fields}
+    if plan.has(ViscousForce):
+        impulses |= newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
+    status, message = _outcome(plan, last, pull(last.time), problem)
+    work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
+    columns = _columns(plan, states, pull)
+    validity = check(plan, path_of(plan, columns))
+    return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
+
+
+def _columns(
+    plan: Plan, states: list[MotionState], pull: Callable[[float], float]
+) -> dict[str, NDArray[np.float64]]:
+    """Curves along the states of a motion."""
+    rows = [outputs(plan, state, pull(state.time)) for state in states]
+    columns = {
+        "time": frozen([s.time for s in states]),
+        "gap": frozen([s.gap for s in states]),
+        "speed": frozen([s.speed for s in states]),
+        "pull": frozen([pull(s.time) for s in states]),
+        "film_status": frozen([row.status for row in rows]),
+    }
+    static = [_static_forces(plan, state) for state in states]
+    curves = {name: [row[name] for row in static] for name in plan.film.static_columns} | {
+        "viscous_force": [row.viscous for row in rows],
+        "newtonian_force": [_newtonian_force(plan, s) for s in states],
+        "limit": [row.limit for row in rows],
+    }
+    columns |= {name: frozen(curves[name]) for name in simulated(plan)}
+    if plan.has(ViscousForce):
+        columns["viscous_impulse"] = frozen([s.viscous_impulse for s in states])
+    return columns
+
+
+def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) -> tuple[str, str]:
+    """Status of a motion, and the same as a sentence with its cure."""
+    limit = plan.scene.opening.time_limit
+    if last.n_releases:
+        return (
+            "released",
+            f"released after {last.release_time:.6g} s at {last.release_speed:.4g} m/s",
+        )
+    if problem is not None:
+        return "not converged", problem
+    if last.time >= limit:
+        return (
+            "time limit",
+            f"not released within Opening.time_limit = {limit:g} s; gap {last.gap:g} m",
+        )
+    held = outputs(plan, last, pull).static
+    what = " and ".join(name.removesuffix("_force") for name in plan.film.static_columns)
+    return (
+        "stuck",
+        f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the "
+        f"{what.replace('_', ' ')} at {last.gap:g} m; pull harder, or start from a larger gap",
+    )
+
+
+def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:
+    """Each force [N] that does not depend on speed, 0 where it has ended."""
+    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    none = dict.fromkeys(plan.film.static_columns, 0.0)
+    return none | (film.static_forces(state.gap) if film is not None else {})
+
+
+def _newtonian_force(plan: Plan, state: MotionState) -> float:
+    if state.broken or not plan.has(ViscousForce):
+        return 0.0
+    return plan.film_with(state.share).laws[ViscousForce].force(state.gap, state.speed)

@@ -1,0 +1,254 @@
+"""The physics of a sliding: the drag of the film, and contact lines that stick."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+from attrs import Attribute, field, frozen
+
+from ...as_published.printed.errata import ERRATA
+from ...errors import DescriptionError
+from ...units import si
+from ...validators import angle, choice, optional, positive, refuse
+from ..effects.base import SeparationEffect
+from ..effects.film_shape import FilmShape, film_shape
+from ..effects.viscous import ShearLimit
+from .zz_sliding_base import SlideLaw, SlidingForce
+
+if TYPE_CHECKING:
+    from ...accuracy import Accuracy
+    from ...scene.scenes import SeparationScene, SlidingScene
+
+__all__ = ["SLIDING_EFFECTS", "ContactAngleHysteresis", "CouetteForce"]
+
+
+@frozen(kw_only=True)
+class CouetteForce(SlidingForce):
+    """Drag of a Newtonian film over the area in which the wetted circles still overlap.
+
+    Parameters
+    ----------
+    closure : {"local-film", "lubrication", "as-published"}
+        Under a sphere: ``"local-film"``, shear of the film as thick as it is at each place;
+        ``"lubrication"``, with the pressure that the sphere makes as well, by the closed form of
+        the round film, once the circles have moved apart in proportion to the shear (within 4 %
+        up to half of the travel, 14 % at three quarters); ``"as-published"``, Eq. (3.56), a film
+        as thick as its rim throughout: 28 % too low at a rim of twice the gap, for reproduction
+        only. Between flats all three are the same.
+
+    Notes
+    -----
+    The liquid stays where it wets the bodies; both circles have the radius of the film at the
+    start. Left out: the shape of the meniscus, of relative size h/x, and inertia. A `ShearLimit`
+    beside it bounds the shear stress.
+    """
+
+    name: ClassVar[str] = "couette-force"
+    summary: ClassVar[str] = "viscous drag of the film on sliding bodies"
+
+    closure: Literal["local-film", "lubrication", "as-published"] = field(
+        default="local-film", validator=choice("local-film", "lubrication", "as-published")
+    )
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        flats = "Couette flow over a lens, Eqs. (3.44)-(3.52) of Cai and Bhushan 2008b"
+        if self.closure == "as-published":
+            return (
+                f"Eq. (3.53) of Cai and Bhushan 2008b, as printed; {ERRATA['3.53']}",
+                f"Eq. (3.56) of Cai and Bhushan 2008b, as printed; {ERRATA['3.56']}",
+            )
+        if self.closure == "lubrication":
+            return flats, "Reynolds' equation in a round film; cf. Goldman, Cox and Brenner 1967"
+        return flats, "Couette flow in the film as thick as it is, Eq. (3.54)"
+
+    def cites(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+        """See `SeparationEffect.cites`."""
+        flats, sphere = self.sources
+        return (flats,) if scene.interface.is_flat else (sphere,)
+
+    def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
+        """See `SlidingForce.lacks_in`."""
+        state = scene.interface.meniscus.liquid.at(scene.temperature)
+        missing: tuple[str, ...] = ()
+        if state.viscosity is None:
+            missing += ("liquid.viscosity [Pa.s]",)
+        is_sphere = not scene.interface.is_flat
+        if is_sphere and self.closure == "lubrication" and scene.effect(ShearLimit) is not None:
+            missing += ('closure="local-film": with ShearLimit() the film has no closed form',)
+        return missing + _needs_rim(scene)
+
+    def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
+        """See `SlidingForce.prepare`."""
+        viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
+        assert viscosity is not None  # plan_sliding() has asked lacks() first
+        film, gap, limit = film_shape(scene), scene.sliding.gap, scene.effect(ShearLimit)
+        if math.isinf(film.sphere_radius):
+            return _even_law(film, gap, gap, viscosity, limit)
+        if self.closure == "as-published":
+            return _even_law(film, gap, film.height(gap), viscosity, limit)
+        return _sphere_law(film, gap, viscosity, limit, self.closure == "lubrication")
+
+
+def _needs_rim(scene: SlidingScene) -> tuple[str, ...]:
+    """Ask for a volume or a rim where the film would have no end."""
+    interface = scene.interface
+    if interface.meniscus.volume is None and math.isinf(interface.rim_radius):
+        return ("interface.meniscus.volume [m3], or the radius [m] of a Flat face",)
+    return ()
+
+
+def _even_law(
+    film: FilmShape, gap: float, height: float, viscosity: float, limit: ShearLimit | None
+) -> SlideLaw:
+    """Drag of films of one thickness: a stress over the overlap."""
+    from ...lubrication import couette_flat as sliding
+
+    n, x = film.menisci, film.radius(gap)
+
+    def force(travel: Any, speed: float) -> Any:
+        stress = viscosity * speed / height
+        if limit is not None:
+            stress = sliding.limited_stress(stress, limit.strength, limit.law)
+        return n * stress * sliding.lens_area(x, travel)
+
+    def impulse(travel: Any) -> Any:
+        return n * sliding.flat_impulse(x, height, travel, viscosity)
+
+    return SlideLaw(force, impulse if limit is None else None)
+
+
+def _sphere_law(
+    film: FilmShape, gap: float, viscosity: float, limit: ShearLimit | None, has_pressure: bool
+) -> SlideLaw:
+    """Drag of films that are as thick as the sphere leaves room."""
+    from ...lubrication.couette_flat import limited_stress
+    from ...lubrication.couette_reynolds import lubrication_factor
+    from ...lubrication.couette_sphere import sphere_drag, sphere_impulse
+
+    n, height = film.menisci, film.height(gap)
+    shape = (film.sphere_radius, gap, height)
+    scale = float(n)
+    if has_pressure:
+        scale *= float(lubrication_factor(gap, height)) / math.log1p((height - gap) / gap)
+
+    def force(travel: Any, speed: float) -> Any:
+        flow = viscosity * speed
+        if limit is None:
+            return scale * sphere_drag(*shape, travel, lambda h: flow / h)
+        kink = flow / limit.strength if limit.law == "clipped" else 0.0
+        return scale * sphere_drag(
+            *shape,
+            travel,
+            lambda h: limited_stress(flow / h, limit.strength, limit.law),
+            kink,
+        )
+
+    def impulse(travel: Any) -> Any:
+        return scale * sphere_impulse(*shape, viscosity, travel)
+
+    return SlideLaw(force, impulse if limit is None else None)
+
+
+def _not_above(
+    owner: ContactAngleHysteresis, attribute: Attribute[float | None], value: float | None
+) -> None:
+    """Refuse a receding angle that is alone, or above the advancing one."""
+    optional(angle)(owner, attribute, value)
+    other = getattr(owner, attribute.name.replace("receding", "advancing"))
+    if (value is None) != (other is None):
+        raise refuse(owner, attribute, value, "be given with the advancing angle of that body")
+    if value is not None and other is not None and value > other:
+        raise refuse(owner, attribute, value, f"not exceed the advancing angle, {other:g} rad")
+
+
+@frozen(kw_only=True)
+class ContactAngleHysteresis(SlidingForce):
+    """Capillary force that drags a meniscus along a body on which its contact line sticks.
+
+    Parameters
+    ----------
+    advancing_lower, receding_lower : float, optional
+        Contact angles on the lower body [rad] in front of the meniscus and behind it. Not given:
+        the meniscus is pinned there.
+    advancing_upper, receding_upper : float, optional
+        The same on the upper body.
+    shape_factor : float
+        Force over tension, width and difference of the cosines [-], how the angle changes around
+        the line: 1 at once, pi/4 as its cosine is linear along the motion, 2/pi as it is linear
+        along the line, 24/pi^3 for a cubic.
+
+    Notes
+    -----
+    The line moves on the body that holds it less, and the force is what that one takes. Its width
+    is that of the overlap. It does not depend on the speed; valid for eta v/gamma << 1. The source
+    leaves contact angles out of its tangential separation.
+    """
+
+    name: ClassVar[str] = "contact-angle-hysteresis"
+    summary: ClassVar[str] = "capillary force of a meniscus that is dragged along"
+
+    advancing_lower: float | None = field(
+        default=None, validator=optional(angle), metadata=si("rad")
+    )
+    receding_lower: float | None = field(default=None, validator=_not_above, metadata=si("rad"))
+    advancing_upper: float | None = field(
+        default=None, validator=optional(angle), metadata=si("rad")
+    )
+    receding_upper: float | None = field(default=None, validator=_not_above, metadata=si("rad"))
+    shape_factor: float = field(default=2.0 / math.pi, validator=positive, metadata=si("-"))
+
+    def __attrs_post_init__(self) -> None:
+        if not self._pairs:
+            raise DescriptionError(
+                "ContactAngleHysteresis", "no angles",
+                "be given the advancing and receding angle [rad] of a body at least",
+            )  # fmt: skip
+
+    @property
+    def _pairs(self) -> tuple[tuple[float, float], ...]:
+        """Advancing and receding angle of each body on which the line may move."""
+        both = (
+            (self.advancing_lower, self.receding_lower),
+            (self.advancing_upper, self.receding_upper),
+        )
+        return tuple((a, r) for a, r in both if a is not None and r is not None)
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return ("Furmidge 1962; shape factor: Extrand and Gent 1990, ElSherbini and Jacobi 2006",)
+
+    def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
+        """See `SlidingForce.lacks_in`."""
+        state = scene.interface.meniscus.liquid.at(scene.temperature)
+        known = state.surface_tension is not None
+        return (() if known else ("liquid.surface_tension [N/m]",)) + _needs_rim(scene)
+
+    def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
+        """See `SlidingForce.prepare`."""
+        from ...lubrication import couette_flat as sliding
+
+        tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+        assert tension is not None  # plan_sliding() has asked lacks() first
+        film = film_shape(scene)
+        n, x = film.menisci, film.radius(scene.sliding.gap)
+        per_width = n * min(
+            float(sliding.hysteresis_force(tension, 1.0, *pair, self.shape_factor))
+            for pair in self._pairs
+        )
+
+        def force(travel: Any, speed: float) -> Any:
+            return per_width * sliding.lens_width(x, travel)
+
+        def work(travel: Any) -> Any:
+            # What the overlap loses in area is its width times the travel.
+            return per_width * (sliding.lens_area(x, 0.0) - sliding.lens_area(x, travel))
+
+        return SlideLaw(force, work=work)
+
+
+SLIDING_EFFECTS: tuple[type[SeparationEffect], ...] = (CouetteForce, ContactAngleHysteresis)
+"""The effects of a `SlidingScene`; a `ShearLimit` may stand beside them."""

@@ -1,0 +1,216 @@
+"""A sliding scene made ready to run: what will be simulated can be read before it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from attrs import evolve, field, frozen
+
+from ...accuracy import Accuracy
+from ...errors import DescriptionError, InfeasibleError, PlanError
+from ...scene.interface import Interface
+from ...scene.scenes import SlidingScene
+from ...scene.shapes import Flat, Sphere, Surface
+from ..effects.base import SeparationEffect
+from ..effects.film_shape import FilmShape, film_shape
+from ..effects.viscous import ShearLimit
+from ..plan import check_listed, choices
+from .effects import SLIDING_EFFECTS, CouetteForce
+from .zz_sliding_base import SlideLaw, SlidingForce
+
+__all__ = ["SlidingPlan", "divide_sliding", "plan_sliding"]
+
+_KNOWN: tuple[type[SeparationEffect], ...] = (*SLIDING_EFFECTS, ShearLimit)
+
+
+@frozen(eq=False)
+class SlidingPlan:
+    """A checked sliding scene with each effect prepared once.
+
+    ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
+    """
+
+    scene: SlidingScene
+    accuracy: Accuracy
+    laws: Mapping[type[SeparationEffect], SlideLaw] = field(repr=False)
+    film: FilmShape = field(repr=False)
+
+    @property
+    def wetted_radius(self) -> float:
+        """Radius of the wetted circle of one meniscus [m]."""
+        return self.film.radius(self.scene.sliding.gap)
+
+    @property
+    def break_travel(self) -> float:
+        """Travel [m] from which on the wetted circles do not overlap: twice their radius."""
+        return 2.0 * self.wetted_radius
+
+    @property
+    def end(self) -> float:
+        """Travel [m] at which the run ends."""
+        return min(self.scene.sliding.travel or math.inf, self.break_travel)
+
+    def has(self, kind: type[SeparationEffect]) -> bool:
+        """Whether the scene calls for an effect."""
+        return any(type(effect) is kind for effect in self.scene.effects)
+
+    def cite(self) -> str:
+        """Sources of the equations of this run, one to a line."""
+        effects = self.scene.effects
+        lines = [
+            f"{effect.name}: {source}"
+            for effect in effects
+            for source in (
+                effect.cites(self.scene) if isinstance(effect, SlidingForce) else effect.sources
+            )
+        ]
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        sliding = self.scene.sliding
+        title = (
+            f"{self.scene.name or 'sliding'}: {sliding.imposed} imposed at a gap of "
+            f"{sliding.gap:g} m, travel {self.end:g} m"
+        )
+        width = max(len(kind.name) for kind in _KNOWN)
+        on = [f"  on   {e.name:{width}s} {choices(e)}" for e in self.scene.effects]
+        off = [
+            f"  off  {kind.name:{width}s} {kind.summary}" for kind in _KNOWN if not self.has(kind)
+        ]
+        return "\n".join([title, *on, *off])
+
+
+def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> SlidingPlan:
+    """Check the effects against a sliding scene and prepare each of them once.
+
+    Parameters
+    ----------
+    scene : SlidingScene
+        What is there and which physics it calls for.
+    accuracy : Accuracy, optional
+        How well to solve; `Accuracy.standard` if not given. Only `points` matters.
+
+    Raises
+    ------
+    PlanError
+        If an effect is listed twice, lacks something, or does not act on a sliding.
+    InfeasibleError
+        If the gap is closed.
+    """
+    accuracy = accuracy or Accuracy.standard
+    _check_effects(scene)
+    _check_gap(scene)
+    laws: dict[type[SeparationEffect], SlideLaw] = {}
+    for effect in scene.effects:
+        if isinstance(effect, SlidingForce):
+            laws[type(effect)] = effect.prepare(scene, accuracy)
+    return SlidingPlan(scene, accuracy, MappingProxyType(laws), film_shape(scene))
+
+
+def _check_effects(scene: SlidingScene) -> None:
+    known = ", ".join(kind.__name__ for kind in _KNOWN)
+    kinds = check_listed(scene.effects, SeparationEffect, "sliding", known)
+    if not any(isinstance(effect, SlidingForce) for effect in scene.effects):
+        raise PlanError(
+            f"a sliding scene needs at least one force along the bodies; known: {known}"
+        )
+    problems = [
+        f"{type(effect).__name__} needs a SeparationScene: it acts where the gap opens; known for "
+        f"sliding: {known}"
+        for effect in scene.effects
+        if type(effect) not in _KNOWN
+    ]
+    if scene.interface.meniscus.pressure is not None:
+        problems.append(
+            "a sliding scene needs interface.meniscus.volume [m3] in place of its pressure"
+        )
+    for effect in scene.effects:
+        if isinstance(effect, SlidingForce):
+            problems += [f"{type(effect).__name__} needs {item}" for item in effect.lacks(scene)]
+    if ShearLimit in kinds and CouetteForce not in kinds:
+        problems.append("ShearLimit needs CouetteForce() beside it: it bounds the shear stress")
+    if ShearLimit in kinds and scene.sliding.imposed == "time":
+        problems.append(
+            "ShearLimit needs Sliding.speed [m/s]: with only the time given, the path on which the "
+            "limit acts is not known"
+        )
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _check_gap(scene: SlidingScene) -> None:
+    if scene.sliding.gap > 0.0:
+        return
+    drag, is_flat = scene.effect(CouetteForce), scene.interface.is_flat
+    if is_flat:
+        raise InfeasibleError(
+            "Sliding.gap is 0 m between flats: touching flats are a contact problem; give the gap "
+            "that their roughness keeps open [m]"
+        )
+    if drag is not None and drag.closure != "as-published":
+        raise InfeasibleError(
+            "Sliding.gap is 0 m: the drag of a film under a touching sphere is infinite, it grows "
+            "as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
+        )
+
+
+def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
+    r"""Return a scene in which a number of menisci stand where there was one, on the same area.
+
+    Parameters
+    ----------
+    scene : SlidingScene
+        A film between flats, or under a sphere.
+    number : int
+        Number N of menisci in place of each; the square of a whole number fills a square.
+
+    Returns
+    -------
+    SlidingScene
+        Between flats the liquid is shared out, and each film has the radius x/sqrt(N). A sphere
+        becomes N asperities of radius R/sqrt(N) with the same film height at the rim, which
+        takes sqrt(N) times the liquid.
+
+    Notes
+    -----
+    The drag of flats is then N^0 at a given speed, N^(-1/2) at a given time (travels are shorter);
+    that of spheres N^(1/2) and N^(1/4), not the N^(-1/2) of Eq. (3.59). The force of contact lines
+    that stick grows as N^(1/2) between flats and N^(3/4) under spheres.
+
+    Raises
+    ------
+    InfeasibleError
+        If neighbouring menisci would overlap: the wetted radius exceeds that of the asperities,
+        N^(1/2) > R/(2 (s - D)).
+    """
+    if isinstance(number, bool) or not isinstance(number, int) or number < 1:
+        raise DescriptionError("divide_sliding(number)", number, "be a whole number of at least 1")
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    if interface.is_flat:
+        more = evolve(meniscus, count=meniscus.count * number)
+        return evolve(scene, interface=evolve(interface, meniscus=more))
+    if meniscus.volume is None:
+        raise DescriptionError(
+            "Meniscus.volume", None, "be given to be shared out", unit="m3",
+        )  # fmt: skip
+    root = math.sqrt(number)
+    film, gap = film_shape(scene), scene.sliding.gap
+    depth = film.height(gap) - gap
+    if number > 1 and 2.0 * depth * root > film.sphere_radius:
+        most = film.sphere_radius / (2.0 * depth)
+        raise InfeasibleError(
+            f"{number} asperities have menisci that overlap: at most {max(int(most * most), 1)} of "
+            f"them stand apart with a film of {film.height(gap):g} m at a gap of {gap:g} m"
+        )
+    more = evolve(meniscus, count=meniscus.count * number, volume=root * meniscus.volume)
+    smaller = Interface(
+        lower=_smaller(interface.lower, root), upper=_smaller(interface.upper, root), meniscus=more
+    )
+    return evolve(scene, interface=smaller)
+
+
+def _smaller(body: Surface, root: float) -> Surface:
+    """Sphere of a radius divided by a number; a flat as it is."""
+    return body if isinstance(body, Flat) else Sphere(radius=body.radius / root)

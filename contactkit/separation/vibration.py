@@ -1,0 +1,250 @@
+"""An opening at an imposed speed while the gap vibrates: forces over the cycles, and their mean.
+
+A film without limits resists closing as it resists opening, so that a vibration changes its
+impulse by nothing but the ends of the path. A liquid that cavitates resists only the closing
+fully: the vibration is rectified, and pushes the bodies apart on the mean. A convex meniscus force
+has a mean above that of the mean gap, by a quarter of its second derivative times the amplitude
+squared.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..errors import InfeasibleError
+from ..numerics.quadrature import gauss_legendre
+from .effects.registry import SeparationEffect, ViscousForce
+from .film import impulse_name
+from .motion.state import LIMITS, FilmStatus
+from .plan import Plan
+from .prescribed import frozen, simulated
+from .results import SeparationResult, Work
+from .validity import check, path_of
+from .zz_vibration_path import NODES, PANELS, VibrationPath, panels
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["vibrating"]
+
+
+class _Cycle(NamedTuple):
+    """Times [s] along a cycle, and the impulse [N.s] of each force up to each of them."""
+
+    times: Floats
+    running: dict[str, Floats]
+
+    def total(self, name: str) -> float:
+        return float(self.running[name][-1])
+
+
+def vibrating(plan: Plan, begun: float) -> SeparationResult:
+    """Forces of an opening at a speed with a vibration on it, and the means of its cycles.
+
+    Raises
+    ------
+    InfeasibleError
+        If the vibration takes the gap beyond the reach of the film at the start.
+    """
+    opening, film = plan.scene.opening, plan.film
+    assert opening.vibration is not None and opening.speed is not None  # noqa: PT018
+    path = VibrationPath(opening.initial_gap, opening.speed, opening.vibration)
+    end = (opening.final_gap - opening.initial_gap) / opening.speed
+    breaks = path.first_above(film.end, end) if math.isfinite(film.end) else math.inf
+    if breaks <= 0.0:
+        raise InfeasibleError(
+            f"Opening.vibration takes the gap to {path.gap(0.0):g} m at the start, but the film "
+            f"reaches {film.end:g} m at most; shake less, or change Vibration.phase"
+        )
+    end = min(end, breaks)
+    cycles = [_cycle(plan, path, *span) for span in _drawn(plan, path, end)]
+    starts, totals = _sums(path, cycles)
+    columns = _curves(plan, path, cycles, starts)
+    impulses = {impulse_name(name): total for name, total in totals.items() if name != "pull"}
+    impulses |= {"pull_impulse": totals["pull"]}
+    impulses["steady_pull_impulse"] = _steady_impulse(plan, path, end)
+    if plan.has(ViscousForce):
+        law = film.laws[ViscousForce].impulse
+        assert law is not None  # a viscous force always has one
+        impulses["newtonian_impulse"] = law(path.gap(0.0), path.gap(end))
+    n = len(columns["gap"]) + len(cycles) * PANELS * NODES
+    return SeparationResult(
+        plan, "curve", _message(path, end, breaks, len(cycles)), columns, impulses, None,
+        check(plan, path_of(plan, columns)), Work(0, 0, n, clock.perf_counter() - begun),
+    )  # fmt: skip
+
+
+def _message(path: VibrationPath, end: float, breaks: float, drawn: int) -> str:
+    count = end * path.vibration.frequency
+    said = (
+        f"opened from {path.begin:g} m to {path.mean(end):g} m on the mean, in {count:.6g} cycles "
+        f"of {path.vibration.amplitude:g} m"
+    )
+    if math.ceil(count) > drawn:
+        said += f", of which {drawn} were computed"
+    return said + (f"; the film broke after {breaks:.6g} s" if breaks <= end else "")
+
+
+def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, float]]:
+    """Cycles that are computed, as spans of time: all, or as many as a curve has points."""
+    frequency, most = path.vibration.frequency, max(plan.accuracy.points, 8)
+    whole = math.floor(end * frequency * (1.0 + 1e-12))
+    places = np.arange(whole)
+    if whole > most:
+        means = np.geomspace(path.begin, path.mean((whole - 1) / frequency), most)
+        places = np.unique(np.rint((means - path.begin) / path.rise * frequency).astype(int))
+    spans = [(k / frequency, (k + 1) / frequency) for k in places.tolist()]
+    rest = whole / frequency
+    if end - rest > 1e-9 / frequency:
+        spans.append((rest, end))
+    return spans
+
+
+def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
+    """Each force [N] at a gap and a speed by the name of its column, and the pull."""
+    found = dict(plan.film.static_forces(gap))
+    if plan.has(ViscousForce):
+        found["viscous_force"] = plan.film.viscous_force(gap, speed)[0]
+    return found | {"pull": sum(found.values())}
+
+
+def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
+    """Times [s] at which a limit of the liquid sets in or lets go."""
+    film = plan.film
+    found: list[float] = []
+    if not film.limits:
+        return found
+
+    def acting(time: float) -> type[SeparationEffect] | None:
+        return film.viscous_force(path.gap(time), path.speed(time))[1]
+
+    for low, high in pairwise(edges):
+        first = acting(low)
+        if first is acting(high):
+            continue
+        width = 1e-9 * (high - low)
+        while high - low > width:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if acting(middle) is first else (low, middle)
+        found.append(high)
+    return found
+
+
+def _cycle(plan: Plan, path: VibrationPath, start: float, end: float) -> _Cycle:
+    """Impulses over a cycle, by Gauss quadrature in the graded phase."""
+    edges, times, weights = panels(path, start, end, plan.film.kinks)
+    if onsets := _onsets(plan, path, edges.tolist()):
+        edges, times, weights = panels(path, start, end, plan.film.kinks, onsets)
+    rows = [_forces(plan, path.gap(t), path.speed(t)) for t in times.ravel().tolist()]
+    running = {}
+    for name in rows[0]:
+        force = np.array([row[name] for row in rows]).reshape(times.shape)
+        running[name] = np.concatenate([[0.0], np.cumsum((weights * force).sum(axis=1))])
+    return _Cycle(edges, running)
+
+
+def _sums(path: VibrationPath, cycles: list[_Cycle]) -> tuple[dict[str, Floats], dict[str, float]]:
+    """Impulse [N.s] of each force up to the start of each cycle, and over the whole run.
+
+    Between cycles that were not computed the sum is that of Euler and Maclaurin over a spline.
+    """
+    begins = np.array([cycle.times[0] for cycle in cycles]) * path.vibration.frequency
+    places = np.rint(begins)
+    starts: dict[str, Floats] = {}
+    for name in cycles[0].running:
+        each = np.array([cycle.total(name) for cycle in cycles])
+        if places[-1] < len(cycles):  # none left out
+            starts[name] = np.concatenate([[0.0], np.cumsum(each)[:-1]])
+            continue
+        whole = each.copy()
+        last = cycles[-1]
+        if (last.times[-1] - last.times[0]) * path.vibration.frequency < 1.0 - 1e-6:
+            whole = whole[:-1]  # a part of a cycle is no point of the spline
+        curve = CubicSpline(places[: len(whole)], whole)
+        slope, sums = curve.derivative(), curve.antiderivative()
+        known = sums(places) - 0.5 * (curve(places) - whole[0])
+        starts[name] = known + (slope(places) - slope(0.0)) / 12.0
+    totals = {name: float(begun[-1]) + cycles[-1].total(name) for name, begun in starts.items()}
+    return starts, totals
+
+
+def _curves(
+    plan: Plan, path: VibrationPath, cycles: list[_Cycle], starts: dict[str, Floats]
+) -> dict[str, Floats]:
+    """Curves over the cycles that were computed."""
+    times = [cycle.times[:-1] for cycle in cycles]
+    times[-1] = cycles[-1].times
+    sizes = [len(part) for part in times]
+    moments = np.concatenate(times).tolist()
+    points = [(path.gap(t), path.speed(t)) for t in moments]
+    rows = [_row(plan, gap, speed) for gap, speed in points]
+    steady = [_steady_pull(plan, path, t) for t in moments]
+    columns = {
+        "time": frozen(moments),
+        "gap": frozen([gap for gap, _ in points]),
+        "speed": frozen([speed for _, speed in points]),
+        "mean_gap": frozen([path.mean(t) for t in moments]),
+        "pull": frozen([row["pull"] for row in rows]),
+        "mean_pull": frozen(np.repeat(_cycle_means(plan, path, cycles), sizes)),
+        "steady_pull": frozen(steady),
+        "film_status": frozen([row["film_status"] for row in rows]),
+    } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
+    if plan.has(ViscousForce):
+        parts = [
+            begun + cycle.running["viscous_force"][:size]
+            for begun, cycle, size in zip(starts["viscous_force"], cycles, sizes, strict=True)
+        ]
+        columns["viscous_impulse"] = frozen(np.concatenate(parts))
+    return columns
+
+
+def _cycle_means(plan: Plan, path: VibrationPath, cycles: list[_Cycle]) -> list[float]:
+    """Pull [N], mean of each cycle; of a part at the end, mean of the last whole period."""
+    period = 1.0 / path.vibration.frequency
+    means = []
+    for cycle in cycles:
+        start, end = float(cycle.times[0]), float(cycle.times[-1])
+        if end - start < period * (1.0 - 1e-6) and end > period:
+            start = end - period
+            cycle = _cycle(plan, path, start, end)
+        means.append(cycle.total("pull") / (end - start))
+    return means
+
+
+def _row(plan: Plan, gap: float, speed: float) -> dict[str, float]:
+    """What the curves show at a gap and a speed."""
+    film = plan.film
+    row = _forces(plan, gap, speed)
+    if plan.has(ViscousForce):
+        row["newtonian_force"] = film.laws[ViscousForce].force(gap, speed)
+    row["limit"] = float(LIMITS[film.viscous_force(gap, speed)[1]])
+    row["film_status"] = float(FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE)
+    return row
+
+
+def _steady_pull(plan: Plan, path: VibrationPath, time: float) -> float:
+    """Pull [N] at a time without the vibration; 0 where the film would have broken."""
+    gap = path.mean(time)
+    return _forces(plan, gap, path.rise)["pull"] if gap <= plan.film.end else 0.0
+
+
+def _steady_impulse(plan: Plan, path: VibrationPath, end: float) -> float:
+    """Impulse [N.s] of the pull without the vibration over the same time."""
+    last = min(end, (plan.film.end - path.begin) / path.rise)
+    marks = [path.begin, *plan.film.kinks, path.mean(last)]
+    total = 0.0
+    for low, high in pairwise(sorted(mark for mark in marks if path.begin <= mark <= marks[-1])):
+        edges = np.geomspace(low, high, 65)
+        for a, b in pairwise(edges.tolist()):
+            for node, weight in zip(*gauss_legendre(NODES), strict=True):
+                pull = _forces(plan, a + node * (b - a), path.rise)["pull"]
+                total += weight * (b - a) * pull / path.rise
+    return total

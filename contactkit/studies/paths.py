@@ -1,0 +1,177 @@
+"""Dotted paths into a scene: what a study varies, read and applied."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+import attrs
+
+from ..accuracy import Accuracy
+from ..errors import DescriptionError
+from ..files.structure import field_value
+from ..scene.contact_scene import ContactScene
+from ..scene.scenes import SeparationScene, SlidingScene
+from ..separation.effects.registry import Effect
+
+__all__ = ["Axis", "Scene", "axes", "changed"]
+
+Scene = SeparationScene | SlidingScene | ContactScene
+Tree = dict[str, Any]
+"""Changes by the segments of their paths; a leaf is a value in `_Leaf`."""
+
+
+class _Leaf(NamedTuple):
+    value: Any
+
+
+class Axis(NamedTuple):
+    """One thing that is varied: its path, its values in SI units, and the unit."""
+
+    path: str
+    values: tuple[Any, ...]
+    unit: str
+
+
+def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) -> tuple[Axis, ...]:
+    """Read what is to be varied.
+
+    Parameters
+    ----------
+    scene : ContactScene, SeparationScene or SlidingScene
+        The scene that the paths lead into.
+    accuracy : Accuracy
+        What paths that begin with ``accuracy.`` lead into.
+    vary : mapping of str to sequence
+        Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index picks
+        from a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name).
+        Quantities may be texts with a unit.
+
+    Raises
+    ------
+    DescriptionError
+        If a path leads nowhere, lies inside another, or has no values.
+
+    Examples
+    --------
+    >>> import contactkit as ck
+    >>> steel = ck.Material(young_modulus=210e9, poisson_ratio=0.3)
+    >>> coated = ck.Stack(substrate=steel, layers=(ck.Layer(material=steel, thickness=1e-6),))
+    >>> scene = ck.ContactScene(
+    ...     interface=ck.ContactInterface(lower=ck.Body(solid=coated)),
+    ...     pressing=ck.Pressing(pressure=1e6), effects=(ck.LayeredHalfSpace(),),
+    ... )
+    >>> thickness = "interface.lower.solid.layers.0.thickness"
+    >>> axes(scene, ck.Accuracy(), {thickness: ["5 nm", 1e-8]})[0].values
+    (5e-09, 1e-08)
+    """
+    if not isinstance(vary, Mapping) or not vary:
+        raise DescriptionError("vary", vary, "name at least one field and its values")
+    found = tuple(_axis(scene, accuracy, path, values) for path, values in vary.items())
+    for axis in found:
+        for other in found:
+            if other.path.startswith(f"{axis.path}."):
+                raise DescriptionError("vary", other.path, f"not lie inside {axis.path!r}")
+    return found
+
+
+def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> tuple[Scene, Accuracy]:
+    """Apply values by path; each noun is made once, so that fields which belong together may move.
+
+    Raises
+    ------
+    DescriptionError
+        If a noun refuses its values.
+    """
+    trees: dict[bool, Tree] = {True: {}, False: {}}
+    for path, value in values.items():
+        head, _, rest = path.partition(".")
+        is_accuracy = head == "accuracy"
+        segments = (rest if is_accuracy else path).split(".")
+        at = trees[is_accuracy]
+        for segment in segments[:-1]:
+            at = at.setdefault(segment, {})
+        at[segments[-1]] = _Leaf(value)
+    return _rebuilt(scene, trees[False]), _rebuilt(accuracy, trees[True])
+
+
+def _rebuilt(noun: Any, tree: Tree | _Leaf) -> Any:
+    if isinstance(tree, _Leaf):
+        return tree.value
+    if not tree:
+        return noun
+    if isinstance(noun, tuple):
+        items = list(noun)
+        for segment, below in tree.items():
+            i = _places(noun)[segment]
+            items[i] = _rebuilt(items[i], below)
+        return tuple(items)
+    changes = {name: _rebuilt(getattr(noun, name), below) for name, below in tree.items()}
+    return attrs.evolve(noun, **changes)
+
+
+def _axis(scene: Scene, accuracy: Accuracy, path: str, values: Iterable[Any]) -> Axis:
+    kind, name = _owner(scene, accuracy, path)
+    if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
+        raise DescriptionError(f"vary[{path!r}]", values, "be a sequence of values")
+    given = [v.item() if getattr(v, "ndim", None) == 0 else v for v in values]
+    if not given:
+        raise DescriptionError(f"vary[{path!r}]", given, "have at least one value")
+    if kind is None:
+        return Axis(path, tuple(given), "-")
+    read = tuple(field_value(kind, name, value) for value in given)
+    return Axis(path, read, getattr(attrs.fields(kind), name).metadata.get("unit", "-"))
+
+
+def _owner(scene: Scene, accuracy: Accuracy, path: str) -> tuple[type | None, str]:
+    """Kind that has the field a path leads to, and the field; None for an item of a tuple."""
+    at: Any = {"accuracy": accuracy} | {name: getattr(scene, name) for name in _fields(scene)}
+    kind, name, walked = None, "", ""
+    for segment in path.split("."):
+        choices = at if isinstance(at, dict) else _choices(at)
+        if segment not in choices:
+            raise _lost(path, segment, walked, at, list(choices))
+        kind = type(scene) if isinstance(at, dict) else None if isinstance(at, tuple) else type(at)
+        name, at = segment, choices[segment]
+        walked = f"{walked}.{segment}" if walked else segment
+    if walked == "accuracy":
+        raise DescriptionError("vary", path, "lead to a field of it, such as 'accuracy.rtol'")
+    return kind, name
+
+
+def _lost(path: str, segment: str, walked: str, at: Any, choices: list[str]) -> DescriptionError:
+    if not choices:
+        return DescriptionError("vary", path, f"end at {walked!r}", hint=f"that is {at!r}")
+    close = difflib.get_close_matches(segment, choices, n=1, cutoff=0.5)
+    guess = f"did you mean {'.'.join(filter(None, [walked, *close]))!r}? " if close else ""
+    what = "has the items" if isinstance(at, tuple) else f"is a {type(at).__name__}, with"
+    where = f"{walked!r} {what}" if walked else "there are"
+    return DescriptionError(
+        "vary",
+        path,
+        "lead to a field of the scene, or of accuracy",
+        hint=f"{guess}{where} {', '.join(choices)}",
+    )
+
+
+def _fields(noun: Any) -> list[str]:
+    return [a.name for a in attrs.fields(type(noun)) if a.init]
+
+
+def _choices(noun: Any) -> dict[str, Any]:
+    """What a path may name next; nothing in a plain value."""
+    if isinstance(noun, tuple):
+        return {segment: noun[i] for segment, i in _places(noun).items()}
+    if attrs.has(type(noun)):
+        return {name: getattr(noun, name) for name in _fields(noun)}
+    return {}
+
+
+def _places(items: tuple[Any, ...]) -> dict[str, int]:
+    """Index of each item of a tuple by the segments that name it: its number; effects, its name."""
+    if items and all(isinstance(item, Effect) for item in items):
+        return {item.name: i for i, item in enumerate(items)}
+    if all(attrs.has(type(item)) for item in items):
+        return {str(i): i for i in range(len(items))}
+    return {}

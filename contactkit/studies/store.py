@@ -1,0 +1,190 @@
+"""Points of a study, and the folder they are kept in: one file each, whole or not there."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import attrs
+from attrs import field, frozen
+
+from ..accuracy import Accuracy
+from ..errors import DescriptionError
+from ..files.scenes import write_whole
+from ..files.unstructure import unstructure
+from ..scene.topography import Measured
+
+if TYPE_CHECKING:
+    from .paths import Scene
+
+__all__ = ["FAILED", "Store", "StudyPoint"]
+
+_FORMAT = 1
+_OLD = 3600.0  # seconds after which what a killed run left half-written is swept away
+
+FAILED = ("infeasible", "not converged", "refused")
+"""Statuses of points without an answer."""
+
+
+@frozen(eq=False)
+class StudyPoint:
+    """One point of a study.
+
+    Attributes
+    ----------
+    values : mapping
+        What was varied, by its path, in SI units.
+    scalars : mapping of str to (float, str)
+        Numbers of the result with their units; nan where the point has none.
+    status, message : str
+        Those of the result; or ``infeasible``, ``not converged`` or ``refused``, and why.
+    seconds : float
+        What the solve took when it was done [s].
+    counts : mapping of str to int
+        What it cost, such as ``n_operator_applications``.
+    notes : tuple of str
+        Warnings of the run, and what happened to its file.
+    is_from_store : bool
+        Whether it was read from the store, not solved.
+    """
+
+    values: Mapping[str, Any]
+    scalars: Mapping[str, tuple[float, str]] = field(repr=False)
+    status: str
+    message: str = field(repr=False)
+    seconds: float
+    counts: Mapping[str, int] = field(factory=dict, repr=False)
+    notes: tuple[str, ...] = ()
+    is_from_store: bool = False
+
+    @property
+    def has_failed(self) -> bool:
+        """Whether there is no answer at this point."""
+        return self.status in FAILED
+
+    @property
+    def n_operator_applications(self) -> int:
+        """Products with the compliance that the contact took; 0 for a separation."""
+        return self.counts.get("n_operator_applications", 0)
+
+
+@frozen
+class Store:
+    """A folder of finished points.
+
+    A point is kept under a key made of everything its numbers depend on: scene, accuracy, the
+    content of measured surfaces and the version of contactkit. So a folder may hold points of
+    many studies, and studies that run at the same time may share one.
+
+    Parameters
+    ----------
+    folder : Path
+        Made when the first point is written.
+    """
+
+    folder: Path = field(converter=Path)
+
+    def key(self, scene: Scene, accuracy: Accuracy) -> str:
+        """Return the name under which a point is kept."""
+        from .. import __version__
+
+        tables = unstructure(scene, {})
+        tables.pop("name", None)  # a title changes no number
+        files = sorted(_content(surface.path) for surface in _measured(scene))
+        what = [_FORMAT, __version__, tables, attrs.asdict(accuracy), files]
+        return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
+
+    def read(self, key: str, values: Mapping[str, Any]) -> StudyPoint | None:
+        """Return a point; None if there is none.
+
+        Raises
+        ------
+        DescriptionError
+            If there is a file and it cannot be read.
+        """
+        path = self._point(key)
+        try:
+            table = json.loads(path.read_text(encoding="utf-8"))
+            scalars = {n: (float(v), str(unit)) for n, (v, unit) in table["scalars"].items()}
+            counts = {str(n): int(v) for n, v in table["counts"].items()}
+            notes = tuple(map(str, table["notes"]))
+            said = (str(table["status"]), str(table["message"]), float(table["seconds"]))
+        except FileNotFoundError:
+            return None
+        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+            raise DescriptionError(
+                "file", path.name, "be a point of a study", hint=f"{type(error).__name__}: {error}"
+            ) from None
+        return StudyPoint(values, scalars, *said, counts, notes, True)
+
+    def read_maps(self, key: str) -> bytes | None:
+        """Return the result of a point as it was written; None if it was not."""
+        path = self._maps(key)
+        return path.read_bytes() if path.is_file() else None
+
+    def write(self, key: str, point: StudyPoint, maps: bytes | None) -> None:
+        """Write a point; its maps first, so that a point which is there has them."""
+        if maps is not None:
+            with write_whole(self._maps(key)) as temporary:
+                temporary.write_bytes(maps)
+        table = {
+            "values": {name: str(value) for name, value in point.values.items()},
+            "status": point.status,
+            "message": point.message,
+            # as text, for JSON has no infinity
+            "scalars": {n: [repr(float(v)), unit] for n, (v, unit) in point.scalars.items()},
+            "seconds": point.seconds,
+            "counts": dict(point.counts),
+            "notes": list(point.notes),
+        }
+        with write_whole(self._point(key)) as temporary:
+            temporary.write_text(json.dumps(table, indent=1), encoding="utf-8")
+
+    def has(self, key: str, with_maps: bool) -> bool:
+        """Whether a point is there, with its maps if asked for."""
+        return self._point(key).is_file() and (not with_maps or self._maps(key).is_file())
+
+    def sweep(self) -> None:
+        """Remove what killed runs left half-written; not what another run writes just now."""
+        for path in self.folder.glob(".*-????????.*"):
+            with suppress(OSError):  # the other run may be done with it by now
+                if path.suffix in (".json", ".npz") and path.stat().st_mtime < time.time() - _OLD:
+                    path.unlink()
+
+    def _point(self, key: str) -> Path:
+        return self.folder / f"{key}.json"
+
+    def _maps(self, key: str) -> Path:
+        return self.folder / f"{key}.npz"
+
+
+def _measured(noun: Any) -> Iterator[Measured]:
+    if isinstance(noun, Measured):
+        yield noun
+    elif attrs.has(type(noun)):
+        for a in attrs.fields(type(noun)):
+            yield from _measured(getattr(noun, a.name))
+    elif isinstance(noun, tuple):
+        for item in noun:
+            yield from _measured(item)
+
+
+def _content(path: str) -> str:
+    """Checksum of a file; of none, its name: the run will say that it is missing."""
+    try:
+        found = Path(path).stat()
+        return _checksum(path, found.st_mtime_ns, found.st_size)
+    except OSError:
+        return path
+
+
+@lru_cache(maxsize=64)
+def _checksum(path: str, changed: int, size: int) -> str:
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,0 +1,263 @@
+"""Studies: one scene solved for many values of what is in it."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import closing, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import evolve
+
+from ..accuracy import Accuracy
+from ..errors import DescriptionError, InfeasibleError, PlanError, ValidityWarning
+from ..files.results import from_bytes
+from ..planning import plan
+from ..scene.contact_scene import ContactScene
+from ..scene.scenes import SeparationScene, SlidingScene
+from .paths import Axis, Scene, axes, changed
+from .run import Done, Piece, Task, put, run_here, run_in_processes, run_on_client
+from .store import Store, StudyPoint
+from .table import Study
+
+if TYPE_CHECKING:
+    from ..files.results import Result
+
+__all__ = ["Study", "StudyPoint", "study"]
+
+
+def study(
+    scene: ContactScene | SeparationScene | SlidingScene,
+    vary: Mapping[str, Iterable[Any]],
+    accuracy: Accuracy | None = None,
+    *,
+    store: str | Path | None = None,
+    workers: int = 1,
+    client: Any = None,
+    progress: Callable[[float], None] | None = None,
+    keep_maps: bool = False,
+) -> Study:
+    """Solve a scene for every combination of some values.
+
+    Parameters
+    ----------
+    scene : ContactScene, SeparationScene or SlidingScene
+        What is there, but for what is varied.
+    vary : mapping of str to sequence
+        Values by the dotted path of a field: ``pressing.pressure``,
+        ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
+        ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
+        library. Along the last one each contact starts from the solution of the value before and
+        shares its heights and compliance where those stay the same: let it be the load, in steps
+        of less than a half, for from further away the start is no help.
+    accuracy : Accuracy, optional
+        How well to solve; `Accuracy.standard` if not given.
+    store : str or Path, optional
+        Folder in which each point is kept as soon as it is finished. A study of the same points
+        reads them from there, so that one which was interrupted goes on where it stopped.
+    workers : int
+        Processes to spread the points over. In a script the call then belongs under
+        ``if __name__ == "__main__":``.
+    client : optional
+        A ``dask.distributed.Client``, or whatever else has ``submit(function, argument)`` that
+        returns a future, to run the points on; contactkit must be installed there.
+    progress : callable, optional
+        Called with the share that is done, 0 to 1.
+    keep_maps : bool
+        Whether to keep the whole results, with their maps or curves; `Study.results` has them.
+
+    Returns
+    -------
+    Study
+        Points in the order of the product, the last thing varied fastest, however many workers.
+        Numbers agree with those of a single solve to its tolerance, not to the last digit, for
+        they depend on where the solve started from.
+
+    Raises
+    ------
+    DescriptionError
+        If a path leads nowhere or a value is impossible; before any solve.
+    PlanError
+        If the effects do not fit the scene; before any solve. A point without an answer stops
+        nothing: its numbers are nan, its status and message say why.
+
+    Examples
+    --------
+    >>> import contactkit as ck
+    >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+    >>> scene = ck.ContactScene(
+    ...     interface=ck.ContactInterface(
+    ...         lower=ck.Body(solid=steel),
+    ...         upper=ck.Body(surface=ck.Wave(amplitude=1e-8, wavelength=1e-6)),
+    ...     ),
+    ...     window=ck.Window(width=1e-6),
+    ...     pressing=ck.Pressing(pressure=1e6),
+    ...     effects=(ck.HalfSpace(),),
+    ... )
+    >>> loads = {"pressing.pressure": ["1 GPa", "3 GPa"]}
+    >>> print(ck.study(scene, loads, ck.Accuracy(grid=32)).table("contact_fraction"))
+    pressure [Pa]  contact_fraction [-]  status
+            1e+09               0.28125  converged
+            3e+09               0.46875  converged
+    """
+    if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
+        raise DescriptionError(
+            "scene", scene, "be a ContactScene, a SeparationScene or a SlidingScene"
+        )
+    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
+        raise DescriptionError("workers", workers, "be a whole number of at least 1")
+    accuracy = accuracy if accuracy is not None else Accuracy.standard
+    varied = axes(scene, accuracy, vary)
+    kept = Store(Path(store).resolve()) if store is not None else None
+    run = _Run(scene, accuracy, varied, kept, keep_maps, progress)
+    pieces = run.pieces(_slots(client, workers))
+    run.check(pieces)
+    with closing(_spread(pieces, workers, client, run.report)) as ended:
+        for found in ended:
+            for done in found:
+                run.take(done)
+    return run.finish()
+
+
+class _Run:
+    """A study under way: which points are there, which are still to be solved."""
+
+    def __init__(
+        self, scene: Scene, accuracy: Accuracy, varied: tuple[Axis, ...], store: Store | None,
+        keeps_maps: bool, progress: Callable[[float], None] | None,
+    ) -> None:  # fmt: skip
+        self.scene, self.accuracy, self.varied = scene, accuracy, varied
+        self.store, self.keeps_maps, self.progress = store, keeps_maps, progress
+        paths = [axis.path for axis in varied]
+        product = itertools.product(*(axis.values for axis in varied))
+        self.tasks = [
+            self._task(i, dict(zip(paths, v, strict=True))) for i, v in enumerate(product)
+        ]
+        self.points: dict[int, StudyPoint] = {}
+        self.results: dict[int, Result] = {}
+        self.problems: dict[int, str] = {}  # with the files of points
+        if store is not None:
+            store.sweep()
+            for task in self.tasks:
+                self._fetch(store, task)
+        self.n_done = len(self.points)
+
+    def _task(self, index: int, values: dict[str, Any]) -> Task:
+        """Make the scene of a point, so that an impossible value is refused before any solve."""
+        made = changed(self.scene, self.accuracy, values)
+        return Task(index, values, self.store.key(*made) if self.store is not None else "")
+
+    def _fetch(self, store: Store, task: Task) -> None:
+        """Read a point from the store, if it is there with all that is asked for."""
+        try:
+            point = store.read(task.key, task.values)
+            if point is None:
+                return
+            if self.keeps_maps and not point.has_failed:
+                maps = store.read_maps(task.key)
+                if maps is None:
+                    return
+                self.results[task.place] = from_bytes(maps)
+            self.points[task.place] = point
+        except DescriptionError as error:
+            self.problems[task.place] = (
+                f"solved again, for what was in the store is no use: {error}"
+            )
+
+    def pieces(self, slots: int) -> list[Piece]:
+        """Chains of what is still to be solved, cut up where there are more slots than chains."""
+        length = len(self.varied[-1].values)
+        left = [task for task in self.tasks if task.place not in self.points]
+        chains = [
+            list(chain) for _, chain in itertools.groupby(left, lambda task: task.place // length)
+        ]
+        parts = math.ceil(slots / max(len(chains), 1))
+        return [
+            Piece(self.scene, self.accuracy, tuple(cut), self.store, self.keeps_maps)
+            for chain in chains
+            for cut in _cut(chain, parts)
+        ]
+
+    def check(self, pieces: list[Piece]) -> None:
+        """Refuse effects that do not fit the scene before any solve, and say what is done."""
+        if pieces:
+            scene, accuracy = changed(self.scene, self.accuracy, pieces[0].tasks[0].values)
+            with suppress(InfeasibleError):  # an answer, though of this one point only
+                plan(scene, accuracy)
+        if self.progress is not None and (self.n_done or not pieces):
+            self.progress(self.n_done / len(self.tasks))
+
+    def report(self) -> None:
+        """Count one more point."""
+        self.n_done += 1
+        if self.progress is not None:
+            self.progress(self.n_done / len(self.tasks))
+
+    def take(self, done: Done) -> None:
+        """Take a finished point; write it, if the worker did so to another disk."""
+        place, point, maps = done
+        key = self.tasks[place].key
+        if self.store is not None and not self.store.has(key, maps is not None):
+            put(self.store, key, point, maps)
+        if place in self.problems:
+            point = evolve(point, notes=(*point.notes, self.problems[place]))
+        self.points[place] = point
+        if maps is not None:
+            self.results[place] = from_bytes(maps)
+
+    def finish(self) -> Study:
+        """Put the points together; every one gets every number, nan where it has none."""
+        points = [self.points[i] for i in range(len(self.tasks))]
+        if all(point.status == "refused" for point in points):
+            raise PlanError(f"every point of the study is refused: {points[0].message}")
+        scalars = {n: unit for p in points for n, (_, unit) in p.scalars.items()}
+        counts = dict.fromkeys((n for p in points for n in p.counts), "-")
+        units = {axis.path: axis.unit for axis in self.varied} | scalars | {"seconds": "s"} | counts
+        nothing = {name: (math.nan, unit) for name, unit in scalars.items()}
+        _warn(points)
+        return Study(
+            tuple(evolve(p, scalars=nothing | dict(p.scalars)) for p in points),
+            tuple(len(axis.values) for axis in self.varied),
+            units,
+            tuple(self.results.get(i) for i in range(len(points))) if self.keeps_maps else None,
+        )
+
+
+def _warn(points: list[StudyPoint]) -> None:
+    """One warning for all points outside the range of a model."""
+    outside = [
+        note for p in points for note in p.notes if note.startswith(ValidityWarning.__name__)
+    ]
+    if outside:
+        n = sum(any(note in outside for note in p.notes) for p in points)
+        warnings.warn(
+            f"{n} of {len(points)} points are outside the range of a model: "
+            + outside[0].partition(": ")[2],
+            ValidityWarning,
+            stacklevel=4,
+        )
+
+
+def _cut(chain: list[Task], parts: int) -> Iterator[list[Task]]:
+    """Cut a chain into runs of nearly the same length."""
+    parts = min(parts, len(chain))
+    ends = [len(chain) * i // parts for i in range(parts + 1)]
+    for first, last in itertools.pairwise(ends):
+        yield chain[first:last]
+
+
+def _slots(client: Any, workers: int) -> int:
+    """How many pieces can run at once."""
+    threads = getattr(client, "nthreads", None)
+    return max(workers, sum(threads().values()) if callable(threads) else 1)
+
+
+def _spread(pieces: list[Piece], workers: int, client: Any, report: Callable[[], None]) -> Any:
+    if client is not None:
+        return run_on_client(pieces, client, report)
+    if workers > 1 and len(pieces) > 1:
+        return run_in_processes(pieces, workers, report)
+    return run_here(pieces, report)

@@ -1,0 +1,191 @@
+"""What a study gives: its points, as columns, as a table and as a file."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from attrs import field, frozen
+
+from ..errors import DescriptionError, NotSimulatedError
+from ..files.scenes import write_whole
+from ..files.structure import nearest
+from .store import StudyPoint
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..files.results import Result
+
+__all__ = ["Study"]
+
+_MOST_COLUMNS = 6  # numbers in a table for which none are named
+
+
+@frozen(eq=False)
+class Study:
+    """Points of a study, in the order of the product of what was varied: the last varies fastest.
+
+    Attributes
+    ----------
+    points : tuple of StudyPoint
+        One for each combination.
+    shape : tuple of int
+        Number of values of each thing varied; ``column(name).reshape(study.shape)`` is the array
+        over them.
+    units : mapping of str to str
+        Unit of each column: of what was varied, by its path; of the numbers of the results; of
+        the ``seconds`` and the counts of what they took.
+    """
+
+    points: tuple[StudyPoint, ...] = field(repr=False)
+    shape: tuple[int, ...]
+    units: Mapping[str, str] = field(repr=False)
+    _results: tuple[Result | None, ...] | None = field(repr=False)
+
+    @property
+    def results(self) -> tuple[Result | None, ...]:
+        """Results with their maps or curves; None where a point failed.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the study did not keep them.
+        """
+        if self._results is None:
+            raise NotSimulatedError("the study kept no maps: run study(..., keep_maps=True)")
+        return self._results
+
+    @property
+    def n_solved(self) -> int:
+        """Number of points that were solved, not read from the store."""
+        return sum(not point.is_from_store for point in self.points)
+
+    @property
+    def failed(self) -> tuple[StudyPoint, ...]:
+        """Points without an answer; status and message say why."""
+        return tuple(point for point in self.points if point.has_failed)
+
+    def column(self, name: str) -> NDArray[Any]:
+        """Return one number over all points, in SI units; nan where a point has none.
+
+        Parameters
+        ----------
+        name : str
+            A number of the results such as ``contact_area``, a path that was varied, ``seconds``,
+            a count such as ``n_operator_applications``, or ``status``.
+
+        Raises
+        ------
+        DescriptionError
+            If there is no such column.
+        """
+        if name == "status":
+            return np.array([point.status for point in self.points])
+        self._known(name)
+        values = [_number(point, name) for point in self.points]
+        if all(isinstance(v, int | float) and not isinstance(v, bool) for v in values):
+            return np.array(values, dtype=float)
+        column = np.empty(len(values), dtype=object)
+        column[:] = values
+        return column
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a column; ``-`` for none.
+
+        Raises
+        ------
+        DescriptionError
+            If there is no such column.
+        """
+        self._known(name)
+        return self.units[name]
+
+    def _known(self, name: str) -> None:
+        if name not in self.units:
+            raise DescriptionError(
+                "column", name, "be one of the study", hint=nearest(name, list(self.units))
+            )
+
+    def table(self, *names: str) -> str:
+        """Return the points as text, one to a line, and below what is to be said of them.
+
+        Parameters
+        ----------
+        *names : str
+            Numbers to show beside what was varied; none: the first six that differ.
+        """
+        varied = list(self.points[0].values)
+        shown = [*varied, *(names or self._telling(varied))]
+        labels = _labels(shown, varied)
+        heads = [f"{labels[n]} [{self.unit(n)}]" for n in shown]
+        cells = [[_text(_number(p, n)) for n in shown] for p in self.points]
+        widths = [max(map(len, column)) for column in zip(heads, *cells, strict=True)]
+        rows = [
+            "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) + f"  {status}"
+            for row, status in zip(
+                [heads, *cells], ["status", *(p.status for p in self.points)], strict=True
+            )
+        ]
+        return "\n".join([*rows, *self._remarks()])
+
+    def _telling(self, varied: list[str]) -> list[str]:
+        """Numbers of the results that are not the same everywhere."""
+        scalars = [n for n in self.points[0].scalars if n not in varied]
+        differ = [n for n in scalars if len(np.unique(self.column(n), equal_nan=True)) > 1]
+        return (differ or scalars)[:_MOST_COLUMNS]
+
+    def _remarks(self) -> list[str]:
+        failed = [f"point {i}: {p.message}" for i, p in enumerate(self.points) if p.has_failed]
+        notes = [f"point {i}: {note}" for i, p in enumerate(self.points) for note in p.notes]
+        stored = len(self.points) - self.n_solved
+        return [*failed, *notes, *([f"{stored} points from the store"] if stored else [])]
+
+    def save_csv(self, path: str | Path) -> Path:
+        """Write all columns to a CSV file, headed by name and unit; whole or not at all.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file; its suffix becomes ``.csv``.
+        """
+        path = Path(path).with_suffix(".csv")
+        names = list(self.units)
+        with (
+            write_whole(path) as temporary,
+            temporary.open("w", newline="", encoding="utf-8") as file,
+        ):
+            writer = csv.writer(file)
+            writer.writerow([*(f"{n} [{self.units[n]}]" for n in names), "status", "message"])
+            for point in self.points:
+                cells = [_text(_number(point, n), digits=10) for n in names]
+                writer.writerow([*cells, point.status, point.message])
+        return path
+
+
+def _number(point: StudyPoint, name: str) -> Any:
+    if name in point.values:
+        return point.values[name]
+    if name in point.scalars:
+        return point.scalars[name][0]
+    if name == "seconds":
+        return point.seconds
+    return point.counts.get(name, math.nan)
+
+
+def _text(value: Any, digits: int = 6) -> str:
+    if isinstance(value, float):
+        return f"{value:.{digits}g}"
+    name = getattr(value, "name", None)  # of a material, a liquid or an effect
+    return str(name) if name else str(value)
+
+
+def _labels(shown: list[str], varied: list[str]) -> dict[str, str]:
+    """Last word of each path, or all of it where two would read the same."""
+    short = {name: name.rpartition(".")[2] if name in varied else name for name in shown}
+    twice = {label for label in short.values() if list(short.values()).count(label) > 1}
+    return {name: name if label in twice else label for name, label in short.items()}

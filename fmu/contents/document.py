@@ -1,0 +1,238 @@
+"""The documentation that travels in an FMU: what it is, its variables as a page, the licences."""
+
+from __future__ import annotations
+
+import html
+import importlib.metadata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from attrs import field, fields, frozen, has
+
+from ... import __version__
+from ...errors import ContactkitError
+from ...scene.scenes import SeparationScene
+from ...separation.effects.registry import SEPARATION_EFFECTS
+from ...separation.plan import choices
+from ..framework.ports import Port, Value
+from .icon import icon_svg
+from .zz_document_notes import CONVENTIONS, coupling_note
+
+__all__ = ["Page", "external_dependencies", "index_page", "license_text"]
+
+_STYLE = (
+    "body{font:15px sans-serif;margin:2em;max-width:70em}table{border-collapse:collapse}"
+    "th,td{border:1px solid #bbb;padding:.3em .6em;text-align:left;vertical-align:top}"
+    "svg{float:right;margin:0 0 1em 1em}h2{margin-top:1.6em}"
+)
+_HEAD = ("name", "unit", "shown in", "causality", "type", "start", "allowed", "description")
+_PYTHON = (
+    "It is run by a Python interpreter on the host computer (3.11 or later), which besides the "
+    "files in this FMU needs: {}. A host that is no Python itself has to find a shared library "
+    "of Python; see docs/fmu.md of contactkit."
+)
+_NATIVE = (
+    "A C library that needs nothing else. Its sources are in sources/; resources/film.bin holds "
+    "the forces as tables over the gap."
+)
+_WRONG = (
+    "Parameters are set before initialization ends. A value that is out of range is refused: "
+    "the message in category logStatusError says why, and steps are refused until the FMU is "
+    "reset or set back to an earlier state. Outputs keep their last good values. Nothing is ever "
+    "nan."
+)
+
+
+@frozen(kw_only=True)
+class Page:
+    """What the page of an FMU is made from.
+
+    Attributes
+    ----------
+    name : str
+        Of the FMU, such as ``stiction-mass``.
+    title, summary : str
+        Head line, and what the FMU is.
+    ports : sequence of Port
+        Its variables.
+    start : mapping
+        Their start values.
+    fmi : {"2", "3"}
+        Version of FMI.
+    needs : str
+        What the host must have, in sentences.
+    scene : SeparationScene, optional
+        What the FMU was made from, if it was made from a scene.
+    """
+
+    name: str
+    title: str
+    summary: str
+    ports: Sequence[Port] = field(repr=False)
+    start: Mapping[str, Value] = field(repr=False)
+    fmi: str = "2"
+    needs: str
+    scene: SeparationScene | None = field(default=None, repr=False)
+
+    @classmethod
+    def of_python(cls, requires: Iterable[str], **about: Any) -> Page:
+        """Page of an FMU that Python runs, with the packages it wants beside its own files."""
+        return cls(needs=_PYTHON.format(", ".join(sorted(requires)) or "nothing else"), **about)
+
+    @classmethod
+    def of_native(cls, **about: Any) -> Page:
+        """Page of an FMU in C."""
+        return cls(needs=_NATIVE, **about)
+
+
+def index_page(about: Page) -> str:
+    """HTML page of an FMU: conventions, variables, scene, stepping, sources."""
+    title = html.escape(about.title)
+    variables = [_cells(port, about.start[port.name]) for port in about.ports]
+    parts = [
+        f"<h1>{title}</h1>",
+        _text(about.summary),
+        _text(f"FMI {about.fmi}.0 for co-simulation, written by contactkit {__version__}."),
+        _text(about.needs),
+        "<h2>Conventions</h2>",
+        _text(CONVENTIONS),
+        "<h2>Variables</h2>",
+        _table(_HEAD, variables),
+        "<h2>How to couple it</h2>",
+        *map(_text, coupling_note(about.name, about.fmi)),
+        "<h2>When something is wrong</h2>",
+        _text(_WRONG),
+        *(_scene(about.scene) if about.scene is not None else ()),
+        "<h2>How to cite</h2>",
+        _text(_cite(about)),
+    ]
+    body = "\n".join(parts)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style></head>
+<body>
+{icon_svg()}
+{body}
+</body>
+</html>
+"""
+
+
+def external_dependencies(requires: Iterable[str], sometimes: Iterable[str] = ()) -> str:
+    """Text of ``documentation/externalDependencies.txt`` of an FMU that Python runs.
+
+    Examples
+    --------
+    >>> print(external_dependencies(["numpy"]).splitlines()[2])
+    - the Python packages: numpy
+    """
+    packages = ", ".join(sorted(requires)) or "none beside the standard library and this FMU"
+    more = ", ".join(sorted(sometimes))
+    return (
+        "This FMU needs on the host computer:\n"
+        "- Python 3.11 or later, with its shared library (python3.dll on Windows)\n"
+        f"- the Python packages: {packages}\n"
+        + (f"- for a liquid on anything but two flats also: {more}\n" if more else "")
+        + "- on Linux glibc 2.32 or later; in a host that is no Python the FMU looks for the\n"
+        "  shared library of Python itself if it was built where a C compiler is (another one may\n"
+        "  be named in CONTACTKIT_LIBPYTHON); else load it first, for instance by\n"
+        "  LD_PRELOAD=libpython3.11.so.1.0\n"
+    )
+
+
+def _scene(scene: SeparationScene) -> Iterator[str]:
+    """What the FMU was made from, and what is left out."""
+    yield "<h2>The scene</h2>"
+    yield _text(f"Made from {scene.name or 'the start values above'}. What acts:")
+    yield _list(choices(effect) for effect in scene.effects)
+    yield _text("What is left out:")
+    has_it = {type(effect) for effect in scene.effects}
+    yield _list(kind.summary for kind in SEPARATION_EFFECTS if kind not in has_it)
+    yield _text("Between which bodies, and with which liquid:")
+    yield _table(("what", "value", "unit"), _rows(scene.interface))
+    yield "<h2>Sources of the equations</h2>"
+    yield _list(f"{e.name}: {source}" for e in scene.effects for source in e.cites(scene))
+
+
+def _rows(noun: Any, place: str = "") -> Iterator[tuple[str, str, str]]:
+    """Name, value and unit of every field of a noun and of the nouns in it."""
+    for one in fields(type(noun)):
+        value, name = getattr(noun, one.name), f"{place}{one.name}"
+        if value is None or value == "":
+            continue
+        if has(type(value)):
+            yield name, type(value).__name__, ""
+            yield from _rows(value, f"{name}.")
+        else:
+            unit = one.metadata.get("unit", "-")
+            yield name, str(value), "" if unit == "-" else str(unit)
+
+
+def _cite(about: Page) -> str:
+    sources = ", and the sources of the equations above" if about.scene is not None else ""
+    return (
+        f"contactkit {__version__} (BSD-3-Clause), FMU {about.name}, with the GUID in "
+        f"modelDescription.xml, which is a hash of all that decides what it computes{sources}."
+    )
+
+
+def _text(text: str) -> str:
+    return f"<p>{html.escape(text)}</p>"
+
+
+def _list(lines: Iterable[str]) -> str:
+    return "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in lines) + "</ul>"
+
+
+def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    return "\n".join(
+        ["<table>", _row(head, "th"), *(_row(cells, "td") for cells in rows), "</table>"]
+    )
+
+
+def _row(cells: Iterable[str], tag: str) -> str:
+    return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+
+def _cells(port: Port, start: Value) -> list[str]:
+    shown = port.enumeration(int(start)).name if port.enumeration else str(start).lower()
+    allowed = port.expectation.removeprefix("be ")
+    is_output = port.causality == "output"
+    return [
+        port.name,
+        "" if port.unit == "-" else port.unit,
+        port.display_unit or "",
+        port.causality,
+        port.kind,
+        "" if is_output else shown,
+        "" if is_output and port.enumeration is None else allowed,
+        port.label,
+    ]
+
+
+def license_text(distribution: str, beside: Path | None = None) -> str:
+    """Licence of an installed distribution.
+
+    Parameters
+    ----------
+    distribution : str
+        Its name, as pip knows it.
+    beside : Path, optional
+        Where the text lies if the distribution is not installed but run from its sources.
+
+    Raises
+    ------
+    ContactkitError
+        If there is none: code must not be passed on without it.
+    """
+    try:
+        files = importlib.metadata.files(distribution) or []
+    except importlib.metadata.PackageNotFoundError:
+        files = []
+    for path in files:
+        if path.name.upper().startswith(("LICENSE", "LICENCE")):
+            return path.read_text(encoding="utf-8")
+    if beside is not None and beside.exists():
+        return beside.read_text(encoding="utf-8")
+    raise ContactkitError(f"no licence of {distribution!r} found; reinstall {distribution}")

@@ -1,0 +1,117 @@
+"""What an FMU holds for tools that draw and connect: its flange as a terminal, and its icon.
+
+A terminal says which variables belong together, so that a tool draws one line where there are
+four connections. FMI 3.0 knows terminals; FMI 2.0 does not forbid the file, and some tools that
+read FMI 2.0 look for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from attrs import frozen
+
+from ..framework.ports import Port
+from .icon import icon_png, icon_svg
+
+__all__ = ["Flange", "flange_of", "terminal_files", "terminals_xml"]
+
+_PLACE = "terminalsAndIcons/"
+
+
+@frozen
+class Flange:
+    """A flange that an FMU may have: its kind, and the variable of each of its members."""
+
+    kind: str
+    description: str
+    members: dict[str, str]
+
+
+_PULLED = {"gap": "h", "speed": "v", "force": "F_ext", "force_rate": "dF_ext"}
+_HOLDING = {"gap": "h", "speed": "v", "force": "F"}
+_ROOT = {"gap": "z", "speed": "vz", "acceleration": "az", "force": "F"}
+
+# The first whose variables are all there is the flange of an FMU.
+_FLANGES = (
+    Flange("pull", "gap and opening speed of a mass, and the pull on it, > 0 opens", _PULLED),
+    Flange("tips", "height, speed and acceleration of a root, and the force on it", _ROOT),
+    Flange("contact", "gap and opening speed, and the force of what is between", _HOLDING),
+)
+
+
+def flange_of(ports: Iterable[Port]) -> Flange | None:
+    """Flange of the FMU that has these variables, or None.
+
+    Examples
+    --------
+    >>> from contactkit.fmu.slaves.stiction_mass import PORTS
+    >>> flange_of(PORTS).members["force"]
+    'F_ext'
+    """
+    names = {port.name for port in ports if port.causality != "parameter"}
+    return next((f for f in _FLANGES if names.issuperset(f.members.values())), None)
+
+
+def terminals_xml(ports: Sequence[Port], *, fmi: str = "2") -> bytes | None:
+    """File ``terminalsAndIcons/terminalsAndIcons.xml`` by the schema of FMI 3.0.
+
+    Parameters
+    ----------
+    ports : sequence of Port
+        Variables of the FMU.
+    fmi : {"2", "3"}
+        Version of FMI; the icon is an entry of this file only in version 3.
+
+    Returns
+    -------
+    bytes or None
+        None for an FMU without a flange, in version 2.
+    """
+    flange = flange_of(ports)
+    if flange is None and fmi == "2":
+        return None
+    root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    if fmi == "3":
+        picture = SubElement(root, "GraphicalRepresentation")
+        corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+        SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
+        SubElement(picture, "Icon", corners)
+    if flange is not None:
+        terminal = SubElement(
+            SubElement(root, "Terminals"), "Terminal", name="flange", matchingRule="plug",
+            terminalKind=f"contactkit.{flange.kind}", description=flange.description,
+        )  # fmt: skip
+        for member, variable in flange.members.items():
+            SubElement(
+                terminal, "TerminalMemberVariable", variableName=variable, memberName=member,
+                variableKind="signal",
+            )  # fmt: skip
+    indent(root)
+    text: bytes = tostring(root, encoding="utf-8", xml_declaration=True)
+    return text + b"\n"
+
+
+def terminal_files(ports: Sequence[Port], *, fmi: str = "2") -> dict[str, bytes]:
+    """Terminals and icon of an FMU, by their paths in the file.
+
+    Parameters
+    ----------
+    ports : sequence of Port
+        Variables of the FMU.
+    fmi : {"2", "3"}
+        Version of FMI, which decides where the icon lies.
+
+    Examples
+    --------
+    >>> from contactkit.fmu.slaves.stiction_mass import PORTS
+    >>> sorted(terminal_files(PORTS))
+    ['model.png', 'terminalsAndIcons/terminalsAndIcons.xml']
+    """
+    if fmi == "3":
+        files = {f"{_PLACE}icon.png": icon_png(), f"{_PLACE}icon.svg": icon_svg().encode()}
+    else:
+        files = {"model.png": icon_png()}
+    text = terminals_xml(ports, fmi=fmi)
+    return files if text is None else files | {f"{_PLACE}terminalsAndIcons.xml": text}

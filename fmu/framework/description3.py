@@ -1,0 +1,123 @@
+"""The model description (FMI 3.0) of a table of ports, and the description of a build.
+
+Variables, value references, units and log categories are those of the description of FMI 2.0
+(`contactkit.fmu.framework.description`). FMI 3 adds the variable of the time, whose reference comes after all
+others, and says of each output whether it may change between events.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from xml.etree.ElementTree import Element, SubElement
+
+from .description import (
+    Description,
+    details,
+    enumerations,
+    frame,
+    items,
+    unit_definitions,
+    value_references,
+)
+from .ports import Port
+
+__all__ = ["build_description", "model_description3"]
+
+_TAGS = {
+    "real": "Float64", "integer": "Int32", "boolean": "Boolean", "enumeration": "Enumeration",
+}  # fmt: skip
+_ABLE = (
+    "canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives",
+    "providesAdjointDerivatives", "canHandleVariableCommunicationStepSize",
+    "mightReturnEarlyFromDoStep", "hasEventMode",
+)  # fmt: skip
+_UNABLE = (
+    "needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess", "providesIntermediateUpdate",
+    "canReturnEarlyAfterIntermediateUpdate",
+)  # fmt: skip
+
+
+def model_description3(about: Description, discrete: Collection[str] = ()) -> Element:
+    """Root element of ``modelDescription.xml`` for FMI 3.0, co-simulation.
+
+    Parameters
+    ----------
+    about : Description
+        What it says.
+    discrete : collection of str
+        Names of real outputs that change at events only.
+    """
+    able = {"modelIdentifier": about.identifier} | dict.fromkeys(_ABLE, "true")
+    able |= dict.fromkeys(_UNABLE, "false")
+    root = frame(about, "3.0", able, _units(about.ports), _types(about.ports))
+    variables = SubElement(root, "ModelVariables")
+    references = value_references(about.ports)
+    for port in about.ports:
+        changes = "discrete" if port.kind != "real" or port.name in discrete else "continuous"
+        attributes = {
+            "name": port.name,
+            "valueReference": str(references[port.name]),
+            "description": port.label,
+            "causality": port.causality,
+            "variability": "fixed" if port.causality == "parameter" else changes,
+        }
+        if port.causality != "input":
+            attributes["initial"] = "exact" if port.causality == "parameter" else "calculated"
+        SubElement(variables, _TAGS[port.kind], attributes | details(port, about.start))
+    SubElement(
+        variables, "Float64", name="time", valueReference=str(len(about.ports) + 1),
+        description="simulation time", causality="independent", variability="continuous", unit="s",
+    )  # fmt: skip
+    root.append(_structure(about.ports))
+    return root
+
+
+def _units(ports: Sequence[Port]) -> Element:
+    """Units of the ports, and that of the time."""
+    definitions = unit_definitions(ports)
+    if definitions.find("Unit[@name='s']") is None:
+        SubElement(SubElement(definitions, "Unit", name="s"), "BaseUnit", s="1")
+    return definitions
+
+
+def _types(ports: Sequence[Port]) -> Element:
+    definitions = Element("TypeDefinitions")
+    for enumeration in enumerations(ports):
+        entry = SubElement(definitions, "EnumerationType", name=enumeration.__name__)
+        entry.extend(items(enumeration))
+    return definitions
+
+
+def _structure(ports: Sequence[Port]) -> Element:
+    structure = Element("ModelStructure")
+    references = value_references(ports)
+    inputs = {port.name for port in ports if port.causality == "input"}
+    for tag in ("Output", "InitialUnknown"):
+        for port in ports:
+            if port.causality != "output":
+                continue
+            node = SubElement(structure, tag, valueReference=str(references[port.name]))
+            if port.depends_on is not None:
+                # parameters are known once initialization is over, so only inputs count then
+                known = [n for n in port.depends_on if n in inputs or tag != "Output"]
+                numbers = sorted(references[name] for name in known)
+                node.set("dependencies", " ".join(map(str, numbers)))
+    return structure
+
+
+def build_description(identifier: str, files: Iterable[str]) -> Element:
+    """Root element of ``sources/buildDescription.xml`` for sources in C99.
+
+    Parameters
+    ----------
+    identifier : str
+        Name of the library.
+    files : iterable of str
+        Names of the sources.
+    """
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    build = SubElement(root, "BuildConfiguration", modelIdentifier=identifier)
+    sources = SubElement(build, "SourceFileSet", language="C99")
+    for name in sorted(files):
+        SubElement(sources, "SourceFile", name=name)
+    return root

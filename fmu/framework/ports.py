@@ -1,0 +1,233 @@
+"""Ports: what the variables of an FMU are called, mean, and may be.
+
+One table of ports gives the FMU its variables, a CSV file its header and a plot its labels.
+All values are in SI units; a display unit only says how a tool should show them.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+import sys
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Any, Literal
+
+from attrs import Attribute, field, frozen
+
+from ...errors import DescriptionError
+from ...units import parse_quantity, parse_unit
+
+__all__ = ["Causality", "Kind", "Port", "Value", "display_conversion", "find_port", "start_value"]
+
+Causality = Literal["input", "output", "parameter"]
+Kind = Literal["real", "integer", "boolean", "enumeration"]
+Value = float | int | bool
+
+_LARGEST = {"real": sys.float_info.max, "integer": 2**31 - 1}  # the range of FMI's own types
+_SMALLEST = {"real": -sys.float_info.max, "integer": -(2**31)}
+_TYPES: dict[str, type[float | int | bool]] = {"real": float, "boolean": bool}
+
+
+@frozen
+class Port:
+    """One variable of an FMU.
+
+    Parameters
+    ----------
+    name : str
+        Name in the FMU; letters, digits, underscores and dots.
+    unit : str
+        SI unit of the values, ``-`` for none.
+    causality : {"input", "output", "parameter"}
+        Inputs change while stepping, parameters are fixed when initialization ends.
+    label : str
+        What the variable is, in words.
+    kind : {"real", "integer", "boolean", "enumeration"}
+        Type of the values.
+    enumeration : type of IntEnum, optional
+        The members, for kind ``enumeration``.
+    start : float, int or bool, optional
+        Value before anything was set or calculated: if not given zero, ``False`` or the first
+        member of the enumeration.
+    minimum, maximum : float, optional
+        Allowed range. An infinite value is allowed only if a bound says so (``math.inf``).
+    exclusive : bool
+        The bounds themselves are refused. XML can only say "from 0", the slave says "above 0".
+    nominal : float, optional
+        A typical size, for a tool that scales its tolerances.
+    display_unit : str, optional
+        Unit to show the values in, such as ``um``, ``mPa.s``, ``deg``, ``bar`` or ``degC``.
+    depends_on : tuple of str, optional
+        Inputs and parameters that an output follows without a step in between; ``()`` says
+        none. If not given, a tool has to assume all of them.
+
+    Raises
+    ------
+    DescriptionError
+        If the description contradicts itself.
+
+    Examples
+    --------
+    >>> gap = Port("h0", "m", causality="parameter", label="gap at the start", start=1e-6,
+    ...            minimum=0.0, exclusive=True, display_unit="um")
+    >>> gap.heading
+    'h0 [m]'
+    >>> gap.allows(0.0), gap.allows(1e-9), gap.allows(float("nan"))
+    (False, True, False)
+    """
+
+    name: str = field()
+    unit: str = field()
+    causality: Causality = field(kw_only=True)
+    label: str = field(kw_only=True)
+    kind: Kind = field(kw_only=True, default="real")
+    enumeration: type[IntEnum] | None = field(kw_only=True, default=None)
+    minimum: float | None = field(kw_only=True, default=None)
+    maximum: float | None = field(kw_only=True, default=None)
+    exclusive: bool = field(kw_only=True, default=False)
+    nominal: float | None = field(kw_only=True, default=None)
+    display_unit: str | None = field(kw_only=True, default=None)
+    depends_on: tuple[str, ...] | None = field(kw_only=True, default=None)
+    start: Value = field(kw_only=True)
+
+    @start.default
+    def _first(self) -> Value:
+        if self.enumeration is not None:
+            return min(self.enumeration)
+        return _TYPES.get(self.kind, int)()
+
+    @name.validator
+    def _check_name(self, _: Attribute[str], value: str) -> None:
+        if not re.fullmatch(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*", value, re.ASCII):
+            raise DescriptionError("Port.name", value, "be made of letters, digits, _ and dots")
+
+    @enumeration.validator
+    def _check_enumeration(self, _: Attribute[Any], value: type[IntEnum] | None) -> None:
+        if (self.kind == "enumeration") != (value is not None):
+            expected = "be given for kind 'enumeration', and for no other"
+            raise DescriptionError(f"Port {self.name!r}.enumeration", value, expected)
+
+    @depends_on.validator
+    def _check_depends_on(self, _: Attribute[Any], value: tuple[str, ...] | None) -> None:
+        if value is not None and self.causality != "output":
+            expected = "be left out, except for outputs"
+            raise DescriptionError(f"Port {self.name!r}.depends_on", value, expected)
+
+    @start.validator
+    def _check_start(self, _: Attribute[Any], value: Value) -> None:
+        self.read(value)
+        display_conversion(self.unit, self.display_unit or self.unit)
+        if self.unit != "-" and self.kind != "real":
+            raise DescriptionError(f"Port {self.name!r}.unit", self.unit, "be '-' unless real")
+
+    @property
+    def heading(self) -> str:
+        """Name and unit, as the head of a column or an axis."""
+        return self.name if self.unit == "-" else f"{self.name} [{self.unit}]"
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Smallest and largest number the slave accepts, both included."""
+        if self.kind == "boolean":
+            return False, True
+        if self.enumeration is not None:
+            return min(self.enumeration), max(self.enumeration)
+        low = _SMALLEST[self.kind] if self.minimum is None else self.minimum
+        high = _LARGEST[self.kind] if self.maximum is None else self.maximum
+        if self.exclusive and self.minimum is not None:
+            low = low + 1 if self.kind == "integer" else math.nextafter(low, math.inf)
+        if self.exclusive and self.maximum is not None:
+            high = high - 1 if self.kind == "integer" else math.nextafter(high, -math.inf)
+        return low, high
+
+    @property
+    def expectation(self) -> str:
+        """What a value must be, in words that follow "must"."""
+        if self.kind == "boolean":
+            return "be true or false"
+        if self.enumeration is not None:
+            return "be " + " or ".join(f"{int(m)} ({m.name})" for m in self.enumeration)
+        bounds = []
+        if self.minimum is not None:
+            bounds.append(f"{'above' if self.exclusive else 'at least'} {self.minimum:g}")
+        if self.maximum is not None:
+            bounds.append(f"{'below' if self.exclusive else 'at most'} {self.maximum:g}")
+        number = "whole" if self.kind == "integer" else "finite"
+        return f"be a {number} number {' and '.join(bounds)}".rstrip()
+
+    def allows(self, value: float) -> bool:
+        """Whether a number lies in the allowed range; never for nan."""
+        if self.enumeration is not None:
+            return value in [int(member) for member in self.enumeration]
+        low, high = self.limits
+        return low <= value <= high
+
+    def read(self, value: object) -> Value:
+        """Turn a value into the type of this port; a member of an enumeration may be named.
+
+        Raises
+        ------
+        DescriptionError
+            If the value is of another type or out of range.
+        """
+        given = value
+        if self.enumeration is not None and isinstance(value, str):
+            value = self.enumeration.__members__.get(value)
+        if isinstance(value, bool) is (self.kind == "boolean") and isinstance(value, int | float):
+            whole = self.kind in ("real", "boolean") or value % 1 == 0  # False for inf and nan
+            if whole and self.allows(value):
+                return _TYPES.get(self.kind, int)(value)
+        unit = "" if self.unit == "-" else self.unit
+        raise DescriptionError(self.name, given, self.expectation, unit=unit)
+
+
+def display_conversion(unit: str, display_unit: str) -> tuple[float, float]:
+    """Factor and offset from a unit to the unit that is shown.
+
+    Raises
+    ------
+    DescriptionError
+        If the two units do not measure the same thing.
+
+    Examples
+    --------
+    >>> display_conversion("Pa.s", "mPa.s")
+    (1000.0, 0.0)
+    >>> display_conversion("K", "degC")
+    (1.0, -273.15)
+    """
+    if (unit, display_unit) == ("K", "degC"):
+        return 1.0, -273.15
+    own, shown = parse_unit(unit), parse_unit(display_unit)
+    if own.dimension != shown.dimension:
+        raise DescriptionError("display unit", display_unit, f"measure the same as {unit}")
+    return float(f"{own.factor / shown.factor:.15g}"), 0.0  # without the dust of the division
+
+
+def find_port(ports: Sequence[Port], name: str) -> Port:
+    """Return the port of that name.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none; the nearest name is suggested.
+    """
+    for port in ports:
+        if port.name == name:
+            return port
+    names = [port.name for port in ports]
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(names)
+    raise DescriptionError("port", name, "be a variable of this FMU", hint=hint)
+
+
+def start_value(ports: Sequence[Port], name: str, value: Value | str) -> Value:
+    """Start value of a variable that is no output; a text carries its unit."""
+    port = find_port(ports, name)
+    if port.causality == "output":
+        raise DescriptionError(name, value, "be left to the model, because it is an output")
+    if isinstance(value, str) and port.kind == "real":
+        return port.read(parse_quantity(value, port.unit, name))
+    return port.read(value)

@@ -1,0 +1,228 @@
+"""The way of the master: steps chosen by their error, cut at events, to the gap or time asked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ...errors import ConvergenceError
+from .force_step import forced
+from .impulse_step import Body, Doubled, Point, doubled, given
+from .sides import FilmSide, Pull, Pulling, Reaction
+
+__all__ = ["Goal", "Walk"]
+
+_SAFETY, _SHRINK, _GROW = 0.9, 0.1, 5.0
+_SAME = 1e-9  # gaps closer than this, relatively, are one
+_MOST_REJECTED = 60
+_REST = 0.02  # share of the whole time that is rested at once
+
+
+class Goal(NamedTuple):
+    """Where a walk ends, and how well it is to be followed."""
+
+    stop_time: float
+    release_gap: float  # inf: none
+    tolerance: float
+    jumps: Sequence[float] = ()  # times at which the pull is not smooth [s]
+
+
+class Walk:
+    """Points on the way so far; `step` adds one.
+
+    Attributes
+    ----------
+    points : list of Point
+        With the start.
+    pulls : list of float
+        Pull [N] at the end of each step.
+    release_time : float
+        When the gap first came to that of the goal [s]; -1 before.
+    n_rejected : int
+        Steps that were taken again, shorter.
+    """
+
+    def __init__(self, film: FilmSide, pull: Pull, body: Body, first: Point, goal: Goal) -> None:
+        self.film, self.pull, self.body, self.goal = film, pull, body, goal
+        self.points, self.pulls = [first], [math.nan]
+        self.release_time = -1.0
+        self.n_rejected = 0
+        self._length = 1e-3 * (goal.stop_time - first.time)
+        self._held = first.gap <= body.floor and first.speed <= 0.0
+        self._share = 0.5 * goal.tolerance
+        self._power = -1.0 / 3.0
+        if film.has_limits:  # without extrapolation errors add up from step to step
+            self._share *= 0.5
+            self._power = -1.0 / 4.0
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the gap or the time asked for is reached."""
+        return self.release_time >= 0.0 or self.points[-1].time >= self.goal.stop_time
+
+    def step(self) -> None:
+        """Take one step, as long as its error allows, and no further than the next event."""
+        point, goal = self.points[-1], self.goal
+        end = min([t for t in goal.jumps if t > point.time] + [goal.stop_time])
+        if self._held:
+            self._rest(point, end)
+            return
+        length = min(self._length, end - point.time)
+        found, error, rejected = None, math.inf, 0
+        while True:
+            found = self._try(length)
+            error = self._judge(found, length) if found is not None else math.inf
+            if found is not None and error <= 1.0:
+                break
+            rejected += 1
+            length *= 0.5 if math.isinf(error) else max(_SHRINK, _SAFETY * error**self._power)
+            if rejected > _MOST_REJECTED or length < 1e-15 * max(point.time, 1e-12):
+                raise ConvergenceError(
+                    f"no step can be taken from {point.time:g} s, gap {point.gap:g} m, that meets "
+                    f"the tolerance of {goal.tolerance:g}; loosen it, or use the FMU stiction-mass"
+                )
+        self.n_rejected += rejected
+        following = length * min(_GROW, _SAFETY * max(error, 1e-9) ** self._power)
+        cut_short = not rejected and length < self._length
+        self._length = max(following, self._length) if cut_short else following
+        mark = self._mark(point, found.gap)
+        if mark is not None:
+            found, length = self._locate(found, length, mark)
+        self._accept(found, length, end, mark)
+
+    def _rest(self, point: Point, end: float) -> None:
+        """Stay on what keeps the bodies apart, until the pull exceeds what holds."""
+        length = min(end - point.time, _REST * self.goal.stop_time)
+        holding = self.body.stiffness * (point.gap - self.body.rest) + point.film.static
+        start = self.pull.save()
+        pulling = self.pull.over(point.time, length, point.gap, 0.0)
+        self._held = pulling(point.time) <= holding
+        if self._held:
+            low, high = 0.0, length
+            if pulling(point.time + length) > holding:
+                self._held = False
+                while high - low > 1e-12 * length:
+                    length = 0.5 * (low + high)
+                    self.pull.restore(start)
+                    pulling = self.pull.over(point.time, length, point.gap, 0.0)
+                    low, high = (
+                        (low, length) if pulling(point.time + length) > holding else (length, high)
+                    )
+            there = self.film.move(point.time, length, point.gap, 0.0)
+            time = point.time + length
+            self._add(Point(time, point.gap, 0.0, 0.0, point.given, there), pulling, end)
+        else:
+            self.pull.restore(start)
+        self.pull.forget(start)
+
+    def _add(self, point: Point, pulling: Pulling, end: float) -> None:
+        if abs(point.time - end) <= 1e-13 * end:
+            point = point._replace(time=end)
+        if len(self.points) == 1:
+            self.pulls[0] = pulling(self.points[0].time)
+        self.pulls.append(pulling(point.time))
+        self.points.append(point)
+
+    def _try(self, length: float) -> Doubled | None:
+        attempt = forced if self.film.has_limits else doubled
+        return attempt(self.film, self.pull, self.body, self.points[-1], length, self._share)
+
+    def _judge(self, found: Doubled, length: float) -> float:
+        """Error over tolerance: of the gap, and of the momentum against all that was given.
+
+        An error of speed counts as far as the film leaves it: it dies out within m/c. So a
+        transient of that length, 1e-12 s at 10 nm, is stepped over.
+        """
+        point, mass = self.points[-1], self.body.mass
+        size = point.given + abs(found.total - point.momentum) + abs(point.film.static) * length
+        size += mass * abs(found.speed)
+        if size == 0.0:  # nothing pulls, holds or moves
+            return found.gap_error / self._share
+        lasting = mass * found.speed_error / (1.0 + found.damping * length / mass)
+        wrong = max(found.gap_error, found.total_error / size, lasting / size)
+        return wrong / self._share
+
+    def _mark(self, point: Point, gap: float) -> float | None:
+        """First gap on the way at which something happens."""
+        marks = [point.film.above, point.film.below, self.goal.release_gap, self.body.floor]
+        low, high = sorted((point.gap, gap))
+        inside = [m for m in marks if low * (1.0 + _SAME) < m <= high * (1.0 - _SAME) or m == gap]
+        inside = [m for m in inside if m < math.inf and abs(m / point.gap - 1.0) > _SAME]
+        if gap < point.gap:
+            inside = [m for m in inside if m != self.goal.release_gap]
+        return min(inside, key=lambda m: abs(m - point.gap), default=None)
+
+    def _locate(self, found: Doubled, length: float, mark: float) -> tuple[Doubled, float]:
+        """Step that ends at a gap: secants on its length, kept inside the bracket."""
+        point = self.points[-1]
+        # A stiff film may hardly have moved, and its impulse is in what it did.
+        enough = 1e-3 * self.goal.tolerance * min(1.0, abs(math.log(found.gap / point.gap)))
+        low, high = 0.0, length
+        here, miss = length, math.log(found.gap / mark)
+        guess = length * (1.0 - miss / math.log(found.gap / point.gap))
+        rising = found.gap > point.gap
+        for _ in range(40):
+            if not low < guess < high:
+                guess = 0.5 * (low + high)
+            again = self._try(guess)
+            if again is None:
+                guess, high = 0.5 * (low + guess), guess
+                continue
+            missed = math.log(again.gap / mark)
+            if abs(missed) <= enough or high - low <= 1e-14 * high:
+                return again, guess
+            if (missed > 0.0) == rising:
+                high = guess
+            else:
+                low = guess
+            slope = (missed - miss) / (guess - here)
+            here, miss = guess, missed
+            guess = guess - missed / slope if slope else math.nan
+        raise ConvergenceError(
+            f"no step leads from {point.gap:g} m at {point.time:g} s to the gap of {mark:g} m"
+        )
+
+    def _accept(self, found: Doubled, length: float, end: float, mark: float | None) -> None:
+        point = self.points[-1]
+        pulling = self.pull.over(point.time, length, point.gap, point.speed)
+        time = point.time + length
+        gap, speed, there = self._settle(found, length, mark)
+        impulse = abs(given(pulling, point.time, time)) + abs(there.static) * length
+        left = found.total - (there.impulse - point.film.impulse)
+        if self.film.has_limits:
+            left = self.body.mass * speed
+        if mark == self.body.floor and gap < point.gap:
+            speed, left, self._held = 0.0, 0.0, True
+        self._add(Point(time, gap, speed, left, point.given + impulse, there), pulling, end)
+        if point.gap < gap and gap >= self.goal.release_gap * (1.0 - _SAME):
+            self.release_time = self.points[-1].time
+
+    def _settle(
+        self, found: Doubled, length: float, mark: float | None
+    ) -> tuple[float, float, Reaction]:
+        """Move the film to the end of a step; gap and speed share out what they miss together.
+
+        Extrapolated one by one they miss the momentum of both, which is the better known: where
+        the film rules that moves the gap, else the speed.
+        """
+        point, mass = self.points[-1], self.body.mass
+        gap, speed = found.gap if mark is None else mark, found.speed
+        if self.film.has_limits:
+            since = 0.0
+            for until, *motion in found.way:
+                self.film.move(point.time + since, until - since, *motion)
+                since = until
+            return gap, speed, self.film.move(point.time + since, length - since, gap, speed)
+        start = self.film.save()
+        there = self.film.move(point.time, length, gap, speed)
+        for _ in range(4):
+            miss = mass * speed + there.impulse - point.film.impulse - found.total
+            change = -miss / (there.damping + mass / length)
+            if mark is not None or abs(change) <= max(1e-2 * found.gap_error, 1e-15) * gap:
+                break
+            gap, speed = gap + change, speed + change / length
+            self.film.restore(start)
+            there = self.film.move(point.time, length, gap, speed)
+        self.film.forget(start)
+        return gap, speed, there

@@ -1,0 +1,288 @@
+"""The master for a tool that owns the mass: couples it to the FMU ``stiction-force``.
+
+A film is so stiff that its force, carried from one step into the next, needs steps below m/c:
+1e-7 s at 5 um, 1e-12 s at 10 nm. Longer ones do not fail, they give a smooth and wrong answer. So
+impulses are exchanged here instead, with the FMU taken back until both sides agree; the steps are
+chosen by their error, and cut at kinks, rupture and release. Forces are exchanged only where that
+is stable, and refused where it is not.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from numbers import Real
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from attrs import field, frozen
+
+from ...errors import ConvergenceError, DescriptionError
+from ...units import si
+from ...validators import finite, non_negative, positive
+from .adaptive import Goal, Walk
+from .fixed import FixedWalk
+from .impulse_step import Body, Point
+from .sides import DrivePull, FilmSide, GivenPull
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["Coupled", "Mass", "Scheme", "couple"]
+
+Scheme = Literal["impulse", "end-point", "gauss-seidel", "jacobi"]
+Progress = Callable[[float], None]
+
+_NAMES = ("h", "v", "F_ext", "F", "F_m", "J")
+
+
+@frozen(kw_only=True)
+class Mass:
+    """The body that the master moves.
+
+    Parameters
+    ----------
+    mass : float
+        Moving mass [kg].
+    stiffness : float
+        Stiffness of a spring that pulls back towards the gap at the start [N/m].
+    speed : float
+        Opening speed at the start [m/s].
+    rest_gap : float
+        Gap [m] at which asperities stop closing, at most that of the start; 0: none.
+    """
+
+    mass: float = field(validator=positive, metadata=si("kg"))
+    stiffness: float = field(default=0.0, validator=non_negative, metadata=si("N/m"))
+    speed: float = field(default=0.0, validator=finite, metadata=si("m/s"))
+    rest_gap: float = field(default=0.0, validator=non_negative, metadata=si("m"))
+
+
+@frozen(eq=False)
+class Coupled:
+    """What a coupled run gives.
+
+    Attributes
+    ----------
+    time : ndarray
+        Ends of the steps, the start included [s].
+    columns : mapping of str to ndarray
+        At these times gap ``h`` [m], speed ``v`` [m/s], pull ``F_ext`` [N], force of the film ``F``
+        [N] and of its meniscus ``F_m`` [N], viscous impulse ``J`` [N.s].
+    release_time : float
+        When the gap first came to the release gap [s]; -1 if it did not.
+    break_time : float
+        Time of the latest rupture [s]; -1 if the film did not break.
+    log : tuple of str
+        What the FMUs said.
+    n_steps, n_rejected, n_calls : int
+        Steps, tries that were taken again, and how often the film was asked.
+    seconds : float
+        Time spent in the steps [s].
+    """
+
+    time: NDArray[np.float64]
+    columns: Mapping[str, NDArray[np.float64]] = field(repr=False)
+    release_time: float
+    break_time: float
+    log: tuple[str, ...] = field(repr=False)
+    n_steps: int
+    n_rejected: int
+    n_calls: int
+    seconds: float
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """Return the column of a name."""
+        return self.columns[name]
+
+
+def couple(
+    film: str | Path,
+    mass: Mass,
+    pull: Callable[[float], float] | float | str | Path,
+    stop_time: float,
+    *,
+    release_gap: float = math.inf,
+    tolerance: float = 1e-3,
+    scheme: Scheme = "impulse",
+    step: float | None = None,
+    film_start: Mapping[str, float | str] | None = None,
+    pull_start: Mapping[str, float | str] | None = None,
+    jumps: Sequence[float] = (),
+    refuse: bool = True,
+    max_steps: int = 100_000,
+    progress: Progress | None = None,
+) -> Coupled:
+    """Couple a mass to a film FMU, from rest at the gap of the film to a gap or a time.
+
+    Parameters
+    ----------
+    film : path
+        An FMU of FMI 2.0 with the variables of ``stiction-force``.
+    mass : Mass
+        What the film holds.
+    pull : callable, float or path
+        Pull [N] on the mass at a time [s], smooth but at `jumps`; a steady one; or an FMU with the
+        variables of ``valve-drive``.
+    stop_time : float
+        Where to end at the latest [s].
+    release_gap : float
+        Gap [m] at which the run ends as soon as it is reached; inf: at `stop_time` only.
+    tolerance : float
+        Relative error of the release time to aim at, between 1e-8 and 0.1.
+    scheme : {"impulse", "end-point", "gauss-seidel", "jacobi"}
+        What is exchanged: impulses, with steps of their own if no `step` is given; the force at the
+        end of a fixed step, found by iteration; or the force of the last one, the mass first, or
+        both at once.
+    step : float, optional
+        A fixed communication step [s]; needed by all but ``"impulse"``.
+    film_start, pull_start : mapping, optional
+        Start values of the FMUs by variable, in SI units or as texts with a unit; those baked in if
+        not given. Motion, mass and exchange of the film are the master's.
+    jumps : sequence of float
+        Times at which the pull jumps or has a kink [s].
+    refuse : bool
+        Refuse a step with which forces cannot be exchanged; only to show what happens, not.
+    max_steps : int
+        Steps after which to give up.
+    progress : callable, optional
+        Called with the share of the time that is done.
+
+    Returns
+    -------
+    Coupled
+        It ends at the release or at `stop_time`, nowhere else; with a fixed `step` the release is
+        interpolated within the last one.
+
+    Raises
+    ------
+    InfeasibleError
+        If forces are to be exchanged with a step beyond the stable one, m/c for ``"jacobi"`` and
+        2 m/c for ``"gauss-seidel"``; names that step, and the FMU that needs none.
+    ConvergenceError
+        If an FMU does not accept a step, or the final time is not reached.
+    DescriptionError
+        If an argument is not possible, a pull is not finite, or a file is not such an FMU.
+    ContactkitError
+        If an FMU cannot be loaded here, or refuses a start value; with what it said.
+
+    Notes
+    -----
+    Measured from 10 nm to 20 um: each `tolerance` from 1e-2 to 1e-5 is met by the release time, and
+    1e-6 in the release cases. Impulses give a method of third order; where a limit of the liquid
+    may act the film is asked for forces, and it is of fifth.
+    """
+    _check(stop_time, tolerance, scheme, step, release_gap)
+    breaks = tuple(sorted(_checked("jumps", time, "be finite", unit="s") for time in jumps))
+    with ExitStack() as stack:
+        side = stack.enter_context(FilmSide(Path(film)))
+        source = _source(pull, pull_start, stop_time, stack)
+        explicit = scheme in ("gauss-seidel", "jacobi")
+        exchange = "FORCE" if explicit else "IMPULSE"
+        there = side.begin(film_start or {}, mass.mass, mass.speed, exchange)
+        body = Body(mass.mass, mass.stiffness, side.first_gap, mass.rest_gap)
+        if mass.rest_gap > body.rest:
+            expected = f"not exceed the gap at the start, {body.rest:g} m"
+            raise DescriptionError("Mass.rest_gap", mass.rest_gap, expected, unit="m")
+        if release_gap <= body.rest:
+            expected = f"exceed the gap at the start, {body.rest:g} m"
+            raise DescriptionError("release_gap", release_gap, expected, unit="m")
+        first = Point(0.0, body.rest, mass.speed, mass.mass * mass.speed, 0.0, there)
+        goal = Goal(stop_time, release_gap, tolerance, breaks)
+        walk: Walk | FixedWalk = (
+            Walk(side, source, body, first, goal)
+            if step is None
+            else FixedWalk(side, source, body, first, goal, scheme, step, refuse)
+        )
+        begun = clock.perf_counter()
+        _go(walk, goal, max_steps, progress)
+        log = side.log + (source.log if isinstance(source, DrivePull) else [])
+        return _result(walk, side.calls + side.asked, tuple(log), clock.perf_counter() - begun)
+
+
+def _source(
+    pull: Callable[[float], float] | float | str | Path,
+    values: Mapping[str, float | str] | None,
+    stop_time: float,
+    stack: ExitStack,
+) -> GivenPull | DrivePull:
+    """What pulls the mass, ready to go."""
+    if isinstance(pull, str | Path):
+        drive = stack.enter_context(DrivePull(Path(pull)))
+        drive.start(values or {}, stop_time)
+        return drive
+    if values:
+        expected = "be left out where the pull is no FMU"
+        raise DescriptionError("pull_start", dict(values), expected)
+    if callable(pull):
+        return GivenPull(pull)
+    steady = _checked("pull", pull, "be finite, a function of time, or the path of an FMU", "N")
+    return GivenPull(lambda time: steady)
+
+
+def _checked(name: str, value: Any, expected: str, unit: str = "") -> float:
+    """A finite number, or the error that names it."""
+    if isinstance(value, Real) and math.isfinite(value):
+        return float(value)
+    raise DescriptionError(name, value, expected, unit=unit)
+
+
+def _check(
+    stop_time: float, tolerance: float, scheme: str, step: float | None, release_gap: Any
+) -> None:
+    schemes = ("impulse", "end-point", "gauss-seidel", "jacobi")
+    if scheme not in schemes:
+        raise DescriptionError("scheme", scheme, f"be one of {', '.join(schemes)}")
+    if step is None and scheme != "impulse":
+        hint = "or take scheme='impulse', which chooses its steps"
+        raise DescriptionError("step", step, f"be given for {scheme!r}", unit="s", hint=hint)
+    for name, value in (("stop_time", stop_time), ("step", 1.0 if step is None else step)):
+        if not _checked(name, value, "be positive and finite", "s") > 0.0:
+            raise DescriptionError(name, value, "be positive and finite", unit="s")
+    if not 1e-8 <= _checked("tolerance", tolerance, "be between 1e-8 and 0.1") <= 0.1:
+        hint = "tighter ones are not met" if tolerance < 1e-8 else ""
+        raise DescriptionError("tolerance", tolerance, "be between 1e-8 and 0.1", hint=hint)
+    if not (isinstance(release_gap, int | float) and release_gap > 0.0):
+        raise DescriptionError("release_gap", release_gap, "be positive", unit="m")
+
+
+def _go(walk: Walk | FixedWalk, goal: Goal, max_steps: int, progress: Progress | None) -> None:
+    """Step to the end, and see to it that it is the end asked for."""
+    while not walk.is_done:
+        if len(walk.points) > max_steps:
+            break
+        walk.step()
+        if progress is not None:
+            progress(walk.points[-1].time / goal.stop_time)
+    last = walk.points[-1].time
+    if walk.release_time < 0.0 and abs(last - goal.stop_time) > 1e-9 * goal.stop_time:
+        raise ConvergenceError(
+            f"{len(walk.points) - 1} steps led to {last:g} s, not to {goal.stop_time:g} s nor to "
+            f"the release; loosen the tolerance or raise max_steps"
+        )
+
+
+def _result(walk: Walk | FixedWalk, calls: int, log: tuple[str, ...], seconds: float) -> Coupled:
+    import numpy as np
+
+    rows = [
+        (p.time, p.gap, p.speed, pull, p.film.force, p.film.static, p.film.impulse)
+        for p, pull in zip(walk.points, walk.pulls, strict=True)
+    ]
+    table = np.array(rows)
+    table.flags.writeable = False
+    columns = {name: table[:, i + 1] for i, name in enumerate(_NAMES)}
+    return Coupled(
+        table[:, 0],
+        columns,
+        walk.release_time,
+        walk.points[-1].film.broken_at,
+        log,
+        len(walk.points) - 1,
+        walk.n_rejected,
+        calls,
+        seconds,
+    )

@@ -1,0 +1,197 @@
+"""The two sides of the master's interface: a film that can be tried, and what pulls the mass.
+
+Both can be taken back to an earlier point, so that a step can be tried with another length or
+another end. A film is the FMU ``stiction-force``; a pull is a function of time, or an FMU such as
+``valve-drive`` that answers to the motion.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+from ...errors import DescriptionError
+from ..framework.instance import Instance
+
+__all__ = ["DrivePull", "FilmSide", "Force", "GivenPull", "Pulling", "Reaction", "Restorable"]
+
+Pulling = Callable[[float], float]
+"""Pull [N] at a time [s]."""
+
+
+class Reaction(NamedTuple):
+    """What a film answers at the end of a step."""
+
+    impulse: float  # viscous, since the start [N.s]
+    static: float  # force that does not depend on speed [N]
+    force: float  # all of it [N]
+    damping: float  # dF/dv [N.s/m]
+    above: float  # next gap above at which a force is not smooth [m]; 0: none
+    below: float  # next gap below [m]; 0: none
+    broken_at: float  # time of the latest rupture [s]; -1 before
+
+
+class Force(NamedTuple):
+    """What a film answers to a gap and a speed, without a step."""
+
+    force: float  # all of it [N]
+    static: float  # what does not depend on speed [N]
+    damping: float  # dF/dv [N.s/m]
+    stiffness: float  # dF/dh [N/m]
+
+
+_FORCES = ("F", "F_m", "c", "k")
+_ANSWERS = ("J", "F_m", "F", "c", "h_above", "h_below", "t_break")
+_OWN = {
+    "h": "h0, the gap at which the film begins",
+    "v": "Mass.speed",
+    "m_ref": "Mass.mass",
+    "exchange": "scheme",
+}
+
+
+class Restorable(Instance):
+    """An FMU that can be taken back."""
+
+    _now: Any = None  # the state in which it is, if it has not moved since
+
+    def save(self) -> Any:
+        """State of the FMU, to be given to `restore`, and at last to `forget`."""
+        mark = ctypes.c_void_p()
+        self._do("fmi2GetFMUstate", ctypes.byref(mark))
+        self._now = mark, len(self.log)
+        return self._now
+
+    def restore(self, state: Any) -> None:
+        """Go back to a state; what was said since then did not happen."""
+        if self._now is not state:
+            self._do("fmi2SetFMUstate", state[0])
+            del self.log[state[1] :]
+            self._now = state
+
+    def step(self, time: float, length: float) -> None:
+        """See `Instance.step`."""
+        self._now = None
+        super().step(time, length)
+
+    def forget(self, state: Any) -> None:
+        """Free a state."""
+        self._do("fmi2FreeFMUstate", ctypes.byref(state[0]))
+
+
+class FilmSide(Restorable):
+    """The FMU ``stiction-force`` as the master uses it; a context that cleans up."""
+
+    model = "stiction-force"
+    needed: ClassVar = {
+        "input": ("h", "v"),
+        "output": (*_ANSWERS, "k", "limit"),
+        "parameter": ("h0", "m_ref", "exchange", "dp_cav", "tau_lim"),
+    }
+    calls = asked = 0
+    power = 3.0  # with which the damping fell last
+
+    def begin(
+        self, values: Mapping[str, float | str], mass: float, speed: float, exchange: str
+    ) -> Reaction:
+        """Initialize with start values; the gap is that of the film, the mass the master's."""
+        self._motion, self._answers = self.references("h", "v"), self.references(*_ANSWERS)
+        self._forces, self._limit = self.references(*_FORCES), self.references("limit")
+        for name in _OWN.keys() & values.keys():
+            raise DescriptionError(
+                f"film_start[{name!r}]", values[name], "be left out: the master sets it",
+                hint=f"it follows from {_OWN[name]}",
+            )  # fmt: skip
+        gap = self.quantity("h0", values.get("h0", float(self.variables["h0"].start)))
+        if not 0.0 < gap < math.inf:
+            raise DescriptionError("h0", gap, "be positive and finite", unit="m")
+        own: dict[str, float | str] = {"h": gap, "v": speed, "m_ref": mass, "exchange": exchange}
+        self.start({**values, **own}, 0.0)
+        self.first_gap = gap
+        self.has_limits = max(self.get(self.references("dp_cav", "tau_lim"))) > 0.0
+        return self.look()
+
+    def look(self) -> Reaction:
+        """Answers at the motion set last."""
+        return Reaction(*self.get(self._answers))
+
+    def feel(self, gap: float, speed: float) -> Force:
+        """Forces at a gap [m] and a speed [m/s]; nothing else in the film changes."""
+        self.asked += 1
+        self.set(self._motion, [gap, speed])
+        return Force(*self.get(self._forces))
+
+    def limit(self) -> int:
+        """Which limit acts at what was felt last."""
+        return self.get_integers(self._limit)[0]
+
+    def move(self, time: float, length: float, gap: float, speed: float) -> Reaction:
+        """Take a step from `time` [s] that ends at a gap [m] with a speed [m/s]."""
+        self.calls += 1
+        self.set(self._motion, [gap, speed])
+        self.step(time, length)
+        return self.look()
+
+
+class Pull(Protocol):
+    """What pulls the mass, and can be taken back."""
+
+    def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
+        """Go over a step that begins at `time` [s]; gap [m] and speed [m/s] are those there."""
+
+    def save(self) -> Any:
+        """Point to go back to."""
+
+    def restore(self, state: Any) -> None:
+        """Go back to it."""
+
+    def forget(self, state: Any) -> None:
+        """Free it."""
+
+
+class GivenPull:
+    """A pull that is a function of time."""
+
+    def __init__(self, force: Pulling) -> None:
+        self._force = force
+
+    def force(self, time: float) -> float:
+        """Pull [N] at a time [s], which must be a finite number."""
+        found = self._force(time)
+        try:
+            if math.isfinite(found):
+                return found
+        except TypeError:
+            pass
+        raise DescriptionError(f"pull at t = {time:g} s", found, "be a finite number", unit="N")
+
+    def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
+        """See `Pull.over`."""
+        return self.force
+
+    def save(self) -> None:
+        """See `Pull.save`: nothing changes."""
+
+    def restore(self, state: None) -> None:
+        """See `Pull.restore`."""
+
+    def forget(self, state: None) -> None:
+        """See `Pull.forget`."""
+
+
+class DrivePull(Restorable):
+    """A drive FMU with the variables of ``valve-drive``; its pull is a line within a step."""
+
+    model = "valve-drive"
+    needed: ClassVar = {"input": ("h", "v"), "output": ("F_ext", "dF_ext")}
+
+    def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
+        """See `Pull.over`."""
+        pull, rate = self.references("F_ext"), self.references("dF_ext")
+        self.set(self.references("h", "v"), [gap, speed])
+        first = self.get(pull)[0]
+        self.step(time, length)
+        slope = self.get(rate)[0]
+        return lambda at: first + slope * (at - time)

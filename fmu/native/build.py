@@ -1,0 +1,279 @@
+"""Writing native FMUs: one C kernel for all models, and the tables of one scene.
+
+Such an FMU needs no Python on the host. Building twice from the same sources with the same
+compiler gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+from attrs import evolve
+
+from ...errors import DescriptionError, PlanError
+from ...scene.contact_scene import ContactScene
+from ...scene.scenes import SeparationScene
+from ..contents.document import license_text
+from ..contents.packing import write_archive
+from ..contents.terminals import terminal_files
+from ..framework.description import Description
+from ..framework.ports import Value, find_port, start_value
+from ..framework.toolchain import (
+    PLATFORMS,
+    compile_kernel,
+    fmi_headers,
+    has_zig,
+    join_macs,
+    kernel_sources,
+    local,
+)
+from ..slaves.stiction_force import StictionForce
+from ..slaves.stiction_mass import StictionMass, scene_of
+from .data import data_file, digest, guid_of, port_numbers
+from .description import CATEGORIES, description_files
+from .film import film_numbers, moving
+from .page import native_page
+from .ports import MODELS, Model, check_free, check_start, native_ports
+
+__all__ = [
+    "build_native",
+    "chosen_platforms",
+    "native_scene",
+    "target",
+    "write_native",
+]
+
+_SLAVES = {"stiction-mass": StictionMass, "stiction-force": StictionForce}
+_MASS = {"stiction-mass": "m", "stiction-force": "m_ref"}
+_SUMMARIES = {
+    "stiction-mass": StictionMass.summary,
+    "stiction-force": "Liquid film between two bodies: forces, impulses and doubts of coupling",
+}
+_COMPILED: dict[tuple[str, ...], bytes] = {}  # the kernel is the same for all scenes
+
+
+def build_native(
+    scene: SeparationScene,
+    out: str | os.PathLike[str],
+    *,
+    model: Model = "stiction-mass",
+    start: Mapping[str, Value | str] | None = None,
+    platforms: Sequence[str] | None = None,
+    compiler: str = "auto",
+    fmi: Literal[2, 3] = 2,
+) -> Path:
+    """Write an FMU of any scene that runs without Python (co-simulation).
+
+    Parameters
+    ----------
+    scene : SeparationScene
+        What is there; its forces are tabulated. What it imposes is left out: pull or motion are
+        inputs.
+    out : path
+        The file to write, ``*.fmu``.
+    model : {"stiction-mass", "stiction-force"}
+        A mass with its film, or the film for a tool that owns the mass.
+    start : mapping, optional
+        Start values by variable; a text carries its unit (``"20 g"``). The mass, ``m`` or
+        ``m_ref``, must be among them if the scene has none.
+    platforms : sequence of str, optional
+        Platforms to compile for, of `native_compile.PLATFORMS`. None: all if ziglang is
+        installed, else this computer's.
+    compiler : {"auto", "zig", "cc"}
+        See `native_compile.compile_kernel`.
+    fmi : {2, 3}
+        Version of FMI. FMI 3.0 has event mode, with early return at a rupture.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    DescriptionError
+        If a name, a start value, a platform or a version is not possible.
+    ContactkitError
+        If the scene cannot be planned or tabulated, or a compiler is missing.
+    """
+    place = target(out, fmi)
+    if model not in MODELS:
+        raise DescriptionError("model", model, "be " + " or ".join(map(repr, MODELS)))
+    given = dict(start or {})
+    name = _MASS[model]
+    mass = _mass(model, given.pop(name)) if name in given else None
+    if model == "stiction-force" and "h0" in given:
+        given.setdefault("h", given["h0"])
+    scene = moving(scene, mass)
+    film = film_numbers(scene)
+    ports = native_ports(scene, film.lowest, model)
+    values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
+    check_free(ports, model, given)
+    values |= {name: start_value(ports, name, value) for name, value in given.items()}
+    check_start(ports, values)
+    title = f" ({scene.name})" if scene.name else ""
+    about = Description(
+        identifier=_identifier(model), guid="", tool="contactkit", ports=ports, start=values,
+        summary=_SUMMARIES[model] + title, log_categories=CATEGORIES,
+        experiment=_SLAVES[model].experiment,
+    )  # fmt: skip
+    names = chosen_platforms(platforms)
+    return write_native(model, about, film.numbers, place, fmi, names, compiler, scene)
+
+
+def target(out: str | os.PathLike[str], fmi: int) -> Path:
+    """File to write.
+
+    Raises
+    ------
+    DescriptionError
+        If it is none of an FMU, or there is no such version of FMI.
+    """
+    if Path(out).suffix != ".fmu":
+        raise DescriptionError("out", str(out), "end in .fmu")
+    if fmi not in (2, 3):
+        raise DescriptionError("fmi", fmi, "be 2 or 3")
+    return Path(out)
+
+
+def write_native(
+    model: str,
+    about: Description,
+    tables: Sequence[float],
+    place: Path,
+    fmi: Literal[2, 3],
+    platforms: Sequence[str],
+    compiler: str,
+    scene: SeparationScene | None = None,
+) -> Path:
+    """Write a native FMU of any model.
+
+    Parameters
+    ----------
+    model : str
+        Name of the model.
+    about : Description
+        What it says; its GUID is made here.
+    tables : sequence of float
+        What follows the variables in its file of data.
+    place : Path
+        The file to write.
+    fmi, platforms, compiler
+        See `build_native`; the platforms by name.
+    scene : SeparationScene, optional
+        What the tables were made from, for the documentation.
+    """
+    ports, values = about.ports, about.start
+    sources = kernel_sources(fmi) | fmi_headers(fmi)
+    numbers = [*port_numbers(model, ports, values), *tables]
+    guid = guid_of(sources, numbers, ports)
+    page = native_page(scene, ports, values, name=model, fmi=str(fmi))
+    files = {
+        **description_files(
+            fmi, evolve(about, guid=guid), sources, holds_mass=model == "stiction-mass"
+        ),
+        "resources/film.bin": data_file(guid, numbers),
+        "documentation/index.html": page.encode(),
+        "documentation/licenses/license.txt": _license().encode(),
+        **terminal_files(ports, fmi=str(fmi)),
+        **{f"sources/{name}": content for name, content in sources.items()},
+        **_binaries(about.identifier, fmi, sources, platforms, compiler),
+    }
+    return write_archive(files, place)
+
+
+def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene, dict[str, Value]]:
+    """Scene and start values of what the command line was given.
+
+    Parameters
+    ----------
+    what : str or Runnable
+        Name of an FMU, or an opened scene file.
+    model : {"stiction-mass", "stiction-force"}, optional
+        Model whose start values are meant, if not that of the FMU of the scene.
+
+    Raises
+    ------
+    PlanError
+        If its FMU has no native form.
+    """
+    scene = getattr(what, "scene", None)
+    if isinstance(scene, SeparationScene):
+        return scene, {}
+    if isinstance(scene, ContactScene):  # said before hours go into its curve
+        raise PlanError(
+            "a contact scene makes a contact-stop, which has no native form in this version; "
+            "leave out --native"
+        )
+    name, given = (what, {}) if isinstance(what, str) else what.fmu_start()
+    if name == "valve-drive":
+        raise PlanError(
+            "valve-drive has no native form made of a scene, as it has no film; build it by its "
+            "name, or by contactkit.fmu.native.drive.build_native_drive"
+        )
+    if name not in _SLAVES:
+        raise PlanError(
+            f"{name} has no native form as a film in this version, only {' and '.join(_SLAVES)} "
+            f"have, and valve-drive as a valve; leave out --native"
+        )
+    own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
+    slave = _SLAVES[own]
+    values = slave.start_values()
+    values |= {key: start_value(slave.ports, key, value) for key, value in given.items()}
+    if own == "stiction-force":  # the mass is the tool's, and so is the end of the motion
+        rest: dict[str, Value] = {"v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 20.0 * values["h0"]}
+        values |= rest | {"m": values["m_ref"]}
+    scene = scene_of(values)
+    kept = {port.name for port in native_ports(scene, 0.0, model or own)}
+    return scene, {key: value for key, value in values.items() if key in kept and key in given}
+
+
+def chosen_platforms(given: Sequence[str] | None) -> list[str]:
+    """Platforms to compile for, if these are given; none at all would load nowhere."""
+    if given is None:
+        return list(PLATFORMS) if has_zig() else [local()]
+    if not given:
+        raise DescriptionError("platforms", (), "name at least one of " + ", ".join(PLATFORMS))
+    return list(given)
+
+
+def _identifier(model: str) -> str:
+    """Name of the library of a model, so that a host may load both."""
+    return model.replace("-", "_")
+
+
+def _mass(model: Model, value: Value | str) -> float:
+    """Mass [kg], of a text with a unit too."""
+    name = _MASS[model]
+    return float(start_value((find_port(MODELS[model], name),), name, value))
+
+
+def _license() -> str:
+    package = sys.modules[(__package__ or "").partition(".")[0]]
+    return license_text("contactkit", Path(package.__path__[0]).parent / "LICENSE")
+
+
+def _binaries(
+    identifier: str, fmi: int, sources: Mapping[str, bytes], names: Sequence[str], compiler: str
+) -> dict[str, bytes]:
+    """Libraries of the platforms, by their path in the FMU."""
+    found: dict[str, list[bytes]] = {}
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        for name, content in sources.items():
+            (Path(folder) / name).write_bytes(content)
+        for name in dict.fromkeys(names):
+            key = (digest(sources), name, compiler, os.environ.get("CC", ""))
+            if key not in _COMPILED:
+                library = Path(folder) / f"{name}.library"
+                compile_kernel(Path(folder), name, library, compiler)
+                _COMPILED[key] = library.read_bytes()
+            place = PLATFORMS[name]
+            folder_in = place.fmi3 if fmi == 3 else place.fmi2
+            path = f"binaries/{folder_in}/{identifier}{place.suffix}"
+            found.setdefault(path, []).append(_COMPILED[key])
+    return {path: one[0] if len(one) == 1 else join_macs(one) for path, one in found.items()}

@@ -1,0 +1,61 @@
+"""What native FMUs say about themselves, in both versions of FMI."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from ..framework.description import Description, model_description
+from ..framework.description3 import build_description, model_description3
+
+__all__ = ["CATEGORIES", "description_files"]
+
+CATEGORIES = {
+    "logEvents": "What happened in the model, such as a release or a rupture.",
+    "logCoupling": "Doubts about the way this FMU is coupled to others.",
+    "logStatusWarning": "What is odd, but can be gone on with.",
+    "logStatusError": "Why the FMU refuses to go on, and what to do about it.",
+    "logAll": "Everything.",
+}
+_HELD = ("t_break", "t_release", "u")  # real outputs that change at events only
+
+
+def description_files(
+    fmi: int, about: Description, files: Iterable[str], *, holds_mass: bool
+) -> dict[str, bytes]:
+    """Descriptions of the model and, in FMI 3.0, of its build, by their path in the FMU.
+
+    Parameters
+    ----------
+    fmi : {2, 3}
+        Version of FMI.
+    about : Description
+        What they say.
+    files : iterable of str
+        Names of the sources; headers are left out.
+    holds_mass : bool
+        Whether the mass is inside: then FMI 2.0 may give the rate of its input.
+    """
+    compiled = sorted(name for name in files if name.endswith(".c"))
+    if fmi == 3:
+        root = model_description3(about, _HELD)
+        build = build_description(about.identifier, compiled)
+        return {"modelDescription.xml": _text(root), "sources/buildDescription.xml": _text(build)}
+    root = model_description(about)
+    kind = root.find("CoSimulation")
+    assert kind is not None
+    kind.attrib |= {
+        "needsExecutionTool": "false",
+        "canInterpolateInputs": str(holds_mass).lower(),
+        "providesDirectionalDerivative": "true",
+    }
+    sources = SubElement(kind, "SourceFiles")
+    for name in compiled:
+        SubElement(sources, "File", name=name)
+    return {"modelDescription.xml": _text(root)}
+
+
+def _text(root: Element) -> bytes:
+    indent(root)
+    text: bytes = tostring(root, encoding="utf-8", xml_declaration=True)
+    return text + b"\n"

@@ -1,0 +1,203 @@
+/* valve-drive: coil, return spring and end stop of a valve; motion in, pull out.
+
+   As fmu/slaves/valve_drive.py. The gap that is set before a step is where the step begins; within it the
+   gap runs on at the speed that was set. */
+
+#include "model.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define MU0 (4e-7 * 3.141592653589793)
+#define MOST_STEPS 10000000 /* of the flux, in one step of the host */
+#define CLOSE 1e-12         /* share of a step before which no pause is made */
+
+enum { SWITCHES = 1 };
+
+static const char *apply(ck_model *model) {
+    const double *v = model->state.values;
+    ck_drive *drive = &model->drive;
+    ck_coil *coil = &drive->coil;
+    ck_profile *profile = &drive->profile;
+    coil->resistance = v[CK_R_COIL], coil->air_gap = v[CK_G_AIR], coil->iron_gap = v[CK_G_IRON];
+    coil->pole = MU0 * (v[CK_N_TURNS] * v[CK_N_TURNS]) * v[CK_A_POLE];
+    coil->knee = v[CK_B_SAT] > 0.0 ? v[CK_N_TURNS] * v[CK_A_POLE] * v[CK_B_SAT] : HUGE_VAL;
+    profile->delay = v[CK_T_DELAY], profile->period = v[CK_T_PERIOD];
+    profile->on_time = v[CK_T_ON], profile->boost_time = v[CK_T_BOOST];
+    profile->boost = v[CK_U_BOOST], profile->hold = v[CK_U_HOLD], profile->off = v[CK_U_OFF];
+    profile->cycles = v[CK_N_CYCLES];
+    drive->spring = v[CK_K_SPRING], drive->preload = v[CK_F_PRELOAD];
+    drive->stop_gap = v[CK_H_STOP], drive->stop_stiffness = v[CK_K_STOP];
+    drive->damping = v[CK_D_STOP];
+    if (v[CK_T_BOOST] > v[CK_T_ON]) return ck_wrong(model, CK_T_BOOST, "not exceed", CK_T_ON, "s");
+    if (v[CK_T_ON] > v[CK_T_PERIOD])
+        return ck_wrong(model, CK_T_ON, "not exceed", CK_T_PERIOD, "s");
+    if (v[CK_H_STOP] >= v[CK_G_AIR])
+        return "h_stop must be less than g_air, else the armature meets the poles before the spool "
+               "meets the stop";
+    return NULL;
+}
+
+static void start(ck_model *model) {
+    double *v = model->state.values;
+    model->state.driven.largest = model->state.driven.ahead = 0.0;
+    model->state.driven.pending = CK_NONE;
+    v[CK_FLUX] = v[CK_DF_EXT] = 0.0;
+    v[CK_U] = ck_profile_at(&model->drive.profile, model->state.start_time);
+}
+
+/* The stop without its damping. */
+static ck_pressed press(const ck_model *model, double gap) {
+    const ck_drive *drive = &model->drive;
+    double depth = gap - drive->stop_gap;
+    ck_pressed found = {0.0, 0.0, 0.0};
+    if (model->data.faces.is_there)
+        return ck_faces_pressed(&model->data.faces, depth, model->state.driven.largest,
+                                drive->stop_stiffness);
+    if (!(depth <= 0.0)) { /* nan is for others to find */
+        found.slope = drive->stop_stiffness;
+        found.force = drive->stop_stiffness * depth;
+    }
+    return found;
+}
+
+/* What the damping makes of a force of the stop: it never pulls. */
+static double damped(const ck_drive *drive, double speed) {
+    double by = 1.0 + drive->damping * speed;
+    return 0.0 > by ? 0.0 : by;
+}
+
+/* Everything that follows gap and speed at once. */
+typedef struct {
+    double pull, magnet, spring, stop, current, approach;
+} forces;
+
+static forces forces_at(const ck_model *model, double gap, double speed) {
+    const ck_drive *drive = &model->drive;
+    double flux = model->state.values[CK_FLUX];
+    ck_pressed pressed = press(model, gap);
+    forces f;
+    f.approach = pressed.approach;
+    f.stop = pressed.force == 0.0 ? 0.0 : pressed.force * damped(drive, speed);
+    f.spring = drive->preload + drive->spring * gap;
+    f.magnet = ck_coil_force(&drive->coil, flux);
+    f.current = ck_coil_current(&drive->coil, flux, gap);
+    f.pull = f.magnet - (f.spring + f.stop);
+    return f;
+}
+
+static int show(ck_model *model) {
+    double *v = model->state.values, speed = v[CK_V];
+    forces f = forces_at(model, v[CK_H] + speed * model->state.driven.ahead, speed);
+    if (!isfinite(f.pull) || !isfinite(f.current)) return 0;
+    v[CK_F_EXT] = f.pull, v[CK_F_MAG] = f.magnet, v[CK_F_SPRING] = f.spring;
+    v[CK_F_STOP] = f.stop, v[CK_I] = f.current;
+    return 1;
+}
+
+/* Where a step has come to: how long it took, the flux, whether it paused. */
+typedef struct {
+    double length, flux;
+    int pauses;
+} way;
+
+/* Take the flux from one switch of the voltage to the next; 0 if it cannot follow. */
+static int carry(const ck_model *model, double time, way *gone) {
+    const ck_profile *profile = &model->drive.profile;
+    double gap = model->state.values[CK_H], speed = model->state.values[CK_V], begin = time;
+    double end = time + gone->length;
+    long budget = MOST_STEPS;
+    for (;;) {
+        double next = ck_profile_next(profile, begin, end), length = next - begin, reached;
+        double voltage = ck_profile_at(profile, 0.5 * (begin + next));
+        reached = ck_coil_advance(&model->drive.coil, &gone->flux, gap + speed * (begin - time),
+                                  speed, voltage, length, &budget);
+        if (reached < length) {
+            gone->length = begin - time + reached;
+            return 0;
+        }
+        if (next >= end) return 1;
+        if (model->pauses && next - time > CLOSE * ck_larger(fabs(time), gone->length)) {
+            gone->length = next - time, gone->pauses = 1;
+            return 1;
+        }
+        begin = next;
+    }
+}
+
+static int no_step(ck_model *model, double length, const way *gone) {
+    char message[400];
+    snprintf(message, sizeof message,
+             "the flux of the coil did not follow a gap of %.6g m that moves at %.6g m/s for %.6g "
+             "s: it got to %.6g s; give a smaller speed or shorter steps, then reset the FMU or go "
+             "back to an earlier state",
+             model->state.values[CK_H], model->state.values[CK_V], length, gone->length);
+    ck_model_fail(model, message);
+    return CK_DISCARD;
+}
+
+/* Say once that the faces are pressed further than was solved. */
+static void warn_beyond(ck_model *model, double known, double time) {
+    double end = model->data.faces.first.end, now = model->state.driven.largest;
+    char message[400];
+    if (!(known <= end && end < now)) return;
+    snprintf(message, sizeof message,
+             "the faces of the stop are pressed by %.6g m at t = %.9g s, beyond %.6g m where their "
+             "tables end: the force goes on along its tangent; give the stop a larger area, or "
+             "faces solved to larger loads",
+             now, time, end);
+    model->say(model->host, CK_WARNING, "logStatusWarning", message);
+}
+
+static int step(ck_model *model, double time, double length) {
+    ck_state *state = &model->state, before = *state;
+    double *v = state->values;
+    forces begun = forces_at(model, v[CK_H], v[CK_V]);
+    way gone = {length, v[CK_FLUX], 0};
+    int fine = carry(model, time, &gone);
+    if (!fine) return no_step(model, length, &gone);
+    /* What is remembered is where the spool was, not where it may be at the end of the step. */
+    state->driven.largest = ck_larger(begun.approach, state->driven.largest);
+    state->driven.ahead = gone.length;
+    state->driven.pending = gone.pauses ? SWITCHES : CK_NONE;
+    state->end = time + gone.length;
+    v[CK_FLUX] = gone.flux;
+    if (!gone.pauses) v[CK_U] = ck_profile_at(&model->drive.profile, state->end);
+    fine = isfinite(gone.flux) && show(model);
+    v[CK_DF_EXT] = (v[CK_F_EXT] - begun.pull) / gone.length;
+    if (!fine || !isfinite(v[CK_DF_EXT])) {
+        *state = before;
+        ck_model_fail(model, "the forces at the end of the step are no finite numbers; give a "
+                             "smaller gap, speed or step, then reset the FMU or go back to an "
+                             "earlier state");
+        return CK_DISCARD;
+    }
+    state->shown = 1;
+    warn_beyond(model, before.driven.largest, time);
+    return CK_OK;
+}
+
+/* The voltage switches, for which a step has paused. */
+static void resolve(ck_model *model) {
+    model->state.driven.pending = CK_NONE;
+    model->state.values[CK_U] = ck_profile_after(&model->drive.profile, model->state.time);
+}
+
+/* Slopes at the gap and the speed that are set. */
+static int slope(const ck_model *model, int unknown, int known, double *found) {
+    const ck_drive *drive = &model->drive;
+    double gap = model->state.values[CK_H], speed = model->state.values[CK_V], stop;
+    ck_pressed pressed = press(model, gap);
+    if (known != CK_H && known != CK_V) return 0;
+    if (known == CK_H) stop = pressed.slope * damped(drive, speed);
+    else stop = damped(drive, speed) > 0.0 ? pressed.force * drive->damping : 0.0;
+    *found = 0.0;
+    if (unknown == CK_F_STOP) *found = stop;
+    if (unknown == CK_F_EXT) *found = -(stop + (known == CK_H ? drive->spring : 0.0));
+    if (unknown == CK_F_SPRING && known == CK_H) *found = drive->spring;
+    if (unknown == CK_I && known == CK_H)
+        *found = ck_coil_current_by_gap(&drive->coil, model->state.values[CK_FLUX], gap);
+    return isfinite(*found);
+}
+
+const ck_kind ck_valve_drive = {apply, start, show, step, resolve, 1, slope};

@@ -1,0 +1,135 @@
+/* Rough faces of an end stop, and the spring behind them: as contactkit/analyses/load_displacement/curve.py and
+   stop_impact.py, from tables of nodes, values and slopes (fmu/native/drive.py). */
+
+#include "drive.h"
+
+#include <math.h>
+
+#define ROUNDS 100
+#define CLOSE 1e-13
+
+/* Piece in which a number lies, between the first and the last node. */
+static int piece_of(const ck_curve *curve, double x) {
+    int low = 0, high = curve->count - 1;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (x < curve->x[middle]) high = middle;
+        else low = middle;
+    }
+    return low;
+}
+
+/* Value of a curve and its slope; constant beyond both ends. */
+static double plain(const ck_curve *curve, double x, double *by_x) {
+    int last = curve->count - 1, i;
+    double h, t, rise, bend, twist, value, begin, end;
+    *by_x = 0.0;
+    if (x < curve->x[0]) return curve->y[0];
+    if (x > curve->x[last]) return curve->y[last];
+    i = piece_of(curve, x);
+    begin = curve->slope[i], end = curve->slope[i + 1];
+    h = curve->x[i + 1] - curve->x[i], t = x - curve->x[i];
+    rise = (curve->y[i + 1] - curve->y[i]) / h;
+    bend = (3.0 * rise - 2.0 * begin - end) / h, twist = (begin + end - 2.0 * rise) / (h * h);
+    value = curve->y[i] + t * (begin + t * (bend + t * twist));
+    *by_x = begin + t * (2.0 * bend + 3.0 * t * twist);
+    if (*by_x < 0.0) *by_x = 0.0;
+    if (value < curve->y[0]) return curve->y[0];
+    return value > curve->y[last] ? curve->y[last] : value;
+}
+
+/* The same of a curve in logarithms: a power law before the first node, the tangent after the
+   last, zero up to zero. */
+static double power(const ck_curve *curve, double x, double *by_x) {
+    int last = curve->count - 1;
+    double value, slope;
+    *by_x = 0.0;
+    if (x <= 0.0) return 0.0;
+    if (x <= curve->begin) {
+        value = curve->low * pow(x / curve->begin, curve->slope[0]);
+        *by_x = curve->slope[0] * value / x;
+        return value;
+    }
+    if (x >= curve->end) {
+        *by_x = curve->slope[last] * curve->high / curve->end;
+        return curve->high + *by_x * (x - curve->end);
+    }
+    value = exp(plain(curve, log(x), &slope));
+    *by_x = slope * value / x;
+    return value;
+}
+
+/* Share of the force over a share of a way out; the one before all others goes back to where the
+   elastic limit is, along the first curve. */
+static double way(const ck_faces *faces, int i, double share, double *by_share) {
+    double value, whole, unused;
+    if (i >= 0) return power(&faces->ways[i], share, by_share);
+    value = power(&faces->first, share * faces->limit, by_share);
+    whole = power(&faces->first, faces->limit, &unused);
+    *by_share *= faces->limit / whole;
+    return value / whole;
+}
+
+static double end_of(const ck_faces *faces, int i) {
+    return i >= 0 ? faces->ends[i] : faces->limit;
+}
+
+/* Force on the way out from a largest approach: those that were solved on both sides, mixed. */
+static double way_out(const ck_faces *faces, double approach, double largest, double *by_approach) {
+    int lowest = faces->limit > 0.0 ? -1 : 0, high = lowest;
+    double unused, residual = plain(&faces->residual, largest, &unused);
+    double length = largest - residual, share = (approach - residual) / length;
+    double whole = power(&faces->first, largest, &unused), force, slope, other, by_other, t;
+    *by_approach = 0.0;
+    if (share <= 0.0) return 0.0;
+    while (high < faces->count && end_of(faces, high) <= largest) high++;
+    if (high == lowest || high == faces->count) {
+        force = way(faces, high == lowest ? lowest : high - 1, share, &slope);
+    } else {
+        double low = end_of(faces, high - 1);
+        t = log(largest / low) / log(end_of(faces, high) / low);
+        force = way(faces, high - 1, share, &slope), other = way(faces, high, share, &by_other);
+        force = (1.0 - t) * force + t * other, slope = (1.0 - t) * slope + t * by_other;
+    }
+    *by_approach = slope * whole / length;
+    return force * whole;
+}
+
+static double force_at(const ck_faces *faces, double approach, double largest, double *slope) {
+    double first, force, by_approach, most = faces->first.end;
+    if (largest > most) largest = most;
+    first = power(&faces->first, approach, slope);
+    if (!faces->count || approach >= largest || largest <= faces->limit) return first;
+    force = way_out(faces, approach, largest, &by_approach);
+    if (force > first) return first; /* mixed a little too high: no way gives more than it took */
+    *slope = by_approach;
+    return force;
+}
+
+/* Approach of the faces: what they and the spring share rises with it, so Newton, bracketed. */
+static double shared(const ck_faces *faces, double approach, double largest, double stiffness) {
+    double low = 0.0, high = approach, close = CLOSE * approach, slope;
+    double near = faces->first.end, found = near < approach ? near : 0.5 * approach;
+    int i;
+    for (i = 0; i < ROUNDS; i++) {
+        double force = force_at(faces, found, largest, &slope), step;
+        double excess = found + force / stiffness - approach;
+        if (excess > 0.0) high = found;
+        else low = found;
+        step = excess / (1.0 + slope / stiffness);
+        found -= step;
+        if (fabs(step) <= close || high - low <= close)
+            return found < low ? low : found > high ? high : found;
+        if (!(low < found && found < high)) found = 0.5 * (low + high);
+    }
+    return found;
+}
+
+ck_pressed ck_faces_pressed(const ck_faces *faces, double approach, double largest,
+                            double stiffness) {
+    ck_pressed found = {0.0, 0.0, approach};
+    if (approach > 0.0) found.approach = shared(faces, approach, largest, stiffness);
+    found.force = force_at(faces, found.approach, largest, &found.slope);
+    found.slope = found.slope * stiffness / (found.slope + stiffness);
+    return found;
+}

@@ -1,0 +1,250 @@
+/* stiction-force: a film for a tool that owns the mass; motion in, forces and impulses out.
+
+   As fmu/slaves/stiction_force.py. The gap that was set when a step is taken is where the step ends. */
+
+#include "model.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+#define SAME 1e-9  /* gaps closer than this, relatively, are one */
+#define DOUBT 0.2  /* coupling error beyond which the flag is raised */
+#define MOST_STOPS 1000
+
+enum { EXCHANGE_FORCE = 1 };
+
+static const char *apply(ck_model *model) { return ck_common_parameters(model); }
+
+static void start(ck_model *model) {
+    ck_memory *memory = &model->state.memory;
+    double *v = model->state.values;
+    ck_acting acting;
+    ck_forces found;
+    memory->gap = v[CK_H0];
+    memory->film = memory->broken = memory->detached = memory->pending = CK_NONE;
+    ck_act(&model->scene, 0, 0, 0, &acting);
+    ck_forces_at(&acting, memory->gap, 0.0, &found);
+    memory->damping = found.resistance;
+    v[CK_J] = v[CK_J_M] = v[CK_F_MEAN] = v[CK_COUPLING_ERROR] = 0.0;
+    v[CK_IN_DOUBT] = v[CK_N_DOUBT] = v[CK_N_BREAK] = 0.0;
+    v[CK_T_BREAK] = -1.0;
+}
+
+/* What acts at a gap; beyond an end of the film what is left of it. Whether the film is broken. */
+static int act_at(const ck_model *model, double gap, ck_acting *acting) {
+    const ck_memory *memory = &model->state.memory;
+    int broken = memory->broken, detached = memory->detached;
+    ck_act(&model->scene, memory->film, broken, detached, acting);
+    if (memory->pending) return broken; /* it shows what is there just before */
+    if (!broken && gap >= acting->end * (1.0 - SAME)) broken = 1;
+    if (!detached && gap >= acting->release * (1.0 - SAME)) detached = 1;
+    if (broken != memory->broken || detached != memory->detached)
+        ck_act(&model->scene, memory->film, broken, detached, acting);
+    return broken;
+}
+
+/* Gap the outputs are those of: where the motion is, or where it was interrupted. */
+static double gap_of(const ck_model *model) {
+    const ck_memory *memory = &model->state.memory;
+    return memory->pending ? memory->gap : model->state.values[CK_H];
+}
+
+/* Slope of an output by an input; 0 if the tables do not tell it. */
+static int slope(const ck_model *model, int unknown, int known, double *found) {
+    double gap = gap_of(model);
+    ck_acting acting;
+    ck_forces f;
+    *found = 0.0;
+    if (known != CK_H && known != CK_V) return 0;
+    if (unknown == CK_H_ABOVE || unknown == CK_H_BELOW) return 1;
+    if (unknown != CK_F && unknown != CK_F_M && unknown != CK_F_V) return 0;
+    act_at(model, gap, &acting);
+    ck_forces_at(&acting, gap, model->state.values[CK_V], &f);
+    if (unknown != CK_F_V && known == CK_H) *found += f.fixed_by_gap;
+    if (unknown != CK_F_M) *found += known == CK_H ? f.viscous_by_gap : f.viscous_by_speed;
+    return 1;
+}
+
+static void consider(double mark, double gap, double *above, double *below) {
+    if (gap * (1.0 + SAME) < mark && mark < *above) *above = mark;
+    if (*below < mark && mark < gap * (1.0 - SAME)) *below = mark;
+}
+
+/* Next gaps above and below at which a force is not smooth; HUGE_VAL and 0 where there is none. */
+static void marks(const ck_model *model, const ck_acting *acting, int broken, double gap,
+                  double *above, double *below) {
+    int i, k;
+    *above = HUGE_VAL, *below = 0.0;
+    for (i = 0; i < acting->film->count; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].kink_count; k++)
+            if (acting->film->laws[i].kinks[k] < acting->end)
+                consider(acting->film->laws[i].kinks[k], gap, above, below);
+    if (acting->any) {
+        consider(acting->end, gap, above, below);
+        consider(acting->release, gap, above, below);
+    }
+    if (broken && model->scene.rewetting > 0.0 && model->scene.initial_gap < gap &&
+        *below < model->scene.initial_gap)
+        *below = model->scene.initial_gap;
+    if (model->state.memory.detached) consider(model->scene.rejoin, gap, above, below);
+}
+
+static int show(ck_model *model) {
+    double *v = model->state.values, gap = gap_of(model), above, below;
+    ck_acting acting;
+    ck_forces f;
+    int broken = act_at(model, gap, &acting);
+    ck_forces_at(&acting, gap, v[CK_V], &f);
+    if (!isfinite(f.fixed + f.viscous) || !isfinite(f.viscous_by_speed) ||
+        !isfinite(f.fixed_by_gap + f.viscous_by_gap))
+        return 0;
+    marks(model, &acting, broken, gap, &above, &below);
+    v[CK_F] = f.fixed + f.viscous, v[CK_F_M] = f.fixed, v[CK_F_V] = f.viscous;
+    v[CK_C] = f.viscous_by_speed, v[CK_K] = f.fixed_by_gap + f.viscous_by_gap;
+    v[CK_H_STABLE] = v[CK_C] > 0.0 ? fmin(v[CK_M_REF] / v[CK_C], DBL_MAX) : DBL_MAX;
+    v[CK_STATE] = broken || !acting.any                              ? CK_BROKEN
+                  : gap <= acting.film->full_gap * (1.0 + SAME) ? CK_FULL
+                                                                : CK_BRIDGE;
+    v[CK_LIMIT] = f.limit + 1;
+    v[CK_H_ABOVE] = above < HUGE_VAL ? above : 0.0;
+    v[CK_H_BELOW] = below;
+    return 1;
+}
+
+static void settle(ck_model *model, double time) {
+    ck_memory *memory = &model->state.memory;
+    double *v = model->state.values;
+    if (memory->pending == CK_RUPTURE) {
+        memory->broken = 1;
+        v[CK_T_BREAK] = time, v[CK_N_BREAK] += 1.0;
+    } else if (memory->pending == CK_REWETTING) {
+        memory->broken = 0, memory->film = model->scene.film_count - 1;
+    }
+    memory->pending = CK_NONE;
+}
+
+/* Apply what happens at a gap the motion has come to: rupture, parting, re-wetting, joining. */
+static void happen(ck_model *model, double gap, int rising, double time) {
+    ck_memory *memory = &model->state.memory;
+    int next = model->scene.film_count - 1;
+    ck_acting acting;
+    ck_act(&model->scene, memory->film, memory->broken, memory->detached, &acting);
+    if (!memory->broken && gap >= acting.end * (1.0 - SAME)) {
+        memory->pending = CK_RUPTURE;
+    } else if (memory->broken && !rising && gap <= model->scene.initial_gap * (1.0 + SAME) &&
+               model->scene.rewetting > 0.0 && model->scene.ends[next] * (1.0 - SAME) > gap) {
+        memory->pending = CK_REWETTING;
+    }
+    if (!model->scene.pauses) settle(model, time);
+    if (acting.any && gap >= acting.release * (1.0 - SAME)) memory->detached = 1;
+    else if (!rising && gap <= model->scene.rejoin * (1.0 + SAME)) memory->detached = 0;
+}
+
+/* Go the way of the step from kink to kink. */
+static ck_impulse go(ck_model *model, double time, double step, double target) {
+    ck_memory *memory = &model->state.memory;
+    double begin = memory->gap, gap = begin, pace = step / (target - begin);
+    int rising = target > begin, i;
+    ck_impulse sum = {0.0, 0.0}, part;
+    ck_acting acting;
+    for (i = 0; i < MOST_STOPS; i++) {
+        double above, below, next = target;
+        ck_act(&model->scene, memory->film, memory->broken, memory->detached, &acting);
+        if (begin == target) {
+            part = ck_along(&acting, gap, gap, step);
+        } else {
+            marks(model, &acting, memory->broken, gap, &above, &below);
+            if (rising && above < target) next = above;
+            if (!rising && below > target) next = below;
+            part = next == gap ? (ck_impulse){0.0, 0.0}
+                               : ck_along(&acting, gap, next, (next - gap) * pace);
+        }
+        sum.viscous += part.viscous, sum.fixed += part.fixed;
+        gap = next;
+        model->state.end = begin == target ? time : time + (gap - begin) * pace;
+        happen(model, gap, rising, model->state.end);
+        if (gap == target || memory->pending) break;
+    }
+    memory->gap = memory->pending ? gap : target;
+    if (gap == target) model->state.end = time + step;
+    return sum;
+}
+
+static void warn(ck_model *model, double step, double stable, double error) {
+    static const char cure[] =
+        "use the FMU stiction-mass, which has the mass inside and needs no short steps, or a "
+        "master that exchanges impulses (contactkit.fmu.master.couple)";
+    char message[600];
+    if (stable > 0.0)
+        snprintf(message, sizeof message,
+                 "the communication step of %.3g s exceeds %.3g s = m_ref/c, the longest with "
+                 "which this film can be coupled by its force; take a tenth of that, or %s",
+                 step, stable, cure);
+    else
+        snprintf(message, sizeof message,
+                 "the force at the end of the step differs from that on its way by %.0f%% of what "
+                 "moves the mass; take shorter steps than %.3g s, or %s",
+                 100.0 * error, step, cure);
+    model->say(model->host, CK_WARNING, "logCoupling", message);
+}
+
+/* Compare the force at the end with that on the way, and the step with m/c. */
+static void doubt(ck_model *model, double step, double damping) {
+    double *v = model->state.values, mass = v[CK_M_REF], gone = v[CK_F_MEAN];
+    double scale = fmax(fmax(fabs(v[CK_F]), fabs(gone)), mass * fabs(v[CK_V]) / step);
+    double error = scale > 0.0 ? fabs(v[CK_F] - gone) / scale : 0.0;
+    double stiffest = fmax(damping, model->state.memory.damping);
+    int unstable = step * stiffest > mass, was = v[CK_IN_DOUBT] != 0.0;
+    int doubted = v[CK_EXCHANGE] == EXCHANGE_FORCE && (unstable || error > DOUBT);
+    v[CK_COUPLING_ERROR] = error;
+    v[CK_IN_DOUBT] = doubted;
+    v[CK_N_DOUBT] += doubted;
+    if (doubted && !was) warn(model, step, unstable ? mass / stiffest : 0.0, error);
+}
+
+static void tell(ck_model *model) {
+    char message[80];
+    snprintf(message, sizeof message, "film broke at t = %.9g s", model->state.values[CK_T_BREAK]);
+    model->say(model->host, CK_OK, "logEvents", message);
+}
+
+static int step(ck_model *model, double time, double length) {
+    ck_state *state = &model->state;
+    ck_state before = *state;
+    double *v = state->values;
+    ck_impulse done = go(model, time, length, v[CK_H]);
+    double elapsed = state->memory.pending ? state->end - time : length;
+    ck_acting acting;
+    ck_forces found;
+    if (!isfinite(done.viscous + done.fixed) || !show(model)) {
+        char message[200];
+        *state = before;
+        snprintf(message, sizeof message,
+                 "the forces are no finite numbers on the way from a gap of %.6g m to %.6g m; "
+                 "reset the FMU, or go back to an earlier state",
+                 state->memory.gap, v[CK_H]);
+        ck_model_fail(model, message);
+        return CK_DISCARD;
+    }
+    ck_act(&model->scene, state->memory.film, state->memory.broken, 0, &acting);
+    ck_forces_at(&acting, gap_of(model), 0.0, &found);
+    state->memory.damping = found.resistance;
+    state->shown = 1;
+    v[CK_J] += done.viscous, v[CK_J_M] += done.fixed;
+    if (elapsed > 0.0) {
+        v[CK_F_MEAN] = (done.viscous + done.fixed) / elapsed;
+        doubt(model, elapsed, before.memory.damping);
+    }
+    if (v[CK_N_BREAK] > before.values[CK_N_BREAK]) tell(model);
+    return CK_OK;
+}
+
+/* What a step paused for happens. */
+static void resolve(ck_model *model) {
+    int breaks = model->state.memory.pending == CK_RUPTURE;
+    settle(model, model->state.time);
+    if (breaks) tell(model);
+}
+
+const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope};

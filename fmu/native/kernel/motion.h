@@ -1,0 +1,50 @@
+/* The motion of a mass held by a film: as contactkit/separation/motion/advance.py, with the same events. */
+
+#ifndef CK_MOTION_H
+#define CK_MOTION_H
+
+#include "step.h"
+
+#include <stdint.h>
+
+/* A scene with its parameters in; `films[1]` is what is there when the bodies return. */
+typedef struct {
+    int film_count, is_sphere, reynolds, max_steps;
+    int pauses; /* whether a motion ends where the film breaks or wets the bodies again */
+    double sphere_radius, menisci, rewetting;
+    ck_film films[CK_FILMS];
+    double ends[CK_FILMS];
+    double rejoin; /* gap at which solids that let go are joined again */
+    double mass, initial_gap, initial_speed, stiffness, release_gap, rest_gap, rtol;
+    double viscosity, surface_tension, tension, strength;
+} ck_scene;
+
+typedef struct {
+    double time, gap, speed, step;
+    double viscous_impulse, fixed_impulse, work, given_impulse;
+    double break_time, release_time, release_speed, peak_force, peak_time;
+    int film, broken, held, armed, detached, breaks, releases;
+    int pending; /* what happens here, and has not yet where the motion pauses for it */
+    int64_t steps, rounds; /* internal ones, and iterations in them */
+    ck_forces here;        /* forces at this gap and speed, and the exponent of the viscous one */
+    double exponent;
+    int64_t known; /* whether the last step told them */
+} ck_motion;
+
+enum { CK_NONE = 0, CK_RUPTURE = 1, CK_REWETTING = 2 };
+enum { CK_DONE = 0, CK_NO_STEP = 1, CK_TOO_MANY_STEPS = 2 };
+enum { CK_CONTACT = 1, CK_STUCK = 2, CK_FULL = 3, CK_BRIDGE = 4, CK_BROKEN = 5 };
+
+void ck_start(const ck_scene *scene, double time, ck_motion *state);
+void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);
+void ck_resolve(const ck_scene *scene, ck_motion *state); /* make happen what is pending */
+int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt);
+int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *acting,
+              const ck_forces *forces, double pull);
+
+/* What can be read off a step once it is taken (reading.c). */
+double ck_highest(double first, const double stages[3], double *where);
+double ck_travel_integral(const ck_point *start, const ck_step *taken, double first,
+                          const double values[3]);
+
+#endif

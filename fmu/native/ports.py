@@ -1,0 +1,157 @@
+"""The variables of a native FMU: those of the Python FMU of that name that a table leaves free.
+
+Names, units and meanings are those of its ``PORTS``. Faces, volume, angles and number of
+menisci are in the tables, so they are no variables here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Literal
+
+from attrs import evolve
+
+from ...errors import DescriptionError
+from ...scene.scenes import SeparationScene
+from ...separation.effects.registry import (
+    AdhesiveContact,
+    Rupture,
+    ShearLimit,
+    TensionLimit,
+    ViscousForce,
+)
+from ...separation.effects.viscous import keeps_radius
+from ..framework.ports import Port, Value
+from ..slaves.stiction_force import PORTS as FORCE_PORTS
+from ..slaves.stiction_mass import PORTS as MASS_PORTS
+from .data import IDENTIFIERS
+from .film import free_liquid
+
+__all__ = ["MODELS", "Model", "check_free", "check_start", "native_ports", "start_of"]
+
+Model = Literal["stiction-mass", "stiction-force"]
+MODELS: Mapping[Model, tuple[Port, ...]] = {
+    "stiction-mass": MASS_PORTS, "stiction-force": FORCE_PORTS,
+}  # fmt: skip
+"""Models that have a native form, and the variables of their Python FMUs."""
+
+_LABELS = {
+    "F_m": "force of the meniscus and the solids, positive resists opening",
+    "J_m": "impulse of the meniscus and the solids since the start",
+    "h_break": "gap at which the film breaks; 0: where that of the scene does",
+}
+
+
+def native_ports(
+    scene: SeparationScene, lowest: float, model: Model = "stiction-mass"
+) -> tuple[Port, ...]:
+    """Variables of the FMU of a scene whose tables begin at a gap [m]."""
+    own = MODELS[model]
+    there = {port.name for port in own} & set(IDENTIFIERS) - _absent(scene, model)
+    ports = []
+    for port in own:
+        if port.name not in there:
+            continue
+        depends = port.depends_on
+        if depends is not None:
+            depends = tuple(name for name in depends if name in there)
+        start = start_of(scene, model).get(port.name, port.start)
+        port = evolve(
+            port, depends_on=depends, label=_LABELS.get(port.name, port.label), start=start
+        )
+        ports.append(_bounded(port, scene, lowest, model))
+    return tuple(ports)
+
+
+def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) -> Port:
+    """Port within what the tables hold."""
+    if port.name == "h0":
+        held = _start_is_held(scene)
+        low = port.start if held else lowest
+        return evolve(port, exclusive=False, minimum=low, maximum=port.start if held else None)
+    if model == "stiction-force" and port.name == "h":
+        return evolve(port, exclusive=False, minimum=lowest)
+    if port.name in ("dp_cav", "tau_lim") and scene.effect(ViscousForce) is None:
+        return evolve(port, maximum=0.0)  # there is nothing to limit, but a master asks for them
+    return port
+
+
+def _absent(scene: SeparationScene, model: Model) -> set[str]:
+    """Parameters that mean nothing for a scene, or that its tables have fixed."""
+    viscosity, surface_tension = free_liquid(scene)
+    absent = set()
+    if not viscosity:
+        absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
+    if not surface_tension:
+        absent.add("gamma")
+    return absent
+
+
+def _start_is_held(scene: SeparationScene) -> bool:
+    """Whether the tables belong to one gap at the start."""
+    adheres = scene.effect(AdhesiveContact) is not None
+    return adheres or (keeps_radius(scene) and scene.interface.meniscus.volume is not None)
+
+
+def start_of(scene: SeparationScene, model: Model = "stiction-mass") -> dict[str, Value]:
+    """Start values that a scene gives the variables."""
+    opening = scene.opening
+    viscosity, surface_tension = free_liquid(scene)
+    tension, shear = scene.effect(TensionLimit), scene.effect(ShearLimit)
+    rupture = scene.effect(Rupture)
+    if opening.mass is None:
+        raise DescriptionError("m", None, "be given", unit="kg")
+    film: dict[str, Value] = {
+        "h0": opening.initial_gap,
+        "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
+        "eta": viscosity,
+        "gamma": surface_tension,
+        "dp_cav": tension.pressure_drop if tension is not None else 0.0,
+        "tau_lim": shear.strength if shear is not None else 0.0,
+    }
+    if model == "stiction-force":
+        return film | {"h": opening.initial_gap, "v": opening.initial_speed, "m_ref": opening.mass}
+    return film | {
+        "m": opening.mass,
+        "v0": opening.initial_speed,
+        "k_s": opening.stiffness,
+        "h_rel": opening.final_gap,
+        "h_min": opening.rest_gap,
+    }
+
+
+def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value | str]) -> None:
+    """Refuse start values of what the tables hold.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the first.
+    """
+    free = {port.name for port in ports}
+    for name, value in given.items():
+        if name not in free and name in {port.name for port in MODELS[model]}:
+            raise DescriptionError(
+                name, value, f"be left out: in a native {model} of this scene it is no variable",
+                hint="change the scene, whose geometry, liquid and laws are in the tables",
+            )  # fmt: skip
+
+
+def check_start(ports: tuple[Port, ...], values: Mapping[str, Value]) -> None:
+    """Refuse start values that contradict each other, as the kernel would.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the two.
+    """
+    gap = values["h0"]
+    if values.get("h_rel", math.inf) <= gap:
+        raise DescriptionError("h_rel", values["h_rel"], f"exceed h0 = {gap:g} m", unit="m")
+    if values.get("h_min", 0.0) > gap:
+        raise DescriptionError("h_min", values["h_min"], f"not exceed h0 = {gap:g} m", unit="m")
+    if 0.0 < values["h_break"] <= gap or math.isinf(values["h_break"]):
+        raise DescriptionError(
+            "h_break", values["h_break"], f"be 0 or exceed h0 = {gap:g} m", unit="m"
+        )

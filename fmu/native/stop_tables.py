@@ -1,0 +1,70 @@
+"""What a build carries beside its start values: the tables of an end stop.
+
+Here contacts are solved, with numpy; the FMU gets numbers only. So this module is called by
+`contactkit.fmu.python.build` and never imported by a slave.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.solve import stop_curve
+from ...app.contact import PlainContact
+from ...app.scenes import open_scene
+from ...errors import DescriptionError
+
+__all__ = ["bake", "curve_of", "default_curve"]
+
+STOP_AREA = 10e-6  # [m2], assumption: a shoulder 0.5 mm wide around the spool of the injector
+
+
+@cache
+def default_curve() -> StopCurve:
+    """Curve of the scene ``contact-stop`` of this package, for its window."""
+    return curve_of(open_scene("contact-stop"))
+
+
+def curve_of(scene: Any) -> StopCurve:
+    """Curve of a contact scene that was opened from a file."""
+    if not isinstance(scene, PlainContact):
+        expected = "be a contact scene, with a window and a pressing"
+        raise DescriptionError("scene", type(scene).__name__, expected)
+    return stop_curve(scene.scene, accuracy=scene.accuracy)
+
+
+def bake(name: str, start: dict[str, Any]) -> dict[str, Any]:
+    """Take the tables out of what is given to a build, and fill in what follows from them.
+
+    Parameters
+    ----------
+    name : str
+        ``contact-stop``, which has a curve of its own if none is given, ``valve-drive``, whose
+        stop is a spring without one, or ``tip-contact``, whose site is rigid without one.
+    start : dict
+        What is given; loses its ``curve``.
+
+    Returns
+    -------
+    dict
+        The data of the build.
+
+    Raises
+    ------
+    DescriptionError
+        If the curve is none.
+    """
+    curve = start.pop("curve", None)
+    if curve is None and name != "contact-stop":
+        return {}
+    if curve is None:
+        curve = default_curve()
+        start.setdefault("scale", STOP_AREA / curve.nominal_area)
+    if isinstance(curve, Mapping):
+        curve = StopCurve.from_data(curve)
+    if not isinstance(curve, StopCurve):
+        expected = "be a StopCurve, as contactkit.stop_curve makes it"
+        raise DescriptionError("curve", curve, expected)
+    return {"curve": curve.to_data()}

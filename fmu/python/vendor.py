@@ -1,0 +1,144 @@
+"""Which source files an FMU has to carry: the modules its slave imports, and what they import.
+
+Inside contactkit all imports are relative, so copies of the modules work under another package
+name. A package's own ``__init__`` is carried only if something is imported from it; otherwise an
+empty one takes its place, and with it all that the real one would import stays out of the FMU.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import sys
+from collections.abc import Iterator
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+
+from attrs import field, frozen
+
+from ...errors import ContactkitError
+
+__all__ = ["Closure", "fallback_attrs", "find_closure"]
+
+_EMPTY_INIT = b'"""Part of the code this FMU runs; the original is in contactkit."""\n'
+
+
+@frozen
+class Closure:
+    """The files of a vendored package, and what else it imports.
+
+    Attributes
+    ----------
+    sources : dict
+        Content of each file, by its path in the package with forward slashes.
+    requires : set of str
+        Names of packages that are neither in the FMU nor in Python's standard library.
+    """
+
+    sources: dict[str, bytes] = field(factory=dict)
+    requires: set[str] = field(factory=set)
+
+
+def find_closure(*modules: str, at_once: bool = False) -> Closure:
+    """Collect modules of contactkit and everything they import, at once or later.
+
+    Parameters
+    ----------
+    *modules : str
+        Their full names.
+    at_once : bool
+        Leave out what is only imported inside functions, when they are called.
+
+    Raises
+    ------
+    ContactkitError
+        If a module is missing or imports contactkit by its own name.
+    """
+    root = modules[0].partition(".")[0]
+    closure, seen, waiting = Closure(), set[str](), list(modules)
+    while waiting:
+        name = waiting.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        spec = _find(name)
+        if spec is None or spec.origin is None:
+            raise ContactkitError(f"the FMU needs module {name}, which does not exist")
+        closure.sources[_path_in_package(name, spec)] = Path(spec.origin).read_bytes()
+        inner, outer = _imports(name, spec, at_once)
+        waiting += inner
+        closure.requires.update(outer)
+    if root in closure.requires:
+        raise ContactkitError(
+            f"a module that {modules[0]} needs imports {root!r} by name; make the import relative, "
+            "so that an FMU can carry it under another name"
+        )
+    for path in list(closure.sources):
+        for folder in list(Path(path).parents):
+            closure.sources.setdefault((folder / "__init__.py").as_posix(), _EMPTY_INIT)
+    closure.requires.discard("pythonfmu")  # pythonfmu puts itself into every FMU
+    return closure
+
+
+def _find(name: str) -> ModuleSpec | None:
+    try:
+        return importlib.util.find_spec(name)
+    except (ModuleNotFoundError, ValueError):
+        return None
+
+
+def _is_package(spec: ModuleSpec) -> bool:
+    return spec.submodule_search_locations is not None
+
+
+def _path_in_package(name: str, spec: ModuleSpec) -> str:
+    parts = name.split(".")[1:]
+    return "/".join([*parts, "__init__.py"] if _is_package(spec) else parts) + (
+        "" if _is_package(spec) else ".py"
+    )
+
+
+def _imports(name: str, spec: ModuleSpec, at_once: bool) -> tuple[set[str], set[str]]:
+    """Modules of the same package, and top-level names of others, that a module imports."""
+    inner, outer = set[str](), set[str]()
+    package = name if _is_package(spec) else name.rpartition(".")[0]
+    source = Path(spec.origin or "").read_bytes()
+    for node in _statements(ast.parse(source), at_once):
+        if isinstance(node, ast.Import):
+            outer.update(alias.name.partition(".")[0] for alias in node.names)
+        elif node.level == 0:
+            outer.add((node.module or "").partition(".")[0])
+        else:
+            target = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            found = _find(target)
+            if found is None or not _is_package(found):
+                inner.add(target)
+                continue
+            for alias in node.names:  # either a module in that package, or a name in its __init__
+                member = f"{target}.{alias.name}"
+                inner.add(member if _find(member) else target)
+    return inner, outer - sys.stdlib_module_names
+
+
+def _statements(tree: ast.AST, at_once: bool) -> Iterator[ast.Import | ast.ImportFrom]:
+    """Import statements, at any depth or outside functions, that are not for type checkers only."""
+    if at_once and isinstance(tree, ast.FunctionDef | ast.AsyncFunctionDef):
+        return
+    if isinstance(tree, ast.Import | ast.ImportFrom):
+        yield tree
+    children = ast.iter_child_nodes(tree)
+    if isinstance(tree, ast.If) and "TYPE_CHECKING" in ast.unparse(tree.test):
+        children = iter(tree.orelse)
+    for child in children:
+        yield from _statements(child, at_once)
+
+
+def fallback_attrs() -> dict[str, bytes]:
+    """Read the sources of attrs, with paths as in ``site-packages``, for a bare interpreter."""
+    files = {}
+    for package in ("attr", "attrs"):
+        spec = importlib.util.find_spec(package)
+        for folder in (spec and spec.submodule_search_locations) or []:
+            for path in Path(folder).glob("*.py"):
+                files[f"{package}/{path.name}"] = path.read_bytes()
+    return files

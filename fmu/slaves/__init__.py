@@ -1,0 +1,9 @@
+"""The FMUs: stiction-mass, stiction-force, valve-drive, contact-stop, tip-contact.
+
+contact_stop    The FMU ``contact-stop``: rough faces that meet at an end stop; gap in, force out.
+film_travel     What a film gives while it is drawn from one gap to another: impulses, and when it b
+stiction_force  The FMU ``stiction-force``: a liquid film for a tool that owns the mass; motion in,
+stiction_mass   The FMU ``stiction-mass``: a mass held by a liquid film; a force in, motion out.
+tip_contact     The FMU ``tip-contact``: spring tips on a landing site; motion of their root in, for
+valve_drive     The FMU ``valve-drive``: coil, return spring and opposite stop of a spool valve.
+"""

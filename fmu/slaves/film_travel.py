@@ -1,0 +1,154 @@
+"""What a film gives while it is drawn from one gap to another: impulses, and when it breaks.
+
+The viscous impulse of a film without limits does not depend on the way, so it is exact between
+any two gaps, however long the step. For the static force, and where a limit of the liquid acts,
+the way matters: the gap is taken to move at its mean speed, which leaves out O(H^3) of the impulse
+of a step of length H. Along that way the integrals are by panels in ln h between the kinks of the
+forces, narrower towards the gap at which the film breaks, where the slope of a bridge has no bound:
+1e-7 of the static impulse over a gap ratio of 1e3, 1e-5 of the viscous one under limits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import NamedTuple
+
+from ...separation.effects.registry import ViscousForce
+from ...separation.plan import Film
+
+__all__ = ["Travel", "travel"]
+
+_SHORT = 0.02  # step over gap up to which Simpson's rule leaves out 1e-7 of the static impulse
+_WIDEST = 0.5  # of a panel, in ln h
+_MOST = 200  # panels of a way, but for kinks and ruptures: of a gap ratio of 1e40
+_PANELS = 4  # at least, to look for limits on the way
+_NEAR = 1e-4  # panel over gap at the end of the film
+_GAUSS = ((0.1127016653792583, 5 / 18), (0.5, 8 / 18), (0.8872983346207417, 5 / 18))
+# Lobatto's rule: its ends are those of the panels next to it, and known there.
+_EDGE = 1 / 20
+_LOBATTO = ((0.17267316464601143, 49 / 180), (0.5, 16 / 45), (0.8273268353539886, 49 / 180))
+
+
+class Travel(NamedTuple):
+    """Viscous and other impulse [N.s], and the share of the step after which the film is broken.
+
+    `broken` is 1 if it is not; `last` is the static force at the end [N].
+    """
+
+    viscous: float
+    static: float
+    broken: float
+    last: float = 0.0
+
+
+def travel(
+    film: Film, begin: float, end: float, length: float, first: float | None = None
+) -> Travel:
+    """Impulses of a film over a step from one gap to another.
+
+    Parameters
+    ----------
+    film : Film
+        The film at the begin of the step.
+    begin, end : float
+        Gap [m], positive. The film gives nothing beyond the gap at which it breaks.
+    length : float
+        Length of the step [s], positive.
+    first : float, optional
+        What does not depend on speed at the begin [N], if it is known already.
+    """
+    share = 1.0
+    if end > film.end:
+        share = (film.end - begin) / (end - begin)
+        end, length = film.end, length * share
+    first = film.static_force(begin) if first is None else first
+    last = first if end == begin else film.static_force(end)
+    static = length * _static_mean(film, begin, end, first, last)
+    return Travel(_viscous(film, begin, end, length), static, share, last)
+
+
+def _static_mean(film: Film, begin: float, end: float, first: float, last: float) -> float:
+    """Mean over the gap of what does not depend on speed [N], from its values at both ends."""
+    if end == begin:
+        return first
+    stops = [begin, *_stops(film, begin, end, _WIDEST)]
+    if len(stops) == 2 and abs(end - begin) <= _SHORT * begin:
+        return (first + 4.0 * film.static_force(0.5 * (begin + end)) + last) / 6.0
+    total, before = 0.0, first
+    for start, stop in pairwise(stops):
+        after = last if stop == end else film.static_force(stop)
+        width = math.log1p((stop - start) / start)
+        gaps = [(start * math.exp(x * width), w) for x, w in _LOBATTO]
+        inside = sum(w * gap * film.static_force(gap) for gap, w in gaps)
+        total += width * (inside + _EDGE * (start * before + stop * after))
+        before = after
+    return total / (end - begin)
+
+
+def _stops(film: Film, begin: float, end: float, widest: float) -> Iterator[float]:
+    """Ends of the panels on the way from one gap to another, the last of which is its end."""
+    rising = end > begin
+    widest = max(widest, abs(math.log(end) - math.log(begin)) / _MOST)
+    factor = math.exp(widest if rising else -widest)
+    kinks = film.kinks if rising else film.kinks[::-1]
+    gap = begin
+    while gap != end:
+        # Half the distance to the rupture at most, on the way to it and on the way back.
+        room = max((0.5 if rising else 1.0) * (film.end - gap), _NEAR * film.end)
+        if rising:
+            near = min(gap * factor, gap + room, end)
+            near = next((kink for kink in kinks if gap < kink < near), near)
+        else:
+            near = max(gap * factor, gap - room, end)
+            near = next((kink for kink in kinks if gap > kink > near), near)
+        gap = near if near != gap else end  # among the smallest numbers there is no way between
+        yield gap
+
+
+def _viscous(film: Film, begin: float, end: float, length: float) -> float:
+    law = film.laws.get(ViscousForce)
+    if law is None:
+        return 0.0
+    assert law.impulse is not None  # a viscous force always has one
+    if not film.limits:
+        return law.impulse(begin, end)
+    speed, total = (end - begin) / length, 0.0
+    for start, stop, is_limited in _pieces(film, begin, end, speed):
+        if is_limited:
+            width = math.log1p((stop - start) / start)
+            gaps = [(start * math.exp(x * width), w) for x, w in _GAUSS]
+            mean = sum(w * gap * film.viscous_force(gap, speed)[0] for gap, w in gaps)
+            total += width / speed * mean
+        else:
+            total += law.impulse(start, stop)
+    return total
+
+
+def _pieces(
+    film: Film, begin: float, end: float, speed: float
+) -> Iterator[tuple[float, float, bool]]:
+    """Parts of the way in which one limit acts, or none, and whether one does."""
+
+    def acts(gap: float) -> type | None:
+        return film.viscous_force(gap, speed)[1]
+
+    if speed == 0.0:
+        return
+    # Rounding must neither add a panel nor keep the way from ending.
+    widest = min(0.5 * _WIDEST, abs(math.log(end) - math.log(begin)) / _PANELS + 1e-9)
+    gaps = [begin, *_stops(film, begin, end, widest)]
+    for (start, before), (stop, after) in pairwise([(gap, acts(gap)) for gap in gaps]):
+        if before is after:
+            yield start, stop, before is not None
+            continue
+        low, high = start, stop
+        for _ in range(14):  # the force is smooth to first order there: little is left out
+            middle = 0.5 * (low + high)
+            if acts(middle) is before:
+                low = middle
+            else:
+                high = middle
+        yield start, high, before is not None
+        yield high, stop, after is not None

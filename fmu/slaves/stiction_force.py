@@ -1,0 +1,251 @@
+"""The FMU ``stiction-force``: a liquid film for a tool that owns the mass; motion in, force out.
+
+The film is stiff, so a tool that takes the force of one step into the next needs steps below m/c,
+and beyond them it may end with a smooth and wrong answer. The FMU knows both sides: it gives that
+step, the force the film had on its way beside the one at the end, and raises a flag where they
+differ. A master that exchanges impulses is not bound by it: see `contactkit.fmu.master.couple`.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Mapping
+from enum import IntEnum
+from typing import Any, ClassVar, NamedTuple
+
+from ...accuracy import Accuracy
+from ...separation.motion.state import LIMITS, FilmStatus, LimitKind
+from ...separation.plan import Film, Plan, plan
+from ..framework.ports import Port, find_port
+from ..framework.slave import PortSlave
+from . import stiction_mass
+from .film_travel import Travel, travel
+
+__all__ = ["Exchange", "StictionForce"]
+
+
+class Exchange(IntEnum):
+    """What the tool exchanges with the film: forces step by step, or impulses."""
+
+    FORCE = 1
+    IMPULSE = 2
+
+
+_MOTION = ("h", "v")
+_FILM = ("h0", "R", "V", "N", "h_break")
+_MENISCUS = ("h", *_FILM, "gamma", "theta1", "theta2", "meniscus_law")
+_VISCOUS = (*_MOTION, *_FILM, "eta", "dp_cav", "tau_lim")
+_ALL = tuple(dict.fromkeys((*_VISCOUS, *_MENISCUS)))
+_KEPT = (
+    "h0", "h_break", "rewet", "R", "eta", "gamma", "theta1", "theta2", "V", "N", "meniscus_law",
+    "dp_cav", "tau_lim",
+)  # fmt: skip
+_DOUBT = 0.2  # coupling error beyond which the flag is raised
+_SAME = 1e-9  # gaps closer than this, relatively, are one
+_ENDLESS = sys.float_info.max  # a step without bound: hosts choke on infinity
+
+
+def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **more: Any) -> Port:
+    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
+
+
+PORTS = (
+    Port("h", "m", causality="input", label="gap, at the end of the step to come", start=5e-6,
+         minimum=0.0, exclusive=True, display_unit="um", nominal=1e-6),
+    Port("v", "m/s", causality="input", label="opening speed there", nominal=0.1),
+    _output("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
+    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS),
+    _output("F_v", "N", "viscous force after the limits, positive resists opening", _VISCOUS),
+    _output("c", "N.s/m", "damping dF/dv", _VISCOUS),
+    _output("k", "N/m", "stiffness dF/dh", _ALL),
+    _output("J", "N.s", "viscous impulse since the start", ()),
+    _output("J_m", "N.s", "meniscus impulse since the start", ()),
+    _output("F_mean", "N", "mean of F over the way of the last step", ()),
+    _output("coupling_error", "-", "what F_mean differs by from F, over what moves the mass", ()),
+    _output("H_stable", "s", "longest communication step for exchanging forces: m_ref/c",
+            (*_VISCOUS, "m_ref")),
+    _output("in_doubt", "-", "last step longer than H_stable, or coupling_error above 0.2", (),
+            kind="boolean"),
+    _output("n_doubt", "-", "number of steps in doubt so far", (), kind="integer"),
+    _output("state", "-", "state of the film", _MENISCUS, kind="enumeration",
+            enumeration=FilmStatus, start=FilmStatus.FULL),
+    _output("limit", "-", "limit of the liquid that acts", _VISCOUS, kind="enumeration",
+            enumeration=LimitKind, start=LimitKind.NONE),
+    _output("h_above", "m", "next gap above at which a force is not smooth; 0: none",
+            _MENISCUS, display_unit="um"),
+    _output("h_below", "m", "next gap below at which a force is not smooth; 0: none",
+            _MENISCUS, display_unit="um"),
+    _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
+    _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
+    Port("m_ref", "kg", causality="parameter", label="mass that the tool moves", start=0.02,
+         minimum=0.0, exclusive=True, display_unit="g"),
+    Port("exchange", "-", causality="parameter", kind="enumeration", enumeration=Exchange,
+         label="what the tool exchanges; impulses need no stable step", start=Exchange.FORCE),
+    *(find_port(stiction_mass.PORTS, name) for name in _KEPT),
+)  # fmt: skip
+
+
+class _Memory(NamedTuple):
+    """What the film remembers: where the last step ended, and what happened so far."""
+
+    gap: float
+    damping: float
+    static: float
+    share: float = 1.0
+    broken: bool = False
+
+
+class StictionForce(PortSlave):
+    """Evaluates the forces of a plan, and integrates them along the way of each step."""
+
+    ports: ClassVar[tuple[Port, ...]] = PORTS
+    summary = "Liquid film between two flats: meniscus and viscous force, and doubts of coupling"
+    experiment: ClassVar[Mapping[str, float]] = {
+        "startTime": 0.0, "stopTime": 1e-3, "stepSize": 1e-8, "tolerance": 1e-4,
+    }  # fmt: skip
+
+    plan: Plan
+    memory: _Memory
+
+    def prepare(self) -> None:
+        """See `PortSlave.prepare`."""
+        start = self.values["h0"]
+        # The mass is the tool's: whatever `scene_of` wants to know about it plays no part.
+        rest = {"m": 1.0, "v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 2.0 * start}
+        self.plan = plan(stiction_mass.scene_of(self.values | rest), Accuracy())
+        film = self.plan.film
+        self.memory = _Memory(start, film.resistance(start), film.static_force(start))
+        self.values.update(
+            J=0.0, J_m=0.0, F_mean=0.0, coupling_error=0.0, in_doubt=False, n_doubt=0,
+            t_break=-1.0, n_break=0,
+        )  # fmt: skip
+        self.refresh()
+
+    def refresh(self) -> None:
+        """See `PortSlave.refresh`: forces follow the motion at once."""
+        values = self.values
+        gap, speed = values["h"], values["v"]
+        film = self._film()
+        if film is None or gap >= film.end * (1.0 - _SAME):
+            values.update(
+                F=0.0, F_m=0.0, F_v=0.0, c=0.0, k=0.0, H_stable=_ENDLESS, h_above=0.0,
+                state=int(FilmStatus.BROKEN), limit=int(LimitKind.NONE),
+                h_below=values["h0"] if values["h0"] < gap and values["rewet"] > 0.0 else 0.0,
+            )  # fmt: skip
+            return
+        static, viscous, acting = film.forces(gap, speed)
+        damping, stiffness = _slopes(film, gap, speed, limited=acting is not None)
+        whole = gap <= film.full_gap * (1.0 + _SAME)
+        values.update(
+            F=static + viscous, F_m=static, F_v=viscous, c=damping, k=stiffness,
+            H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
+            state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE), limit=int(LIMITS[acting]),
+        )  # fmt: skip
+        above = below = 0.0
+        for mark in (*film.kinks, film.end):  # they ascend
+            if mark < gap * (1.0 - _SAME):
+                below = mark
+            elif mark > gap * (1.0 + _SAME):
+                above = mark if mark < math.inf else 0.0
+                break
+        values["h_above"], values["h_below"] = above, below
+
+    def advance(self, time: float, step: float) -> None:
+        """See `PortSlave.advance`: the motion that was set is where the step ends."""
+        before, values = self.memory, self.values
+        film, done = self._go(step)
+        self.memory = self._remember(film, time, step, done)
+        self.refresh()
+        values["J"] += done.viscous
+        values["J_m"] += done.static
+        values["F_mean"] = (done.viscous + done.static) / step
+        self._doubt(step, before.damping)
+        if film is not None and self._film() is None:
+            self.event(f"film broke at t = {values['t_break']:.9g} s")
+
+    def _go(self, step: float) -> tuple[Film | None, Travel]:
+        """Film on the way of the step, and what it gives there; one that re-wets, from h0 on."""
+        before, film, gap = self.memory, self._film(), self.values["h"]
+        if film is not None:
+            return film, travel(film, before.gap, gap, step, before.static)
+        start, rewet = self.values["h0"], self.values["rewet"]
+        if rewet > 0.0 and gap < start < before.gap:
+            film = self.plan.film_with(rewet)
+            if start < film.end * (1.0 - _SAME):
+                rest = step * (start - gap) / (before.gap - gap)
+                return film, travel(film, start, gap, rest)
+        return None, Travel(0.0, 0.0, 1.0)
+
+    def _film(self) -> Film | None:
+        memory = self.memory
+        return self.plan.film_left(memory.share, broken=memory.broken, detached=False)
+
+    def _remember(self, film: Film | None, time: float, step: float, done: Travel) -> _Memory:
+        values = self.values
+        gap, broken, share = values["h"], self.memory.broken, self.memory.share
+        if film is not None and gap >= film.end * (1.0 - _SAME):
+            broken = True
+            values["t_break"], values["n_break"] = time + done.broken * step, values["n_break"] + 1
+        elif broken and gap <= values["h0"] * (1.0 + _SAME) and values["rewet"] > 0.0:
+            share = values["rewet"]
+            broken = self.plan.film_with(share).end <= gap
+        if broken:
+            return _Memory(gap, 0.0, 0.0, share, True)
+        now = self.plan.film_with(share)
+        static = done.last if now is film else now.static_force(gap)
+        return _Memory(gap, now.resistance(gap), static, share, False)
+
+    def _doubt(self, step: float, damping: float) -> None:
+        """Compare the force at the end with that on the way, and the step with m/c."""
+        values = self.values
+        mass, gone = values["m_ref"], values["F_mean"]
+        scale = max(abs(values["F"]), abs(gone), mass * abs(values["v"]) / step)
+        error = abs(values["F"] - gone) / scale if scale > 0.0 else 0.0
+        values["coupling_error"] = error
+        was, stiffest = values["in_doubt"], max(damping, self.memory.damping)
+        unstable = step * stiffest > mass
+        doubt = values["exchange"] == Exchange.FORCE and (unstable or error > _DOUBT)
+        values["in_doubt"], values["n_doubt"] = doubt, values["n_doubt"] + doubt
+        if doubt and not was:
+            self.warn_coupling(_warning(step, mass / stiffest if unstable else 0.0, error))
+
+    def hidden_state(self) -> Mapping[str, Any]:
+        """See `PortSlave.hidden_state`."""
+        return {"memory": list(self.memory)}
+
+    def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
+        """See `PortSlave.restore_hidden_state`."""
+        self.memory = _Memory(*hidden["memory"])
+
+
+def _slopes(film: Film, gap: float, speed: float, *, limited: bool) -> tuple[float, float]:
+    """Slope of the force over speed [N.s/m] and over the gap [N/m], known or by differences."""
+    here = film.smooth(gap) if film.smooth is not None and not limited else None
+    if here is not None:
+        _, _, slope, _, damping, exponent, _, _ = here
+        return damping, (slope - exponent * damping * speed) / gap
+    near, damping = 1e-5 * gap, film.resistance(gap)
+    up, down = (film.force(gap + d, speed) for d in (near, -near))
+    stiffness = (up - down) / (2.0 * near)
+    if limited:
+        near = 1e-5 * abs(speed)
+        up, down = (film.viscous_force(gap, speed + d)[0] for d in (near, -near))
+        damping = (up - down) / (2.0 * near)
+    return damping, stiffness
+
+
+def _warning(step: float, stable: float, error: float) -> str:
+    cure = (
+        "use the FMU stiction-mass, which has the mass inside and needs no short steps, or a "
+        "master that exchanges impulses (contactkit.fmu.master.couple)"
+    )
+    if stable:
+        return (
+            f"the communication step of {step:.3g} s exceeds {stable:.3g} s = m_ref/c, the longest "
+            f"with which this film can be coupled by its force; take a tenth of that, or {cure}"
+        )
+    return (
+        f"the force at the end of the step differs from that on its way by {error:.0%} of what "
+        f"moves the mass; take shorter steps than {step:.3g} s, or {cure}"
+    )

@@ -1,0 +1,241 @@
+"""The FMU ``stiction-mass``: a mass held by a liquid film; a force in, motion out.
+
+The film is far too stiff to be coupled to a mass in another tool: c/m reaches 1e12 1/s. So the
+mass is inside, and `contactkit.motion.advance` integrates both, with its own error control,
+however long the communication step is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from enum import IntEnum
+from typing import Any, ClassVar, Literal
+
+from ...accuracy import Accuracy
+from ...errors import DescriptionError
+from ...liquids.liquid import Liquid
+from ...scene.interface import Interface, Meniscus, Opening
+from ...scene.scenes import SeparationScene
+from ...scene.shapes import Flat
+from ...separation.effects.registry import (
+    MeniscusForce,
+    Rupture,
+    SeparationEffect,
+    ShearLimit,
+    TensionLimit,
+    ViscousForce,
+)
+from ...separation.motion.advance import advance
+from ...separation.motion.state import FilmStatus, LimitKind, MotionState, Pull, outputs, start
+from ...separation.plan import Plan, plan
+from ..framework.ports import Port
+from ..framework.slave import PortSlave
+
+__all__ = ["MeniscusLaw", "StictionMass"]
+
+
+class MeniscusLaw(IntEnum):
+    """Which meniscus force acts."""
+
+    NONE = 1
+    EXACT = 2
+    ARC = 3
+    PUBLISHED = 4
+
+
+_PROFILES: Mapping[MeniscusLaw, Literal["exact", "arc", "as-published"]] = {
+    MeniscusLaw.EXACT: "exact", MeniscusLaw.ARC: "arc", MeniscusLaw.PUBLISHED: "as-published",
+}  # fmt: skip
+
+_FILM = ("h0", "R", "V", "N")
+_MENISCUS = (*_FILM, "gamma", "theta1", "theta2", "meniscus_law")
+_VISCOUS = (*_FILM, "v0", "eta", "dp_cav", "tau_lim")
+_ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
+
+
+def _input(name: str, unit: str, label: str) -> Port:
+    return Port(name, unit, causality="input", label=label, start=0.0)
+
+
+def _output(
+    name: str, unit: str, label: str, depends_on: tuple[str, ...] = (), **more: Any
+) -> Port:
+    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
+
+
+def _size(
+    name: str, unit: str, label: str, value: float, display: str | None = None, **more: Any
+) -> Port:
+    """Describe a parameter that is zero or positive."""
+    return Port(
+        name,
+        unit,
+        causality="parameter",
+        label=label,
+        start=value,
+        minimum=0.0,
+        display_unit=display,
+        **more,
+    )
+
+
+PORTS = (
+    _input("F_ext", "N", "pull on the mass, positive opens"),
+    _input("dF_ext", "N/s", "rate of the pull during the next step; 0 holds it constant"),
+    _output("h", "m", "gap", ("h0",), display_unit="um", nominal=1e-6),
+    _output("v", "m/s", "opening speed", ("v0",)),
+    _output("F", "N", "force of the film, positive resists opening", _ALL),
+    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS),
+    _output("F_v", "N", "viscous force after the limits, positive resists opening", _VISCOUS),
+    _output("J", "N.s", "viscous impulse since the start"),
+    _output("J_m", "N.s", "meniscus impulse since the start"),
+    _output("W", "J", "work dissipated in the film since the start"),
+    _output(
+        "state", "-", "state of the film", (*_MENISCUS, "k_s", "h_min", "v0"),
+        kind="enumeration", enumeration=FilmStatus, start=FilmStatus.FULL,
+    ),
+    _output(
+        "limit", "-", "limit of the liquid that acts", _VISCOUS,
+        kind="enumeration", enumeration=LimitKind, start=LimitKind.NONE,
+    ),
+    _output("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
+    _output("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
+    _output("F_peak", "N", "largest force of the film so far"),
+    _output("n_break", "-", "number of ruptures so far", kind="integer"),
+    _output("n_release", "-", "number of releases so far", kind="integer"),
+    _size("m", "kg", "moving mass", 0.02, "g", exclusive=True),
+    _size("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),
+    Port("v0", "m/s", causality="parameter", label="opening speed at the start", start=0.0),
+    _size("k_s", "N/m", "stiffness of a spring that pulls back towards h0", 0.0),
+    _size("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
+    _size("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
+    _size("h_break", "m", "gap at which the film breaks; 0: where the bridge does", 0.0, "um"),
+    _size("rewet", "-", "share of V that is there when the bodies return", 1.0, maximum=1.0),
+    _size("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
+    _size("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
+    _size("gamma", "N/m", "surface tension; 0: no meniscus force", 0.03, "mN/m"),
+    _size("theta1", "rad", "contact angle on the fixed body", 0.2, "deg", maximum=math.pi),
+    _size("theta2", "rad", "contact angle on the moving body", 0.2, "deg", maximum=math.pi),
+    _size("V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3"),
+    Port(
+        "N", "-", causality="parameter", label="number of equal menisci",
+        kind="integer", start=1, minimum=1,
+    ),
+    Port(
+        "meniscus_law", "-", causality="parameter", label="meniscus force that acts",
+        kind="enumeration", enumeration=MeniscusLaw, start=MeniscusLaw.EXACT,
+    ),
+    _size("dp_cav", "Pa", "tension the liquid bears; 0: no limit", 0.0, "bar"),
+    _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
+    _size("rtol", "-", "tolerance of an internal step", 1e-8, exclusive=True, maximum=0.1),
+)  # fmt: skip
+
+
+def scene_of(values: Mapping[str, Any]) -> SeparationScene:
+    """Scene that the parameters of the FMU describe.
+
+    Raises
+    ------
+    DescriptionError
+        If two parameters contradict each other.
+    """
+    if values["h_rel"] <= values["h0"]:
+        raise DescriptionError(
+            "h_rel", values["h_rel"], f"exceed h0 = {values['h0']!r} m", unit="m"
+        )
+    if values["h_min"] > values["h0"]:
+        raise DescriptionError(
+            "h_min", values["h_min"], f"not exceed h0 = {values['h0']!r} m", unit="m"
+        )
+    face = Flat(radius=values["R"])
+    liquid = Liquid(
+        name="liquid of the FMU", viscosity=values["eta"], surface_tension=values["gamma"] or None
+    )
+    meniscus = Meniscus(
+        liquid=liquid,
+        volume=values["V"] or None,
+        contact_angle_lower=values["theta1"],
+        contact_angle_upper=values["theta2"],
+        count=values["N"],
+        rewetting=values["rewet"],
+    )
+    opening = Opening(
+        initial_gap=values["h0"],
+        final_gap=values["h_rel"],
+        force=0.0,  # the pull is an input
+        mass=values["m"],
+        stiffness=values["k_s"],
+        initial_speed=values["v0"],
+        rest_gap=values["h_min"],
+    )
+    interface = Interface(lower=face, upper=face, meniscus=meniscus)
+    return SeparationScene(interface=interface, opening=opening, effects=_effects(values))
+
+
+def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
+    effects: list[SeparationEffect] = [ViscousForce()]
+    law = MeniscusLaw(values["meniscus_law"])
+    if law is not MeniscusLaw.NONE and values["gamma"] > 0.0:
+        effects.append(MeniscusForce(profile=_PROFILES[law]))
+    if values["dp_cav"] > 0.0:
+        effects.append(TensionLimit(tension=values["dp_cav"]))
+    if values["tau_lim"] > 0.0:
+        effects.append(ShearLimit(strength=values["tau_lim"]))
+    if values["h_break"] > 0.0:
+        effects.append(Rupture(gap=values["h_break"]))
+    return tuple(effects)
+
+
+class StictionMass(PortSlave):
+    """Steps the same plan, with the same step of time, as a script would."""
+
+    ports: ClassVar[tuple[Port, ...]] = PORTS
+    summary = "Mass held by a liquid film: meniscus and viscous force, limits, rupture, re-wetting"
+    experiment: ClassVar[Mapping[str, float]] = {
+        "startTime": 0.0, "stopTime": 1e-2, "stepSize": 1e-5, "tolerance": 1e-6,
+    }  # fmt: skip
+
+    plan: Plan
+    state: MotionState
+    _pull = Pull(0.0)  # the last one, which a pull that stays takes again
+
+    def prepare(self) -> None:
+        """See `PortSlave.prepare`."""
+        tolerance = max(self.values["rtol"], 1e-11)
+        self.plan = plan(scene_of(self.values), Accuracy(time_rtol=tolerance))
+        self.state = start(self.plan)._replace(time=self.start_time)
+        self._show(0.0)
+
+    def advance(self, time: float, step: float) -> None:
+        """See `PortSlave.advance`."""
+        before, values = self.state, self.values
+        if before.time != time:  # by rounding, or as a host that starts late
+            before = before._replace(time=time)
+        pull = self._pull
+        if pull.force != values["F_ext"] or pull.rate or values["dF_ext"]:
+            self._pull = pull = Pull(values["F_ext"], values["dF_ext"], time)
+        self.state = state = advance(self.plan, before, pull, step)
+        self._show(pull(time + step))
+        if state.n_releases > before.n_releases:
+            self.event(f"released at t = {state.release_time:.9g} s")
+        if state.n_breaks > before.n_breaks:
+            self.event(f"film broke at t = {state.break_time:.9g} s")
+
+    def _show(self, pull: float) -> None:
+        values, state = self.values, self.state
+        values["F"], values["F_m"], values["F_v"], status, limit = outputs(self.plan, state, pull)
+        values["state"], values["limit"] = int(status), int(limit)
+        (
+            _, values["h"], values["v"], _, _, _, _, values["J"], values["J_m"], values["W"], _,
+            values["t_break"], values["t_release"], _, values["n_break"], values["n_release"],
+            values["F_peak"], *_,
+        ) = state  # fmt: skip
+
+    def hidden_state(self) -> Mapping[str, Any]:
+        """See `PortSlave.hidden_state`."""
+        return {"motion": list(self.state)}
+
+    def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
+        """See `PortSlave.restore_hidden_state`."""
+        self.state = MotionState(*hidden["motion"])

@@ -1,0 +1,281 @@
+"""The FMU ``tip-contact``: spring tips on a landing site; motion of their root in, force out.
+
+A condensed meniscus between a tip and its site is a spring of some 100 N/m with a snap in it, on
+a mass of some 1e-16 kg: nanoseconds, which no other tool should have to step. So the tips, their
+springs and their film are inside, stepped as `contactkit.models.micromirror.tip` does, and what
+crosses the interface is the soft spring of the tip. A host that gives height, speed and
+acceleration of the root at the start of a step and takes the mean force over the step exchanges
+impulse without loss; the force at the end, which follows height and speed at once, serves a host
+that cannot.
+
+Built with a ``curve``, a `StopCurve` of one apex on its site, the site gives: tips strike it,
+bounce and leave a dent. Without one they land for good on a rigid site.
+
+The tips start landed where the root starts at height 0 or below, else free and unbent. The law of
+the meniscus under a sphere is prepared with numpy, so the host's Python needs numpy (and scipy),
+unless V is 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from enum import IntEnum
+from typing import Any, ClassVar
+
+from ...accuracy import Accuracy
+from ...analyses.load_displacement.curve import StopCurve
+from ...errors import DescriptionError
+from ...liquids.liquid import Liquid
+from ...models.micromirror.flight import Root
+from ...models.micromirror.tip import (
+    TipState,
+    TipStop,
+    advance_tip,
+    film_force,
+    free_start,
+    landed_start,
+    tip_force,
+)
+from ...scene.interface import Interface, Opening
+from ...scene.meniscus import Meniscus
+from ...scene.scenes import SeparationScene
+from ...scene.shapes import Flat, Sphere
+from ...separation.effects.registry import (
+    MeniscusForce,
+    SeparationEffect,
+    VanDerWaalsForce,
+    ViscousForce,
+)
+from ...separation.motion.state import MotionState
+from ...separation.plan import Plan, plan
+from ..framework.ports import Port
+from ..framework.slave import PortSlave
+
+__all__ = ["TipContact", "TipLaw", "TipStatus"]
+
+
+class TipStatus(IntEnum):
+    """What a tip does."""
+
+    LANDED = 1
+    HELD = 2
+    FREE = 3
+
+
+class TipLaw(IntEnum):
+    """Profile of the meniscus."""
+
+    EXACT = 1
+    ARC = 2
+
+
+_SPRING = ("z", "k", "N")
+_START = ("z", "h0")
+_FILM = (*_START, "R", "A_H", "gamma", "theta1", "theta2", "V", "profile")
+
+
+def _size(
+    name: str, unit: str, label: str, value: float, display: str | None = None, **more: Any
+) -> Port:
+    """Describe a parameter that is zero or positive."""
+    return Port(
+        name, unit, causality="parameter", label=label, start=value, minimum=0.0,
+        display_unit=display, **more,
+    )  # fmt: skip
+
+
+def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **more: Any) -> Port:
+    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
+
+
+PORTS = (
+    Port("z", "m", causality="input", label="height of the root over where an unbent tip lands",
+         display_unit="um", nominal=1e-6),
+    Port("vz", "m/s", causality="input", label="speed of the root, > 0 lifts", nominal=0.1),
+    Port("az", "m/s2", causality="input", label="acceleration of the root in the next step",
+         nominal=1e6),
+    _output("F", "N", "force of all tips on the root, > 0 holds it down",
+            (*_SPRING, "vz", "c"), display_unit="nN", nominal=1e-7),
+    _output("F_mean", "N", "mean of F over the last step", (), display_unit="nN", nominal=1e-7),
+    _output("h", "m", "gap under a tip", _START, display_unit="nm", nominal=1e-8),
+    _output("v", "m/s", "speed of a tip", ("vz",), nominal=0.1),
+    _output("F_film", "N", "force on one tip from its site, > 0 holds", _FILM,
+            display_unit="nN", nominal=1e-7),
+    _output("J", "N.s", "impulse of all tips on the root since the start", (), nominal=1e-13),
+    _output("W_visc", "J", "work dissipated in the films of all tips", (), nominal=1e-16),
+    _output("W_land", "J", "energy lost in all landings, of all tips", (), nominal=1e-17),
+    _output("state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus),
+    _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
+    _output("t_free", "s", "time at which the tips were free for the last time, -1 before", (),
+            start=-1.0),
+    _output("t_land", "s", "time of the latest landing, -1 before", (), start=-1.0),
+    _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
+    _output("n_land", "-", "number of landings so far", (), kind="integer"),
+    _output("d", "m", "approach of apex and site, or the dent they left; 0 if rigid", _START,
+            display_unit="nm", nominal=1e-9),
+    _output("d_max", "m", "largest approach of a tip so far; 0 if rigid", (), display_unit="nm"),
+    _output("F_max", "N", "largest force of the site on a tip so far; 0 if rigid", (),
+            display_unit="nN"),
+    _output("W_plastic", "J", "work that yielding took, of all tips", (), nominal=1e-17),
+    Port("N", "-", causality="parameter", label="number of equal tips", kind="integer", start=2,
+         minimum=1),
+    _size("m", "kg", "mass of one tip", 4e-16, exclusive=True),
+    _size("k", "N/m", "stiffness of one tip", 1.0, exclusive=True),
+    _size("c", "N.s/m", "damping of one tip while it is free", 2e-10),
+    _size("h0", "m", "gap that roughness keeps open under a landed tip", 4e-10, "nm",
+          exclusive=True),
+    _size("h_free", "m", "gap beyond which solids do not attract a tip", 5e-8, "nm",
+          exclusive=True),
+    _size("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True),
+    _size("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19),
+    _size("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0),
+    _size("gamma", "N/m", "surface tension of the liquid", 0.0727, "mN/m", exclusive=True),
+    _size("eta", "Pa.s", "viscosity of the liquid; 0: no viscous force", 1e-3, "mPa.s"),
+    _size("theta1", "rad", "contact angle on the landing site", 0.7, "deg", maximum=math.pi),
+    _size("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
+    Port("profile", "-", causality="parameter", label="profile of the meniscus",
+         kind="enumeration", enumeration=TipLaw, start=TipLaw.EXACT),
+    _size("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
+    _size("rtol", "-", "tolerance of an internal step", 1e-7, exclusive=True, maximum=0.1),
+)  # fmt: skip
+
+
+def tip_scene(values: Mapping[str, Any]) -> SeparationScene:
+    """Scene of one tip that the parameters of the FMU describe.
+
+    Raises
+    ------
+    DescriptionError
+        If two parameters contradict each other, or nothing acts on the tip.
+    """
+    if values["h_free"] <= values["h0"]:
+        expected = f"exceed h0 = {values['h0']!r} m"
+        raise DescriptionError("h_free", values["h_free"], expected, unit="m")
+    liquid = Liquid(
+        name="liquid of the FMU",
+        viscosity=values["eta"] or None,
+        surface_tension=values["gamma"],
+    )
+    meniscus = Meniscus(
+        liquid=liquid,
+        volume=values["V"] or None,
+        contact_angle_lower=values["theta1"],
+        contact_angle_upper=values["theta2"],
+    )
+    opening = Opening(
+        initial_gap=values["h0"],
+        final_gap=values["h_free"],
+        rest_gap=values["h0"],
+        force=0.0,  # what pulls is the root
+        mass=values["m"],
+        stiffness=values["k"],
+    )
+    interface = Interface(lower=Flat(), upper=Sphere(radius=values["R"]), meniscus=meniscus)
+    return SeparationScene(interface=interface, opening=opening, effects=_effects(values))
+
+
+def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
+    effects: list[SeparationEffect] = []
+    if values["V"] > 0.0:
+        effects.append(MeniscusForce(profile=TipLaw(values["profile"]).name.lower()))  # type: ignore[arg-type]
+        if values["eta"] > 0.0:
+            effects.append(ViscousForce())
+    if values["A_H"] > 0.0:
+        effects.append(VanDerWaalsForce(hamaker_constant=values["A_H"]))
+    if not effects:
+        raise DescriptionError(
+            "V", 0.0, "be positive, or A_H [J]", unit="m3", hint="else nothing holds a tip"
+        )
+    return tuple(effects)
+
+
+class TipContact(PortSlave):
+    """Steps the tips of one side; the numbers are those of ``models/micromirror/micromirror.toml``."""
+
+    ports: ClassVar[tuple[Port, ...]] = PORTS
+    summary = (
+        "Spring tips on a landing site: meniscus, van der Waals and viscous force, snap-off and "
+        "landing (needs numpy and scipy unless V = 0)"
+    )
+    experiment: ClassVar[Mapping[str, float]] = {
+        "startTime": 0.0, "stopTime": 2e-5, "stepSize": 2e-8, "tolerance": 1e-6,
+    }  # fmt: skip
+
+    plan: Plan
+    state: TipState
+    stop: TipStop | None
+
+    def prepare(self) -> None:
+        """See `PortSlave.prepare`."""
+        values = self.values
+        tolerance = max(values["rtol"], 1e-11)
+        self.plan = plan(tip_scene(values), Accuracy(time_rtol=tolerance))
+        self.stop = self._site()
+        if values["z"] <= 0.0:
+            start = self.start_time
+            self.state = landed_start(self.plan, start, stop=self.stop, height=values["z"])
+        else:
+            self.state = free_start(self.plan, values["z"], values["vz"], self.start_time)
+        values["F_mean"] = 0.0
+        self.refresh()
+        self._show()
+
+    def _site(self) -> TipStop | None:
+        """Faces of apex and site, if the build has a curve of them."""
+        damping = self.values["d_stop"]
+        if "curve" in self.data:
+            return TipStop(StopCurve.from_data(self.data["curve"]), damping)
+        if damping > 0.0:
+            raise DescriptionError(
+                "d_stop", damping, "be 0 on a rigid site", unit="s/m",
+                hint="build the FMU with a curve",
+            )  # fmt: skip
+        return None
+
+    def refresh(self) -> None:
+        """See `PortSlave.refresh`: the springs answer to height and speed at once."""
+        self._pull_root(self.values["z"], self.values["vz"])
+
+    def _pull_root(self, height: float, speed: float) -> None:
+        values = self.values
+        one = tip_force(self.plan, values["c"], self.state, height, speed)
+        values["F"] = values["N"] * one
+
+    def advance(self, time: float, step: float) -> None:
+        """See `PortSlave.advance`."""
+        values, before = self.values, self.state
+        if before.motion.time != time:  # by rounding, or as a host that starts late
+            before = before._replace(motion=before.motion._replace(time=time))
+        root = Root(values["z"], values["vz"], values["az"], time)
+        self.state = advance_tip(self.plan, values["c"], before, root, step, self.stop)
+        values["F_mean"] = values["N"] * (self.state.impulse - before.impulse) / step
+        there = root.after(step)
+        self._pull_root(there.height, there.speed)
+        self._show()
+        if self.state.motion.n_breaks > before.motion.n_breaks:
+            self.event(f"film broke at t = {self.state.motion.break_time:.9g} s")
+        if self.state.n_landings > before.n_landings:
+            self.event(f"landed at t = {self.state.landing_time:.9g} s")
+
+    def _show(self) -> None:
+        state, motion, n = self.state, self.state.motion, self.values["N"]
+        stop = self.stop
+        taken = stop.curve.lost(state.largest) if stop is not None else 0.0
+        status = TipStatus.FREE if state.free else TipStatus.HELD
+        self.values.update(
+            h=state.gap, v=motion.speed, F_film=film_force(self.plan, state)[0],
+            J=n * state.impulse, W_visc=n * motion.dissipated_work, W_land=n * state.landing_loss,
+            state=int(TipStatus.LANDED if state.on_site else status), t_break=motion.break_time,
+            t_free=state.free_time, t_land=state.landing_time, n_break=motion.n_breaks,
+            n_land=state.n_landings, d=state.depth, d_max=state.largest, F_max=state.peak,
+            W_plastic=n * taken,
+        )  # fmt: skip
+
+    def hidden_state(self) -> Mapping[str, Any]:
+        """See `PortSlave.hidden_state`."""
+        return {"tip": list(self.state[1:]), "motion": list(self.state.motion)}
+
+    def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
+        """See `PortSlave.restore_hidden_state`."""
+        self.state = TipState(MotionState(*hidden["motion"]), *hidden["tip"])

@@ -1,0 +1,207 @@
+"""The FMU ``valve-drive``: coil, return spring and opposite stop of a spool valve.
+
+It takes the motion of the spool and gives the pull on it; mass and film are in the FMU
+``stiction-mass``. The coil is integrated inside, with the voltage switched where it switches and
+the gap running on at the speed it has, so a step may be as long as that is a fair guess. What is
+left is the error of the coupling: spring and stop answer to a gap that is one step old, which is
+stable for steps below ``2 sqrt(m/k_stop)`` and good to some per cent of a blow on the stop at a
+tenth of that.
+
+The stop is a spring, or, where the build was given a ``curve``, the rough faces of that curve
+with the spring ``k_stop`` behind them; such a stop remembers how far it was pressed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any, ClassVar
+
+from pythonfmu.enums import Fmi2Status
+
+from ...analyses.load_displacement.curve import StopCurve
+from ...errors import DescriptionError
+from ...models.injector import valve as law
+from ..framework.ports import Port, Value
+from ..framework.slave import PortSlave
+
+__all__ = ["ValveDrive", "check_drive"]
+
+_SPRING = ("k_spring", "F_preload")
+_STOP = ("h_stop", "k_stop", "d_stop")
+
+
+class ValveDrive(PortSlave):
+    """Drive of a spool valve; the numbers are those of ``models/injector/fuel_injector.toml``."""
+
+    summary = "Electromagnet, return spring and opposite stop of a spool valve"
+    experiment: ClassVar[Mapping[str, float]] = {
+        "startTime": 0.0,
+        "stopTime": 51e-3,
+        "stepSize": 5e-6,
+    }
+    ports = (
+        Port("h", "m", causality="input", label="gap between spool and end cap", start=5e-6,
+             display_unit="um", nominal=1e-5),
+        Port("v", "m/s", causality="input", label="speed of the spool, > 0 opens", nominal=0.1),
+        Port("F_ext", "N", causality="output", label="net pull on the spool, > 0 opens",
+             depends_on=("h", "v", *_SPRING, *_STOP), nominal=40.0),
+        Port("dF_ext", "N/s", causality="output", label="mean slope of F_ext in the last step",
+             depends_on=(), nominal=1e5),
+        Port("F_mag", "N", causality="output", label="force of the magnet, > 0 opens",
+             depends_on=(), nominal=40.0),
+        Port("F_spring", "N", causality="output", label="force of the spring, > 0 closes",
+             depends_on=("h", *_SPRING), nominal=10.0),
+        Port("F_stop", "N", causality="output", label="force of the opposite stop, > 0 closes",
+             depends_on=("h", "v", *_STOP), nominal=100.0),
+        Port("i", "A", causality="output", label="current", depends_on=("h",)),
+        Port("u", "V", causality="output", label="voltage of the driver",
+             depends_on=("t_delay", "T_period", "t_on", "t_boost", "U_boost", "U_hold", "U_off",
+                         "n_cycles"), nominal=10.0),
+        Port("flux", "Wb", causality="output", label="flux linkage", depends_on=(),
+             nominal=1e-3, display_unit="mWb"),
+        Port("R_coil", "ohm", causality="parameter", label="resistance of the circuit", start=1.0,
+             minimum=0.0, exclusive=True),
+        Port("N_turns", "-", causality="parameter", label="turns", kind="integer", start=40,
+             minimum=1),
+        Port("A_pole", "m2", causality="parameter", label="area of each of the two poles",
+             start=50e-6, minimum=0.0, exclusive=True, display_unit="mm2"),
+        Port("g_air", "m", causality="parameter", label="air gap at each pole while h = 0",
+             start=105e-6, minimum=0.0, exclusive=True, display_unit="um"),
+        Port("g_iron", "m", causality="parameter", label="length of air that resists as the iron",
+             start=20e-6, minimum=0.0, exclusive=True, display_unit="um"),
+        Port("B_sat", "T", causality="parameter", label="saturation of the iron, 0 = none",
+             start=1.8, minimum=0.0),
+        Port("k_spring", "N/m", causality="parameter", label="stiffness of the return spring",
+             start=2e4, minimum=0.0, display_unit="N/mm"),
+        Port("F_preload", "N", causality="parameter", label="force of the spring while h = 0",
+             start=15.0, minimum=0.0),
+        Port("h_stop", "m", causality="parameter", label="gap at which the stop is met",
+             start=25e-6, minimum=0.0, exclusive=True, display_unit="um"),
+        Port("k_stop", "N/m", causality="parameter", label="stiffness of the stop", start=1e8,
+             minimum=0.0, exclusive=True, display_unit="N/um"),
+        Port("d_stop", "s/m", causality="parameter", label="damping of the stop, k x (1 + d v)",
+             start=5.0, minimum=0.0),
+        Port("t_delay", "s", causality="parameter", label="time of the first energising",
+             start=1e-3, minimum=0.0, display_unit="ms"),
+        Port("T_period", "s", causality="parameter", label="time between energisings",
+             start=10e-3, minimum=0.0, exclusive=True, display_unit="ms"),
+        Port("t_on", "s", causality="parameter", label="length of an energising", start=4e-3,
+             minimum=0.0, exclusive=True, display_unit="ms"),
+        Port("U_boost", "V", causality="parameter", label="voltage that builds up the current",
+             start=12.0, minimum=0.0, exclusive=True),
+        Port("t_boost", "s", causality="parameter", label="for how long", start=0.25e-3,
+             minimum=0.0, display_unit="ms"),
+        Port("U_hold", "V", causality="parameter", label="voltage for the rest of the on time",
+             start=5.2, minimum=0.0),
+        Port("U_off", "V", causality="parameter", label="voltage against which the current ends",
+             start=-12.0, maximum=0.0),
+        Port("n_cycles", "-", causality="parameter", label="number of cycles", kind="integer",
+             start=5, minimum=1),
+    )  # fmt: skip
+
+    def prepare(self) -> None:
+        """See `PortSlave.prepare`."""
+        check_drive(self.values)
+        self.valve = _valve(self.values)
+        faces = self.data.get("curve")
+        self.faces = StopCurve.from_data(faces) if faces is not None else None
+        self.largest = 0.0
+        self.values |= {"flux": 0.0, "dF_ext": 0.0, "F_mag": 0.0}
+        self.values["u"] = law.voltage(self.valve.profile, self.start_time)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """See `PortSlave.refresh`: spring, stop and current answer to gap and speed at once."""
+        self._follow_gap(self.values["h"], self.values["v"])
+
+    def _stop(self, gap: float, speed: float) -> tuple[float, float]:
+        """Force of the stop [N], and the approach of its faces [m] if it has any."""
+        if self.faces is None:
+            return law.stop_force(self.valve.stop, gap, speed), 0.0
+        return law.rough_stop_force(self.valve.stop, self.faces, self.largest, gap, speed)
+
+    def _follow_gap(self, gap: float, speed: float) -> None:
+        values, valve = self.values, self.valve
+        flux = values["flux"]
+        values["i"] = law.current(valve.coil, flux, gap)
+        values["F_spring"] = law.spring_force(valve.spring, gap)
+        values["F_stop"] = self._stop(gap, speed)[0]
+        values["F_ext"] = law.pull(valve, flux, gap, speed, values["F_stop"])
+
+    def advance(self, time: float, step: float) -> None:
+        """See `PortSlave.advance`: the gap runs on at its speed."""
+        values, valve = self.values, self.valve
+        gap, speed, flux = values["h"], values["v"], values["flux"]
+        stopping, faces = self._stop(gap, speed)
+        before, end = law.pull(valve, flux, gap, speed, stopping), time + step
+        # What is remembered is where the spool was, not where it may be at the end of the step.
+        known, self.largest = self.largest, max(self.largest, faces)
+        if self.faces is not None and known <= self.faces.most < faces:
+            self.log(
+                f"the faces of the stop are pressed by {faces:.6g} m at t = {time:.9g} s, beyond "
+                f"{self.faces.most:.6g} m where their tables end: the force goes on along its "
+                "tangent; give the stop a larger area, or faces solved to larger loads",
+                Fmi2Status.warning,
+                "logStatusWarning",
+            )
+        for start, stop in pairwise([time, *law.switching_times(valve.profile, time, end), end]):
+            applied = law.voltage(valve.profile, 0.5 * (start + stop))
+            here = gap + speed * (start - time)
+            flux = law.advance_flux(valve.coil, flux, here, speed, applied, stop - start)
+        values["flux"], values["F_mag"] = flux, law.magnet_force(valve.coil, flux)
+        values["u"] = law.voltage(valve.profile, end)
+        self._follow_gap(gap + speed * step, speed)
+        values["dF_ext"] = (values["F_ext"] - before) / step
+
+    def hidden_state(self) -> Mapping[str, Any]:
+        """See `PortSlave.hidden_state`."""
+        return {"largest": self.largest}
+
+    def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
+        """See `PortSlave.restore_hidden_state`."""
+        self.largest = hidden["largest"]
+
+
+def check_drive(values: Mapping[str, Value]) -> None:
+    """Refuse start values of a drive that contradict each other.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the two.
+    """
+    for name, bound in (("t_boost", "t_on"), ("t_on", "T_period")):
+        if values[name] > values[bound]:
+            expected = f"not exceed {bound} = {values[bound]:g} s"
+            raise DescriptionError(name, values[name], expected, unit="s")
+    if values["h_stop"] >= values["g_air"]:
+        raise DescriptionError(
+            "h_stop", values["h_stop"], f"be less than g_air = {values['g_air']:g} m", unit="m",
+            hint="else the armature meets the poles before the spool meets the stop",
+        )  # fmt: skip
+
+
+def _valve(values: dict[str, float]) -> law.Valve:
+    return law.Valve(
+        coil=law.Coil(
+            resistance=values["R_coil"],
+            turns=int(values["N_turns"]),
+            pole_area=values["A_pole"],
+            air_gap=values["g_air"],
+            iron_gap=values["g_iron"],
+            saturation=values["B_sat"] or None,
+        ),
+        spring=law.Spring(stiffness=values["k_spring"], preload=values["F_preload"]),
+        stop=law.Stop(gap=values["h_stop"], stiffness=values["k_stop"], damping=values["d_stop"]),
+        profile=law.DriveProfile(
+            start_delay=values["t_delay"],
+            period=values["T_period"],
+            on_time=values["t_on"],
+            boost_voltage=values["U_boost"],
+            boost_time=values["t_boost"],
+            hold_voltage=values["U_hold"],
+            off_voltage=values["U_off"],
+            cycles=int(values["n_cycles"]),
+        ),
+    )

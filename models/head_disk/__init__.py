@@ -1,0 +1,1 @@
+"""The head-disk interface: its scene."""

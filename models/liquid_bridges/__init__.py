@@ -1,0 +1,1 @@
+"""The scene of the comparison of liquid bridges."""

@@ -1,0 +1,119 @@
+r"""How hard a spring tip lands on its site, and whether its apex bounces.
+
+`contactkit.models.micromirror.tip` lets a tip land without a bounce of its apex, on a site that does
+not give. Here the site gives: the apex meets it as a `StopCurve`, by the energy of one blow,
+
+.. math:: \tfrac12 m v^2 + w = W(d_m), \qquad e^2 = 1 - \text{lost} / \tfrac12 m v^2
+
+with w the work of the attraction that pulls it in and holds it again on the way out. The apex
+stays if the plastic work takes the whole kinetic energy. Left out: what runs away in the tip as a
+wave, vapour that condenses while it touches, and that approaches of less than a nanometre are
+those of a few atoms, to which hardness and elasticity are strangers.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ...accuracy import Accuracy
+from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.impact import impact
+from ...analyses.load_displacement.solve import stop_curve
+from ...contact.effects.elasticity import HalfSpace
+from ...contact.effects.plasticity import HardnessLimit
+from ...errors import DescriptionError, InfeasibleError, PlanError
+from ...scene.bodies import Body, ContactInterface, Pressing, Window
+from ...scene.contact_scene import ContactScene
+from ...scene.materials import Material
+from ...scene.scenes import SeparationScene
+from ...scene.shapes import Sphere
+from ...scene.topography import Paraboloid
+
+__all__ = ["TipLanding", "land", "tip_faces"]
+
+_ALUMINIUM = Material(  # a sputtered film; the hardness is an assumption
+    name="aluminium film", young_modulus=70e9, poisson_ratio=0.33, hardness=1.2e9
+)
+
+
+class TipLanding(NamedTuple):
+    """One landing of an apex."""
+
+    approach: float
+    """Largest approach of apex and site [m]."""
+    force: float
+    """Largest force between them [N]."""
+    lost: float
+    """Work that plasticity takes [J]."""
+    restitution: float
+    """Speed at which the apex leaves over that at which it came [-]; 0: it stays."""
+
+
+def tip_faces(
+    tip: SeparationScene, most: float, *, material: Material = _ALUMINIUM,
+    accuracy: Accuracy | None = None,
+) -> StopCurve:  # fmt: skip
+    """Curve of the apex of a tip on its site, up to an approach [m]; both of one material.
+
+    Raises
+    ------
+    PlanError
+        If the tip has no round apex.
+    InfeasibleError
+        If it is too blunt, or the approach too deep, for a paraboloid: beyond R/5.
+    """
+    apex = tip.interface.upper
+    if not isinstance(apex, Sphere):
+        raise PlanError("a landing needs the radius of the apex: interface.upper as a sphere")
+    if not 0.0 < most <= 0.2 * apex.radius:
+        raise InfeasibleError(
+            f"an approach of {most:g} m is beyond a fifth of the radius {apex.radius:g} m, where "
+            "small slopes end; ask for less"
+        )
+    scene = ContactScene(
+        interface=ContactInterface(
+            lower=Body(solid=material),
+            upper=Body(surface=Paraboloid(radius=apex.radius), solid=material),
+        ),
+        window=Window(width=3.2 * math.sqrt(2.0 * apex.radius * most), periodic=False),
+        pressing=Pressing(approach=most),
+        effects=(HalfSpace(), HardnessLimit(rule="material")),
+    )
+    return stop_curve(scene, points=24, decades=3.0, accuracy=accuracy or Accuracy(grid=128))
+
+
+def land(faces: StopCurve, mass: float, speed: float, attraction: float = 0.0) -> TipLanding:
+    """One landing of a tip, by its energy.
+
+    Parameters
+    ----------
+    faces : StopCurve
+        Apex on site, as `tip_faces` makes it.
+    mass, speed : float
+        Of the tip as it lands [kg], [m/s].
+    attraction : float
+        Work to pull the apex off its site without a film [J], as `mirror_film.adhesion` gives it.
+
+    Raises
+    ------
+    InfeasibleError
+        If the curve ends before the tip is at rest.
+    DescriptionError
+        If a number is impossible.
+
+    Examples
+    --------
+    >>> faces = StopCurve(approach=(1e-9, 2e-9), force=(1e-7, 3e-7), contact_area=(1e-17, 2e-17),
+    ...                   plastic_area=(0.0, 0.0), elastic_limit=2e-9, nominal_area=1e-13)
+    >>> land(faces, 4e-16, 0.2).restitution
+    1.0
+    """
+    if not (math.isfinite(attraction) and attraction >= 0.0):
+        expected = "be zero or positive, and finite"
+        raise DescriptionError("land(attraction)", attraction, expected, unit="J")
+    kinetic = 0.5 * mass * speed * speed
+    # The attraction brings its work with it: the blow is that of a faster tip.
+    blow = impact(faces, mass, math.sqrt(speed * speed + 2.0 * attraction / mass))
+    left = max(kinetic - blow.lost, 0.0)
+    return TipLanding(blow.approach, blow.force, blow.lost, math.sqrt(left / kinetic))

@@ -1,0 +1,147 @@
+"""Whether a micromirror lets go: by the spring alone, or by the smallest reset pulse."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from ...errors import InfeasibleError
+from ...separation.plan import Plan
+from .coupling import couple
+from .scene import MicromirrorScene
+from .tip_film import Adhesion, adhesion, tip_law
+
+__all__ = ["Landing", "Release", "landing", "release", "release_curve", "smallest_reset"]
+
+_COARSE = 2.0  # [V] between the pulses tried first
+_FINE = 0.05  # [V]
+_AWAY = 0.5  # [-] share of the landing tilt below which a mirror has left
+
+
+class Release(NamedTuple):
+    """What holds a mirror at a humidity, and what makes it let go."""
+
+    adhesion: Adhesion
+    """Of one tip."""
+    alone: float
+    """Time after the bias ends at which the last tip is free [s]; nan if the spring fails."""
+    reset_voltage: float
+    """Smallest reset pulse that releases [V], of the time the scene gives it; nan if none does."""
+    reset_delay: float
+    """Time after the start of that pulse at which the tips are free [s]."""
+
+
+class Landing(NamedTuple):
+    """A mirror at rest on its tips: what is stored in it, of all tips of a side together."""
+
+    tilt: float
+    """[rad]"""
+    bend: float
+    """Of each tip [m]."""
+    preload: float
+    """Force of the tips on their sites without adhesion [N]."""
+    spring_energy: float
+    """In the bent tips [J]."""
+    hinge_energy: float
+    """[J]"""
+    hinge_force: float
+    """Force of the hinge at the tips [N]."""
+
+
+def landing(scene: MicromirrorScene) -> Landing:
+    """Forces and energies of the mirror at rest under its bias."""
+    from .mirror import root_height
+
+    mirror, (tilt, _) = scene.mirror, scene.start
+    tips, hinge = mirror.tips, mirror.hinge
+    bend, stiffness = -root_height(tips, tilt, 1.0), tips.per_side * scene.opening.stiffness
+    return Landing(
+        tilt=tilt,
+        bend=bend,
+        preload=stiffness * bend,
+        spring_energy=0.5 * stiffness * bend * bend,
+        hinge_energy=0.5 * hinge.stiffness * tilt * tilt,
+        hinge_force=hinge.stiffness * tilt / (tips.arm * math.cos(tilt)),
+    )
+
+
+def release(scene: MicromirrorScene, made: Plan, reset_voltage: float | None) -> float:
+    """Time [s] after the start of a reset pulse, or the end of the bias, at which tips are free.
+
+    Parameters
+    ----------
+    scene : MicromirrorScene
+    made : Plan
+        Law of one tip, from `tip_law`.
+    reset_voltage : float, optional
+        Amplitude of the pulse [V]. None: the bias just ends.
+
+    Returns
+    -------
+    float
+        nan if the mirror has not come to half of its landing tilt within the patience of the
+        study.
+
+    Raises
+    ------
+    InfeasibleError
+        If the pulse presses the plate on its electrode.
+    """
+    mirror = scene.first_flip(reset_voltage)
+    wave, away = mirror.waveform, _AWAY * mirror.tips.landing_tilt
+    motion = couple(
+        mirror, scene.tips(made), scene.opening.stiffness, scene.start,
+        wave.reset_time + wave.release_time, scene.study.communication_step,
+        until=lambda time, tilt: tilt < away,
+    )  # fmt: skip
+    if motion["tilt"][-1] >= away:
+        return math.nan
+    held = motion["state_plus"] < 3.0
+    return float(motion["time"][held][-1])
+
+
+def smallest_reset(scene: MicromirrorScene, made: Plan) -> tuple[float, float]:
+    """Smallest reset voltage [V] that releases, and the time until then [s]; nan if none does.
+
+    Looked for upwards from the bias in steps of 2 V, then halved to 0.05 V: the mirror swings on
+    its tips during the pulse, so that larger voltages need not all do, and smaller ones could.
+    """
+    low, most = abs(scene.mirror.waveform.bias_voltage), scene.study.largest_reset
+    high, found = low, _try(scene, made, low)
+    while math.isnan(found):
+        if high >= most:
+            return math.nan, math.nan
+        low, high = high, min(high + _COARSE, most)
+        try:
+            found = _try(scene, made, high)
+        except InfeasibleError:  # it would reach the electrode
+            return math.nan, math.nan
+    while high - low > _FINE:
+        middle = 0.5 * (low + high)
+        time = _try(scene, made, middle)
+        if math.isnan(time):
+            low = middle
+        else:
+            high, found = middle, time
+    return high, found
+
+
+def _try(scene: MicromirrorScene, made: Plan, reset_voltage: float) -> float:
+    return release(scene, made, reset_voltage)
+
+
+def release_curve(scene: MicromirrorScene, progress: Callable[[float], None]) -> list[Release]:
+    """Adhesion and release at each humidity of the study."""
+    found: list[Release] = []
+    humidities = scene.study.humidities
+    for i, humidity in enumerate(humidities):
+        held = adhesion(scene.tip, humidity)
+        if found and held.volume == found[-1].adhesion.volume == 0.0:  # as dry as before
+            found.append(found[-1]._replace(adhesion=held))
+            continue
+        made = tip_law(scene.tip, humidity)
+        alone = release(scene, made, None)
+        found.append(Release(held, alone, *smallest_reset(scene, made)))
+        progress((i + 1) / len(humidities))
+    return found

@@ -1,0 +1,208 @@
+"""What the file of a micromirror says: one tip and its film, the mirror, what it is run at."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import evolve, field, frozen
+
+from ...errors import DescriptionError, PlanError
+from ...scene.interface import Interface, Opening
+from ...scene.scenes import SeparationScene
+from ...scene.shapes import Flat, Sphere
+from ...separation.effects.registry import (
+    MeniscusForce,
+    SeparationEffect,
+    VanDerWaalsForce,
+    ViscousForce,
+)
+from ...separation.plan import Plan
+from ...units import celsius, si
+from ...validators import as_tuple, fraction, part, positive
+from .coupling import LocalTip
+from .flight import Root
+from .mirror import Mirror, electrode_volts, landed_tilt, root_height
+from .tip import TipStop, free_start, landed_start
+from .tip_film import tip_law, tip_scene
+from .tip_impact import rest_depth
+from .zz_mirror_tip_state import contact_of
+
+__all__ = ["MicromirrorScene", "MirrorStudy", "tip_values"]
+
+_ROUNDS = 8  # each brings the tilt at rest nearer by the ratio of tip and site, some 1 %
+
+
+def _humidities(study: object, attribute: Any, values: tuple[float, ...]) -> None:
+    for value in values:
+        _humidity(study, attribute, value)
+
+
+def _humidity(study: object, attribute: Any, value: float) -> None:
+    fraction(study, attribute, value)
+    if value == 1.0:
+        raise DescriptionError(
+            f"MirrorStudy.{attribute.name}", value, "be less than 1",
+            hint="at saturation all is flooded",
+        )  # fmt: skip
+
+
+@frozen(kw_only=True)
+class MirrorStudy:
+    """What the micromirror is run at.
+
+    Parameters
+    ----------
+    humidity : float
+        Relative humidity of the run over time [-].
+    humidities : tuple of float
+        Relative humidities at which release is looked for [-].
+    largest_reset : float
+        Largest reset voltage that is tried [V].
+    patience : float
+        How long without a voltage a mirror may take to let go [s], where release is looked for.
+    communication_step : float
+        Communication step of the co-simulation [s].
+    """
+
+    humidity: float = field(validator=_humidity, metadata=si("-"))
+    humidities: tuple[float, ...] = field(
+        default=(), converter=as_tuple, validator=_humidities, metadata=si("-")
+    )
+    largest_reset: float = field(validator=positive, metadata=si("V"))
+    patience: float = field(validator=positive, metadata=si("s"))
+    communication_step: float = field(validator=positive, metadata=si("s"))
+
+
+@frozen(kw_only=True)
+class MicromirrorScene:
+    """Everything the file of a micromirror says; `interface` and `opening` are those of one tip."""
+
+    interface: Interface = field(validator=part(Interface))
+    opening: Opening = field(validator=part(Opening))
+    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
+    mirror: Mirror = field(validator=part(Mirror))
+    study: MirrorStudy = field(validator=part(MirrorStudy))
+    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
+    name: str = "micromirror"
+
+    def __attrs_post_init__(self) -> None:
+        opening = self.opening
+        if opening.rest_gap != opening.initial_gap:
+            raise DescriptionError(
+                "Opening.rest_gap", opening.rest_gap,
+                f"equal initial_gap = {opening.initial_gap:g} m", unit="m",
+                hint="a tip that has landed rests on its roughness",
+            )  # fmt: skip
+        if opening.mass is None or opening.stiffness == 0.0:
+            name, unit = ("mass", "kg") if opening.mass is None else ("stiffness", "N/m")
+            value = getattr(opening, name)
+            raise DescriptionError(f"Opening.{name}", value, "be that of a spring tip", unit=unit)
+
+    @property
+    def tip(self) -> SeparationScene:
+        """Scene of one tip, before any liquid has condensed."""
+        return SeparationScene(
+            name=self.name,
+            temperature=self.temperature,
+            interface=self.interface,
+            opening=self.opening,
+            effects=self.effects,
+        )
+
+    @property
+    def start(self) -> tuple[float, float]:
+        """Tilt [rad] and rate [rad/s] of the mirror that rests under its bias."""
+        volts = electrode_volts(self.mirror.waveform, -1.0)
+        tilt, stop = landed_tilt(self.mirror, self.opening.stiffness, volts), self.stop
+        if stop is None:
+            return tilt, 0.0
+        for _ in range(_ROUNDS):
+            # A site that gives makes the spring of a tip softer by what the apex sinks in.
+            height, depth = self._sunk(stop, tilt)
+            softer = self.opening.stiffness * (1.0 + depth / height)
+            tilt = landed_tilt(self.mirror, softer, volts)
+        return tilt, 0.0
+
+    def _sunk(self, stop: TipStop, tilt: float) -> tuple[float, float]:
+        """Height [m] of the root of a landed tip, and its approach [m] at the humidity of runs."""
+        made, height = (
+            tip_law(self.tip, self.study.humidity),
+            root_height(self.mirror.tips, tilt, 1.0),
+        )
+        contact = contact_of(made, stop, landed_start(made), Root(height))
+        return height, rest_depth(contact, 0.0, 0.0)
+
+    @property
+    def stop(self) -> TipStop | None:
+        """What the apex of a tip meets; None on a rigid site."""
+        faces = self.mirror.tips.faces
+        if faces is None:
+            return None
+        from ..end_stop.solve import solved
+
+        return TipStop(solved(faces), self.mirror.tips.landing_damping)
+
+    def tips(self, made: Plan) -> tuple[LocalTip, LocalTip]:
+        """Tips of both sides at the start: the side + landed, the side - free."""
+        tips, (tilt, _), stop = self.mirror.tips, self.start, self.stop
+        landed = landed_start(made, stop=stop, height=root_height(tips, tilt, 1.0))
+        far = free_start(made, root_height(tips, tilt, -1.0))
+        return (
+            LocalTip(made, tips.damping, tips.per_side, landed, stop),
+            LocalTip(made, tips.damping, tips.per_side, far, stop),
+        )
+
+    def first_flip(self, reset_voltage: float | None) -> Mirror:
+        """Mirror that is let go at time 0, by a reset voltage [V]; None: by the spring alone."""
+        wave = self.mirror.waveform
+        reset = {"reset_voltage": 0.0, "reset_time": 0.0}
+        if reset_voltage is not None:
+            signed = -reset_voltage if wave.bias_voltage < 0.0 else reset_voltage
+            reset = {"reset_voltage": signed, "reset_time": wave.reset_time}
+        wait = self.study.patience
+        changed = evolve(wave, start_delay=0.0, flips=1, release_time=wait, period=1.0, **reset)
+        return evolve(self.mirror, waveform=changed)
+
+
+def tip_values(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
+    """Parameters of the FMU ``tip-contact`` for a scene at a relative humidity [-].
+
+    Raises
+    ------
+    PlanError
+        If the FMU cannot represent the scene; says what stands against it.
+    """
+    tip, tips, stop = tip_scene(scene.tip, humidity), scene.mirror.tips, scene.stop
+    interface, opening, meniscus = tip.interface, tip.opening, tip.interface.meniscus
+    liquid = meniscus.liquid.at(tip.temperature)
+    film, solids = tip.effect(MeniscusForce), tip.effect(VanDerWaalsForce)
+    viscous = tip.effect(ViscousForce)
+    profiles = {"arc": "ARC", "exact": "EXACT"}
+    known = MeniscusForce | VanDerWaalsForce | ViscousForce
+    needs = {
+        "an endless flat below and a sphere above": isinstance(interface.upper, Sphere)
+        and isinstance(interface.lower, Flat)
+        and interface.lower.radius is None,
+        "meniscus-force, viscous-force and van-der-waals-force only": all(
+            isinstance(e, known) for e in tip.effects
+        ),
+        "MeniscusForce with profile 'exact' or 'arc'": film is None or film.profile in profiles,
+        "ViscousForce() with closure='volume-conserving'": viscous is None
+        or viscous.closure == "volume-conserving",
+        "VanDerWaalsForce with its own cutoff and closure": solids is None
+        or solids == VanDerWaalsForce(hamaker_constant=solids.hamaker_constant),
+        "Meniscus.count = 1 and rewetting = 1": meniscus.count == 1 and meniscus.rewetting == 1.0,
+    }
+    if against := [reason for reason, holds in needs.items() if not holds]:
+        raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
+    assert isinstance(interface.upper, Sphere)
+    return {
+        "N": tips.per_side, "m": opening.mass, "k": opening.stiffness, "c": tips.damping,
+        "h0": opening.initial_gap, "h_free": opening.final_gap, "R": interface.upper.radius,
+        "A_H": solids.hamaker_constant if solids is not None else 0.0,
+        "V": meniscus.volume or 0.0, "gamma": liquid.surface_tension,
+        "eta": (liquid.viscosity or 0.0) if viscous is not None else 0.0,
+        "theta1": meniscus.contact_angle_lower, "theta2": meniscus.contact_angle_upper,
+        "profile": profiles[film.profile] if film is not None else "EXACT",
+        **({"curve": stop.curve, "d_stop": stop.damping} if stop is not None else {}),
+    }  # fmt: skip

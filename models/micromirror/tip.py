@@ -1,0 +1,240 @@
+r"""One spring tip between a moving root and its landing site: a mass, a spring, a film.
+
+.. math::
+    m\ddot h = F - F_{film}(h, \dot h), \qquad F = k\,(h_0 + z - h) + c\,(\dot z - \dot h)
+
+The root at height z belongs to somebody else (the mirror) and is steadily accelerated within a
+step; F is what the tip pulls it down with. The tip has four states of motion in turn:
+
+* landed: at the gap :math:`h_0` that roughness keeps open, until F exceeds the force of the film;
+* held by what acts between tip and site: stepped by `contactkit.motion.step_once`, without c,
+  since the liquid damps more than the metal;
+* free, once the film has broken and the gap is `free_gap`, where solids no longer attract: a
+  damped oscillator under a steady acceleration, in closed form;
+* landing again at :math:`h_0`: inelastic, and the film is there again, as it condenses.
+
+With a `TipStop` the site gives: the apex sinks in, leaves a dent and bounces, as
+`contactkit.models.micromirror.tip_impact` says. The gap then counts from the dent, and a tip in contact is
+at the gap :math:`h_0` less what it has sunk below that.
+
+So a tip may have any mass, a film any stiffness, and a step any length: the internal steps follow
+their own error. Left out: attraction of a free tip before it lands, without a `TipStop` a bounce of
+its apex (its root bounces on the spring), and sliding along the site, some nanometres as it bends.
+Plain floats only: this also runs inside an FMU, though the law of a sphere needs numpy there.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ...errors import ConvergenceError, DescriptionError
+from ...separation.motion.advance import rest_once, step_once
+from ...separation.motion.state import MotionState
+from ...separation.plan import Plan
+from .flight import Flight, Root, landing_time
+from .tip_impact import Blow, BlowEnd, TipStop, blow, rest_depth
+from .zz_mirror_tip_state import (
+    TipState,
+    contact_of,
+    film_force,
+    free_gap,
+    free_start,
+    landed_start,
+    pressed,
+    tip_force,
+)
+
+__all__ = [
+    "TipState", "TipStop", "advance_tip", "film_force", "free_gap", "free_start", "landed_start",
+    "tip_force",
+]  # fmt: skip
+
+_MOST_PIECES = 100_000
+_IMPULSES = tuple(
+    name for name in MotionState._fields if name.endswith("_impulse") and name != "given_impulse"
+)
+
+
+def advance_tip(
+    plan: Plan, damping: float, state: TipState, root: Root, dt: float,
+    stop: TipStop | None = None,
+) -> TipState:  # fmt: skip
+    """Advance a tip by `dt` [s] while its root moves on.
+
+    Parameters
+    ----------
+    plan : Plan
+        Film of one tip; the mass and the stiffness of its `Opening` are those of the tip.
+    damping : float
+        Damping of the free tip [N.s/m].
+    state : TipState
+        Where it starts.
+    root : Root
+        How the root moves, from the time of `state` on.
+    dt : float
+        Length of the step [s].
+    stop : TipStop, optional
+        What the apex meets; without one it lands for good on a rigid site.
+
+    Raises
+    ------
+    DescriptionError
+        If `dt` is negative or not finite.
+    ConvergenceError
+        If no internal step meets the tolerance of the plan.
+    InfeasibleError
+        If the apex is pressed beyond the end of the curve of `stop`.
+    """
+    if not (math.isfinite(dt) and dt >= 0.0):
+        raise DescriptionError("advance_tip(dt)", dt, "be zero or positive, and finite", unit="s")
+    root = root._replace(time=state.time)
+    end = state.time + dt
+    for _ in range(_MOST_PIECES):
+        left = end - state.time
+        if left <= 1e-13 * max(abs(end), dt):
+            return state._replace(motion=state.motion._replace(time=end))
+        over = root._replace(height=root.height + state.dent)  # over the dent that is left
+        if stop is not None and state.touching:
+            state = _strike(plan, stop, state, root, end)
+        elif stop is not None and state.motion.held:
+            state = _rest(plan, stop, state, root, _one(plan, state, over, end))
+        elif state.free:
+            there = over.after(state.time - root.time)
+            state = _fly(plan, damping, state, there, left, stop is not None)
+        else:
+            state = _one(plan, state, over, end, stop is not None)
+    raise ConvergenceError(
+        f"{_MOST_PIECES} internal steps led from {root.time:g} s to {state.time:g} s, not to "
+        f"{end:g} s; loosen Accuracy.time_rtol",
+        state,
+    )
+
+
+def _one(plan: Plan, state: TipState, root: Root, end: float, gives: bool = False) -> TipState:
+    """Take one internal step while the tip has landed or its film acts."""
+    before, opening = state.motion, plan.scene.opening
+
+    def pull(time: float) -> float:
+        return opening.stiffness * root.height_at(time)
+
+    after = (rest_once if before.held else step_once)(plan, before, pull, end)
+    elapsed, origin = after.time - before.time, opening.initial_gap
+    first = pull(before.time) - opening.stiffness * (before.gap - origin)
+    last = pull(after.time) - opening.stiffness * (after.gap - origin)
+    impulse = 0.5 * elapsed * (first + last)
+    # What the trapezoid misses: the slopes at its ends differ by the spring times this speed.
+    bent, twelfth = root.acceleration * elapsed, elapsed * elapsed * opening.stiffness / 12.0
+    if before.held:
+        impulse -= twelfth * bent
+    else:
+        mass = opening.mass or 0.0
+        film = sum(getattr(after, name) - getattr(before, name) for name in _IMPULSES)
+        # Where it lands its speed is lost: the momentum says what it was.
+        speed = before.speed + (impulse - film) / mass if after.held else after.speed
+        impulse += twelfth * (speed - before.speed - bent)
+        if after.held:
+            speed = before.speed + (impulse - film) / mass
+            strikes = gives and speed < 0.0
+            loss = 0.0 if strikes else 0.5 * mass * speed * speed
+            state = _landed(state, loss, after.time)
+            if strikes:
+                after = after._replace(held=False, speed=speed)
+                state = state._replace(touching=True)
+    if after.speed > 0.0 and after.gap >= free_gap(plan) * (1.0 - 1e-9):
+        state = state._replace(free=True, free_time=after.time)
+    return state._replace(motion=after, impulse=state.impulse + impulse)
+
+
+def _landed(state: TipState, loss: float, time: float) -> TipState:
+    return state._replace(
+        landing_loss=state.landing_loss + loss,
+        n_landings=state.n_landings + 1,
+        landing_time=time,
+    )
+
+
+def _flight(plan: Plan, damping: float, state: TipState, root: Root) -> Flight:
+    opening, motion = plan.scene.opening, state.motion
+    assert opening.mass is not None  # the device gives one
+    decay = 0.5 * damping / opening.mass
+    square = opening.stiffness / opening.mass - decay * decay
+    if square <= 0.0:
+        critical = 2.0 * math.sqrt(opening.stiffness * opening.mass)
+        raise DescriptionError(
+            "SpringTips.damping", damping, f"be less than critical, {critical:g} N.s/m",
+            unit="N.s/m",
+        )  # fmt: skip
+    frequency, rest = math.sqrt(square), -opening.mass * root.acceleration / opening.stiffness
+    cosine = motion.gap - opening.initial_gap - root.height - rest
+    sine = (motion.speed - root.speed + decay * cosine) / frequency
+    return Flight(rest, decay, frequency, cosine, sine)
+
+
+def _fly(
+    plan: Plan, damping: float, state: TipState, root: Root, left: float, gives: bool
+) -> TipState:
+    """Let a free tip swing for a time [s], or until it lands."""
+    opening, motion = plan.scene.opening, state.motion
+    flight = _flight(plan, damping, state, root)
+    lands = landing_time(flight, root, left)
+    elapsed = left if lands is None else lands
+    (bend, rate), there = flight.at(elapsed), root.after(elapsed)
+    gap, speed = opening.initial_gap + there.height + bend, there.speed + rate
+    mass = opening.mass or 0.0
+    impulse = mass * (speed - motion.speed)
+    state = state._replace(
+        motion=motion._replace(time=motion.time + elapsed, gap=gap, speed=speed, step=0.0),
+        impulse=state.impulse + impulse,
+    )
+    return state if lands is None else _touch(plan, state, gives)
+
+
+def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
+    """Land after a flight: the tip stops, or strikes a site that gives; its film is there again."""
+    opening, motion = plan.scene.opening, state.motion
+    share = plan.scene.interface.meniscus.rewetting
+    wets = share > 0.0
+    moved = motion._replace(
+        gap=opening.initial_gap,
+        speed=motion.speed if gives else 0.0,
+        held=not gives,
+        broken=not wets,
+        share=share if wets else motion.share,
+        armed=True,
+        detached=False,
+    )
+    loss = 0.0 if gives else 0.5 * (opening.mass or 0.0) * motion.speed * motion.speed
+    return _landed(state, loss, motion.time)._replace(motion=moved, free=False, touching=gives)
+
+
+def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) -> TipState:
+    """Follow a blow until it is over, or the step."""
+    motion = state.motion
+    begin = Blow(motion.time, state.depth, -motion.speed, state.largest, peak=state.peak)
+    rtol = plan.accuracy.time_rtol
+    found = blow(contact_of(plan, stop, state, root), begin, end, rtol)
+    moved = motion._replace(
+        time=found.time, speed=-found.speed, held=found.end is BlowEnd.REST, step=0.0
+    )
+    return state._replace(
+        motion=moved, touching=found.end is BlowEnd.TIME, impulse=state.impulse + found.impulse,
+        landing_loss=state.landing_loss + found.lost, depth=found.depth,
+        dent=stop.curve.residual(found.largest), largest=found.largest, peak=found.peak,
+    )  # fmt: skip
+
+
+def _rest(plan: Plan, stop: TipStop, before: TipState, root: Root, after: TipState) -> TipState:
+    """Let the faces follow the spring while a tip rests; its impulse, by Simpson's rule."""
+    contact, largest, depth = contact_of(plan, stop, before, root), before.largest, before.depth
+    forces, state = [], after
+    for share in (0.0, 0.5, 1.0):
+        time = before.time + share * (after.time - before.time)
+        depth = rest_depth(contact, largest, time, depth)
+        state = pressed(stop, state, depth, depth)
+        largest = state.largest
+        forces.append(contact.stiffness * (root.height_at(time) + depth))
+    mean = (forces[0] + 4.0 * forces[1] + forces[2]) / 6.0
+    impulse = before.impulse + (after.time - before.time) * mean
+    if not after.motion.held:  # it leaves the dent
+        state = state._replace(depth=state.dent)
+    return state._replace(impulse=impulse)

@@ -1,0 +1,276 @@
+r"""A spring tip on a site that gives: the blow of its apex, step by step, and how it then rests.
+
+.. math:: m\ddot d = A - k\,(z + d) - F(d, d_{max})\,\max(1 + c\,\dot d, 0)
+
+with d the approach of apex and site from first touch, F their `StopCurve`, z the height of the
+root and A the attraction of film and solids, taken as it is at touch as long as they touch. A blow
+ends where F does, and the tip is off again; or it has come to its deepest point with less energy
+than would lead it out, and rests where F balances the rest: what rings on is taken as lost at
+once. So the site takes what yields, what is damped, and that.
+
+Errors: A as at touch misses some A d, a few per cent of a blow that matters. Left out: waves that
+run away in the tip. Plain floats only: this also runs inside an FMU.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from enum import IntEnum
+from itertools import pairwise
+from typing import NamedTuple
+
+from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.impact import in_series
+from ...analyses.load_displacement.zz_stop_ways import area_below
+from ...errors import ConvergenceError, InfeasibleError
+from ...numerics.roots import bracketed_root
+from .flight import Root
+
+__all__ = ["Blow", "BlowEnd", "Contact", "TipStop", "blow", "rest_depth", "sprung_back"]
+
+_MOST_STEPS = 20_000
+_SAFETY, _SHRINK, _GROW = 0.9, 0.1, 5.0
+_OUT_PIECES = 30  # halvings of a way out, in which its work is summed
+
+# Dormand and Prince, order 5 with an error of order 4.
+_NODES = (0.2, 0.3, 0.8, 8.0 / 9.0, 1.0)
+_ROWS = (
+    (0.2,),
+    (3.0 / 40.0, 9.0 / 40.0),
+    (44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0),
+    (19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0),
+    (9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0),
+)
+_LAST = (35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0)
+_ERROR = (
+    71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0,
+    -1.0 / 40.0,
+)  # fmt: skip
+
+_Four = tuple[float, float, float, float]
+_Rates = Callable[[float, _Four], _Four]
+
+
+class TipStop(NamedTuple):
+    """What the apex of one tip meets: curve of the faces, and damping over force [s/m]."""
+
+    curve: StopCurve
+    damping: float = 0.0
+
+
+class Contact(NamedTuple):
+    """What a tip is while it touches: attraction [N], spring [N/m], mass [kg], and its root."""
+
+    stop: TipStop
+    attraction: float
+    stiffness: float
+    mass: float
+    root: Root
+
+
+class BlowEnd(IntEnum):
+    """How a blow ended: by the end of the time, off the site, or at rest on it."""
+
+    TIME = 1
+    OUT = 2
+    REST = 3
+
+
+class Blow(NamedTuple):
+    """Where a blow has got to."""
+
+    time: float
+    depth: float
+    """Approach [m]."""
+    speed: float
+    """Of approach [m/s]."""
+    largest: float
+    """Largest approach the faces have had, at a turning point [m]."""
+    end: BlowEnd = BlowEnd.TIME
+    impulse: float = 0.0
+    """Of the spring [N.s]."""
+    lost: float = 0.0
+    """To yielding, damping and ringing [J]."""
+    peak: float = 0.0
+    """Largest force of the site [N]."""
+
+
+def blow(contact: Contact, begin: Blow, end: float, rtol: float) -> Blow:
+    """Follow a blow from where it is until it is over, or to a time [s].
+
+    Raises
+    ------
+    InfeasibleError
+        If the faces are pressed beyond the end of their curve.
+    ConvergenceError
+        If no step meets the tolerance.
+    """
+    here, length = begin._replace(end=BlowEnd.TIME), _first_length(contact, begin)
+    for _ in range(_MOST_STEPS):
+        left = end - here.time
+        if left <= 1e-15 * abs(end) or here.end is not BlowEnd.TIME:
+            return here
+        rates = _rates_of(contact, here.largest)
+        start = (here.depth, here.speed, 0.0, 0.0)
+        length, reached, following = _accepted(rates, here.time, start, min(length, left), rtol)
+        length, reached = _shortened(contact, rates, here, length, reached)
+        here, length = _moved(contact, here, length, reached), following
+    raise ConvergenceError(
+        f"{_MOST_STEPS} steps did not end a blow of a tip at {here.time:g} s; loosen "
+        "Accuracy.time_rtol",
+        here,
+    )
+
+
+def rest_depth(contact: Contact, largest: float, time: float, near: float = 0.0) -> float:
+    """Approach [m] of a tip that is pressed slowly, by its spring and what attracts it.
+
+    Raises
+    ------
+    InfeasibleError
+        If the faces are pressed beyond the end of their curve.
+    """
+    curve = contact.stop.curve
+    together = contact.attraction / contact.stiffness - contact.root.height_at(time)
+    _, faces = in_series(curve, together, largest, contact.stiffness, beyond=True, near=near)
+    return _known(curve, max(faces, curve.residual(largest)), time)
+
+
+def sprung_back(curve: StopCurve, depth: float, largest: float) -> float:
+    """Work [J] that comes back from an approach on the way out from the largest."""
+    begin = curve.residual(largest)
+    length = depth - begin
+    if length <= 0.0:
+        return 0.0
+    edges = [length * 2.0**-i for i in range(_OUT_PIECES, -1, -1)]
+    return sum(
+        area_below(lambda s: curve.force_at(begin + s, largest), a, b) for a, b in pairwise(edges)
+    )
+
+
+def _known(curve: StopCurve, depth: float, time: float) -> float:
+    if depth > curve.most * (1.0 + 1e-12):
+        raise InfeasibleError(
+            f"at t = {time:.9g} s a tip is pressed {depth:.4g} m deep, beyond {curve.most:.4g} m "
+            f"and {curve.force[-1]:.4g} N where its curve ends; make it with a larger approach"
+        )
+    return min(depth, curve.most)
+
+
+def _rates_of(contact: Contact, largest: float) -> _Rates:
+    """Rates of depth, speed, impulse of the spring, and work of the damping."""
+    stop, attraction, stiffness, mass, root = contact
+    force_at, damping = stop.curve.force_at, stop.damping
+
+    def rates(time: float, state: _Four) -> _Four:
+        depth, speed = state[0], state[1]
+        spring = stiffness * (root.height_at(time) + depth)
+        force = force_at(depth, largest)[0] if depth > 0.0 else 0.0
+        held = force * max(1.0 + damping * speed, 0.0)
+        return speed, (attraction - spring - held) / mass, spring, (held - force) * speed
+
+    return rates
+
+
+def _first_length(contact: Contact, begin: Blow) -> float:
+    curve = contact.stop.curve
+    slope = curve.force_at(begin.depth, begin.largest)[1] if begin.depth > 0.0 else 0.0
+    swing = math.sqrt(contact.mass / (slope + contact.stiffness))
+    reach = 0.1 * curve.approach[0] / abs(begin.speed) if begin.speed else math.inf
+    return min(0.05 * swing, reach) if slope == 0.0 else 0.05 * swing
+
+
+def _step(rates: _Rates, time: float, state: _Four, length: float) -> tuple[_Four, _Four]:
+    """Take one step: where it ends, and its error."""
+    slopes = [rates(time, state)]
+    for node, row in zip(_NODES, _ROWS, strict=True):
+        slopes.append(rates(time + node * length, _combined(state, slopes, row, length)))
+    end = _combined(state, slopes, _LAST, length)
+    slopes.append(rates(time + length, end))
+    return end, _combined((0.0, 0.0, 0.0, 0.0), slopes, _ERROR, length)
+
+
+def _combined(
+    state: _Four, slopes: list[_Four], weights: tuple[float, ...], length: float
+) -> _Four:
+    a, b, c, d = state
+    for weight, slope in zip(weights, slopes, strict=True):
+        w = weight * length
+        a, b, c, d = a + w * slope[0], b + w * slope[1], c + w * slope[2], d + w * slope[3]
+    return a, b, c, d
+
+
+def _accepted(
+    rates: _Rates, time: float, state: _Four, length: float, rtol: float
+) -> tuple[float, _Four, float]:
+    """Length and end of a step that meets the tolerance, and the length of the next."""
+    while length > 1e-15 * max(abs(time), 1e-15):
+        end, error = _step(rates, time, state, length)
+        swift = max(abs(state[1]), abs(end[1]), abs(end[1] - state[1]))
+        far = max(abs(end[0] - state[0]), swift * length)
+        share = max(abs(error[1]) / swift, abs(error[0]) / far) / rtol if swift else 0.0
+        if share <= 1.0:
+            return length, end, length * min(_GROW, _SAFETY * max(share, 1e-12) ** -0.2)
+        length *= max(_SHRINK, _SAFETY * share**-0.25) if math.isfinite(share) else _SHRINK
+    raise ConvergenceError(f"no step of a blow of a tip meets {rtol:g} at {time:g} s", state)
+
+
+def _shortened(
+    contact: Contact, rates: _Rates, here: Blow, length: float, reached: _Four
+) -> tuple[float, _Four]:
+    """End a step where the tip is deepest, or where the faces let go of each other."""
+    start = (here.depth, here.speed, 0.0, 0.0)
+    out = contact.stop.curve.residual(here.largest)
+    if here.speed > 0.0 >= reached[1]:
+        what, level = 1, 0.0
+    elif reached[1] < 0.0 and reached[0] < out < here.depth:
+        what, level = 0, out
+    else:
+        return length, reached
+
+    def left(share: float) -> float:
+        return _step(rates, here.time, start, share * length)[0][what] - level
+
+    length *= bracketed_root(left, 0.0, 1.0, 1e-13)
+    found = list(_step(rates, here.time, start, length)[0])
+    found[what] = level
+    return length, (found[0], found[1], found[2], found[3])
+
+
+def _moved(contact: Contact, here: Blow, length: float, reached: _Four) -> Blow:
+    """Where a step has led, and whether the blow is over."""
+    curve, (depth, speed, impulse, damped) = contact.stop.curve, reached
+    time = here.time + length
+    force = curve.force_at(depth, here.largest)[0] if depth > 0.0 else 0.0
+    held = force * max(1.0 + contact.stop.damping * speed, 0.0)
+    now = here._replace(
+        time=time, depth=_known(curve, depth, time), speed=speed, impulse=here.impulse + impulse,
+        lost=here.lost + damped, peak=max(here.peak, held),
+    )  # fmt: skip
+    if here.speed > 0.0 and speed == 0.0:
+        return _turned(contact, now)
+    # A tip that came and was drawn off before it pressed has nothing to turn at.
+    if speed < 0.0 and depth <= curve.residual(here.largest):
+        return now._replace(depth=curve.residual(here.largest), end=BlowEnd.OUT)
+    return now
+
+
+def _turned(contact: Contact, now: Blow) -> Blow:
+    """At the deepest point: remember it, and rest if there is not the energy to come out."""
+    curve, depth = contact.stop.curve, now.depth
+    largest = max(now.largest, depth)
+    lost = curve.lost(largest) - curve.lost(now.largest)
+    now = now._replace(largest=largest, lost=now.lost + max(lost, 0.0))
+    out = curve.residual(largest)
+
+    def stored(at: float) -> float:
+        """Energy at an approach, over that where the faces let go [J]."""
+        spring = contact.stiffness * (contact.root.height_at(now.time) + 0.5 * (at + out))
+        return sprung_back(curve, at, largest) - (contact.attraction - spring) * (at - out)
+
+    if stored(depth) > 0.0:
+        return now
+    rest = rest_depth(contact, largest, now.time, depth)
+    ringing = max(stored(depth) - stored(rest), 0.0)
+    return now._replace(depth=rest, speed=0.0, lost=now.lost + ringing, end=BlowEnd.REST)
