@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .contact.effects.registry import CONTACT_EFFECTS
-from .separation.effects.base import Effect
+from .scene.effect import Effect
 from .separation.effects.registry import SEPARATION_EFFECTS
 from .separation.sliding.effects import SLIDING_EFFECTS
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, overload
 
 from .accuracy import Accuracy
-from .contact.plan import ContactPlan, plan_contact
 from .scene.contact_scene import ContactScene
 from .scene.scenes import SeparationScene, SlidingScene
 from .separation.plan import Plan
 from .separation.plan import plan as plan_separation
 
 if TYPE_CHECKING:
+    from .contact.plan import ContactPlan
     from .separation.sliding.plan import SlidingPlan
 
 __all__ = ["plan"]
@@ -54,6 +54,8 @@ def plan(
         If the scene has no answer.
     """
     if isinstance(scene, ContactScene):
+        from .contact.plan import plan_contact
+
         return plan_contact(scene, accuracy)
     if isinstance(scene, SlidingScene):
         from .separation.sliding.plan import plan_sliding

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -10,10 +9,11 @@ from pathlib import Path
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.app import scenes
+from contactkit import data
 from contactkit.files.unstructure import SURFACE_KINDS
+from contactkit.models.library import bundled_scene
 
-MODELS = Path(inspect.getfile(scenes)).parent
+DATA = Path(data.__path__[0])
 ONLY_IN_PYTHON = {"heights"}
 FACES = {"flat", "sphere"}  # described with the separation scenes
 
@@ -24,9 +24,9 @@ def surface_kinds() -> list[tuple[str, type]]:
     return [(name, kind) for name, kind in SURFACE_KINDS.items() if name not in without]
 
 
-def _comments(name: str) -> Iterable[tuple[str, str]]:
+def _comments(path: Path) -> Iterable[tuple[str, str]]:
     """(code, comment) of each line of a file of this package."""
-    for line in (MODELS / name).read_text("utf-8").splitlines():
+    for line in path.read_text("utf-8").splitlines():
         code, _, comment = line.partition("#")
         yield code.strip().rstrip(","), comment.strip()
 
@@ -35,7 +35,7 @@ def _sources_of_materials() -> Mapping[str, str]:
     """Comments below the name of each material."""
     found: dict[str, str] = {}
     name = ""
-    for code, comment in _comments("materials.toml"):
+    for code, comment in _comments(DATA / "materials.toml"):
         if code.startswith("["):
             name = code.strip("[]")
         elif name and comment:
@@ -46,7 +46,7 @@ def _sources_of_materials() -> Mapping[str, str]:
 def material_table() -> str:
     """Materials of the library, with what the file says about their numbers."""
     told, rows = _sources_of_materials(), []
-    for name in tomllib.loads((MODELS / "materials.toml").read_text("utf-8")):
+    for name in tomllib.loads((DATA / "materials.toml").read_text("utf-8")):
         one = ck.load_material(name)
         hardness = f"{one.hardness / 1e9:g}" if one.hardness else "-"
         modulus = f"{one.young_modulus / 1e9:g}"
@@ -58,7 +58,7 @@ def head_disk_table() -> str:
     """Numbers of the head-disk scene with the reasons its file gives for them."""
     rows: list[list[str]] = []
     section, is_open = "", False
-    for code, comment in _comments("head_disk.toml"):
+    for code, comment in _comments(bundled_scene("head-disk")):
         if code.startswith("["):
             section, is_open = code.strip("[]"), False
         elif code.startswith("effect ="):

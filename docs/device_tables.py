@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import inspect
-from pathlib import Path
-
 from validation_tables import grid
 
-from contactkit.app.injector.run.coil import Coil
+from contactkit.models.library import bundled_scene
 
 
 def assumption_table(name: str) -> str:
     """Numbers of a device with the reasons their file gives for them."""
-    text = Path(inspect.getfile(Coil)).with_name(name).read_text("utf-8")
+    text = bundled_scene(name).read_text("utf-8")
     rows: list[list[str]] = []
     section, open_row = "", False
     for line in text.partition('\ndevice = "')[2].splitlines()[1:]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import tomllib
 import warnings
 from collections.abc import Callable
@@ -12,14 +11,13 @@ from typing import Any
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.app.injector.run.coil import Coil
 from contactkit.liquids.liquid import LAWS
 from contactkit.units import celsius, cSt
 
 
 def liquid_table() -> str:
     """Viscosity of the liquids of the library over temperature, and what else they have."""
-    text = Path(inspect.getfile(Coil)).with_name("liquids.toml").read_text("utf-8")
+    text = (Path(ck.__path__[0]) / "data" / "liquids.toml").read_text("utf-8")
     at = (-20.0, 0.0, 20.0, 40.0, 80.0, 100.0)
     rows = []
     for name in tomllib.loads(text):

@@ -31,11 +31,6 @@ from validation_tables import (
 
 import contactkit as ck
 from contactkit.app.injector.run import Study
-from contactkit.app.injector.run.coil import Coil
-from contactkit.app.injector.run.valve import DriveProfile, Spring, Stop
-from contactkit.app.micromirror.run.electrostatics import Electrode
-from contactkit.app.micromirror.run.mirror import Hinge, SpringTips, Waveform
-from contactkit.app.micromirror.run.scene import MirrorStudy
 from contactkit.contact.effects.base import (
     Compliance,
     DisplacementTerm,
@@ -53,11 +48,15 @@ from contactkit.fmu.slaves.tip_contact import TipContact
 from contactkit.fmu.slaves.valve_drive import ValveDrive
 from contactkit.liquids.liquid import LAWS
 from contactkit.models.end_stop.faces import StopFaces
+from contactkit.models.injector.coil import Coil
+from contactkit.models.injector.valve import DriveProfile, Spring, Stop
+from contactkit.models.micromirror.electrostatics import Electrode
+from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform
+from contactkit.models.micromirror.scene import MirrorStudy
 from contactkit.scene.bodies import Body
 from contactkit.separation.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
 from contactkit.separation.effects.registry import SEPARATION_EFFECTS
-from contactkit.separation.sliding.effects import SLIDING_EFFECTS
-from contactkit.separation.sliding.zz_sliding_base import SlidingForce
+from contactkit.separation.sliding.effects import SLIDING_EFFECTS, SlidingForce
 
 FMUS: Mapping[str, type[PortSlave]] = {
     "stiction-mass": StictionMass,
@@ -223,8 +222,8 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "division": division_table,
     "nano forces": nano_force_table,
     "temperature laws": law_table,
-    "assumptions": lambda: assumption_table("fuel_injector.toml"),
-    "mirror assumptions": lambda: assumption_table("micromirror.toml"),
+    "assumptions": lambda: assumption_table("fuel-injector"),
+    "mirror assumptions": lambda: assumption_table("micromirror"),
     "arc against exact": exact_table,
     "limits": limit_table,
 }

@@ -15,7 +15,7 @@ from ..separation.effects.registry import AdhesiveContact
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..separation.effects.zz_adhesion_laws import AdhesionNumbers
+    from ..separation.effects.adhesion import AdhesionNumbers
 
     Curve = NDArray[np.float64]
 
@@ -87,7 +87,7 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
         )
     if missing := effect.lacks(scene):
         raise PlanError("; ".join(f"AdhesiveContact needs {item}" for item in missing))
-    from ..separation.effects.zz_adhesion_laws import states_at_loads
+    from ..separation.effects.adhesion import states_at_loads
 
     given = np.atleast_1d(np.asarray(loads, dtype=np.float64))
     if given.ndim != 1 or not np.all(np.isfinite(given)):

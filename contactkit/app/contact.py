@@ -11,8 +11,8 @@ from attrs import evolve, field, frozen
 from ..accuracy import Accuracy
 from ..contact.effects.film import FilmMeniscus
 from ..contact.effects.stress import SubsurfaceStress
-from ..errors import DescriptionError, PlanError
-from ..files.structure import structure
+from ..errors import PlanError
+from ..files.scenes import read_contact
 from ..planning import plan
 from ..scene.contact_scene import ContactScene
 from .report import Report
@@ -40,14 +40,7 @@ def open_contact(tables: Mapping[str, Any], origin: str) -> PlainContact:
     DescriptionError
         Listing every mistake and where it is.
     """
-    rest = dict(tables)
-    accuracy = structure(rest.pop("accuracy", {}), Accuracy, f"{origin}, accuracy")
-    study = rest.pop("study", {})
-    if not isinstance(study, Mapping) or not all(isinstance(v, list) for v in study.values()):
-        raise DescriptionError(
-            f"{origin}, study", study, "be a table of lists", hint='"pressing.pressure" = [...]'
-        )
-    return PlainContact(structure(rest, ContactScene, origin), accuracy, study)
+    return PlainContact(*read_contact(tables, origin))
 
 
 @frozen

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from importlib import import_module, resources
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from attrs import frozen
 
-from .. import models
 from ..errors import DescriptionError, PlanError
-from ..files.scenes import nearest, read_tables, scene_kind, structure
-from ..files.zz_humid_tables import without_humidity
+from ..files.scenes import nearest, read_tables, scene_kind, structure, without_humidity
 from ..models.end_stop.faces import beside
+from ..models.library import bundled_scene
 from ..scene.contact_scene import ContactScene
 from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.plan import Plan, plan
@@ -65,7 +64,7 @@ def open_scene(name: str) -> Runnable:
     """
     path = Path(name)
     if not path.suffix and not path.exists():
-        path = _bundled(name)
+        path = bundled_scene(name)
     tables = read_tables(path)
     device = tables.pop("device", None)
     if device is None:
@@ -86,15 +85,6 @@ def open_scene(name: str) -> Runnable:
     module = import_module(f".{DEVICES[device]}", __package__)
     opened: Runnable = module.open_device(beside(tables, path.parent), path.name)
     return opened
-
-
-def _bundled(name: str) -> Path:
-    folder = Path(str(resources.files(models)))
-    scenes = {p.stem.replace("_", "-"): p for p in folder.glob("*/*.toml")}
-    if name not in scenes:
-        hint = nearest(name, sorted(scenes)) + "; or give the path of a .toml file"
-        raise DescriptionError("scene", name, "be a file or the name of a scene", hint=hint)
-    return scenes[name]
 
 
 @frozen

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import corrected as right
-from . import zz_published_right_viscous as viscous
+from . import corrected as viscous
 from .arguments import PublishedFormula as Row
 from .printed import common as printed
 from .printed import films as films

@@ -7,8 +7,8 @@ from attrs import field, frozen
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
 from ..scene.contact_scene import ContactScene
+from ..scene.effect import check_listed, choices
 from ..scene.topography import Grid
-from ..separation.plan import check_listed, choices
 from .effects.base import Compliance, ContactEffect, DisplacementTerm, LoadTerm, PressureCap
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS

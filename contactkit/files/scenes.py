@@ -8,18 +8,125 @@ import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+import attrs
+
+from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..scene.contact_scene import ContactScene
+from ..scene.meniscus import Meniscus
 from ..scene.scenes import SeparationScene, SlidingScene
-from .structure import FileError, load_liquid, load_material, nearest, structure, unstructure
-from .zz_humid_tables import without_humidity
+from ..units import parse_quantity
+from .structure import (
+    FileError,
+    field_value,
+    load_liquid,
+    load_material,
+    nearest,
+    structure,
+    unstructure,
+)
 
 __all__ = [
-    "load_liquid", "load_material", "load_scene", "nearest", "read_tables", "save_scene",
-    "scene_kind", "structure", "unstructure", "write_whole",
-]  # fmt: skip
+    "load_liquid",
+    "load_material",
+    "load_scene",
+    "nearest",
+    "ContactFile",
+    "read_contact",
+    "read_tables",
+    "save_scene",
+    "scene_kind",
+    "structure",
+    "unstructure",
+    "without_humidity",
+    "write_whole",
+]
+
+_KEY = "relative_humidity"
+
+
+def without_humidity(tables: Mapping[str, Any], origin: str) -> Mapping[str, Any]:
+    """Tables in which ``interface.meniscus.relative_humidity`` has become its ``pressure``.
+
+    Kelvin's equation is taken at the ``temperature`` of the scene; see `Meniscus.from_humidity`.
+    What has no such key comes back as it is.
+
+    Parameters
+    ----------
+    tables : mapping
+        As read from a scene file.
+    origin : str
+        Where they come from, for messages.
+
+    Raises
+    ------
+    DescriptionError
+        If a pressure or a volume stands beside the humidity, or it is not a share.
+    InfeasibleError
+        At no vapour, where nothing condenses, and at saturation, where all is flooded.
+
+    Examples
+    --------
+    >>> water = {"name": "water", "density": 998.2, "molar_mass": 0.018015}
+    >>> tables = {"interface": {"meniscus": {"liquid": water, "relative_humidity": "50 %"}}}
+    >>> f"{without_humidity(tables, 'moist.toml')['interface']['meniscus']['pressure']:.4g}"
+    '-9.361e+07'
+    """
+    interface = tables.get("interface")
+    meniscus = interface.get("meniscus") if isinstance(interface, Mapping) else None
+    if not isinstance(interface, Mapping) or not isinstance(meniscus, Mapping):
+        return tables
+    if _KEY not in meniscus:
+        return tables
+    where = f"  at interface.meniscus.{_KEY}"
+    for other in ("volume", "pressure"):
+        if other in meniscus:
+            raise FileError(origin, f"give {_KEY} or {other}, not both{where}")
+    if "liquid" not in meniscus:
+        return tables  # what is missing is said with everything else
+    temperature = attrs.fields(SeparationScene).temperature.default
+    assert temperature is not None  # the room
+    if "temperature" in tables:
+        temperature = float(field_value(SeparationScene, "temperature", tables["temperature"]))
+    share = parse_quantity(meniscus[_KEY], "-", f"{origin}: interface.meniscus.{_KEY}")
+    condensed = Meniscus.from_humidity(
+        liquid=field_value(Meniscus, "liquid", meniscus["liquid"]),
+        relative_humidity=share,
+        temperature=temperature,
+    )
+    left = {key: value for key, value in meniscus.items() if key != _KEY}
+    return {
+        **tables,
+        "interface": {**interface, "meniscus": {**left, "pressure": condensed.pressure}},
+    }
+
+
+class ContactFile(NamedTuple):
+    """What a file of a contact scene holds: the scene, its accuracy, and what a study varies."""
+
+    scene: ContactScene
+    accuracy: Accuracy
+    vary: Mapping[str, list[Any]]
+
+
+def read_contact(tables: Mapping[str, Any], origin: str) -> ContactFile:
+    """Read a contact scene with its tables ``accuracy`` and ``study``, if it has them.
+
+    Raises
+    ------
+    DescriptionError
+        Listing every mistake and where it is.
+    """
+    rest = dict(tables)
+    accuracy = structure(rest.pop("accuracy", {}), Accuracy, f"{origin}, accuracy")
+    study = rest.pop("study", {})
+    if not isinstance(study, Mapping) or not all(isinstance(v, list) for v in study.values()):
+        raise DescriptionError(
+            f"{origin}, study", study, "be a table of lists", hint='"pressing.pressure" = [...]'
+        )
+    return ContactFile(structure(rest, ContactScene, origin), accuracy, study)
 
 
 def read_tables(path: str | Path) -> dict[str, Any]:

@@ -103,7 +103,7 @@ def field_value(kind: type, name: str, value: Any) -> Any:
 
     Examples
     --------
-    >>> from contactkit.materials import Layer
+    >>> from contactkit.scene.materials import Layer
     >>> field_value(Layer, "thickness", "5 nm")
     5e-09
     >>> field_value(Layer, "material", "dlc").name

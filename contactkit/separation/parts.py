@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from .effects.zz_adhesion_laws import AdhesionNumbers
+    from .effects.adhesion import AdhesionNumbers
 
     Curve = NDArray[np.float64]
 

@@ -10,15 +10,16 @@ from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
+from ..scene.effect import check_listed, choices
 from ..scene.scenes import SeparationScene
 from .effects.as_published import mixed
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, SeparationForce
 from .effects.film_shape import film_shape
-from .effects.registry import SEPARATION_EFFECTS, Effect, SeparationEffect
+from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .effects.viscous import ViscousForce
 from .film import Film
 
-__all__ = ["Film", "Plan", "check_listed", "choices", "plan"]
+__all__ = ["Film", "Plan", "plan"]
 
 
 @frozen(eq=False)
@@ -84,13 +85,6 @@ class Plan:
             if not self.has(kind)
         ]
         return "\n".join([title, *on, *off])
-
-
-def choices(effect: Effect) -> str:
-    """Say what an effect does and which choices it was given."""
-    fields = ((a.name, getattr(effect, a.name)) for a in type(effect).__attrs_attrs__)
-    chosen = ", ".join(f"{name}={value!r}" for name, value in fields if value is not None)
-    return f"{effect.summary}" + (f" ({chosen})" if chosen else "")
 
 
 def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
@@ -172,19 +166,6 @@ def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]
             if isinstance(e, FilmLimit)
         ]
     return problems
-
-
-def check_listed(
-    effects: Sequence[object], role: type, scene: str, known: str
-) -> list[type[object]]:
-    """Refuse what is no effect of a kind of scene, or is listed twice; return the kinds."""
-    for effect in effects:
-        if not isinstance(effect, role):
-            raise PlanError(f"{effect!r} is not an effect of a {scene} scene; known: {known}")
-    kinds = [type(effect) for effect in effects]
-    if twice := sorted({k.__name__ for k in kinds if kinds.count(k) > 1}):
-        raise PlanError(f"listed more than once: {', '.join(twice)}")
-    return kinds
 
 
 def _known() -> str:

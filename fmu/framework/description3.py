@@ -1,8 +1,8 @@
 """The model description (FMI 3.0) of a table of ports, and the description of a build.
 
 Variables, value references, units and log categories are those of the description of FMI 2.0
-(`contactkit.fmu.framework.description`). FMI 3 adds the variable of the time, whose reference comes after all
-others, and says of each output whether it may change between events.
+(`contactkit.fmu.framework.description`). FMI 3 adds the variable of the time, whose reference comes
+after all others, and says of each output whether it may change between events.
 """
 
 from __future__ import annotations

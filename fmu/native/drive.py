@@ -8,8 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from ...analyses.load_displacement.curve import StopCurve
-from ...analyses.load_displacement.zz_stop_ways import HERTZ, way_of
+from ...analyses.load_displacement.curve import HERTZ, StopCurve, way_of
 from ...errors import PlanError
 from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
 from ..framework.description import Description

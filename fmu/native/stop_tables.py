@@ -7,32 +7,20 @@ Here contacts are solved, with numpy; the FMU gets numbers only. So this module 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 from ...analyses.load_displacement.curve import StopCurve
-from ...analyses.load_displacement.solve import stop_curve
-from ...app.contact import PlainContact
-from ...app.scenes import open_scene
 from ...errors import DescriptionError
+from ...models.end_stop.solve import curve_of_scene
 
-__all__ = ["bake", "curve_of", "default_curve"]
+__all__ = ["bake", "default_curve"]
 
 STOP_AREA = 10e-6  # [m2], assumption: a shoulder 0.5 mm wide around the spool of the injector
 
 
-@cache
 def default_curve() -> StopCurve:
     """Curve of the scene ``contact-stop`` of this package, for its window."""
-    return curve_of(open_scene("contact-stop"))
-
-
-def curve_of(scene: Any) -> StopCurve:
-    """Curve of a contact scene that was opened from a file."""
-    if not isinstance(scene, PlainContact):
-        expected = "be a contact scene, with a window and a pressing"
-        raise DescriptionError("scene", type(scene).__name__, expected)
-    return stop_curve(scene.scene, accuracy=scene.accuracy)
+    return curve_of_scene("contact-stop")
 
 
 def bake(name: str, start: dict[str, Any]) -> dict[str, Any]:

@@ -18,9 +18,8 @@ from typing import Any, ClassVar, NamedTuple
 
 from pythonfmu.enums import Fmi2Status
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import StopBranch, StopCurve, StopPoint
 from ...analyses.load_displacement.impact import in_series
-from ...analyses.load_displacement.zz_stop_ways import StopBranch, StopPoint
 from ...errors import DescriptionError
 from ..framework.ports import Port
 from ..framework.slave import PortSlave

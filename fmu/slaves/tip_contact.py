@@ -191,7 +191,7 @@ def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
 
 
 class TipContact(PortSlave):
-    """Steps the tips of one side; the numbers are those of ``models/micromirror/micromirror.toml``."""
+    """Steps the tips of one side; numbers of ``models/micromirror/micromirror.toml``."""
 
     ports: ClassVar[tuple[Port, ...]] = PORTS
     summary = (

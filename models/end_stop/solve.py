@@ -1,20 +1,21 @@
-"""Curve of the faces of a stop that a device file names: the contact is solved once, then kept."""
+"""Load-displacement curve of the faces of an end stop: the contact is solved once, then kept."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Any
+from pathlib import Path
 
 from ...analyses.load_displacement.curve import StopCurve
 from ...analyses.load_displacement.solve import stop_curve
-from ...app.contact import PlainContact, open_contact
-from ...app.scenes import open_scene
 from ...errors import DescriptionError
+from ...files.scenes import read_contact, read_tables, scene_kind
+from ...scene.contact_scene import ContactScene
+from ..library import bundled_scene
 from .faces import StopFaces
 
-__all__ = ["solved"]
+__all__ = ["curve_of_scene", "solved"]
 
 
 def solved(faces: StopFaces) -> StopCurve:
@@ -26,20 +27,37 @@ def solved(faces: StopFaces) -> StopCurve:
         If what they name is not a contact scene.
     """
     given = faces.contact
-    curve = _curve(json.dumps(given) if isinstance(given, Mapping) else given)
+    curve = curve_of_scene(json.dumps(given) if isinstance(given, Mapping) else given)
     return curve if faces.area is None else curve.scaled(faces.area / curve.nominal_area)
 
 
 @lru_cache(maxsize=8)
-def _curve(given: str) -> StopCurve:
-    opened: Any
+def curve_of_scene(given: str) -> StopCurve:
+    """Solve a contact scene, for its window.
+
+    Parameters
+    ----------
+    given : str
+        A file, the name of a scene of this package, or the tables of a scene as JSON.
+
+    Raises
+    ------
+    DescriptionError
+        If it is not a contact scene.
+    """
     if given.startswith("{"):
-        opened = open_contact(json.loads(given), "StopFaces.contact")
+        tables, origin = json.loads(given), "StopFaces.contact"
     else:
-        opened = open_scene(given)
-    if not isinstance(opened, PlainContact):
+        path = Path(given)
+        if not path.suffix and not path.exists():
+            path = bundled_scene(given)
+        tables, origin = read_tables(path), path.name
+    if "device" in tables or scene_kind(tables) is not ContactScene:
         raise DescriptionError(
-            "StopFaces.contact", given, "name a contact scene, with a window and a pressing",
+            "StopFaces.contact",
+            given,
+            "name a contact scene, with a window and a pressing",
             hint="contact-stop and tip-landing are two of contactkit",
-        )  # fmt: skip
-    return stop_curve(opened.scene, accuracy=opened.accuracy)
+        )
+    scene, accuracy, _ = read_contact(tables, origin)
+    return stop_curve(scene, accuracy=accuracy)

@@ -1,7 +1,7 @@
 r"""How hard a spring tip lands on its site, and whether its apex bounces.
 
-`contactkit.models.micromirror.tip` lets a tip land without a bounce of its apex, on a site that does
-not give. Here the site gives: the apex meets it as a `StopCurve`, by the energy of one blow,
+`contactkit.models.micromirror.tip` lets a tip land without a bounce of its apex, on a site that
+does not give. Here the site gives: the apex meets it as a `StopCurve`, by the energy of one blow,
 
 .. math:: \tfrac12 m v^2 + w = W(d_m), \qquad e^2 = 1 - \text{lost} / \tfrac12 m v^2
 

@@ -1,10 +1,11 @@
 r"""Mirror, tips and films solved as one system, by another method than their coupling.
 
 The tilt, its rate, and gap and speed of a tip on each side are the unknowns of one set of
-equations, those at the heads of `contactkit.models.micromirror.mirror` and `contactkit.models.micromirror.tip`;
-while a film acts, its gap is written as a logarithm. scipy integrates from one event to the next,
-by Radau (implicit, order 5) where a film acts and DOP853 (explicit, order 8) where none does.
-Events are voltages that jump, a tip that leaves its site, a film that breaks, a tip that lands.
+equations, those at the heads of `contactkit.models.micromirror.mirror` and
+`contactkit.models.micromirror.tip`; while a film acts, its gap is written as a logarithm. scipy
+integrates from one event to the next, by Radau (implicit, order 5) where a film acts and DOP853
+(explicit, order 8) where none does. Events are voltages that jump, a tip that leaves its site, a
+film that breaks, a tip that lands.
 Laws are shared with the coupling; unknowns, stepping, search for events and the communication
 step are not, so that an agreement says something about both.
 

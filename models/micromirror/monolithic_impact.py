@@ -1,7 +1,7 @@
 """Mirror and tips as one system where the sites give: blows as pieces of their own.
 
-The laws are those of `contactkit.models.micromirror.tip_impact`; unknowns, stepping and search for events
-are those of `contactkit.app.micromirror.run.monolithic`.
+The laws are those of `contactkit.models.micromirror.tip_impact`; unknowns, stepping
+and search for events are those of `contactkit.models.micromirror.monolithic`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _Floats = NDArray[np.float64]
 
 
 class StopRun(WholeRun):
-    """A simulation on its way; gaps count from the dents, see `contactkit.models.micromirror.tip`."""
+    """A simulation on its way; gaps count from the dents, see `tip`."""
 
     def __init__(
         self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float, stop: TipStop

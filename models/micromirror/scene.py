@@ -22,10 +22,9 @@ from ...validators import as_tuple, fraction, part, positive
 from .coupling import LocalTip
 from .flight import Root
 from .mirror import Mirror, electrode_volts, landed_tilt, root_height
-from .tip import TipStop, free_start, landed_start
+from .tip import TipStop, contact_of, free_start, landed_start
 from .tip_film import tip_law, tip_scene
 from .tip_impact import rest_depth
-from .zz_mirror_tip_state import contact_of
 
 __all__ = ["MicromirrorScene", "MirrorStudy", "tip_values"]
 

@@ -20,9 +20,8 @@ from enum import IntEnum
 from itertools import pairwise
 from typing import NamedTuple
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import StopCurve, area_below
 from ...analyses.load_displacement.impact import in_series
-from ...analyses.load_displacement.zz_stop_ways import area_below
 from ...errors import ConvergenceError, InfeasibleError
 from ...numerics.roots import bracketed_root
 from .flight import Root

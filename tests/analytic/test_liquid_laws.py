@@ -19,7 +19,7 @@ from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
 from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
 from contactkit.units import celsius, cSt, parse_quantity
 
-DATA = Path(__file__).parents[2] / "models" / "liquids.toml"
+DATA = Path(__file__).parents[2] / "contactkit" / "data" / "liquids.toml"
 BY_KIND = {law.kind: law for law in LAWS}
 
 

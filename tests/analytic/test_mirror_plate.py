@@ -9,7 +9,8 @@ from attrs import evolve
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from contactkit.app.micromirror.run.electrostatics import (
+from contactkit.errors import DescriptionError, InfeasibleError
+from contactkit.models.micromirror.electrostatics import (
     Electrode,
     capacitance,
     largest_tilt,
@@ -17,7 +18,6 @@ from contactkit.app.micromirror.run.electrostatics import (
     torque,
     torque_slope,
 )
-from contactkit.errors import DescriptionError, InfeasibleError
 
 EPSILON0 = 8.8541878128e-12
 PAD = Electrode(width=8e-6, inner=1e-6, outer=5.5e-6, gap=1.5e-6)

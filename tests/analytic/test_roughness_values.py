@@ -10,7 +10,7 @@ from scipy.integrate import dblquad
 
 from contactkit.roughness import roughness
 from contactkit.roughness import statistics as stats
-from contactkit.roughness.zz_detrend import detrended
+from contactkit.roughness.height_maps import detrended
 
 SCAN = 20e-6  # window of the source's surfaces [m]
 SEEDS = range(40)

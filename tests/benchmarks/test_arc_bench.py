@@ -5,6 +5,7 @@ import pytest
 
 from contactkit.capillary.arc import flat as arc_flat
 from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.capillary.arc.bridge import arc_bridge
 
 FLAT_GAPS = np.geomspace(1e-3, 2.0, 200)
 SPHERE_GAPS = np.geomspace(1e-7, 0.1, 200)

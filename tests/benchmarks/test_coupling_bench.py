@@ -12,8 +12,8 @@ import pytest
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
-from contactkit.fmu.master.couple.couple import Mass, couple
-from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.injector import cosimulate
 from contactkit.fmu.native.build import build_native, native_scene
 from contactkit.fmu.native.drive import build_native_drive
 from contactkit.fmu.python import build as building

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
-from contactkit.app.injector.run.monolithic import simulate as one_system
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
-from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.master.injector import cosimulate
+from contactkit.models.injector.monolithic import simulate as one_system
 from contactkit.separation.motion.state import start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")

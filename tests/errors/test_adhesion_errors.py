@@ -147,7 +147,7 @@ def test_what_does_not_know_solids_refuses_them():
 
 
 def test_the_one_system_reference_refuses_solids():
-    from contactkit.app.injector.run import monolithic
+    from contactkit.models.injector import monolithic
 
     pulled = ck.Opening(initial_gap=1e-10, final_gap=1e-8, force=1e-6, mass=1e-12)
     made = ck.plan(scene(VAN_DER_WAALS, opening=pulled))

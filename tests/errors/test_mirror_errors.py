@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 
-from contactkit.app.micromirror.run.electrostatics import Electrode
-from contactkit.app.micromirror.run.mirror import Hinge, Mirror, SpringTips, Waveform
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, PlanError
+from contactkit.models.micromirror.electrostatics import Electrode
+from contactkit.models.micromirror.mirror import Hinge, Mirror, SpringTips, Waveform
 
-MODEL = Path(__file__).parents[2] / "models" / "micromirror.toml"
+MODEL = Path(__file__).parents[2] / "models" / "micromirror" / "micromirror.toml"
 HINGE = Hinge(inertia=2e-24, stiffness=2e-13)
 PAD = Electrode(width=8e-6, outer=5.5e-6, gap=1.5e-6)
 TIPS = SpringTips(arm=6e-6, landing_tilt=0.17)

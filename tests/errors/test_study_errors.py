@@ -139,7 +139,7 @@ def test_an_error_that_is_not_ours_is_not_swallowed(monkeypatch):
 DIES = """
 import os, sys
 import contactkit as ck
-from contactkit import study_run
+from contactkit.studies import run as study_run
 
 sys.path.insert(0, sys.argv[1])
 import test_study_errors as scenes

@@ -7,9 +7,9 @@ import re
 import pytest
 from attrs import evolve
 
-from contactkit.app.injector.run.monolithic import simulate
-from contactkit.app.injector.run.valve import Coil, DriveProfile, Spring, Stop, Valve
 from contactkit.errors import DescriptionError, PlanError
+from contactkit.models.injector.monolithic import simulate
+from contactkit.models.injector.valve import Coil, DriveProfile, Spring, Stop, Valve
 from contactkit.separation.plan import plan
 
 COIL = Coil(resistance=1.0, turns=40, pole_area=50e-6, air_gap=105e-6, iron_gap=20e-6)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from contactkit.analyses.load_displacement.curve import StopCurve
-from contactkit.analyses.load_displacement.zz_stop_ways import Unloading
+from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
 
 
 def rough(most=1e-6, limit=0.25, count=5):

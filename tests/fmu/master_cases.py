@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.master.couple import Mass, couple
 
 
 def ramp(force, time):

@@ -1,7 +1,7 @@
 """The FMUs that `probe.py` is let loose on: how each is built, and a run it must repeat.
 
-A new FMU joins by being in `contactkit.fmu.python.build.FMUS`; without a run of its own here it is stepped
-with its start values as they are.
+A new FMU joins by being in `contactkit.fmu.python.build.FMUS`; without a run of its own here
+it is stepped with its start values as they are.
 """
 
 from __future__ import annotations

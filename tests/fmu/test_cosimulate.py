@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from contactkit.app.injector.run import open_device
-from contactkit.app.injector.run.monolithic import simulate
 from contactkit.errors import ContactkitError, ConvergenceError, DescriptionError, InfeasibleError
 from contactkit.files.scenes import read_tables
 from contactkit.fmu.framework.instance import Instance
-from contactkit.fmu.master.couple.couple import Mass, couple
-from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.injector import cosimulate
 from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.valve_drive import ValveDrive
+from contactkit.models.injector.monolithic import simulate
 from contactkit.separation.plan import plan
 
 FMI3 = """<?xml version="1.0" encoding="UTF-8"?>
@@ -29,7 +29,7 @@ FMI3 = """<?xml version="1.0" encoding="UTF-8"?>
   <ModelStructure/>
 </fmiModelDescription>
 """
-MODEL = Path(__file__).parents[2] / "models" / "fuel_injector.toml"
+MODEL = Path(__file__).parents[2] / "models" / "injector" / "fuel_injector.toml"
 
 
 @pytest.fixture(scope="module")

@@ -29,7 +29,7 @@ from native_scenes import HAS_CC  # noqa: E402
 
 from contactkit.app.fmu_system import write_system  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.couple.injector import cosimulate  # noqa: E402
+from contactkit.fmu.master.injector import cosimulate  # noqa: E402
 from contactkit.fmu.python import build as building  # noqa: E402
 from contactkit.fmu.python.build import FMUS, validate  # noqa: E402
 

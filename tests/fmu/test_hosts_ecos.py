@@ -17,7 +17,7 @@ from native_scenes import HAS_CC
 
 from contactkit.app.fmu_system import write_system
 from contactkit.fmu.framework.toolchain import local
-from contactkit.fmu.master.couple.injector import cosimulate
+from contactkit.fmu.master.injector import cosimulate
 
 pytestmark = pytest.mark.skipif(bool(why_not()), reason=why_not() or "it is there")
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")

@@ -10,7 +10,7 @@ from master_cases import film_values, ramp, release
 
 from contactkit.accuracy import Accuracy
 from contactkit.errors import ConvergenceError
-from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.master.couple import Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of

@@ -8,7 +8,7 @@ from contactkit.app.cost import separation as cost
 from contactkit.app.cost.coupling import coupling_settings
 from contactkit.app.injector.run import drive_values
 from contactkit.app.scenes import mass_values, open_scene
-from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.master.couple import Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_force import PORTS
 

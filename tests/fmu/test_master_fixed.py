@@ -8,7 +8,7 @@ import pytest
 from master_cases import release
 
 from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError
-from contactkit.fmu.master.couple.couple import Mass, couple
+from contactkit.fmu.master.couple import Mass, couple
 from contactkit.fmu.python import build as building
 
 

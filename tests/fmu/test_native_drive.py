@@ -25,7 +25,7 @@ from contactkit.analyses.load_displacement.curve import StopCurve  # noqa: E402
 from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.errors import DescriptionError, PlanError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.couple.injector import cosimulate  # noqa: E402
+from contactkit.fmu.master.injector import cosimulate  # noqa: E402
 from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
 from contactkit.fmu.native.drive import build_native_drive, face_numbers  # noqa: E402

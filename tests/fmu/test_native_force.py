@@ -16,7 +16,7 @@ if not HAS_CC:
 
 from contactkit.errors import DescriptionError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.couple.couple import Mass, couple  # noqa: E402
+from contactkit.fmu.master.couple import Mass, couple  # noqa: E402
 from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
 from contactkit.fmu.native.film import FINE, moving  # noqa: E402
 from contactkit.fmu.python import build as building  # noqa: E402

@@ -24,7 +24,7 @@ from contactkit.app.fmu_system import write_system  # noqa: E402
 from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.couple.injector import cosimulate  # noqa: E402
+from contactkit.fmu.master.injector import cosimulate  # noqa: E402
 from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
 

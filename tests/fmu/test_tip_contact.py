@@ -9,15 +9,15 @@ import sys
 import fmpy
 import pytest
 
-from contactkit.app.micromirror.run.flight import Root
-from contactkit.app.micromirror.run.scene import tip_values
-from contactkit.app.micromirror.run.tip import advance_tip, landed_start
-from contactkit.app.micromirror.run.tip_film import adhesion, tip_law
-from contactkit.app.micromirror.run.tip_film import tip_scene as scene_of_tip
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.tip_contact import TipContact, TipLaw, TipStatus, tip_scene
+from contactkit.models.micromirror.flight import Root
+from contactkit.models.micromirror.scene import tip_values
+from contactkit.models.micromirror.tip import advance_tip, landed_start
+from contactkit.models.micromirror.tip_film import adhesion, tip_law
+from contactkit.models.micromirror.tip_film import tip_scene as scene_of_tip
 
 OK, DISCARD = 0, 2
 STEP = 2e-8

@@ -12,13 +12,6 @@ from attrs import evolve
 from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
 from contactkit.app.end_stop import landing_numbers
 from contactkit.app.micromirror.run import Micromirror
-from contactkit.app.micromirror.run.coupling import couple
-from contactkit.app.micromirror.run.flight import Root
-from contactkit.app.micromirror.run.monolithic import simulate_whole
-from contactkit.app.micromirror.run.scene import tip_values
-from contactkit.app.micromirror.run.tip import advance_tip, free_start, landed_start, tip_force
-from contactkit.app.micromirror.run.tip_film import tip_law
-from contactkit.app.micromirror.run.tip_impact import TipStop, sprung_back
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, InfeasibleError
 from contactkit.files.scenes import unstructure
@@ -26,6 +19,13 @@ from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.tip_contact import TipStatus
 from contactkit.models.end_stop.faces import StopFaces, beside
 from contactkit.models.end_stop.solve import solved
+from contactkit.models.micromirror.coupling import couple
+from contactkit.models.micromirror.flight import Root
+from contactkit.models.micromirror.monolithic import simulate_whole
+from contactkit.models.micromirror.scene import tip_values
+from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
+from contactkit.models.micromirror.tip_film import tip_law
+from contactkit.models.micromirror.tip_impact import TipStop, sprung_back
 
 MASS, STIFFNESS = 4e-16, 1.0
 

@@ -11,17 +11,17 @@ from attrs import evolve
 
 import contactkit as ck
 from contactkit.app.injector.run import valve as law
-from contactkit.app.injector.run.monolithic import simulate
-from contactkit.app.injector.run.valve import Valve
 from contactkit.files.scenes import read_tables, structure
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.valve_drive import ValveDrive, _valve
+from contactkit.models.injector.monolithic import simulate
+from contactkit.models.injector.valve import Valve
 from contactkit.separation.motion.advance import advance
 from contactkit.separation.motion.state import Pull, start
 from contactkit.separation.plan import plan
 from contactkit.units import celsius
 
-MODEL = Path(__file__).parents[2] / "models" / "fuel_injector.toml"
+MODEL = Path(__file__).parents[2] / "models" / "injector" / "fuel_injector.toml"
 
 
 def drive(**values):

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import contactkit
 from contactkit.capillary.arc import flat as arc_flat
 from contactkit.capillary.arc import sphere as arc_sphere
 from contactkit.capillary.arc.bridge import arc_bridge
@@ -165,18 +166,18 @@ def test_zero_neck_of_a_cap_height():
     assert limit == pytest.approx(height, rel=1e-12)
 
 
-@pytest.mark.parametrize("module", ["arc_flat", "published"])
+@pytest.mark.parametrize("module", ["capillary.arc.flat", "as_published.printed.common"])
 def test_kernel_runs_in_a_bare_interpreter(module):
     """As inside an FMU, where there is no numpy: the package is entered below its door."""
-    root = Path(arc_flat.__file__).parents[1]
+    root = Path(contactkit.__file__).parent
+    package, _, name = module.rpartition(".")
     code = f"""
 import sys, types
 sys.modules["numpy"] = None
-for name in ("contactkit", "contactkit.kernels"):
-    package = types.ModuleType(name)
-    package.__path__ = [{str(root)!r} + ("/kernels" if name.endswith("kernels") else "")]
-    sys.modules[name] = package
-from contactkit.kernels import {module} as kernel
+package = types.ModuleType("contactkit")
+package.__path__ = [{str(root)!r}]
+sys.modules["contactkit"] = package
+from contactkit.{package} import {name} as kernel
 if "arc" in kernel.__name__:
     shape = kernel.shape(1.0, 0.5)
     print(kernel.force(shape, 0.1, kernel.contact_radius(shape, 0.1, 1.0)) > 0.0)

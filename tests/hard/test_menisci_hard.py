@@ -12,10 +12,10 @@ import contactkit as ck
 from contactkit.analyses.division import divide_meniscus
 from contactkit.analyses.humidity_curve import humidity_curve
 from contactkit.capillary import asperities as laws
+from contactkit.capillary.asperity_bridges import force_curve, gaussian_average
 from contactkit.capillary.condensed import condensed_bridges, reach_at_pressure
 from contactkit.capillary.exact.bridge import bridge_at_pressure
 from contactkit.files.scenes import load_scene, save_scene
-from contactkit.separation.effects.zz_asperity_law import force_curve, gaussian_average
 
 WATER = ck.Liquid(
     name="water", surface_tension=0.072, viscosity=0.9e-3, density=1000.0, molar_mass=0.018

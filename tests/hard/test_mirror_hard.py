@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from contactkit.app.micromirror.run.coupling import couple, longest_step
-from contactkit.app.micromirror.run.flight import Root
-from contactkit.app.micromirror.run.mirror import electrode_volts, landed_tilt, switching_times
-from contactkit.app.micromirror.run.tip import advance_tip, film_force, free_start, landed_start
-from contactkit.app.micromirror.run.tip_film import (
+from contactkit.app.scenes import open_scene
+from contactkit.errors import DescriptionError, InfeasibleError
+from contactkit.models.micromirror.coupling import couple, longest_step
+from contactkit.models.micromirror.flight import Root
+from contactkit.models.micromirror.mirror import electrode_volts, landed_tilt, switching_times
+from contactkit.models.micromirror.tip import advance_tip, film_force, free_start, landed_start
+from contactkit.models.micromirror.tip_film import (
     adhesion,
     condensed_volume,
     pressure_law,
     tip_law,
 )
-from contactkit.app.scenes import open_scene
-from contactkit.errors import DescriptionError, InfeasibleError
 
 
 @pytest.fixture(scope="module")

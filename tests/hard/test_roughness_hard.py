@@ -10,7 +10,7 @@ import pytest
 from contactkit.errors import DescriptionError
 from contactkit.roughness import roughness
 from contactkit.roughness import statistics as stats
-from contactkit.roughness.zz_detrend import detrended
+from contactkit.roughness.height_maps import detrended
 
 
 def test_a_cutoff_at_the_window_leaves_the_longest_waves():

@@ -9,14 +9,14 @@ import pytest
 from attrs import evolve
 from scipy.integrate import solve_ivp
 
-from contactkit.app.micromirror.run.coupling import couple
-from contactkit.app.micromirror.run.electrostatics import capacitance
-from contactkit.app.micromirror.run.flight import Flight, Root, landing_time
-from contactkit.app.micromirror.run.mirror import acceleration, electrode_volts, root_height
-from contactkit.app.micromirror.run.monolithic import simulate_whole
-from contactkit.app.micromirror.run.tip import advance_tip, free_start, landed_start, tip_force
-from contactkit.app.micromirror.run.tip_film import separation_energy, tip_law
 from contactkit.app.scenes import open_scene
+from contactkit.models.micromirror.coupling import couple
+from contactkit.models.micromirror.electrostatics import capacitance
+from contactkit.models.micromirror.flight import Flight, Root, landing_time
+from contactkit.models.micromirror.mirror import acceleration, electrode_volts, root_height
+from contactkit.models.micromirror.monolithic import simulate_whole
+from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
+from contactkit.models.micromirror.tip_film import separation_energy, tip_law
 
 PULSE = 34.0
 

@@ -11,7 +11,7 @@ from scipy import fft
 
 from contactkit.roughness import roughness
 from contactkit.roughness import statistics as stats
-from contactkit.roughness.zz_detrend import detrended
+from contactkit.roughness.height_maps import detrended
 
 few = settings(deadline=None, max_examples=30)
 SIDE = st.integers(3, 40)

@@ -1,8 +1,8 @@
-"""Imports point one way. The table below is the picture of the architecture, executable."""
-
-from __future__ import annotations
+"""Imports point one way: each room imports from the floors below it, never from its own floor."""
 
 import ast
+import sys
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -10,69 +10,29 @@ import pytest
 ROOT = Path(__file__).parents[2]
 FOLDERS = {"contactkit": "contactkit", "contactkit.fmu": "fmu", "contactkit.models": "models"}
 
-# A module may import what stands above it, and within a package its neighbours.
-CHAIN = [
-    ["reference.*"],
-    ["errors"],
-    ["units", "columns"],
-    ["checks", "kernels.*"],
-    ["published_arguments"],
-    ["published_right", "published_right_viscous"],
-    ["published_rows", "published_rows_sliding"],
-    ["published_formulas"],
-    ["temperature_laws"],
-    ["viscosity_laws", "water_laws"],
-    ["liquids", "surfaces", "materials", "imposed"],
-    ["meniscus", "asperity_population"],
-    ["interface", "accuracy", "topography"],
-    ["bodies"],
-    ["scene", "contact_scene"],
-    ["effects.*"],
-    ["tables"],
-    ["height_texts"],
-    ["height_maps"],
-    ["realise"],
-    ["film_laws", "vibration_path"],
-    ["plan", "division_laws"],
-    ["divide"],
-    ["contact_plan", "sliding_plan"],
-    ["planner"],
-    ["motion_state"],
-    ["motion_events", "step_problem"],
-    ["motion_smooth"],
-    ["motion", "validity", "constant_force", "errata_notes"],
-    ["result_parts"],
-    ["results", "contact_engine"],
-    ["sliding_result"],
-    ["slide_curves"],
-    ["contact_outer"],
-    ["contact_film"],
-    ["contact_result"],
-    ["humidity_curves"],
-    ["contact"],
-    ["stop_ways"],
-    ["stop_tables"],
-    ["stop_impact", "stop_curves"],
-    ["converter"],
-    ["humid_tables"],
-    ["curves", "io", "workprecision", "press_map", "adhesion_curves"],
-    ["vibration_curves"],
-    ["separation"],
-    ["contact_archive"],
-    ["archive"],
-    ["study_paths"],
-    ["study_store"],
-    ["study_table"],
-    ["study_run"],
-    ["studies"],
-    ["plot"],
-    ["contact_plot"],
-    ["models.*", "fmu.*"],
+# From the ground up. Rooms on one floor do not know each other.
+FLOORS = [
+    ["reference", "errors", "_lazy"],
+    ["units"],
+    ["validators", "work_precision", "numerics"],
+    ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],
+    ["as_published"],
+    ["data"],
+    ["liquids"],
+    ["scene"],
+    ["contact", "separation"],
+    ["effects", "planning"],
+    ["files"],
+    ["analyses"],
+    ["studies", "plot"],
+    ["models"],
+    ["fmu"],
+    ["app"],
     ["cli"],
     ["__main__"],
 ]
-KERNELS_MAY = ("contactkit.kernels", "contactkit.errors", "contactkit.units")
-NUMERICS = {"numpy", "scipy"}
+FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+ONE_IMPORTER = {"matplotlib": "plot", "mpl_toolkits": "plot"}
 
 
 def _modules():
@@ -85,150 +45,139 @@ def _modules():
 
 
 MODULES = _modules()
-INSIDE = [name for name in MODULES if name != "contactkit"]  # the front door imports what it shows
+
+
+def room(name):
+    return name.split(".")[1] if "." in name else ""
 
 
 def imports(name, source, known=MODULES):
-    """(target, whether inside a function) of each import but those for the type checker alone."""
+    """Modules that a module imports at run time, at its head or later; full names."""
     is_package = name in known and known[name].name == "__init__.py"
     parents = name.split(".") if is_package else name.split(".")[:-1]
 
-    def visit(node, lazy):
+    def visit(node):
         if isinstance(node, ast.Import):
-            yield from ((alias.name, lazy) for alias in node.names)
+            yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             above = parents[: len(parents) - node.level + 1] if node.level else []
             base = ".".join([*above, *([node.module] if node.module else [])])
             for alias in node.names:
                 full = f"{base}.{alias.name}"
-                yield (full if full in known else base), lazy
+                yield full if full in known else base
         is_for_types = isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
-        lazy = lazy or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
         for child in node.orelse if is_for_types else ast.iter_child_nodes(node):
-            yield from visit(child, lazy)
+            yield from visit(child)
 
-    return list(visit(ast.parse(source), False))
-
-
-def imports_of(name):
-    return imports(name, MODULES[name].read_text(encoding="utf-8"))
+    return set(visit(ast.parse(source)))
 
 
-def place(name):
-    """Row of a module in the chain, and the package within which neighbours may be imported."""
-    short = name.removeprefix("contactkit.")
-    for row, names in enumerate(CHAIN):
-        for entry in names:
-            package = entry.removesuffix(".*")
-            if short == entry or (
-                entry.endswith(".*") and (short == package or short.startswith(package + "."))
-            ):
-                return row, package
-    return None
+IMPORTS = {name: imports(name, path.read_text("utf-8")) for name, path in MODULES.items()}
 
 
-def is_allowed(name, target):
-    if not target.startswith("contactkit"):
-        return True
-    if target == "contactkit":  # its version number
-        return True
-    here, there = place(name), place(target)
-    return there is not None and (there[0] < here[0] or here[1] == there[1])
+def against_the_stream(name, targets):
+    """Targets in a room that is not below that of a module."""
+    here = FLOOR.get(room(name), -1)
+    return sorted(
+        target
+        for target in targets
+        if target.startswith("contactkit.")
+        and room(target) != room(name)
+        and not FLOOR.get(room(target), len(FLOORS)) < here
+    )
 
 
-def violations(name, found):
-    return [target for target, _ in found if not is_allowed(name, target)]
+def test_every_room_has_its_floor():
+    assert {room(name) for name in MODULES} - {""} == set(FLOOR)
 
 
-@pytest.mark.parametrize("name", INSIDE)
-def test_every_module_has_its_place_in_the_chain(name):
-    assert name.startswith("contactkit.reference") or place(name) is not None
+def test_rooms_import_only_from_the_floors_below():
+    wrong = {n: against_the_stream(n, t) for n, t in IMPORTS.items() if n != "contactkit"}
+    assert {name: targets for name, targets in wrong.items() if targets} == {}
 
 
-@pytest.mark.parametrize("name", [n for n in INSIDE if not n.startswith("contactkit.reference")])
-def test_imports_point_one_way(name):
-    found = imports_of(name)
-    if name.startswith(("contactkit.fmu", "contactkit.models")):
-        # The devices and their FMUs may know each other, the device the FMU only when it is asked.
-        found = [
-            (t, lazy)
-            for t, lazy in found
-            if not (name.startswith("contactkit.fmu") and t.startswith("contactkit.models"))
-            and not (lazy and t.startswith("contactkit.fmu"))
-        ]
-    assert violations(name, found) == []
+def test_there_are_no_circles():
+    graph = {n: {t for t in targets if t in MODULES and t != n} for n, targets in IMPORTS.items()}
+    del graph["contactkit"]
+    graph = {name: t for name, t in graph.items() if room(name) not in ("app", "models")}
+    for targets in graph.values():
+        targets.discard("contactkit")
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
 
 
-@pytest.mark.parametrize("name", [n for n in INSIDE if n.startswith("contactkit.kernels")])
-def test_a_kernel_knows_kernels_errors_and_units_only(name):
-    inside = [t for t, _ in imports_of(name) if t.startswith("contactkit")]
-    assert [t for t in inside if not t.startswith(KERNELS_MAY)] == []
+def test_a_package_lists_its_modules_and_imports_nothing():
+    """An FMU carries what is imported; only names that come later, when asked for, are offered."""
+    wrong = {
+        name: sorted(IMPORTS[name] - {"__future__", "typing", "contactkit._lazy"})
+        for name, path in MODULES.items()
+        if path.name == "__init__.py" and name != "contactkit.fmu.python.guard"
+    }
+    assert {name: targets for name, targets in wrong.items() if targets} == {}
 
 
-@pytest.mark.parametrize("name", [n for n in INSIDE if n.startswith("contactkit.reference.")])
-def test_a_reference_shares_no_code_with_what_it_checks(name):
-    targets = {t.split(".")[0] for t, _ in imports_of(name)}
-    assert "contactkit" not in targets
-    assert targets - NUMERICS <= {"__future__", "collections", "math", "typing"}
+def test_nobody_inside_imports_from_a_package():
+    """A name comes from its module: what a package offers is for users."""
+    packages = {n for n, path in MODULES.items() if path.name == "__init__.py"}
+    packages -= {"contactkit.fmu.python.guard"}
+    allowed = {"contactkit", "contactkit.data", "contactkit.models"}  # its version; its files
+    wrong = {n: sorted((t & packages) - allowed) for n, t in IMPORTS.items()}
+    assert {name: targets for name, targets in wrong.items() if targets} == {}
 
 
-CORE = [n for n in INSIDE if not n.startswith(("contactkit.fmu", "contactkit.models"))]
+def test_references_share_no_code_with_what_they_check():
+    allowed = {"numpy", "scipy", *sys.stdlib_module_names}
+    wrong = {
+        name: sorted({t.split(".")[0] for t in targets} - allowed)
+        for name, targets in IMPORTS.items()
+        if room(name) == "reference"
+    }
+    assert {name: targets for name, targets in wrong.items() if targets} == {}
 
 
-@pytest.mark.parametrize("name", CORE)
-def test_the_physics_knows_nothing_of_fmi_or_of_devices(name):
-    """Except the command line, and that only once a command asks for it."""
-    for target, lazy in imports_of(name):
-        if target.startswith(("contactkit.fmu", "contactkit.models", "pythonfmu", "fmpy")):
-            assert name == "contactkit.cli", target
-            assert lazy, target
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_only_plot_imports_matplotlib(name):
-    drawn = [t for t, _ in imports_of(name) if t.split(".")[0] in ("matplotlib", "mpl_toolkits")]
-    assert drawn == [] or name == "contactkit.plot"
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_the_front_door_is_not_used_from_inside(name):
-    """`from contactkit import x` inside would close a circle; `__version__` is a plain string."""
-    tree = ast.parse(MODULES[name].read_text(encoding="utf-8"))
-    level = name.count(".") + (MODULES[name].name == "__init__.py")
-    used = [
-        alias.name
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom)
-        and (node.module == "contactkit" or (node.module is None and node.level == level))
-        for alias in node.names
-        if f"contactkit.{alias.name}" not in MODULES
-    ]
-    assert name == "contactkit" or set(used) <= {"__version__"}
-
-
-# Does the rule itself see? -------------------------------------------------------------------
+def test_one_room_draws_and_one_speaks_fmi():
+    wrong = {
+        name: sorted(
+            root
+            for root in {t.split(".")[0] for t in targets}
+            if ONE_IMPORTER.get(root, room(name)) != room(name)
+            or (root in ("pythonfmu", "fmpy") and room(name) not in ("fmu", "app"))
+        )
+        for name, targets in IMPORTS.items()
+    }
+    assert {name: roots for name, roots in wrong.items() if roots} == {}
 
 
 @pytest.mark.parametrize(
     ("name", "source", "seen"),
     [
-        ("contactkit.plan", "from .results import Work", ["contactkit.results"]),
-        ("contactkit.plan", "from . import results", ["contactkit.results"]),
-        ("contactkit.plan", "import contactkit.plot", ["contactkit.plot"]),
-        ("contactkit.plan", "def f():\n    from .motion import advance", ["contactkit.motion"]),
-        ("contactkit.separation.effects.viscous", "from ..plan import Plan", ["contactkit.plan"]),
-        ("contactkit.interface", "from .scene import SeparationScene", ["contactkit.scene"]),
-        ("contactkit.plan", "from .scene import SeparationScene", []),
-        ("contactkit.separation.effects.viscous", "from .film_shape import FilmShape", []),
-        ("contactkit.scene", "if TYPE_CHECKING:\n    from .plan import Plan", []),
-        ("contactkit.contact_plan", "from .contact import solve", ["contactkit.contact"]),
-        ("contactkit.contact.effects.stress", "from ..contact_scene import ContactScene", []),
-        ("contactkit.contact.effects.stress", "from ..contact_engine import Engine",
-         ["contactkit.contact_engine"]),
-        ("contactkit.bodies", "from .effects import film", ["contactkit.contact.effects.film"]),
-        ("contactkit.scene", "if TYPE_CHECKING:\n    pass\nelse:\n    from .plan import Plan",
-         ["contactkit.plan"]),
+        (
+            "contactkit.scene.liquid",
+            "from ..contact.result import Work",
+            ["contactkit.contact.result"],
+        ),
+        (
+            "contactkit.contact.plan",
+            "from ..separation import plan",
+            ["contactkit.separation.plan"],
+        ),
+        (
+            "contactkit.contact.plan",
+            "def f():\n    from ..files import scenes",
+            ["contactkit.files.scenes"],
+        ),
+        ("contactkit.contact.plan", "import contactkit.plot", ["contactkit.plot"]),
+        ("contactkit.contact.plan", "from .solve import solve", []),
+        ("contactkit.contact.plan", "from ..scene.interface import Interface", []),
+        ("contactkit.scene.scenes", "if TYPE_CHECKING:\n    from ..contact.plan import x", []),
+        (
+            "contactkit.scene.scenes",
+            "if TYPE_CHECKING:\n    pass\nelse:\n    from ..contact.plan import x",
+            ["contactkit.contact.plan"],
+        ),
     ],
-)  # fmt: skip
+)
 def test_the_rule_sees_an_import_against_the_stream(name, source, seen):
-    assert violations(name, imports(name, source)) == seen
+    assert against_the_stream(name, imports(name, source)) == seen

@@ -53,26 +53,9 @@ def test_an_extra_is_not_brought_along_by_the_library(extra):
     """Neither by the import nor by a contact that runs without it."""
     contact = (
         "import contactkit as ck; ck.solve; ck.press; ck.load_scene; ck.study;"
-        "import contactkit.contact_result, contactkit.contact.effects.zz_stress_scan, contactkit.realise"
+        "import contactkit.contact.result, contactkit.contact.grid"
     )
     assert extra not in roots(loaded_by(contact))
-
-
-SCENE = """import contactkit as ck
-body = ck.Body(solid=ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=1e7))
-rough = ck.GaussianRoughness(rms=1e-9, correlation_length=1e-7, cutoff=4e-8)
-made = ck.plan(ck.ContactScene(
-    interface=ck.ContactInterface(lower=body, upper=ck.Body(surface=rough)),
-    window=ck.Window(width=1e-6),
-    pressing=ck.Pressing(pressure=1e5),
-    effects=(ck.HalfSpace(), ck.HardnessLimit(), ck.FrictionTraction(coefficient=0.2),
-             ck.SubsurfaceStress()),
-))
-str(made), made.cite()"""
-
-
-def test_a_contact_is_described_and_planned_without_numpy():
-    assert roots(loaded_by(f"exec({SCENE!r})")) & HEAVY == set()
 
 
 def test_the_control_sees_what_is_heavy():
@@ -83,11 +66,17 @@ def test_the_control_sees_what_is_heavy():
 
 @pytest.mark.parametrize(
     "module",
-    ["contactkit.plan", "contactkit.motion", "contactkit.effects", "contactkit.liquids",
-     "contactkit.planner", "contactkit.contact_plan", "contactkit.effects",
-     "contactkit.capillary.arc.flat", "contactkit.lubrication.squeeze_film", "contactkit.lubrication.film_limits",
-     "contactkit.separation.integrator.radau"],
-)  # fmt: skip
+    [
+        "contactkit.separation.plan",
+        "contactkit.separation.motion.advance",
+        "contactkit.separation.effects.registry",
+        "contactkit.liquids.liquid",
+        "contactkit.capillary.arc.flat",
+        "contactkit.lubrication.squeeze_film",
+        "contactkit.lubrication.film_limits",
+        "contactkit.separation.integrator.radau",
+    ],
+)
 def test_what_runs_inside_an_fmu_needs_no_numpy(module):
     assert roots(loaded_by(f"import {module}")) & HEAVY == set()
 
@@ -95,8 +84,8 @@ def test_what_runs_inside_an_fmu_needs_no_numpy(module):
 def test_only_plot_brings_matplotlib():
     without = loaded_by(
         "import contactkit; contactkit.simulate; contactkit.load_scene; contactkit.save_result;"
-        "contactkit.solve; contactkit.press; contactkit.study; import contactkit.contact_archive;"
-        "import contactkit.results, contactkit.workprecision, contactkit.cli"
+        "contactkit.solve; contactkit.press; contactkit.study; import contactkit.files.contact_results;"
+        "import contactkit.work_precision, contactkit.cli"
     )
     assert "matplotlib" not in roots(without)
 
@@ -107,7 +96,7 @@ for name in ("numpy", "scipy", "cattrs"):
     sys.modules[name] = None  # importing it raises
 import warnings
 import contactkit as ck
-from contactkit.motion_state import outputs, start
+from contactkit.separation.motion.state import outputs, start
 
 oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
 face = ck.Flat(radius=1e-3)

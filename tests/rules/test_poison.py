@@ -8,13 +8,13 @@ import importlib.resources
 import itertools
 import pkgutil
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 import scipy.fft
 
 import contactkit as ck
-import contactkit.kernels
 from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.solve import solve
 from contactkit.separation import simulate as separation
@@ -29,84 +29,142 @@ OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=900.0)
 
 # What each effect may call, by the body above the flat. `*` stands for the rest of a name.
 ARC_FLAT = {
-    "arc_flat.contact_radius", "arc_flat.force", "arc_flat.rim_contact_radius", "arc_flat.volume",
-    "arc_flat.zero_neck_gap", "arc_flat.zero_neck_gap_at_rim", "arc_shape.*",
-    "quadrature.gauss_legendre", "roots.bracketed_root",
-}  # fmt: skip
+    "capillary.arc.flat.contact_radius",
+    "capillary.arc.flat.force",
+    "capillary.arc.flat.rim_contact_radius",
+    "capillary.arc.flat.volume",
+    "capillary.arc.flat.zero_neck_gap",
+    "capillary.arc.flat.zero_neck_gap_at_rim",
+    "capillary.arc.shape.*",
+    "numerics.quadrature.gauss_legendre",
+    "numerics.roots.bracketed_root",
+}
 ARC_SPHERE = {
-    "arc_sphere.solve", "arc_sphere.zero_neck_gap", "arc_newton.*", "arc_segment.*",
-    "arc_shape.refuse_spreading", "arc_shape.whole_angle", "spline.*",
-}  # fmt: skip
+    "capillary.arc.sphere.solve",
+    "capillary.arc.sphere.zero_neck_gap",
+    "capillary.arc.contact_circles.*",
+    "capillary.arc.shape.refuse_spreading",
+    "capillary.arc.shape.whole_angle",
+    "numerics.cubic_spline.*",
+}
 EXACT_FLAT_END = {
-    "flat_law.*", "flat_family.*", "delaunay.*", "arc_shape.*", "quadrature.gauss_legendre",
-    "roots.bracketed_root",
-}  # fmt: skip
-EXACT_FLAT = EXACT_FLAT_END | {"spline.*", "flat_members.*"}
+    "capillary.flats.force_law.*",
+    "capillary.flats.family.*",
+    "capillary.exact.delaunay.*",
+    "capillary.arc.shape.*",
+    "numerics.quadrature.gauss_legendre",
+    "numerics.roots.bracketed_root",
+}
+EXACT_FLAT = EXACT_FLAT_END | {"numerics.cubic_spline.*", "capillary.flats.sampling.*"}
 EXACT_SPHERE = {
-    "bridge_*", "drop.drop_left", "delaunay.*", "quadrature.gauss_legendre", "roots.*", *ARC_SPHERE,
-}  # fmt: skip
+    "capillary.exact.*",
+    "capillary.exact.volume_branch.drop_left",
+    "capillary.exact.delaunay.*",
+    "numerics.quadrature.gauss_legendre",
+    "numerics.roots.*",
+    *ARC_SPHERE,
+}
 OWNED = {
     ck.MeniscusForce(): {"flats": EXACT_FLAT, "sphere": EXACT_SPHERE},
     ck.MeniscusForce(profile="arc"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
     ck.MeniscusForce(profile="as-published"): {
-        "flats": {"published.meniscus_flat_3_11", "published.meniscus_divided_3_33",
-                  "arc_shape.wetting"},
-        "sphere": {"published.meniscus_sphere_3_12", *ARC_SPHERE},
+        "flats": {
+            "as_published.printed.common.meniscus_flat_3_11",
+            "as_published.printed.common.meniscus_divided_3_33",
+            "capillary.arc.shape.wetting",
+        },
+        "sphere": {"as_published.printed.common.meniscus_sphere_3_12", *ARC_SPHERE},
     },
     ck.ViscousForce(): {
-        "flats": {"squeeze.disc_force", "squeeze.disc_impulse_*"},
-        "sphere": {"squeeze.sphere_force", "squeeze.sphere_impulse_*"},
+        "flats": {"lubrication.squeeze_film.disc_force", "lubrication.squeeze_film.disc_impulse_*"},
+        "sphere": {
+            "lubrication.squeeze_film.sphere_force",
+            "lubrication.squeeze_film.sphere_impulse_*",
+        },
     },
     ck.ViscousForce(closure="flooded"): {
-        "flats": {"squeeze.disc_force", "squeeze.disc_impulse_flooded"},
-        "sphere": {"squeeze.sphere_force", "squeeze.sphere_impulse_flooded"},
+        "flats": {
+            "lubrication.squeeze_film.disc_force",
+            "lubrication.squeeze_film.disc_impulse_flooded",
+        },
+        "sphere": {
+            "lubrication.squeeze_film.sphere_force",
+            "lubrication.squeeze_film.sphere_impulse_flooded",
+        },
     },
     ck.ViscousForce(closure="as-published"): {
-        "flats": {"squeeze.disc_force", "squeeze.disc_impulse_flooded"},
-        "sphere": {"squeeze.sphere_force", "squeeze.sphere_impulse_*"},
+        "flats": {
+            "lubrication.squeeze_film.disc_force",
+            "lubrication.squeeze_film.disc_impulse_flooded",
+        },
+        "sphere": {
+            "lubrication.squeeze_film.sphere_force",
+            "lubrication.squeeze_film.sphere_impulse_*",
+        },
     },
     ck.TensionLimit(tension=1e4): {
-        "flats": {"film_limits.disc_tension_clipped"},
-        "sphere": {"film_limits.sphere_tension_clipped"},
+        "flats": {"lubrication.film_limits.disc_tension_clipped"},
+        "sphere": {"lubrication.film_limits.sphere_tension_clipped"},
     },
     ck.TensionLimit(tension=1e4, cavity="reynolds"): {
-        "flats": {"film_limits.disc_tension_reynolds", "roots.bracketed_root"},
+        "flats": {"lubrication.film_limits.disc_tension_reynolds", "numerics.roots.bracketed_root"},
     },
     ck.ShearLimit(strength=1e3): {
-        "flats": {"film_limits.disc_shear_limited"},
-        "sphere": {"film_limits.sphere_shear_limited", "roots.bracketed_root"},
+        "flats": {"lubrication.film_limits.disc_shear_limited"},
+        "sphere": {"lubrication.film_limits.sphere_shear_limited", "numerics.roots.bracketed_root"},
     },
     ck.Rupture(): {"flats": EXACT_FLAT_END, "sphere": EXACT_SPHERE},
     ck.Rupture(criterion="zero-neck"): {
-        "flats": {"arc_flat.zero_neck_gap", "arc_shape.*", "quadrature.gauss_legendre"},
-        "sphere": ARC_SPHERE - {"arc_sphere.solve"},
+        "flats": {
+            "capillary.arc.flat.zero_neck_gap",
+            "capillary.arc.shape.*",
+            "numerics.quadrature.gauss_legendre",
+        },
+        "sphere": ARC_SPHERE - {"capillary.arc.sphere.solve"},
     },
     ck.Rupture(gap=5e-6): {"flats": set(), "sphere": set()},
-}  # fmt: skip
+}
 # Forces of the solids stand beside those of the film: each is tried with a few of these.
 RUBBER = {"work_of_adhesion": 0.05, "reduced_modulus": 1e6, "strength": 1e4}
-ADHESION = {"adhesion_scales.*"}
+ADHESION = {"adhesion.parameters.*"}
 SOLIDS = {
     ck.VanDerWaalsForce(hamaker_constant=1e-19): {
-        "flats": {"van_der_waals.pressure_between_flats"}, "sphere": {"van_der_waals.sphere_force"},
+        "flats": {"adhesion.van_der_waals.pressure_between_flats"},
+        "sphere": {"adhesion.van_der_waals.sphere_force"},
     },
     ck.VanDerWaalsForce(hamaker_constant=1e-19, closure="hamaker"): {
-        "flats": {"van_der_waals.pressure_between_flats"},
-        "sphere": {"van_der_waals.hamaker_sphere_force"},
+        "flats": {"adhesion.van_der_waals.pressure_between_flats"},
+        "sphere": {"adhesion.van_der_waals.hamaker_sphere_force"},
     },
-    ck.AdhesiveContact(model="jkr", **RUBBER): {"sphere": {"jkr.*", *ADHESION}},
-    ck.AdhesiveContact(model="dmt", **RUBBER): {"sphere": {"dmt.*", *ADHESION}},
+    ck.AdhesiveContact(model="jkr", **RUBBER): {"sphere": {"adhesion.jkr.*", *ADHESION}},
+    ck.AdhesiveContact(model="dmt", **RUBBER): {"sphere": {"adhesion.dmt.*", *ADHESION}},
     ck.AdhesiveContact(**RUBBER): {
-        "sphere": {"maugis_dugdale.*", "dmt.reach", "roots.bracketed_root", *ADHESION},
+        "sphere": {
+            "adhesion.maugis_dugdale.*",
+            "adhesion.dmt.reach",
+            "numerics.roots.bracketed_root",
+            *ADHESION,
+        },
     },
-}  # fmt: skip
+}
 # Menisci at asperities stand alone, in a film of a height or in the air of a humidity.
 SUMMITS = ck.AsperityPopulation(density=1e6, radius=1e-2, rms_height=1e-6)
-THIN = {"asperities.*", "kelvin.*", "arc_shape.wetting", "quadrature.gauss_legendre"}
+THIN = {
+    "capillary.asperities.*",
+    "capillary.kelvin.*",
+    "capillary.arc.shape.wetting",
+    "numerics.quadrature.gauss_legendre",
+}
 CONDENSED = {
-    "condensed.reach_at_pressure", "bridge_*", "delaunay.*", "roots.bracketed_root",
-    "arc_shape.*", "asperities.normal_tail", *THIN,
-}  # fmt: skip
+    "capillary.asperity_bridges.*",
+    "capillary.condensed.reach_at_pressure",
+    "capillary.exact.*",
+    "capillary.exact.delaunay.*",
+    "numerics.roots.bracketed_root",
+    "capillary.arc.shape.*",
+    "capillary.asperities.normal_tail",
+    *THIN,
+}
 ROUGH = {
     ck.AsperityMenisci(asperities=SUMMITS, meniscus_height=5e-6, **choices): {
         "flats": THIN if choices["profile"] == "thin-film" else CONDENSED
@@ -121,23 +179,43 @@ ROUGH = {
 BESIDE = [(), (ck.MeniscusForce(),), (ck.ViscousForce(), ck.Rupture(gap=5e-6))]
 
 # What is not an effect's: how far the film reaches, the motion, and the ranges of validity.
-EXTENT = {"flats": {"squeeze.disc_radius"}, "sphere": {"squeeze.sphere_film_height"}}
+EXTENT = {
+    "flats": {"lubrication.squeeze_film.disc_radius"},
+    "sphere": {"lubrication.squeeze_film.sphere_film_height"},
+}
 MOTION = {
-    "speed": {"quadrature.gauss_legendre"},
+    "speed": {"numerics.quadrature.gauss_legendre"},
     "time": set(),
     "force": {
-        "stiff_step.*",
-        "short_step.*",
-        "smooth_*",
-        "step_reading.*",
-        "quadrature.gauss_legendre",
+        "separation.integrator.*",
+        "numerics.quadrature.gauss_legendre",
     },
 }
 VALIDITY = {
-    ck.ViscousForce: {"validity.reynolds_number", "validity.slenderness"},
-    ck.MeniscusForce: {"validity.bond_number"},
+    ck.ViscousForce: {
+        "lubrication.dimensionless.reynolds_number",
+        "lubrication.dimensionless.slenderness",
+    },
+    ck.MeniscusForce: {"lubrication.dimensionless.bond_number"},
 }
-VALIDITY_OF_BOTH = {"validity.viscous_to_capillary", "validity.fingering_number"}
+VALIDITY_OF_BOTH = {
+    "lubrication.dimensionless.viscous_to_capillary",
+    "lubrication.dimensionless.fingering_number",
+}
+
+
+KERNEL_ROOMS = (
+    "adhesion",
+    "as_published.printed",
+    "capillary",
+    "contact.effects.hardness_rules",
+    "contact.solver",
+    "elasticity",
+    "lubrication",
+    "numerics",
+    "roughness",
+    "separation.integrator",
+)
 
 
 class PoisonError(Exception):
@@ -145,15 +223,19 @@ class PoisonError(Exception):
 
 
 def kernels():
-    """Public functions of the kernels, by module and name."""
+    """Public functions of the physics and the numerics, by module and name."""
     found = {}
-    for info in pkgutil.iter_modules(contactkit.kernels.__path__):
-        module = importlib.import_module(f"contactkit.kernels.{info.name}")
-        for name in getattr(module, "__all__", ()):
-            value = getattr(module, name)
-            is_own = getattr(value, "__module__", "") == module.__name__
-            if callable(value) and not isinstance(value, type) and is_own:
-                found[f"{info.name}.{name}"] = value
+    for room in KERNEL_ROOMS:
+        package = importlib.import_module(f"contactkit.{room}")
+        paths = getattr(package, "__path__", None)
+        inside = pkgutil.walk_packages(paths, f"contactkit.{room}.") if paths else ()
+        for name in [package.__name__, *(info.name for info in inside)]:
+            module = importlib.import_module(name)
+            for public in getattr(module, "__all__", ()):
+                value = getattr(module, public)
+                is_own = getattr(value, "__module__", "") == name
+                if callable(value) and not isinstance(value, type) and is_own:
+                    found[f"{name.removeprefix('contactkit.')}.{public}"] = value
     return found
 
 
@@ -262,43 +344,116 @@ def test_a_scene_runs_with_every_other_kernel_poisoned(monkeypatch, effects, bod
 
 
 HEARTS = [
-    ((ck.MeniscusForce(),), "flats", "speed", "flat_law.flat_law"),
-    ((ck.MeniscusForce(),), "sphere", "speed", "bridge_exact.bridge"),
-    ((ck.MeniscusForce(profile="arc"),), "flats", "speed", "arc_flat.force"),
-    ((ck.MeniscusForce(profile="arc"),), "sphere", "speed", "arc_sphere.solve"),
-    ((ck.MeniscusForce(profile="as-published"),), "flats", "time", "published.meniscus_flat_3_11"),
-    ((ck.MeniscusForce(profile="as-published"),), "sphere", "speed",
-     "published.meniscus_sphere_3_12"),
-    ((ck.ViscousForce(),), "flats", "speed", "squeeze.disc_force"),
-    ((ck.ViscousForce(),), "flats", "time", "squeeze.disc_impulse_conserved"),
-    ((ck.ViscousForce(closure="flooded"),), "flats", "time", "squeeze.disc_impulse_flooded"),
-    ((ck.ViscousForce(),), "sphere", "speed", "squeeze.sphere_force"),
-    ((ck.ViscousForce(),), "sphere", "time", "squeeze.sphere_impulse_conserved"),
-    ((ck.ViscousForce(closure="flooded"),), "sphere", "time", "squeeze.sphere_impulse_flooded"),
-    ((ck.ViscousForce(), ck.TensionLimit(tension=1e4)), "flats", "force",
-     "film_limits.disc_tension_clipped"),
-    ((ck.ViscousForce(), ck.TensionLimit(tension=1e4, cavity="reynolds")), "flats", "force",
-     "film_limits.disc_tension_reynolds"),
-    ((ck.ViscousForce(), ck.TensionLimit(tension=1e4)), "sphere", "force",
-     "film_limits.sphere_tension_clipped"),
-    ((ck.ViscousForce(), ck.ShearLimit(strength=1e3)), "flats", "speed",
-     "film_limits.disc_shear_limited"),
-    ((ck.ViscousForce(), ck.ShearLimit(strength=1e3)), "sphere", "speed",
-     "film_limits.sphere_shear_limited"),
-    ((ck.ViscousForce(), ck.Rupture()), "flats", "time", "flat_law.flat_end"),
-    ((ck.ViscousForce(), ck.Rupture()), "sphere", "time", "bridge_limit.stability_limit"),
-    ((ck.ViscousForce(), ck.Rupture(criterion="zero-neck")), "flats", "time",
-     "arc_flat.zero_neck_gap"),
-    ((ck.ViscousForce(), ck.Rupture(criterion="zero-neck")), "sphere", "time",
-     "arc_sphere.zero_neck_gap"),
-    ((ck.ViscousForce(),), "flats", "force", "stiff_step.step"),
-    *(((rough,), "flats", "speed", heart) for rough, heart in zip(
-        ROUGH, ("asperities.greenwood_williamson", "condensed.reach_at_pressure",
-                "asperities.identical", "condensed.reach_at_pressure"), strict=True)),
-    *(((solid,), "sphere", "speed", heart) for solid, heart in zip(
-        SOLIDS, ("van_der_waals.sphere_force", "van_der_waals.hamaker_sphere_force",
-                 "jkr.radius_at_gap", "dmt.reach", "maugis_dugdale.at_gap"), strict=True)),
-]  # fmt: skip
+    ((ck.MeniscusForce(),), "flats", "speed", "capillary.flats.force_law.flat_law"),
+    ((ck.MeniscusForce(),), "sphere", "speed", "capillary.exact.bridge.bridge"),
+    ((ck.MeniscusForce(profile="arc"),), "flats", "speed", "capillary.arc.flat.force"),
+    ((ck.MeniscusForce(profile="arc"),), "sphere", "speed", "capillary.arc.sphere.solve"),
+    (
+        (ck.MeniscusForce(profile="as-published"),),
+        "flats",
+        "time",
+        "as_published.printed.common.meniscus_flat_3_11",
+    ),
+    (
+        (ck.MeniscusForce(profile="as-published"),),
+        "sphere",
+        "speed",
+        "as_published.printed.common.meniscus_sphere_3_12",
+    ),
+    ((ck.ViscousForce(),), "flats", "speed", "lubrication.squeeze_film.disc_force"),
+    ((ck.ViscousForce(),), "flats", "time", "lubrication.squeeze_film.disc_impulse_conserved"),
+    (
+        (ck.ViscousForce(closure="flooded"),),
+        "flats",
+        "time",
+        "lubrication.squeeze_film.disc_impulse_flooded",
+    ),
+    ((ck.ViscousForce(),), "sphere", "speed", "lubrication.squeeze_film.sphere_force"),
+    ((ck.ViscousForce(),), "sphere", "time", "lubrication.squeeze_film.sphere_impulse_conserved"),
+    (
+        (ck.ViscousForce(closure="flooded"),),
+        "sphere",
+        "time",
+        "lubrication.squeeze_film.sphere_impulse_flooded",
+    ),
+    (
+        (ck.ViscousForce(), ck.TensionLimit(tension=1e4)),
+        "flats",
+        "force",
+        "lubrication.film_limits.disc_tension_clipped",
+    ),
+    (
+        (ck.ViscousForce(), ck.TensionLimit(tension=1e4, cavity="reynolds")),
+        "flats",
+        "force",
+        "lubrication.film_limits.disc_tension_reynolds",
+    ),
+    (
+        (ck.ViscousForce(), ck.TensionLimit(tension=1e4)),
+        "sphere",
+        "force",
+        "lubrication.film_limits.sphere_tension_clipped",
+    ),
+    (
+        (ck.ViscousForce(), ck.ShearLimit(strength=1e3)),
+        "flats",
+        "speed",
+        "lubrication.film_limits.disc_shear_limited",
+    ),
+    (
+        (ck.ViscousForce(), ck.ShearLimit(strength=1e3)),
+        "sphere",
+        "speed",
+        "lubrication.film_limits.sphere_shear_limited",
+    ),
+    ((ck.ViscousForce(), ck.Rupture()), "flats", "time", "capillary.flats.force_law.flat_end"),
+    (
+        (ck.ViscousForce(), ck.Rupture()),
+        "sphere",
+        "time",
+        "capillary.exact.stability.stability_limit",
+    ),
+    (
+        (ck.ViscousForce(), ck.Rupture(criterion="zero-neck")),
+        "flats",
+        "time",
+        "capillary.arc.flat.zero_neck_gap",
+    ),
+    (
+        (ck.ViscousForce(), ck.Rupture(criterion="zero-neck")),
+        "sphere",
+        "time",
+        "capillary.arc.sphere.zero_neck_gap",
+    ),
+    ((ck.ViscousForce(),), "flats", "force", "separation.integrator.radau.step"),
+    *(
+        ((rough,), "flats", "speed", heart)
+        for rough, heart in zip(
+            ROUGH,
+            (
+                "capillary.asperities.greenwood_williamson",
+                "capillary.condensed.reach_at_pressure",
+                "capillary.asperities.identical",
+                "capillary.condensed.reach_at_pressure",
+            ),
+            strict=True,
+        )
+    ),
+    *(
+        ((solid,), "sphere", "speed", heart)
+        for solid, heart in zip(
+            SOLIDS,
+            (
+                "adhesion.van_der_waals.sphere_force",
+                "adhesion.van_der_waals.hamaker_sphere_force",
+                "adhesion.jkr.radius_at_gap",
+                "adhesion.dmt.reach",
+                "adhesion.maugis_dugdale.at_gap",
+            ),
+            strict=True,
+        )
+    ),
+]
 
 
 @pytest.mark.parametrize(("effects", "body", "imposed", "heart"), HEARTS, ids=label)
@@ -311,50 +466,82 @@ def test_the_poison_works_on_a_kernel_that_is_needed(monkeypatch, effects, body,
 
 # Contacts -----------------------------------------------------------------------------------
 
-FIELDS = {"stress_modes.*", "stress_images.*", "layered_step.*", "layer_stack.stack_of"}
+FIELDS = {
+    "elasticity.stress.periodic.*",
+    "elasticity.stress.isolated.*",
+    "elasticity.layer_recursion.*",
+    "elasticity.layer_stack.stack_of",
+}
 CONTACT_OWNED = {
     ck.HalfSpace(): set(),  # by the edges of the window, below
     ck.LayeredHalfSpace(): set(),
-    ck.HardnessLimit(): {"hardness.effective_hardness"},
+    ck.HardnessLimit(): {"contact.effects.hardness_rules.effective_hardness"},
     ck.HardnessLimit(rule="literal"): {
-        "hardness.effective_hardness_literal", "hardness.layer_on_substrate",
+        "contact.effects.hardness_rules.effective_hardness_literal",
+        "contact.effects.hardness_rules.layer_on_substrate",
     },
     ck.HardnessLimit(rule="material"): set(),
     ck.HardnessLimit(rule="constant", hardness=1e9): set(),
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
-        "stress_planes.normal_displacement_of_traction", "layered.compliance", *FIELDS,
+        "elasticity.stress.planes.normal_displacement_of_traction",
+        "elasticity.layered.compliance",
+        *FIELDS,
     },
     ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
-        "stress_planes.planes", "layered_fields.*", "layer_planes.locate", "stress_maxima.*",
-        "stress_measures.*", *FIELDS,
+        "elasticity.stress.planes.planes",
+        "elasticity.layered_fields.*",
+        "elasticity.depths.locate",
+        "elasticity.stress.maxima.*",
+        "elasticity.stress.measures.*",
+        *FIELDS,
     },
-    ck.FilmMeniscus(film_thickness=1e-9): {"film_islands.*"},
-    ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True): {"film_islands.*"},
+    ck.FilmMeniscus(film_thickness=1e-9): {"capillary.film_islands.*"},
+    ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True): {"capillary.film_islands.*"},
     ck.IslandBridges(film_thickness=1e-9): {
-        "film_islands.*", "island_bridges.*", "bridge_*", "delaunay.*", "roots.bracketed_root",
-        "arc_*", "quadrature.gauss_legendre",
+        "capillary.film_islands.*",
+        "capillary.island_bridges.*",
+        "capillary.exact.*",
+        "capillary.exact.delaunay.*",
+        "numerics.roots.bracketed_root",
+        "capillary.arc.*",
+        "numerics.quadrature.gauss_legendre",
     },
-}  # fmt: skip
+}
 
 # What is not an effect's: the compliance by the edges of the window, the heights, the solver.
 EDGES = {
-    True: {"layered.normal_symbol", "layered_step.*", "layer_stack.stack_of"},
-    False: {"free_kernel.*", "love.*", "point_load.*", "layered.compliance", "layered_step.*",
-            "layer_stack.stack_of"},
-}  # fmt: skip
+    True: {
+        "elasticity.layered.normal_symbol",
+        "elasticity.layer_recursion.*",
+        "elasticity.layer_stack.stack_of",
+    },
+    False: {
+        "elasticity.influence.*",
+        "elasticity.love.*",
+        "elasticity.point_load.*",
+        "elasticity.layered.compliance",
+        "elasticity.layer_recursion.*",
+        "elasticity.layer_stack.stack_of",
+    },
+}
 SHAPES = {
     "heights": set(),
-    "paraboloid": {"height_shapes.paraboloid"},
-    "sphere": {"height_shapes.sphere"},
-    "wave": {"height_shapes.wave"},
-    "gaussian": {"roughness.gaussian_exponential", "random_waves.*"},
-    "self-affine": {"roughness.self_affine", "random_waves.*"},
+    "paraboloid": {"roughness.elementary.paraboloid"},
+    "sphere": {"roughness.elementary.sphere"},
+    "wave": {"roughness.elementary.wave"},
+    "gaussian": {"roughness.roughness.gaussian_exponential", "roughness.random_fields.*"},
+    "self-affine": {"roughness.roughness.self_affine", "roughness.random_fields.*"},
 }
 SOLVER = {
-    "active_set*", "convolve.*", "fft_backends.*", "grid_transfer.*", "kkt.*", "near_stencil.*",
-    "press_problem.*",
-}  # fmt: skip
+    "contact.solver.*",
+    "contact.solver.convolution.*",
+    "numerics.fft.*",
+    "contact.solver.transfer.*",
+    "contact.solver.optimality.*",
+    "contact.solver.stencil.*",
+    "contact.solver.problem.*",
+}
 WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07)
 HARD = ck.Material(young_modulus=3e9, poisson_ratio=0.2, hardness=1e8)
 SOFT = ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=5e7)
@@ -432,15 +619,22 @@ def test_a_surface_calls_its_own_recipe_only(monkeypatch, shape):
 
 
 CONTACT_HEARTS = [
-    ((), True, "layered.normal_symbol"),
-    ((), False, "free_kernel.symbol"),
-    ((ck.HardnessLimit(),), True, "hardness.effective_hardness"),
-    ((ck.HardnessLimit(rule="literal"),), True, "hardness.effective_hardness_literal"),
-    ((ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()), True,
-     "stress_planes.normal_displacement_of_traction"),
-    ((ck.SubsurfaceStress(),), False, "stress_planes.planes"),
-    ((ck.FilmMeniscus(film_thickness=1e-9),), True, "film_islands.meniscus_area"),
-]  # fmt: skip
+    ((), True, "elasticity.layered.normal_symbol"),
+    ((), False, "elasticity.influence.symbol"),
+    ((ck.HardnessLimit(),), True, "contact.effects.hardness_rules.effective_hardness"),
+    (
+        (ck.HardnessLimit(rule="literal"),),
+        True,
+        "contact.effects.hardness_rules.effective_hardness_literal",
+    ),
+    (
+        (ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),
+        True,
+        "elasticity.stress.planes.normal_displacement_of_traction",
+    ),
+    ((ck.SubsurfaceStress(),), False, "elasticity.stress.planes.planes"),
+    ((ck.FilmMeniscus(film_thickness=1e-9),), True, "capillary.film_islands.meniscus_area"),
+]
 
 
 @pytest.mark.parametrize(("effects", "periodic", "heart"), CONTACT_HEARTS, ids=str)
@@ -492,8 +686,10 @@ def test_every_effect_and_every_choice_is_poisoned():
     solids = [effect for effect in SOLIDS if isinstance(effect, ck.AdhesiveContact)]
     assert {effect.model for effect in solids} == {"jkr", "dmt", "maugis-dugdale"}
     assert {effect.profile for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
-        "exact", "arc", "as-published",
-    }  # fmt: skip
+        "exact",
+        "arc",
+        "as-published",
+    }
     assert {type(effect) for case in CASES for effect in case[0]} == set(SEPARATION_EFFECTS)
     assert {type(effect) for effect in CONTACT_OWNED} == set(CONTACT_EFFECTS)
     assert {type(effect) for case in CONTACT_CASES for effect in case[0]} == set(CONTACT_EFFECTS)
@@ -510,11 +706,10 @@ def test_the_table_names_kernels_that_exist():
 
 
 def test_the_scenes_of_the_devices_use_effects_that_are_poisoned_above():
-    folder = importlib.resources.files("contactkit.models")
+    folder = Path(str(importlib.resources.files("contactkit.models")))
     used = set()
-    for path in folder.iterdir():
-        if path.name.endswith(".toml"):
-            text = path.read_text(encoding="utf-8")
-            used |= {kind for kind in ck.EFFECTS if f'"{kind.name}"' in text}
+    for path in folder.glob("*/*.toml"):
+        text = path.read_text(encoding="utf-8")
+        used |= {kind for kind in ck.EFFECTS if f'"{kind.name}"' in text}
     assert used
     assert used <= {type(effect) for effect in (*OWNED, *SOLIDS, *CONTACT_OWNED)}

@@ -11,7 +11,6 @@ import sys
 import pytest
 
 import contactkit as ck
-import contactkit.kernels
 from contactkit.separation import simulate as separation
 from contactkit.separation.sliding.effects import SLIDING_EFFECTS
 
@@ -19,21 +18,29 @@ pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarni
 
 WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07, density=1e3)
 BODIES = {"flats": ck.Flat(), "sphere": ck.Sphere(radius=1e-6)}
-SHEAR, LOCAL = ck.ShearLimit(strength=1e5), {"sliding_sphere.sphere_drag"}
-EVEN = {"sliding.lens_area", "sliding.flat_impulse"}
+SHEAR, LOCAL = ck.ShearLimit(strength=1e5), {"lubrication.couette_sphere.sphere_drag"}
+EVEN = {"lubrication.couette_flat.lens_area", "lubrication.couette_flat.flat_impulse"}
 # What each effect may call, by the body above the flat.
 OWNED = {
     ck.CouetteForce(): {"flats": EVEN, "sphere": LOCAL},
     ck.CouetteForce(closure="lubrication"): {
-        "flats": EVEN, "sphere": LOCAL | {"sliding_lubrication.lubrication_factor"},
+        "flats": EVEN,
+        "sphere": LOCAL | {"lubrication.couette_reynolds.lubrication_factor"},
     },
     ck.CouetteForce(closure="as-published"): {"flats": EVEN, "sphere": EVEN},
     ck.ContactAngleHysteresis(advancing_lower=1.0, receding_lower=0.8): {
-        body: {"sliding.hysteresis_force", "sliding.lens_width", "sliding.lens_area"}
+        body: {
+            "lubrication.couette_flat.hysteresis_force",
+            "lubrication.couette_flat.lens_width",
+            "lubrication.couette_flat.lens_area",
+        }
         for body in BODIES
     },
-    SHEAR: {body: {"sliding.limited_stress", "quadrature.gauss_legendre"} for body in BODIES},
-}  # fmt: skip
+    SHEAR: {
+        body: {"lubrication.couette_flat.limited_stress", "numerics.quadrature.gauss_legendre"}
+        for body in BODIES
+    },
+}
 SETS = [
     *(
         (effect, *more)
@@ -46,9 +53,27 @@ SETS = [
 ]
 # What is no effect's: how far the film reaches, the overlap, the ranges of validity.
 FRAME = {
-    "sliding.lens_area", "sliding_sphere.wetted_radius", "squeeze.disc_radius",
-    "squeeze.sphere_film_height", "validity.reynolds_number", "validity.slenderness",
-}  # fmt: skip
+    "lubrication.couette_flat.lens_area",
+    "lubrication.couette_sphere.wetted_radius",
+    "lubrication.squeeze_film.disc_radius",
+    "lubrication.squeeze_film.sphere_film_height",
+    "lubrication.dimensionless.reynolds_number",
+    "lubrication.dimensionless.slenderness",
+}
+
+
+KERNEL_ROOMS = (
+    "adhesion",
+    "as_published.printed",
+    "capillary",
+    "contact.effects.hardness_rules",
+    "contact.solver",
+    "elasticity",
+    "lubrication",
+    "numerics",
+    "roughness",
+    "separation.integrator",
+)
 
 
 class PoisonError(Exception):
@@ -56,14 +81,19 @@ class PoisonError(Exception):
 
 
 def kernels():
+    """Public functions of the physics and the numerics, by module and name."""
     found = {}
-    for info in pkgutil.iter_modules(contactkit.kernels.__path__):
-        module = importlib.import_module(f"contactkit.kernels.{info.name}")
-        for name in getattr(module, "__all__", ()):
-            value = getattr(module, name)
-            is_own = getattr(value, "__module__", "") == module.__name__
-            if callable(value) and not isinstance(value, type) and is_own:
-                found[f"{info.name}.{name}"] = value
+    for room in KERNEL_ROOMS:
+        package = importlib.import_module(f"contactkit.{room}")
+        paths = getattr(package, "__path__", None)
+        inside = pkgutil.walk_packages(paths, f"contactkit.{room}.") if paths else ()
+        for name in [package.__name__, *(info.name for info in inside)]:
+            module = importlib.import_module(name)
+            for public in getattr(module, "__all__", ()):
+                value = getattr(module, public)
+                is_own = getattr(value, "__module__", "") == name
+                if callable(value) and not isinstance(value, type) and is_own:
+                    found[f"{name.removeprefix('contactkit.')}.{public}"] = value
     return found
 
 
@@ -89,8 +119,9 @@ def run(effects, body, imposed):
     film = ck.Meniscus(liquid=WATER, volume=math.pi * 1e-6 * 3e-16)
     scene = ck.SlidingScene(
         interface=ck.Interface(upper=BODIES[body], meniscus=film),
-        sliding=ck.Sliding(gap=1e-8, **{imposed: 1e-3}), effects=effects,
-    )  # fmt: skip
+        sliding=ck.Sliding(gap=1e-8, **{imposed: 1e-3}),
+        effects=effects,
+    )
     return separation.simulate(ck.plan(scene))
 
 
@@ -102,7 +133,7 @@ def test_a_sliding_runs_with_every_other_kernel_poisoned(monkeypatch, effects, b
         return
     mine = FRAME.union(*(OWNED[effect][body] for effect in effects))
     if body == "sphere" and any(isinstance(e, ck.CouetteForce) for e in effects):
-        mine |= {"sliding_sphere.sphere_impulse"}
+        mine |= {"lubrication.couette_sphere.sphere_impulse"}
     poison(monkeypatch, KERNELS.keys() - mine)
     assert run(effects, body, imposed).status == "parted"
 
@@ -110,13 +141,16 @@ def test_a_sliding_runs_with_every_other_kernel_poisoned(monkeypatch, effects, b
 @pytest.mark.parametrize(
     ("effects", "body", "heart"),
     [
-        ((ck.CouetteForce(),), "flats", "sliding.flat_impulse"),
-        ((ck.CouetteForce(),), "sphere", "sliding_sphere.sphere_drag"),
-        ((ck.CouetteForce(closure="lubrication"),), "sphere",
-         "sliding_lubrication.lubrication_factor"),
-        ((ck.CouetteForce(), SHEAR), "sphere", "sliding.limited_stress"),
+        ((ck.CouetteForce(),), "flats", "lubrication.couette_flat.flat_impulse"),
+        ((ck.CouetteForce(),), "sphere", "lubrication.couette_sphere.sphere_drag"),
+        (
+            (ck.CouetteForce(closure="lubrication"),),
+            "sphere",
+            "lubrication.couette_reynolds.lubrication_factor",
+        ),
+        ((ck.CouetteForce(), SHEAR), "sphere", "lubrication.couette_flat.limited_stress"),
     ],
-)  # fmt: skip
+)
 def test_the_poison_works_on_a_kernel_that_is_needed(monkeypatch, effects, body, heart):
     poison(monkeypatch, [heart])
     with pytest.raises(PoisonError, match=heart):

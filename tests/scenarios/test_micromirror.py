@@ -12,9 +12,9 @@ from attrs import evolve
 import contactkit as ck
 from contactkit.app.micromirror.report import flip_times, report, run_errors
 from contactkit.app.micromirror.run import Micromirror
-from contactkit.app.micromirror.run.release import landing, release, release_curve, smallest_reset
-from contactkit.app.micromirror.run.tip_film import adhesion, tip_law
 from contactkit.app.scenes import open_scene
+from contactkit.models.micromirror.release import landing, release, release_curve, smallest_reset
+from contactkit.models.micromirror.tip_film import adhesion, tip_law
 
 
 @pytest.fixture(scope="module")

@@ -11,15 +11,15 @@ from attrs import evolve
 
 import contactkit as ck
 from contactkit.app.injector.run import valve as law
-from contactkit.app.injector.run.monolithic import simulate
-from contactkit.app.injector.run.valve import Valve
 from contactkit.files.scenes import read_tables, structure
+from contactkit.models.injector.monolithic import simulate
+from contactkit.models.injector.valve import Valve
 from contactkit.separation.motion.advance import advance
 from contactkit.separation.motion.state import FilmStatus, start
 from contactkit.separation.plan import plan
 from contactkit.units import celsius
 
-MODEL = Path(__file__).parents[2] / "models" / "fuel_injector.toml"
+MODEL = Path(__file__).parents[2] / "models" / "injector" / "fuel_injector.toml"
 
 
 def injector(temperature=20.0, without=(), **opening):

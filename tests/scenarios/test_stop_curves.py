@@ -12,11 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.analyses.load_displacement.curve import StopCurve
+from contactkit.analyses.load_displacement.curve import StopBranch, StopCurve
 from contactkit.analyses.load_displacement.impact import impact, in_series
-from contactkit.analyses.load_displacement.zz_stop_ways import StopBranch
-from contactkit.app.micromirror.run.landing import land, tip_faces
 from contactkit.app.scenes import open_scene
+from contactkit.models.micromirror.landing import land, tip_faces
 from contactkit.numerics.monotone_cubic import monotone_curve, monotone_slopes, power_curve
 
 HARDNESS = 7.5e9

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 from contactkit.app.injector.run import valve as law
-from contactkit.app.injector.run.valve import Coil, DriveProfile, Stop
+from contactkit.models.injector.valve import Coil, DriveProfile, Stop
 
 COIL = Coil(
     resistance=1.0, turns=40, pole_area=50e-6, air_gap=105e-6, iron_gap=20e-6, saturation=1.2

@@ -16,8 +16,7 @@ from typing import NamedTuple
 
 from ...errors import DescriptionError, InfeasibleError
 from ...numerics.roots import bracketed_root
-from .curve import StopCurve
-from .zz_stop_ways import StopPoint, area_below
+from .curve import StopCurve, StopPoint, area_below
 
 __all__ = ["StopImpact", "impact", "in_series"]
 
@@ -74,7 +73,7 @@ def in_series(
 
     Examples
     --------
-    >>> from contactkit.stop_tables import StopCurve
+    >>> from contactkit.analyses.load_displacement.curve import StopCurve
     >>> faces = StopCurve(approach=(1e-7, 2e-7), force=(1.0, 3.0), contact_area=(1e-12, 2e-12),
     ...                   plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
     >>> point, approach = in_series(faces, 2e-7, 0.0, 1e7)
@@ -147,7 +146,7 @@ def impact(
     --------
     An elastic stop gives back everything:
 
-    >>> from contactkit.stop_tables import StopCurve
+    >>> from contactkit.analyses.load_displacement.curve import StopCurve
     >>> faces = StopCurve(approach=(1e-7, 2e-7), force=(1.0, 2.0**1.5), contact_area=(1e-12,) * 2,
     ...                   plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
     >>> blow = impact(faces, 1e-3, 0.01)

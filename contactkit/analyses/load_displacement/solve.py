@@ -25,8 +25,7 @@ from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanE
 from ...numerics.monotone_cubic import power_curve
 from ...scene.bodies import Pressing
 from ...scene.contact_scene import ContactScene
-from .curve import StopCurve
-from .zz_stop_ways import HERTZ, Unloading
+from .curve import HERTZ, StopCurve, Unloading
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

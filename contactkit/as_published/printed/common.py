@@ -183,7 +183,7 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
 
     Examples
     --------
-    >>> from contactkit.kernels import arc_sphere
+    >>> from contactkit.capillary.arc import sphere as arc_sphere
     >>> state = arc_sphere.solve(1e-9, 927.31633935e-27, math.pi / 3, math.pi / 3, 0.0, 1e7,
     ...                          profile="parabola")
     >>> round(float(meniscus_sphere_3_12(state, 0.072, math.pi / 3)) * 1e9, 6)

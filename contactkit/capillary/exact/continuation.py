@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from ...errors import ConvergenceError
 from .chart import Pair
 from .free_ends import Free, bent, newton, tangent, weights_of
-from .volume_branch import DETACHMENT, FOLD
-from .zz_drop import drop_left
+from .volume_branch import DETACHMENT, FOLD, drop_left
 
 __all__ = ["FreeBranch", "march_free", "unbend"]
 

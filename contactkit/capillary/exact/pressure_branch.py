@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from ...errors import ConvergenceError, InfeasibleError
 from .chart import Pair
 from .continuation import FreeBranch, march_free
-from .newton import Problem, Solution, problem, solve
+from .newton import Problem, Solution, from_waist, problem, solve
 from .volume_branch import Branch, march
-from .zz_bridge_start import from_waist
 
 __all__ = ["branch_at_pressure", "from_film", "holds"]
 

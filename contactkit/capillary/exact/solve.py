@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from ...errors import ConvergenceError
 from .continuation import FreeBranch
 from .free_ends import descend, newton
-from .newton import Problem, Solution, problem, solve
+from .newton import Problem, Solution, from_arc, problem, solve
 from .pressure_branch import branch_at_pressure, from_film, holds
 from .result import Columns, cylinders, from_chart, from_free
 from .stability import Key, branch, is_cylinder
 from .volume_branch import DETACHMENT, Branch
-from .zz_bridge_start import from_arc
 
 __all__ = ["BeyondLimitError", "columns_at"]
 

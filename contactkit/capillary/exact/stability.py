@@ -29,9 +29,8 @@ from ..arc.bridge import _checked
 from ..arc.shape import refuse_spreading, whole_angle
 from .chart import Pair, solids
 from .continuation import FreeBranch, march_free, unbend
-from .newton import Solution, problem, solve
+from .newton import Solution, from_arc, problem, solve
 from .volume_branch import DETACHMENT, PITCHFORK, Branch, flat_branch, march
-from .zz_bridge_start import from_arc
 
 __all__ = [
     "LIMITS", "Key", "Limit", "branch", "contact", "is_cylinder", "no_bridge", "stability_limit",

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from attrs import frozen
 
-from ...separation.effects.base import Effect
+from ...scene.effect import Effect
 
 if TYPE_CHECKING:
     import numpy as np

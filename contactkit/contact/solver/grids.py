@@ -45,7 +45,7 @@ def compiled_loops(fast: bool | None, threads: int) -> Any:
 
     Examples
     --------
-    >>> compiled_loops(False, 1).__name__.endswith("active_set_loops")
+    >>> compiled_loops(False, 1).__name__.endswith("loops_numpy")
     True
     """
     if fast or (fast is None and importlib.util.find_spec("numba") is not None):

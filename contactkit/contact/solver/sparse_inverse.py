@@ -134,7 +134,7 @@ class NearInverse:
 
     Examples
     --------
-    >>> from contactkit.kernels import active_set_loops
+    >>> from contactkit.contact.solver import loops_numpy as active_set_loops
     >>> response = np.array([[2.0, 0.5], [0.5, 0.25]])
     >>> inverse = NearInverse(response, (2, 2), (1.0, 1.0), False, False, active_set_loops)
     >>> inverse.prepare(np.array([0, 3]))

@@ -39,7 +39,7 @@ class TwoLevel:
 
     Examples
     --------
-    >>> from contactkit.kernels import active_set_loops
+    >>> from contactkit.contact.solver import loops_numpy as active_set_loops
     >>> inverse = TwoLevel((4, 4), False, Stencil(2.0, -0.5, -0.5, 0.0), None, active_set_loops)
     >>> inverse.prepare(np.array([5, 6]), load_fixed=True)
     >>> inverse(np.array([1.0, 0.0], np.float32))

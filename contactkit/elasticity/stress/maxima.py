@@ -110,9 +110,9 @@ def maxima(
 
     Examples
     --------
-    >>> from .layer_planes import default_depths
-    >>> from .stress_measures import sqrt_j2
-    >>> from .stress_planes import planes
+    >>> from ..depths import default_depths
+    >>> from .measures import sqrt_j2
+    >>> from .planes import planes
     >>> wave = np.cos(2 * np.pi * np.arange(32) / 32)[None, :]
     >>> depths = list(np.linspace(0.05, 0.3, 41))
     >>> pixel = (1.0, 1 / 32)

@@ -133,7 +133,7 @@ def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> tuple
 
     Examples
     --------
-    >>> from .layered_fields import plane_states
+    >>> from ..layered_fields import plane_states
     >>> states = next(plane_states([1.0], [1.0], [0.3], [], [0.0]))
     >>> print(table_of(states, np.ones(1), displacement=True)[0][4:, 1].round(2))
     [0.52 1.82]
@@ -177,7 +177,7 @@ def component(
     --------
     On the surface sigma_zz is the pressure, with the other sign:
 
-    >>> from .layered_fields import plane_states
+    >>> from ..layered_fields import plane_states
     >>> modes = grid_of_modes((1, 4), (1.0, 1.0))
     >>> states = next(plane_states(modes.length, [1.0], [0.3], [], [0.0]))
     >>> tables = table_of(states, modes.length, displacement=False)

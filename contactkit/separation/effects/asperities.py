@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...capillary.asperities import AsperitySum
     from ...scene.scenes import SeparationScene
 
-__all__ = ["AsperityMenisci"]
+__all__ = ["AsperityMenisci", "exact_law"]
 
 
 @frozen(kw_only=True)
@@ -132,7 +132,6 @@ class AsperityMenisci(SeparationForce):
         if self.profile == "thin-film":
             end = self.height(scene) if self.law == "identical" else math.inf
             return ForceLaw(lambda gap, speed: self.sums(scene, gap).force, end=end)
-        from .zz_asperity_law import exact_law
 
         return exact_law(self, scene, accuracy, _wetting(scene))
 
@@ -156,3 +155,28 @@ def _wetting(scene: SeparationScene) -> float:
 
     meniscus = scene.interface.meniscus
     return float(wetting(meniscus.contact_angle_lower, meniscus.contact_angle_upper))
+
+
+def exact_law(
+    effect: AsperityMenisci, scene: SeparationScene, accuracy: Accuracy, wetting: float
+) -> ForceLaw:
+    """Force of all menisci as a law of the gap."""
+    import numpy as np
+
+    from ...capillary.asperity_bridges import force_curve, gaussian_average
+
+    meniscus, population = scene.interface.meniscus, effect.asperities
+    tension = meniscus.liquid.at(scene.temperature).surface_tension
+    assert tension is not None  # plan() has asked lacks() first
+    pressure = -wetting / effect.height(scene)
+    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+    rtol = max(0.1 * accuracy.time_rtol, 1e-11)
+    one, reach = force_curve(pressure, angles, 1.0 / population.radius, rtol)
+    number = population.density * math.pi * scene.interface.rim_radius**2
+    if effect.law == "identical":
+        last = reach * (1.0 - 1e-12)  # a trial step may look beyond the end
+        return ForceLaw(
+            lambda gap, speed: number * tension * float(one(np.asarray(min(gap, last)))), end=reach
+        )
+    spread = population.rms_height
+    return ForceLaw(lambda gap, speed: number * tension * gaussian_average(one, reach, gap, spread))

@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from attrs import frozen
 
+from ...scene.effect import Effect
+
 if TYPE_CHECKING:
     from ...accuracy import Accuracy
     from ...scene.scenes import SeparationScene
 
 __all__ = [
-    "Effect",
     "FilmEnd",
     "FilmLimit",
     "ForceLaw",
@@ -54,19 +55,6 @@ class ForceLaw(NamedTuple):
     the gap squared [N]; None where they are not known."""
     is_power: bool = False
     """Whether it is proportional to speed and, between kinks, to gap^-exponent, exactly."""
-
-
-@frozen(kw_only=True)
-class Effect(abc.ABC):
-    """A piece of physics a scene may call for. Subclasses are final and hold choices only."""
-
-    name: ClassVar[str]
-    summary: ClassVar[str]
-
-    @property
-    @abc.abstractmethod
-    def sources(self) -> tuple[str, ...]:
-        """Where the equations of this choice come from."""
 
 
 @frozen(kw_only=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from ...scene.effect import Effect
 from .adhesion import AdhesiveContact, VanDerWaalsForce
 from .asperities import AsperityMenisci
-from .base import Effect, SeparationEffect
+from .base import SeparationEffect
 from .meniscus import MeniscusForce
 from .rupture import Rupture
 from .viscous import ShearLimit, TensionLimit, ViscousForce

@@ -2,25 +2,63 @@
 
 from __future__ import annotations
 
+import abc
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
 from ...as_published.printed.errata import ERRATA
 from ...errors import DescriptionError
+from ...scene.scenes import SlidingScene
 from ...units import si
 from ...validators import angle, choice, optional, positive, refuse
 from ..effects.base import SeparationEffect
 from ..effects.film_shape import FilmShape, film_shape
 from ..effects.viscous import ShearLimit
-from .zz_sliding_base import SlideLaw, SlidingForce
 
 if TYPE_CHECKING:
     from ...accuracy import Accuracy
     from ...scene.scenes import SeparationScene, SlidingScene
 
-__all__ = ["SLIDING_EFFECTS", "ContactAngleHysteresis", "CouetteForce"]
+__all__ = ["ContactAngleHysteresis", "CouetteForce", "SLIDING_EFFECTS", "SlideLaw", "SlidingForce"]
+
+
+class SlideLaw(NamedTuple):
+    """A tangential force made ready, of all menisci together; arrays of travel [m] go in.
+
+    `force` is called with (travel [m], speed [m/s]) and gives [N]. Called with (travel [m]),
+    `impulse` gives the time integral [N.s] of a force that is proportional to speed, and `work`
+    the work [J] of one that does not depend on it: no path in time changes either.
+    """
+
+    force: Callable[[Any, float], Any]
+    impulse: Callable[[Any], Any] | None = None
+    work: Callable[[Any], Any] | None = None
+
+
+@frozen(kw_only=True)
+class SlidingForce(SeparationEffect):
+    """A force along the bodies of a `SlidingScene`; any number may act."""
+
+    def lacks(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+        """See `SeparationEffect.lacks`."""
+        if isinstance(scene, SlidingScene):
+            return self.lacks_in(scene)
+        return ("a SlidingScene: it acts along the bodies, not across the gap",)
+
+    def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
+        """Name what this effect needs and a sliding scene does not give, with units."""
+        return ()
+
+    def cites(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+        """See `SeparationEffect.cites`."""
+        return self.sources
+
+    @abc.abstractmethod
+    def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
+        """Do the work that depends on neither travel nor speed."""
 
 
 @frozen(kw_only=True)

@@ -10,15 +10,14 @@ from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
 from ...errors import DescriptionError, InfeasibleError, PlanError
+from ...scene.effect import check_listed, choices
 from ...scene.interface import Interface
 from ...scene.scenes import SlidingScene
 from ...scene.shapes import Flat, Sphere, Surface
 from ..effects.base import SeparationEffect
 from ..effects.film_shape import FilmShape, film_shape
 from ..effects.viscous import ShearLimit
-from ..plan import check_listed, choices
-from .effects import SLIDING_EFFECTS, CouetteForce
-from .zz_sliding_base import SlideLaw, SlidingForce
+from .effects import SLIDING_EFFECTS, CouetteForce, SlideLaw, SlidingForce
 
 __all__ = ["SlidingPlan", "divide_sliding", "plan_sliding"]
 

@@ -14,10 +14,9 @@ from ...numerics.quadrature import gauss_legendre
 from ...units import nm
 from ..results import Work
 from ..validity import ValidityNumber
-from .effects import ContactAngleHysteresis, CouetteForce
+from .effects import ContactAngleHysteresis, CouetteForce, SlideLaw
 from .plan import SlidingPlan
 from .result import SlidingResult
-from .zz_sliding_base import SlideLaw
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

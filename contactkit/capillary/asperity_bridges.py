@@ -1,54 +1,25 @@
-"""Exact bridges of one pressure at asperities: solved once along the gap, then read off a curve."""
+"""Exact bridges of one pressure at the asperities of a rough surface: one, and their average."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from ...capillary.asperities import normal_tail
-from ...capillary.condensed import reach_at_pressure
-from ...capillary.exact.bridge import bridge_at_pressure
-from ...errors import ConvergenceError
-from .base import ForceLaw
+from ..errors import ConvergenceError
+from .asperities import normal_tail
+from .condensed import reach_at_pressure
+from .exact.at_pressure import bridge_at_pressure
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+__all__ = ["force_curve", "gaussian_average"]
 
-    from ...accuracy import Accuracy
-    from ...scene.scenes import SeparationScene
-    from .asperities import AsperityMenisci
-
-    Floats = NDArray[np.float64]
-
-__all__ = ["exact_law", "force_curve", "gaussian_average"]
+Floats = NDArray[np.float64]
 
 _MOST_NODES = 2049
 _SPAN = 80.0  # of the square of a normal variable: exp(-40) is left out
-
-
-def exact_law(
-    effect: AsperityMenisci, scene: SeparationScene, accuracy: Accuracy, wetting: float
-) -> ForceLaw:
-    """Force of all menisci as a law of the gap."""
-    meniscus, population = scene.interface.meniscus, effect.asperities
-    tension = meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # plan() has asked lacks() first
-    pressure = -wetting / effect.height(scene)
-    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-    rtol = max(0.1 * accuracy.time_rtol, 1e-11)
-    one, reach = force_curve(pressure, angles, 1.0 / population.radius, rtol)
-    number = population.density * math.pi * scene.interface.rim_radius**2
-    if effect.law == "identical":
-        last = reach * (1.0 - 1e-12)  # a trial step may look beyond the end
-        return ForceLaw(
-            lambda gap, speed: number * tension * float(one(np.asarray(min(gap, last)))), end=reach
-        )
-    spread = population.rms_height
-    return ForceLaw(lambda gap, speed: number * tension * gaussian_average(one, reach, gap, spread))
 
 
 def force_curve(
