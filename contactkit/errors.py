@@ -53,8 +53,13 @@ class DescriptionError(ContactkitError, ValueError):
     def __reduce__(self) -> tuple[Any, ...]:
         """Let processes send it: its message is made anew from its parts."""
         return _description_error, (
-            self.field, self.value, self.expected, self.unit, self.hint, self.args,
-        )  # fmt: skip
+            self.field,
+            self.value,
+            self.expected,
+            self.unit,
+            self.hint,
+            self.args,
+        )
 
 
 def _description_error(

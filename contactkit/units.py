@@ -17,9 +17,26 @@ from typing import NamedTuple
 from .errors import DescriptionError
 
 __all__ = [
-    "GPa", "MPa", "Unit", "bar", "celsius", "cSt", "deg", "kPa", "mN", "mPa", "mm", "ms",
-    "nm", "parse_quantity", "parse_unit", "pm", "si", "um", "us",
-]  # fmt: skip
+    "GPa",
+    "MPa",
+    "Unit",
+    "bar",
+    "celsius",
+    "cSt",
+    "deg",
+    "kPa",
+    "mN",
+    "mPa",
+    "mm",
+    "ms",
+    "nm",
+    "parse_quantity",
+    "parse_unit",
+    "pm",
+    "si",
+    "um",
+    "us",
+]
 
 pm, nm, um, mm = 1e-12, 1e-9, 1e-6, 1e-3
 us, ms = 1e-6, 1e-3
@@ -31,9 +48,17 @@ deg = math.pi / 180.0
 _ZERO_CELSIUS = 273.15
 
 _PREFIXES = {
-    "": 1.0, "p": 1e-12, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2,
-    "k": 1e3, "M": 1e6, "G": 1e9,
-}  # fmt: skip
+    "": 1.0,
+    "p": 1e-12,
+    "n": 1e-9,
+    "u": 1e-6,
+    "µ": 1e-6,
+    "m": 1e-3,
+    "c": 1e-2,
+    "k": 1e3,
+    "M": 1e6,
+    "G": 1e9,
+}
 
 # symbol: factor to SI, exponents of the SI base units (the names FMI uses), takes prefixes
 _SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
@@ -123,9 +148,11 @@ def parse_unit(text: str) -> Unit:
         found = _symbol(match[1]) if match else None
         if match is None or found is None:
             raise DescriptionError(
-                "unit", text, f"be made of known symbols ({part!r} is not one)",
+                "unit",
+                text,
+                f"be made of known symbols ({part!r} is not one)",
                 hint="for example 'um', 'mN/m', 'mPa.s', 'mm2/s', 'kg/m3', 'deg', 'degC'",
-            )  # fmt: skip
+            )
         power = int(match[2] or 1) * (-1 if sign == "/" else 1)
         factor *= found[0] ** power
         for base, exponent in found[1].items():

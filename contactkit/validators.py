@@ -11,9 +11,19 @@ from attrs import Attribute
 from .errors import DescriptionError
 
 __all__ = [
-    "angle", "as_pair", "as_tuple", "choice", "count", "finite", "fraction", "non_negative",
-    "optional", "part", "positive", "refuse",
-]  # fmt: skip
+    "angle",
+    "as_pair",
+    "as_tuple",
+    "choice",
+    "count",
+    "finite",
+    "fraction",
+    "non_negative",
+    "optional",
+    "part",
+    "positive",
+    "refuse",
+]
 
 if TYPE_CHECKING:
     Validator = Callable[[Any, Attribute[Any], Any], None]

@@ -64,8 +64,14 @@ def solver_table() -> str:
                 edges = "periodic" if periodic else "free"
                 cells = f"{100 * run.contact_fraction:.1f}", f"{run.work.n_operator_applications}"
                 rows.append((edges, f"{n}", *cells, f"{run.residual:.0e}", f"{seconds:.2f}"))
-    head = ("edges", "pixels a side", "contact area [%]", "operator applications", "residual",
-            "seconds")  # fmt: skip
+    head = (
+        "edges",
+        "pixels a side",
+        "contact area [%]",
+        "operator applications",
+        "residual",
+        "seconds",
+    )
     return grid(head, rows)
 
 
@@ -85,18 +91,25 @@ def fast_table() -> str:
             )
             cells += [f"{found.n_applications}", f"{seconds:.2f}"]
         rows.append((f"{n}", *cells))
-    head = ("pixels a side", "applications, fast", "seconds, fast", "applications, without",
-            "seconds, without")  # fmt: skip
+    head = (
+        "pixels a side",
+        "applications, fast",
+        "seconds, fast",
+        "applications, without",
+        "seconds, without",
+    )
     return grid(head, rows)
 
 
 def ratio_table() -> str:
     """What layers and a hardness cost, on 512 x 512 pixels and 5 % contact."""
     coated = ck.Stack(
-        layers=tuple(ck.Layer(material=ck.load_material(m), thickness=h)
-                     for m, h in (("dlc", 5e-9), ("co-cr", 25e-9), ("ni-p", 1e-6))),
+        layers=tuple(
+            ck.Layer(material=ck.load_material(m), thickness=h)
+            for m, h in (("dlc", 5e-9), ("co-cr", 25e-9), ("ni-p", 1e-6))
+        ),
         substrate=ck.load_material("al-mg"),
-    )  # fmt: skip
+    )
     hard = ck.HardnessLimit(rule="constant", hardness=3e9)
     plain, base = timed(*rough_scene(512, 0.05))
     rows = [("half-space", f"{plain.work.n_operator_applications}", f"{base:.2f}", "1")]

@@ -43,9 +43,11 @@ def law_table() -> str:
     def oil(low: float, high: float) -> Callable[[float], float]:
         kind = LAWS[0]
         made: Any = kind(
-            temperature_1=celsius(40.0), kinematic_viscosity_1=low * cSt,
-            temperature_2=celsius(100.0), kinematic_viscosity_2=high * cSt,
-        )  # fmt: skip
+            temperature_1=celsius(40.0),
+            kinematic_viscosity_1=low * cSt,
+            temperature_2=celsius(100.0),
+            kinematic_viscosity_2=high * cSt,
+        )
         return lambda degrees: float(made(celsius(degrees))) / cSt
 
     water = ck.load_liquid("water")

@@ -135,7 +135,7 @@ def step_cost(fmu: Path) -> str:
         "film and tension limit act, step 0.5 us, pull 40 N": ({"dp_cav": 1e6}, 40.0, 5e-7, 1000),
         "broken, the mass flies freely": ({"h_break": 5.01e-6, "dp_cav": 1e4}, 40.0, 5e-6, 1000),
         "closed, rests on asperities": ({"h_min": 5e-6}, -1.0, 5e-6, 1000),
-    }  # fmt: skip
+    }
     for label, (more, force, length, n) in cases.items():
         with Instance(fmu) as one:
             one.start(base | more, 1.0)
@@ -190,9 +190,11 @@ def _solved(scene: ck.SeparationScene, gaps: Any) -> Any:
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None
     shape = (
-        meniscus.contact_angle_lower, meniscus.contact_angle_upper,
-        interface.lower.curvature, interface.upper.curvature,
-    )  # fmt: skip
+        meniscus.contact_angle_lower,
+        meniscus.contact_angle_upper,
+        interface.lower.curvature,
+        interface.upper.curvature,
+    )
     if meniscus.pressure is not None:
         return tension * bridge_at_pressure(gaps, meniscus.pressure / tension, *shape).force
     return tension * bridge(gaps, meniscus.volume, *shape).force

@@ -29,11 +29,22 @@ SPHERES = ((1e-8, 40), (1e-4, 0), (1e-4, 60), (1e-2, 60), (1e-1, 0), (1e-1, 60))
 WATER = {"surface_tension": 0.072, "angle_lower": 60 * DEG, "angle_upper": 60 * DEG}
 # The films of section 3.2.3, one value for each argument.
 FILM = {
-    **WATER, "radius": 100 * NM, "gap": 2 * NM, "angle": 60 * DEG, "number": 100,
-    "sphere_radius": 100 * NM, "immersion": 1 * NM, "filling_angle": 8 * DEG,
-    "volume": 927.316e-27, "film_height": 2 * NM, "gap_start": 2 * NM, "gap_end": 180 * NM,
-    "separation_time": 1e-7, "viscosity": 0.89e-3, "force": 1e-9,
-}  # fmt: skip
+    **WATER,
+    "radius": 100 * NM,
+    "gap": 2 * NM,
+    "angle": 60 * DEG,
+    "number": 100,
+    "sphere_radius": 100 * NM,
+    "immersion": 1 * NM,
+    "filling_angle": 8 * DEG,
+    "volume": 927.316e-27,
+    "film_height": 2 * NM,
+    "gap_start": 2 * NM,
+    "gap_end": 180 * NM,
+    "separation_time": 1e-7,
+    "viscosity": 0.89e-3,
+    "force": 1e-9,
+}
 ON_SPHERE = {"gap": 1 * NM, "gap_start": 1 * NM, "gap_end": 39 * NM}
 
 
@@ -72,9 +83,12 @@ def breaks_table() -> str:
         circle = math.sqrt(2.0 * 100 * NM * (s0 - 1) * NM)
         volume = arc_sphere.volume(1 * NM, circle, *shape, profile="parabola")
         found = ck.published(
-            "zero neck", volume=volume, angle_lower=shape[0], angle_upper=shape[1],
+            "zero neck",
+            volume=volume,
+            angle_lower=shape[0],
+            angle_upper=shape[1],
             curvature_upper=shape[3],
-        )  # fmt: skip
+        )
         assert found.corrected is not None
 
         def neck(gap: float, volume: float = volume) -> float:
@@ -82,12 +96,27 @@ def breaks_table() -> str:
 
         thin = brentq(lambda gap, f=neck: f(gap) - 0.55 * NM, NM, found.value * (1.0 - 1e-9))
         rows.append(
-            (f"{s0}", f"{volume / NM**3:.2f}", f"{far}", f"{found.value / NM:.3f}",
-             f"{thin / NM:.2f}", f"{neck(far * NM) / NM:.3f}", f"{found.corrected / NM:.3f}",
-             f"{far * NM / found.corrected:.1f}")
-        )  # fmt: skip
-    head = ("s0 [nm]", "volume [nm3]", "printed [nm]", "arc, neck 0 [nm]", "arc, neck 0.55 nm [nm]",
-            "neck at the printed [nm]", "exact limit [nm]", "printed over exact")  # fmt: skip
+            (
+                f"{s0}",
+                f"{volume / NM**3:.2f}",
+                f"{far}",
+                f"{found.value / NM:.3f}",
+                f"{thin / NM:.2f}",
+                f"{neck(far * NM) / NM:.3f}",
+                f"{found.corrected / NM:.3f}",
+                f"{far * NM / found.corrected:.1f}",
+            )
+        )
+    head = (
+        "s0 [nm]",
+        "volume [nm3]",
+        "printed [nm]",
+        "arc, neck 0 [nm]",
+        "arc, neck 0.55 nm [nm]",
+        "neck at the printed [nm]",
+        "exact limit [nm]",
+        "printed over exact",
+    )
     return grid(head, rows)
 
 
@@ -120,9 +149,14 @@ def cost_table() -> str:
     for one in csv.DictReader(io.StringIO(text)):
         seconds = float(one["seconds for each gap or bridge [s]"])
         rows.append(
-            (one["quantity"], one["closure"], one["bridge"], f"{float(one['error [-]']):.1e}",
-             f"{1e6 * seconds:.3g}")
-        )  # fmt: skip
+            (
+                one["quantity"],
+                one["closure"],
+                one["bridge"],
+                f"{float(one['error [-]']):.1e}",
+                f"{1e6 * seconds:.3g}",
+            )
+        )
     return grid(("quantity", "closure", "bridge", "relative error", "microseconds for each"), rows)
 
 

@@ -90,8 +90,16 @@ def sphere_table() -> str:
             largest = run.of(ck.SubsurfaceStress).maxima["sqrt_j2"].value / P_HERTZ
             cells.append(f"{wanted['sqrt_j2']:.4f} ({largest / wanted['sqrt_j2'] - 1.0:+.0e})")
         rows.append((case["name"], f"{case['peak_pressure']:.4f}", *cells[:3], *cells[3:]))
-    head = ("layers", "p(0)/p_H", "error of p(0)", "of the approach", "of the radius",
-            "sqrt(J2)/p_H, mu = 0", "mu = 0.25", "mu = 0.5")  # fmt: skip
+    head = (
+        "layers",
+        "p(0)/p_H",
+        "error of p(0)",
+        "of the approach",
+        "of the radius",
+        "sqrt(J2)/p_H, mu = 0",
+        "mu = 0.25",
+        "mu = 0.5",
+    )
     return grid(head, rows)
 
 
@@ -107,10 +115,16 @@ def wave_table() -> str:
         for n in (128, 256, 512):
             found = [_wave_errors(solid, row, n) for row in case["rows"]]
             worst = [max(one[i] for one in found) for i in range(3)]
-            rows.append((case["name"], f"{n}", f"{worst[0]:.0e}", f"{worst[1]:.0e}",
-                         f"{worst[2]:.2f}"))  # fmt: skip
-    head = ("solid", "pixels to the wave", "largest pressure", "mean gap over amplitude",
-            "half-width [pixels]")  # fmt: skip
+            rows.append(
+                (case["name"], f"{n}", f"{worst[0]:.0e}", f"{worst[1]:.0e}", f"{worst[2]:.2f}")
+            )
+    head = (
+        "solid",
+        "pixels to the wave",
+        "largest pressure",
+        "mean gap over amplitude",
+        "half-width [pixels]",
+    )
     return grid(head, rows)
 
 

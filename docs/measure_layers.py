@@ -50,13 +50,11 @@ def stack(layers: tuple[tuple[float, float], ...]) -> ck.Stack:
 def solved(solid: ck.Stack, rough: object, pressure: float) -> Cost:
     """One solve, its setup left out."""
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
-            lower=ck.Body(solid=solid), upper=ck.Body(surface=rough)
-        ),
+        interface=ck.ContactInterface(lower=ck.Body(solid=solid), upper=ck.Body(surface=rough)),
         window=ck.Window(width=WIDTH),
         pressing=ck.Pressing(pressure=pressure),
         effects=(ck.LayeredHalfSpace(),),
-    )  # fmt: skip
+    )
     made = ck.plan(scene, ck.Accuracy(grid=N))
     engine = Engine(made)
     ck.solve(made, engine=engine)

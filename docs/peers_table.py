@@ -40,17 +40,28 @@ def main() -> int:
         plain, fast = by["plain"], by["fast"]
         rows.append(
             [
-                f"{surface}, {edges}", str(n), str(area), str(threads), str(fast["iterations"]),
-                f"{plain['seconds']:.3f}", f"{fast['seconds']:.3f}",
+                f"{surface}, {edges}",
+                str(n),
+                str(area),
+                str(threads),
+                str(fast["iterations"]),
+                f"{plain['seconds']:.3f}",
+                f"{fast['seconds']:.3f}",
                 times(by.get("aspher"), plain["seconds"]),
                 *(times(by.get(peer), fast["seconds"]) for peer in PEERS),
             ]
-        )  # fmt: skip
+        )
     heads = [
-        "surface, edges", "pixels a side", "contact [%]", "threads", "convolutions",
-        "seconds, plain", "seconds, fast", "aspher / plain",
+        "surface, edges",
+        "pixels a side",
+        "contact [%]",
+        "threads",
+        "convolutions",
+        "seconds, plain",
+        "seconds, fast",
+        "aspher / plain",
         *(f"{'SlipPY' if peer == 'slippy' else peer} / fast" for peer in PEERS),
-    ]  # fmt: skip
+    ]
     text = grid(heads, rows) + f"\n\n{found['conditions']}. CPU seconds of the solve alone."
     missing = write_blocks({"peers": text})
     sys.stdout.write(f"{len(rows)} cases; no page has: {', '.join(missing) or 'none missing'}\n")

@@ -101,10 +101,14 @@ def load_curve(text: str) -> str:
 def cost_table(text: str) -> str:
     """Cost of the head-disk interface from the CSV file that the run wrote."""
     rows = [
-        (row["method"], row["setting"], _number(row["error [-]"], ".1e"),
-         _number(row["seconds [s]"], ".3g"))
+        (
+            row["method"],
+            row["setting"],
+            _number(row["error [-]"], ".1e"),
+            _number(row["seconds [s]"], ".3g"),
+        )
         for row in csv.DictReader(io.StringIO(text))
-    ]  # fmt: skip
+    ]
     return grid(("method", "setting", "relative error", "seconds"), rows)
 
 

@@ -55,11 +55,22 @@ def division_table() -> str:
             ck.critical_meniscus(scene, law=law).area * 1e12 for law in ("as-published", "exact")
         ]
         rows.append(
-            (f"{height}", f"{printed.best_count}", f"{exact.best_count}",
-             f"{exact.largest_stable_count}", *(f"{area:.4f}" for area in areas))
-        )  # fmt: skip
-    head = ("h0 [nm]", "best N, as printed", "best N, exact", "largest stable N, exact",
-            "critical area, as printed [um2]", "critical area, exact [um2]")  # fmt: skip
+            (
+                f"{height}",
+                f"{printed.best_count}",
+                f"{exact.best_count}",
+                f"{exact.largest_stable_count}",
+                *(f"{area:.4f}" for area in areas),
+            )
+        )
+    head = (
+        "h0 [nm]",
+        "best N, as printed",
+        "best N, exact",
+        "largest stable N, exact",
+        "critical area, as printed [um2]",
+        "critical area, exact [um2]",
+    )
     return grid(head, rows)
 
 
@@ -81,12 +92,27 @@ def nano_table() -> str:
         almost = brentq(lambda at: neck(at) - 0.55e-9, gap, end * (1.0 - 1e-9))
         impulse = squeeze.sphere_impulse_conserved(radius, s0 * 1e-9, gap, far * 1e-9, viscosity)
         rows.append(
-            (f"{s0}", f"{volume * 1e27:.2f}", f"{far}", f"{end * 1e9:.3f}", f"{almost * 1e9:.2f}",
-             f"{neck(far * 1e-9) * 1e9:.3f}", f"{force:.4f}", f"{impulse / duration * 1e9:.5f}")
-        )  # fmt: skip
-    head = ("s0 [nm]", "volume [nm3]", "printed break, unit put right [nm]", "neck 0 at [nm]",
-            "neck 0.55 nm at [nm]", "neck at the printed break [nm]",
-            "printed mean viscous force [nN]", "recomputed [nN]")  # fmt: skip
+            (
+                f"{s0}",
+                f"{volume * 1e27:.2f}",
+                f"{far}",
+                f"{end * 1e9:.3f}",
+                f"{almost * 1e9:.2f}",
+                f"{neck(far * 1e-9) * 1e9:.3f}",
+                f"{force:.4f}",
+                f"{impulse / duration * 1e9:.5f}",
+            )
+        )
+    head = (
+        "s0 [nm]",
+        "volume [nm3]",
+        "printed break, unit put right [nm]",
+        "neck 0 at [nm]",
+        "neck 0.55 nm at [nm]",
+        "neck at the printed break [nm]",
+        "printed mean viscous force [nN]",
+        "recomputed [nN]",
+    )
     return grid(head, rows)
 
 
@@ -156,8 +182,14 @@ def limit_table() -> str:
         end = float(arc_sphere.zero_neck_gap(case["V"], *_shape(case)))
         limit = case["D_limit"]
         rows.append(
-            (_bodies(case), angles, f"{case['V']:g}", f"{limit:.4f}", f"{end:.4f}",
-             f"{end / limit:.1f}")
-        )  # fmt: skip
+            (
+                _bodies(case),
+                angles,
+                f"{case['V']:g}",
+                f"{limit:.4f}",
+                f"{end:.4f}",
+                f"{end / limit:.1f}",
+            )
+        )
     head = ("bodies", "angles [deg]", "volume", "exact limit", "neck of the arc closes", "ratio")
     return grid(head, rows)

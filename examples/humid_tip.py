@@ -50,13 +50,15 @@ def main(out: Path) -> float:
             found = curve(radius, gap, HUMIDITIES)
             label = f"sphere of {radius / nm:g} nm" + (", touching" if not gap else ", 0.3 nm away")
             share = found.force / classical(radius)
-            ax.plot(100.0 * found.relative_humidity, share, style, color=plot.COLORS[name],
-                    label=label)  # fmt: skip
+            ax.plot(
+                100.0 * found.relative_humidity, share, style, color=plot.COLORS[name], label=label
+            )
     ax.plot(
         [100.0 * h for h in HUMIDITIES],
         [max(1.0 - 0.3 * nm / height, 0.0) for height in found.meniscus_height],
-        "k:", label="thin film, Eq. (3.7), 0.3 nm away",
-    )  # fmt: skip
+        "k:",
+        label="thin film, Eq. (3.7), 0.3 nm away",
+    )
     ax.set(xlabel="relative humidity [%]", ylabel="force over 4 pi R gamma", ylim=(0.0, 1.05))
     plot.title(ax, "Water that condenses under a sphere at 20 degC")
     plot.legend(ax, loc="lower right")

@@ -57,9 +57,12 @@ def main(out: Path) -> float:
                 (published, "--", "Eq. (3.12) as printed"),
             ):
                 ax.plot(
-                    one.gap * 1e9, one.meniscus_force * 1e9, style, color=color,
+                    one.gap * 1e9,
+                    one.meniscus_force * 1e9,
+                    style,
+                    color=color,
                     label=f"film of {height} nm, {label}",
-                )  # fmt: skip
+                )
     ax.set(xlabel="gap [nm]", ylabel="meniscus force [nN]", xscale="log")
     plot.plain_log(ax.xaxis)
     plot.title(ax, "Water between a sphere of 100 nm and a flat, 60/60 deg")

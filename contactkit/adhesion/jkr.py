@@ -20,9 +20,16 @@ from __future__ import annotations
 import math
 
 __all__ = [
-    "LAST_FORCE", "LAST_GAP", "LAST_RADIUS", "PULL_OFF_FORCE", "PULL_OFF_RADIUS", "approach",
-    "load", "radius_at_gap", "radius_at_load",
-]  # fmt: skip
+    "LAST_FORCE",
+    "LAST_GAP",
+    "LAST_RADIUS",
+    "PULL_OFF_FORCE",
+    "PULL_OFF_RADIUS",
+    "approach",
+    "load",
+    "radius_at_gap",
+    "radius_at_load",
+]
 
 PULL_OFF_FORCE = 1.5  # largest pull: where a dead weight tears the contact off
 PULL_OFF_RADIUS = 1.5 ** (1.0 / 3.0)

@@ -35,8 +35,14 @@ from typing import NamedTuple
 from ..numerics.roots import bracketed_root
 
 __all__ = [
-    "PARTS_BEFORE_RELEASE", "Cohesion", "Limits", "at_gap", "at_load", "at_radius", "limits",
-]  # fmt: skip
+    "PARTS_BEFORE_RELEASE",
+    "Cohesion",
+    "Limits",
+    "at_gap",
+    "at_load",
+    "at_radius",
+    "limits",
+]
 
 PARTS_BEFORE_RELEASE = (9.0 * math.pi / (16.0 * (math.pi - 1.0))) ** (1.0 / 3.0)
 """Transition parameter, 0.938, below which contact is lost before the attraction is."""

@@ -29,9 +29,13 @@ import math
 from typing import Any, NamedTuple
 
 __all__ = [
-    "TRANSITION_OVER_TABOR", "AdhesionScales", "cohesive_stress", "scales", "tabor_parameter",
+    "TRANSITION_OVER_TABOR",
+    "AdhesionScales",
+    "cohesive_stress",
+    "scales",
+    "tabor_parameter",
     "transition_parameter",
-]  # fmt: skip
+]
 
 TRANSITION_OVER_TABOR = 32.0 / (9.0 * math.sqrt(3.0)) * (9.0 / (16.0 * math.pi)) ** (1.0 / 3.0)
 """Maugis' parameter over Tabor's, 1.157, for the stress of `cohesive_stress`."""

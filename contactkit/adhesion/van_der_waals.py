@@ -29,9 +29,14 @@ import math
 from typing import Any
 
 __all__ = [
-    "energy_between_flats", "energy_between_spheres", "hamaker_of_work", "hamaker_sphere_force",
-    "pressure_between_flats", "sphere_force", "work_of_hamaker",
-]  # fmt: skip
+    "energy_between_flats",
+    "energy_between_spheres",
+    "hamaker_of_work",
+    "hamaker_sphere_force",
+    "pressure_between_flats",
+    "sphere_force",
+    "work_of_hamaker",
+]
 
 
 def pressure_between_flats(gap: Any, hamaker: Any) -> Any:

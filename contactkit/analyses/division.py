@@ -179,9 +179,17 @@ def divide_meniscus(
     best, force = _best(made, volume, most)
     volumes = volume / stable
     found = DivisionResult(
-        scene, made.name, stable, tuple(n for n in asked if n > most), most, best, force,
-        made.limit(volumes), made.radius(volumes), made,
-    )  # fmt: skip
+        scene,
+        made.name,
+        stable,
+        tuple(n for n in asked if n > most),
+        most,
+        best,
+        force,
+        made.limit(volumes),
+        made.radius(volumes),
+        made,
+    )
     for array in (found.counts, found.limit_gap, found.contact_radius):
         array.flags.writeable = False
     return found

@@ -27,9 +27,12 @@ __all__ = ["PlainContact", "open_contact"]
 Progress = Callable[[float], None]
 
 _TOLD = (
-    "max_pressure", "contact_fraction", "plastic_fraction", "max_displacement",
+    "max_pressure",
+    "contact_fraction",
+    "plastic_fraction",
+    "max_displacement",
     "relative_meniscus_force",
-)  # fmt: skip
+)
 
 
 def open_contact(tables: Mapping[str, Any], origin: str) -> PlainContact:
@@ -187,9 +190,12 @@ def _stacks(made_plan: ContactPlan, out: Path) -> Path:
     shown = [(label, stack) for label, stack in bodies if stack is not None]
     heights = [len(stack.materials) for _, stack in shown]
     made, axes = plot.figure(
-        len(shown), 1, size=(6.0, 0.9 * sum(heights) + 0.6 * len(shown)), squeeze=False,
+        len(shown),
+        1,
+        size=(6.0, 0.9 * sum(heights) + 0.6 * len(shown)),
+        squeeze=False,
         height_ratios=heights,
-    )  # fmt: skip
+    )
     for ax, (label, stack) in zip(axes[:, 0], shown, strict=True):
         contact_plot.stack_section(stack, ax, f"{label} (not to scale)")
     return plot.save(made, out / "stack")

@@ -38,8 +38,10 @@ class ValveBlows(NamedTuple):
 def valve_blows(scene: InjectorScene, run: Run) -> ValveBlows | None:
     """Blows of a run on rough faces; None if the stop is a spring or was never met and left."""
     curve, stop = stop_curve_of(scene.valve), scene.valve.stop
-    events = {what: [e for e in run.whole.events if e.what == f"{what} the stop"]
-              for what in ("meets", "leaves")}  # fmt: skip
+    events = {
+        what: [e for e in run.whole.events if e.what == f"{what} the stop"]
+        for what in ("meets", "leaves")
+    }
     if curve is None or not (events["meets"] and events["leaves"]):
         return None
     came, left = events["meets"][0].speed, events["leaves"][0].speed

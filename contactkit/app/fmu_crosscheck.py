@@ -35,13 +35,24 @@ __all__ = ["CASES", "Case", "write_crosscheck"]
 _FORCE, _RISE = 40.0, 2e-4  # N, s
 _ROWS = 250  # of a reference, or up to twice as many
 _SIGNALS = {
-    "h": "gap", "v": "speed", "F": "film_force", "F_m": "meniscus_force", "F_v": "viscous_force",
-    "J": "viscous_impulse", "W": "dissipated_work",
-}  # fmt: skip
+    "h": "gap",
+    "v": "speed",
+    "F": "film_force",
+    "F_m": "meniscus_force",
+    "F_v": "viscous_force",
+    "J": "viscous_impulse",
+    "W": "dissipated_work",
+}
 _COMMON = {
-    "R": 3.175e-3, "gamma": 0.03, "theta1": 0.2, "theta2": 0.2, "m": 0.02, "k_s": 5e3,
-    "h_rel": 1e-4, "meniscus_law": MeniscusLaw.PUBLISHED,
-}  # fmt: skip
+    "R": 3.175e-3,
+    "gamma": 0.03,
+    "theta1": 0.2,
+    "theta2": 0.2,
+    "m": 0.02,
+    "k_s": 5e3,
+    "h_rel": 1e-4,
+    "meniscus_law": MeniscusLaw.PUBLISHED,
+}
 _COLD = _COMMON | {"h0": 5e-6, "eta": 0.1, "V": math.pi * _COMMON["R"] ** 2 * 5e-6}
 
 
@@ -154,8 +165,11 @@ def _tables(name: str, case: Case) -> dict[str, str]:
     kept = slice(None, None, max(1, count // _ROWS))
     columns = [found.columns[curve][kept] for curve in _SIGNALS.values()]
     options = {
-        "StartTime": 0.0, "StopTime": case.stop_time, "StepSize": case.step, "RelTol": case.rtol,
-    }  # fmt: skip
+        "StartTime": 0.0,
+        "StopTime": case.stop_time,
+        "StepSize": case.step,
+        "RelTol": case.rtol,
+    }
     return {
         f"{name}_in.csv": _csv(["time", "F_ext", "dF_ext"], [times, pulls, rates]),
         f"{name}_ref.csv": _csv(["time", *_SIGNALS], [times[kept], *columns]),

@@ -149,9 +149,13 @@ def _starts(
 
 
 def _fmus(
-    folder: Path, drive: Mapping[str, Any], mass: Mapping[str, Any],
-    native: bool, platforms: Sequence[str] | None, compiler: str,
-) -> tuple[Component, Component]:  # fmt: skip
+    folder: Path,
+    drive: Mapping[str, Any],
+    mass: Mapping[str, Any],
+    native: bool,
+    platforms: Sequence[str] | None,
+    compiler: str,
+) -> tuple[Component, Component]:
     """Build both FMUs."""
     from ..fmu.native.build import build_native, native_scene
     from ..fmu.native.drive import build_native_drive
@@ -197,9 +201,12 @@ def _experiment(
     length = device.scene.study.communication_step if step is None else step
     if not (math.isfinite(length) and length >= 1e-9):
         raise DescriptionError(
-            "step", length, "be finite and at least 1e-9", unit="s",
+            "step",
+            length,
+            "be finite and at least 1e-9",
+            unit="s",
             hint="libcosim counts in nanoseconds",
-        )  # fmt: skip
+        )
     pulled = partial(_number, ValveDrive.ports, drive)
     longest = 2.0 * math.sqrt(_number(PORTS, mass, "m") / pulled("k_stop"))
     if length > longest:

@@ -223,13 +223,22 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     laws = {"exact": "EXACT", "arc": "ARC", "as-published": "PUBLISHED"}
     law = "NONE" if film is None else laws[film.profile]
     return {
-        "m": opening.mass, "h0": opening.initial_gap, "v0": opening.initial_speed,
-        "k_s": opening.stiffness, "h_rel": opening.final_gap, "h_min": opening.rest_gap,
+        "m": opening.mass,
+        "h0": opening.initial_gap,
+        "v0": opening.initial_speed,
+        "k_s": opening.stiffness,
+        "h_rel": opening.final_gap,
+        "h_min": opening.rest_gap,
         "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
         "rewet": meniscus.rewetting,
-        "R": interface.rim_radius, "eta": liquid.viscosity, "gamma": liquid.surface_tension or 0.0,
-        "theta1": meniscus.contact_angle_lower, "theta2": meniscus.contact_angle_upper,
-        "V": meniscus.volume or 0.0, "N": meniscus.count, "meniscus_law": law,
+        "R": interface.rim_radius,
+        "eta": liquid.viscosity,
+        "gamma": liquid.surface_tension or 0.0,
+        "theta1": meniscus.contact_angle_lower,
+        "theta2": meniscus.contact_angle_upper,
+        "V": meniscus.volume or 0.0,
+        "N": meniscus.count,
+        "meniscus_law": law,
         "dp_cav": tension.pressure_drop if tension is not None else 0.0,
         "tau_lim": shear.strength if shear is not None else 0.0,
-    }  # fmt: skip
+    }

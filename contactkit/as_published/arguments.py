@@ -202,16 +202,21 @@ def checked_arguments(formula: PublishedFormula, given: Mapping[str, Any]) -> di
         argument = ARGUMENTS[name]
         if name not in given and argument.default is None:
             raise DescriptionError(
-                f"{owner}, {name}", "nothing", argument.expected, unit=_bracket(argument),
+                f"{owner}, {name}",
+                "nothing",
+                argument.expected,
+                unit=_bracket(argument),
                 hint=f"{name} is the {argument.meaning}; needed: {formula.signature}",
-            )  # fmt: skip
+            )
         found[name] = _one(f"{owner}, {name}", argument, given.get(name, argument.default))
     for larger, smaller in _ORDERED:
         if larger in found and smaller in found and not found[larger] > found[smaller]:
             raise DescriptionError(
-                f"{owner}, {larger}", found[larger], f"exceed {smaller} = {found[smaller]:g}",
+                f"{owner}, {larger}",
+                found[larger],
+                f"exceed {smaller} = {found[smaller]:g}",
                 unit=_bracket(ARGUMENTS[larger]),
-            )  # fmt: skip
+            )
     return found
 
 

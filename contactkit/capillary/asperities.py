@@ -31,9 +31,16 @@ from ..numerics.quadrature import gauss_legendre
 from .kelvin import thin_film_force
 
 __all__ = [
-    "AsperitySum", "CrossCut", "cross_cut", "gaussian_peaks", "greenwood_williamson", "identical",
-    "mean_tail", "normal_density", "normal_tail",
-]  # fmt: skip
+    "AsperitySum",
+    "CrossCut",
+    "cross_cut",
+    "gaussian_peaks",
+    "greenwood_williamson",
+    "identical",
+    "mean_tail",
+    "normal_density",
+    "normal_tail",
+]
 
 
 class AsperitySum(NamedTuple):

@@ -25,9 +25,13 @@ from typing import Any
 from ..errors import InfeasibleError
 
 __all__ = [
-    "GAS_CONSTANT", "kelvin_radius", "laplace_pressure", "meniscus_height", "relative_humidity",
+    "GAS_CONSTANT",
+    "kelvin_radius",
+    "laplace_pressure",
+    "meniscus_height",
+    "relative_humidity",
     "thin_film_force",
-]  # fmt: skip
+]
 
 GAS_CONSTANT = 8.31446261815324
 """Molar gas constant [J/(mol.K)], exact since 2019."""

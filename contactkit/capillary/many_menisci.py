@@ -20,9 +20,13 @@ import math
 from typing import Any
 
 __all__ = [
-    "DENSEST_COVER", "best_count_published", "cover", "critical_radius_published",
-    "largest_stable_count", "least_overlapping_split",
-]  # fmt: skip
+    "DENSEST_COVER",
+    "best_count_published",
+    "cover",
+    "critical_radius_published",
+    "largest_stable_count",
+    "least_overlapping_split",
+]
 
 DENSEST_COVER = math.pi / math.sqrt(12.0)
 """Share of a plane under equal circles in their densest order [-]; beyond it they overlap."""

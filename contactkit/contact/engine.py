@@ -143,9 +143,14 @@ class Engine:
         return solution, friction
 
     def _coupled(
-        self, plan: ContactPlan, target: Target, cap: Map | float | None, counts: Counts,
-        solution: Solution, term: DisplacementTerm,
-    ) -> tuple[Solution, Map]:  # fmt: skip
+        self,
+        plan: ContactPlan,
+        target: Target,
+        cap: Map | float | None,
+        counts: Counts,
+        solution: Solution,
+        term: DisplacementTerm,
+    ) -> tuple[Solution, Map]:
         """Repeat the contact with the displacement of its own traction until it stands still."""
         extra: Map = np.zeros(self.grid.shape)
         for _ in range(60):
@@ -164,9 +169,13 @@ class Engine:
         )
 
     def _once(
-        self, plan: ContactPlan, target: Target, cap: Map | float | None, heights: Map,
+        self,
+        plan: ContactPlan,
+        target: Target,
+        cap: Map | float | None,
+        heights: Map,
         counts: Counts,
-    ) -> Solution:  # fmt: skip
+    ) -> Solution:
         accuracy = plan.accuracy
         solution = self.press.solve(
             heights,

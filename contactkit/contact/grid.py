@@ -190,9 +190,11 @@ def _wave(surface: Wave, grid: Grid) -> Map:
         _resolved(f"Wave.{name}", length, pixel)
         if grid.periodic and abs(size / length - round(size / length)) > 1e-9 * size / length:
             raise DescriptionError(
-                f"Wave.{name}", length, f"fit a whole number of times into the periodic window of "
-                f"{size:g} m", unit="m",
-            )  # fmt: skip
+                f"Wave.{name}",
+                length,
+                f"fit a whole number of times into the periodic window of {size:g} m",
+                unit="m",
+            )
     return roughness.wave(grid.shape, grid.pixel_size, surface.amplitude, *lengths)
 
 
@@ -202,18 +204,30 @@ def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
     _resolved(f"{type(surface).__name__}.cutoff", surface.cutoff, max(grid.pixel_size))
     if isinstance(surface, GaussianRoughness):
         return roughness.gaussian_exponential(
-            grid.shape, grid.pixel_size, surface.rms, surface.correlation_length,
-            surface.cutoff, surface.seed,
-        )  # fmt: skip
+            grid.shape,
+            grid.pixel_size,
+            surface.rms,
+            surface.correlation_length,
+            surface.cutoff,
+            surface.seed,
+        )
     return roughness.self_affine(
-        grid.shape, grid.pixel_size, surface.rms, surface.hurst, surface.rolloff,
-        surface.cutoff, surface.seed,
-    )  # fmt: skip
+        grid.shape,
+        grid.pixel_size,
+        surface.rms,
+        surface.hurst,
+        surface.rolloff,
+        surface.cutoff,
+        surface.seed,
+    )
 
 
 def _resolved(name: str, length: float, pixel: float) -> None:
     if length < 2.0 * pixel * (1.0 - 1e-12):
         raise DescriptionError(
-            name, length, f"be at least two pixels, {2.0 * pixel:g} m", unit="m",
+            name,
+            length,
+            f"be at least two pixels, {2.0 * pixel:g} m",
+            unit="m",
             hint="a finer Accuracy.grid, or a longer wave",
-        )  # fmt: skip
+        )

@@ -178,9 +178,14 @@ def _coupling(friction: Friction, contact: Contact) -> CouplingPart:
 
 
 def _result(
-    plan: ContactPlan, engine: Engine, solved: Solved, contact: Contact,
-    parts: dict[Any, Any], counts: Counts, begun: float,
-) -> ContactResult:  # fmt: skip
+    plan: ContactPlan,
+    engine: Engine,
+    solved: Solved,
+    contact: Contact,
+    parts: dict[Any, Any],
+    counts: Counts,
+    begun: float,
+) -> ContactResult:
     solution = solved.solution
     touches = bool(contact.pressure.any())
     status = "not converged" if solved.problem else ("converged" if touches else "no contact")

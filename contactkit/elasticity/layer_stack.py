@@ -55,10 +55,11 @@ def stack_of(young_modulus: ArrayLike, poisson_ratio: ArrayLike, thickness: Arra
     E, nu, h = (np.asarray(v, dtype=np.float64) for v in (young_modulus, poisson_ratio, thickness))
     if E.ndim != 1 or nu.shape != E.shape or h.shape != (E.size - 1,):
         raise DescriptionError(
-            "layers.shape", (E.shape, nu.shape, h.shape),
+            "layers.shape",
+            (E.shape, nu.shape, h.shape),
             "be (n+1,), (n+1,) and (n,) for young_modulus, poisson_ratio and thickness",
             hint="the substrate comes last and has no thickness",
-        )  # fmt: skip
+        )
     for name, values, unit in (("young_modulus", E, "Pa"), ("thickness", h, "m")):
         if not np.all((values > 0.0) & np.isfinite(values)):
             raise DescriptionError(

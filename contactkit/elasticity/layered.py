@@ -108,9 +108,12 @@ def compliance(
     if not np.all((alpha > 0.0) & np.isfinite(alpha)):
         bad = alpha[~((alpha > 0.0) & np.isfinite(alpha))].flat[0]
         raise DescriptionError(
-            "compliance.wavenumber", float(bad), "be positive and finite", unit="1/m",
+            "compliance.wavenumber",
+            float(bad),
+            "be positive and finite",
+            unit="1/m",
             hint="at wavenumber 0 the surface strains uniformly: uniform_compliance",
-        )  # fmt: skip
+        )
     flat, back = _distinct(alpha, stack.h.size)
     out = np.empty((4, flat.size))
     _fill(out, flat, stack)
@@ -217,9 +220,11 @@ def _fill(out: Array, alpha: Array, stack: Stack) -> None:
                 row[part] = values
     if not np.isfinite(out).all():
         raise DescriptionError(
-            "compliance.wavenumber", float(alpha.min()),
-            "be so large that 1/(G alpha) fits into a double", unit="1/m",
-        )  # fmt: skip
+            "compliance.wavenumber",
+            float(alpha.min()),
+            "be so large that 1/(G alpha) fits into a double",
+            unit="1/m",
+        )
 
 
 def _climbed(alpha: Array, stack: Stack, *, shear: bool) -> tuple[Array, ...]:

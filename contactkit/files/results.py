@@ -38,9 +38,16 @@ __all__ = ["from_bytes", "load_result", "save_csv", "save_npz", "save_result", "
 
 # What reading anything but a whole result may raise.
 _UNREADABLE = (
-    OSError, ValueError, KeyError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error,
-    EOFError, NotImplementedError,
-)  # fmt: skip
+    OSError,
+    ValueError,
+    KeyError,
+    TypeError,
+    AttributeError,
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    NotImplementedError,
+)
 
 
 def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, Any]) -> Path:

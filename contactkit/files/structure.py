@@ -35,9 +35,15 @@ from .unstructure import (
 )
 
 __all__ = [
-    "FileError", "field_value", "load_liquid", "load_material", "nearest", "structure",
-    "unstructure", "with_arrays",
-]  # fmt: skip
+    "FileError",
+    "field_value",
+    "load_liquid",
+    "load_material",
+    "nearest",
+    "structure",
+    "unstructure",
+    "with_arrays",
+]
 
 _T = TypeVar("_T")
 

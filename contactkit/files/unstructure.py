@@ -26,9 +26,15 @@ from ..separation.effects.registry import SEPARATION_EFFECTS
 from ..separation.sliding.effects import SLIDING_EFFECTS
 
 __all__ = [
-    "ARRAY_FIELDS", "FACE_KINDS", "LAW_KINDS", "OPENING_KINDS", "PRESSING_KINDS", "SURFACE_KINDS",
-    "unstructure", "with_arrays",
-]  # fmt: skip
+    "ARRAY_FIELDS",
+    "FACE_KINDS",
+    "LAW_KINDS",
+    "OPENING_KINDS",
+    "PRESSING_KINDS",
+    "SURFACE_KINDS",
+    "unstructure",
+    "with_arrays",
+]
 
 if TYPE_CHECKING:
     import numpy as np

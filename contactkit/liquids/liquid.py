@@ -210,9 +210,12 @@ class Liquid:
         if self.molar_mass is None or density is None:
             name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
             raise DescriptionError(
-                f"Liquid.{name}", None, "be given for a liquid in equilibrium with its vapour",
-                unit=unit, hint="or give the meniscus a volume, or its pressure",
-            )  # fmt: skip
+                f"Liquid.{name}",
+                None,
+                "be given for a liquid in equilibrium with its vapour",
+                unit=unit,
+                hint="or give the meniscus a volume, or its pressure",
+            )
         return self.molar_mass / density
 
 

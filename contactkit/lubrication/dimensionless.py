@@ -5,9 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 __all__ = [
-    "GRAVITY", "LONGEST_FLAT_BRIDGE", "bond_number", "fingering_number", "reynolds_number",
-    "slenderness", "viscous_to_capillary",
-]  # fmt: skip
+    "GRAVITY",
+    "LONGEST_FLAT_BRIDGE",
+    "bond_number",
+    "fingering_number",
+    "reynolds_number",
+    "slenderness",
+    "viscous_to_capillary",
+]
 
 GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2]."""

@@ -25,10 +25,17 @@ from typing import Any
 from ..numerics.quadrature import gauss_legendre
 
 __all__ = [
-    "disc_force", "disc_impulse_conserved", "disc_impulse_flooded", "disc_radius",
-    "sphere_film_height", "sphere_force", "sphere_impulse_conserved", "sphere_impulse_flooded",
-    "sphere_impulse_level", "sphere_rim_height",
-]  # fmt: skip
+    "disc_force",
+    "disc_impulse_conserved",
+    "disc_impulse_flooded",
+    "disc_radius",
+    "sphere_film_height",
+    "sphere_force",
+    "sphere_impulse_conserved",
+    "sphere_impulse_flooded",
+    "sphere_impulse_level",
+    "sphere_rim_height",
+]
 
 
 def log1p(x: Any) -> Any:

@@ -18,9 +18,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
-    "contact_spots", "length_unit", "load_curve", "pressure", "stack_section",
+    "contact_spots",
+    "length_unit",
+    "load_curve",
+    "pressure",
+    "stack_section",
     "von_mises_section",
-]  # fmt: skip
+]
 
 SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plastic": "#c1440e"}
 """Colours of what a pixel is."""
@@ -73,9 +77,14 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
     if result.plan.has(HardnessLimit):
         kinds[result.of(HardnessLimit).is_plastic] = 3
     ax.imshow(
-        kinds, origin="lower", extent=extent, interpolation="nearest", vmin=0, vmax=3,
+        kinds,
+        origin="lower",
+        extent=extent,
+        interpolation="nearest",
+        vmin=0,
+        vmax=3,
         cmap=ListedColormap(list(SPOTS.values())),
-    )  # fmt: skip
+    )
     _place(ax, unit)
     if 0 < (kinds == 3).sum() < 2e-3 * kinds.size:  # too few to be seen as pixels
         found = np.argwhere(kinds == 3)
@@ -142,9 +151,14 @@ def _depth_axis(ax: Axes, part: StressPart, edges: NDArray[np.float64], stack: S
     for number in sorted(set(part.layer.tolist())):
         rows = np.flatnonzero(part.layer == number)
         ax.text(
-            0.01, 1.0 - (rows[0] + 0.75) / len(part.depth), stack.materials[number].name,
-            transform=ax.transAxes, color="w", fontsize=8, va="center",
-        )  # fmt: skip
+            0.01,
+            1.0 - (rows[0] + 0.75) / len(part.depth),
+            stack.materials[number].name,
+            transform=ax.transAxes,
+            color="w",
+            fontsize=8,
+            va="center",
+        )
 
 
 def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes:
@@ -163,9 +177,14 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
         numbers = f"E {material.young_modulus / 1e9:.4g} GPa, nu {material.poisson_ratio:g}"
         light = i % len(_LAYER_COLOURS) < 2
         ax.text(
-            0.5, i + 0.5, f"{material.name}, {thickness}\n{numbers}{hardness}",
-            ha="center", va="center", color="w" if light else "k", fontsize=9,
-        )  # fmt: skip
+            0.5,
+            i + 0.5,
+            f"{material.name}, {thickness}\n{numbers}{hardness}",
+            ha="center",
+            va="center",
+            color="w" if light else "k",
+            fontsize=9,
+        )
     ax.set(xlim=(0.0, 1.0), ylim=(float(rows), 0.0), xticks=[], yticks=[])
     ax.grid(visible=False)
     for spine in ax.spines.values():

@@ -22,24 +22,56 @@ from ..separation.sliding.result import SlidingResult
 from ..work_precision import WorkPrecision
 
 __all__ = [
-    "COLORS", "Axes", "ListedColormap", "Patch", "Rectangle", "bars", "closures", "cycles",
-    "figure", "forces", "label_axis", "legend", "motion", "plain_log", "save", "shared_legend",
-    "slide", "title", "work_precision",
-]  # fmt: skip
+    "COLORS",
+    "Axes",
+    "ListedColormap",
+    "Patch",
+    "Rectangle",
+    "bars",
+    "closures",
+    "cycles",
+    "figure",
+    "forces",
+    "label_axis",
+    "legend",
+    "motion",
+    "plain_log",
+    "save",
+    "shared_legend",
+    "slide",
+    "title",
+    "work_precision",
+]
 
 COLORS = {
-    "gap": "#1f4e79", "speed": "#7f7f7f", "meniscus": "#2a9d8f", "viscous": "#c1440e",
-    "limit": "#e9c46a", "magnet": "#6a4c93", "spring": "#8d6b3d", "stop": "#444444",
-    "pull": "#6a4c93", "solids": "#8d6e63",
-}  # fmt: skip
+    "gap": "#1f4e79",
+    "speed": "#7f7f7f",
+    "meniscus": "#2a9d8f",
+    "viscous": "#c1440e",
+    "limit": "#e9c46a",
+    "magnet": "#6a4c93",
+    "spring": "#8d6b3d",
+    "stop": "#444444",
+    "pull": "#6a4c93",
+    "solids": "#8d6e63",
+}
 """One colour for each quantity, the same in every figure."""
 
 _STYLE: Any = {
-    "font.size": 10.0, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
-    "grid.alpha": 0.3, "grid.linewidth": 0.6, "legend.frameon": False, "lines.linewidth": 1.6,
-    "figure.dpi": 110, "savefig.dpi": 160, "axes.titlelocation": "left", "axes.titlesize": 11.0,
+    "font.size": 10.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "lines.linewidth": 1.6,
+    "figure.dpi": 110,
+    "savefig.dpi": 160,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 11.0,
     "figure.constrained_layout.use": True,
-}  # fmt: skip
+}
 
 _THREE = ("#1f4e79", "#2a9d8f", "#c1440e")  # exact, arc, as published
 _LABELS = {column.name: column for column in COLUMNS}
@@ -114,11 +146,14 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
         If the run has no force: with only a time imposed a viscous film has but its impulse.
     """
     curves: Mapping[str, tuple[str, str]] = {
-        "newtonian_force": ("viscous", ":"), "viscous_force": ("viscous", "-"),
-        "meniscus_force": ("meniscus", "-"), "asperity_force": ("meniscus", "-."),
-        "van_der_waals_force": ("solids", "-."), "adhesion_force": ("solids", "-"),
+        "newtonian_force": ("viscous", ":"),
+        "viscous_force": ("viscous", "-"),
+        "meniscus_force": ("meniscus", "-"),
+        "asperity_force": ("meniscus", "-."),
+        "van_der_waals_force": ("solids", "-."),
+        "adhesion_force": ("solids", "-"),
         "pull": ("pull", "--"),
-    }  # fmt: skip
+    }
     drawn = [name for name in curves if name in result.columns]
     if not drawn:
         known(None, "force to draw", result.plan)
@@ -130,9 +165,15 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     if "limit" in result.columns:
         acts = result.columns["limit"] > 1.0
         ax.fill_between(
-            gap, 0, 1, where=acts, transform=ax.get_xaxis_transform(), color=COLORS["limit"],
-            alpha=0.3, label="limit of the liquid acts",
-        )  # fmt: skip
+            gap,
+            0,
+            1,
+            where=acts,
+            transform=ax.get_xaxis_transform(),
+            color=COLORS["limit"],
+            alpha=0.3,
+            label="limit of the liquid acts",
+        )
     ax.set(xlabel=label_axis("gap", "um"), ylabel="force [N]", xscale="log")
     shown = [result.columns[name] for name in drawn if name != "newtonian_force"]
     least = [
@@ -164,9 +205,11 @@ def slide(result: SlidingResult, ax: Axes | None = None) -> Axes:
     ax = ax if ax is not None else figure()[1]
     travel = result.travel * 1e6
     curves: Mapping[str, tuple[str, str]] = {
-        "couette_force": ("viscous", "-"), "hysteresis_force": ("meniscus", "-"),
-        "tangential_force": ("pull", "--"), "couette_impulse": ("viscous", ":"),
-    }  # fmt: skip
+        "couette_force": ("viscous", "-"),
+        "hysteresis_force": ("meniscus", "-"),
+        "tangential_force": ("pull", "--"),
+        "couette_impulse": ("viscous", ":"),
+    }
     shown = [name for name in curves if name in result.columns]
     if any(name.endswith("_force") for name in shown):
         shown = [name for name in shown if name.endswith("_force")]
@@ -201,9 +244,14 @@ def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
         name = next(b for b in bridges if p.label.startswith(b))
         full = "none" if "one gap" in p.label or "first" in p.label else colors[p.method]
         ax.plot(
-            p.seconds, max(p.error, 1e-16), "osD^vP*X"[bridges.index(name)], ms=6.5,
-            color=colors[p.method], mfc=full, ls="none",
-        )  # fmt: skip
+            p.seconds,
+            max(p.error, 1e-16),
+            "osD^vP*X"[bridges.index(name)],
+            ms=6.5,
+            color=colors[p.method],
+            mfc=full,
+            ls="none",
+        )
     for method, color in colors.items():
         ax.plot([], [], "-", lw=5, color=color, label=method)
     for name, marker in zip(bridges, "osD^vP*X", strict=False):

@@ -106,9 +106,13 @@ def at_lean(
         raise ValueError("the bodies cut into each other at this curvature")
     size = volume ** (1.0 / 3.0)
     return EllipticBridge(
-        height / size, math.pi * (2.0 - p) / size, 1.0 / size, lower / size, upper / size,
+        height / size,
+        math.pi * (2.0 - p) / size,
+        1.0 / size,
+        lower / size,
+        upper / size,
         curvature * size,
-    )  # fmt: skip
+    )
 
 
 def _meeting(p: float, sine: float, root: float, is_neck: bool) -> float:
@@ -192,9 +196,11 @@ def _lean_of_limit(shape: tuple[float, float, float]) -> float:
         if last > 0.6:
             break
     found = minimize_scalar(
-        lambda lean: -_held(lean, *shape).gap, bounds=(-1.5, last), method="bounded",
+        lambda lean: -_held(lean, *shape).gap,
+        bounds=(-1.5, last),
+        method="bounded",
         options={"xatol": 1e-10},
-    )  # fmt: skip
+    )
     # Equal angles on flats above some 31 degrees lose their symmetry before that.
     is_even = shape[2] == 0.0 and shape[0] == shape[1]
     return min(float(found.x), 0.0) if is_even else float(found.x)

@@ -161,25 +161,29 @@ def _pressed(x: Array, y: Array, z: Array, nu: float, q: _Potentials) -> Array:
     n = 1.0 - 2.0 * nu
     round_part = -2.0 * nu * q.P + n * q.H1 + z * q.HZ1
     pointed = n * q.H2 + q.wHZ2
-    return np.array([
-        round_part + x * x * pointed,
-        round_part + y * y * pointed,
-        -q.P + q.wPZ,
-        x * y * pointed,
-        x * q.wP1,
-        y * q.wP1,
-    ])  # fmt: skip
+    return np.array(
+        [
+            round_part + x * x * pointed,
+            round_part + y * y * pointed,
+            -q.P + q.wPZ,
+            x * y * pointed,
+            x * q.wP1,
+            y * q.wP1,
+        ]
+    )
 
 
 def _dragged(x: Array, y: Array, z: Array, nu: float, q: _Potentials) -> Array:
     """Stress of a traction in x of the same form as the pressure."""
     second = 2.0 * nu * q.K2 + z * q.H2
     third = 2.0 * nu * q.K3 + q.wH3
-    return np.array([
-        x * (-2.0 * (1.0 + nu) * q.HZ1 + 3.0 * second + x * x * third),
-        x * (-2.0 * nu * q.HZ1 + second + y * y * third),
-        x * q.wP1,
-        y * (-q.HZ1 + second + x * x * third),
-        -q.P + z * q.HZ1 + x * x * q.wHZ2,
-        x * y * q.wHZ2,
-    ])  # fmt: skip
+    return np.array(
+        [
+            x * (-2.0 * (1.0 + nu) * q.HZ1 + 3.0 * second + x * x * third),
+            x * (-2.0 * nu * q.HZ1 + second + y * y * third),
+            x * q.wP1,
+            y * (-q.HZ1 + second + x * x * third),
+            -q.P + z * q.HZ1 + x * x * q.wHZ2,
+            x * y * q.wHZ2,
+        ]
+    )

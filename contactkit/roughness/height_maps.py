@@ -69,10 +69,11 @@ def read_points(file: Path) -> tuple[Array, tuple[float, float]]:
     if not (times == 1).all():
         i, j = divmod(int(np.argmax(times != 1)), nx)
         raise DescriptionError(
-            "HeightMap.heights", f"{int(times[i * nx + j])} at [{i}, {j}]",
+            "HeightMap.heights",
+            f"{int(times[i * nx + j])} at [{i}, {j}]",
             f"be one for each point of the {ny} x {nx} grid of {file.name}",
             hint="fill the holes in the instrument's software, or cut out a part without any",
-        )  # fmt: skip
+        )
     heights = np.empty((ny, nx))
     heights[row, column] = z
     return heights, (dy, dx)
@@ -95,9 +96,11 @@ def _steps(values: Array, name: str, file: Path) -> tuple[NDArray[np.int64], int
     worst = int(np.argmax(np.abs(place - number)))
     if abs(place[worst] - number[worst]) > _ROUNDED:
         raise DescriptionError(
-            f"HeightMap.{name}", float(values[worst]), f"have equal steps in {file.name}",
+            f"HeightMap.{name}",
+            float(values[worst]),
+            f"have equal steps in {file.name}",
             hint="resample the map onto a regular grid",
-        )  # fmt: skip
+        )
     return number, n, step
 
 
@@ -129,19 +132,25 @@ def _reason(file: Path, delimiter: str | None, message: str) -> DescriptionError
             try:
                 float(word)
             except ValueError:
-                hint = "write points for decimal commas" if "," in word else (
-                    "fill holes first; no line may end in a comma" if not word else
-                    "put # before lines that are no data"
-                )  # fmt: skip
+                hint = (
+                    "write points for decimal commas"
+                    if "," in word
+                    else (
+                        "fill holes first; no line may end in a comma"
+                        if not word
+                        else "put # before lines that are no data"
+                    )
+                )
                 return DescriptionError(
                     "HeightMap.heights", word, f"be numbers ({place}, column {column})", hint=hint
                 )
         width = width or len(words)
         if len(words) != width:
             return DescriptionError(
-                "HeightMap.heights", f"{len(words)} columns",
+                "HeightMap.heights",
+                f"{len(words)} columns",
                 f"have {width} columns in each line, as in the first ({place})",
-            )  # fmt: skip
+            )
     return DescriptionError("HeightMap.heights", message, f"be numbers ({file.name})")
 
 
@@ -284,9 +293,11 @@ def read_height_map(
     found = _digest(file)
     if checksum is not None and checksum.lower().removeprefix("sha256:") != found:
         raise DescriptionError(
-            "HeightMap.checksum", checksum, f"be that of {file.name}, {found}",
+            "HeightMap.checksum",
+            checksum,
+            f"be that of {file.name}, {found}",
             hint="the file has changed since, or is another one",
-        )  # fmt: skip
+        )
     size = _checked_size(pixel_size)
     ending = file.suffix.lower()
     source = file.name
@@ -331,9 +342,11 @@ def _checked_size(given: float | Pair | None) -> Pair | None:
 def _needed(value: Any, field: str, example: str, file: Path) -> Any:
     if value is None:
         raise DescriptionError(
-            f"HeightMap.{field}", None, f"be given: {file.name} does not say it",
+            f"HeightMap.{field}",
+            None,
+            f"be given: {file.name} does not say it",
             hint=f"for example {field}={example}",
-        )  # fmt: skip
+        )
     return value
 
 
@@ -365,18 +378,21 @@ def _load_npy(file: Path) -> Array:
 def _checked(heights: Array, file: Path) -> Array:
     if heights.ndim != 2 or min(heights.shape) < 2:
         raise DescriptionError(
-            "HeightMap.heights", f"shape {heights.shape}",
+            "HeightMap.heights",
+            f"shape {heights.shape}",
             f"be a map (ny, nx) of at least 2 x 2 pixels in {file.name}",
             hint="a profile along one line is no surface",
-        )  # fmt: skip
+        )
     holes = ~np.isfinite(np.ma.filled(heights, np.nan))
     if holes.any():
         i, j = (int(k) for k in np.argwhere(holes)[0])
         raise DescriptionError(
-            "HeightMap.heights", f"{int(holes.sum())} that are not, the first at [{i}, {j}]",
-            f"be finite in every pixel of {file.name}", unit="m",
+            "HeightMap.heights",
+            f"{int(holes.sum())} that are not, the first at [{i}, {j}]",
+            f"be finite in every pixel of {file.name}",
+            unit="m",
             hint="fill the holes in the instrument's software, or cut out a part without any",
-        )  # fmt: skip
+        )
     return np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
 
 
@@ -389,9 +405,11 @@ def _read_instrument(
         from SurfaceTopography.Exceptions import ReadFileError
     except ImportError as error:
         raise DescriptionError(
-            "HeightMap.path", str(file), f"end in .npy, .xyz, {', '.join(_MATRICES)}",
+            "HeightMap.path",
+            str(file),
+            f"end in .npy, .xyz, {', '.join(_MATRICES)}",
             hint="files of instruments need pip install 'contactkit[maps]'",
-        ) from error  # fmt: skip
+        ) from error
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of a reader, about matters that are checked below
@@ -401,9 +419,11 @@ def _read_instrument(
         raise
     except (ReadFileError, LookupError, OSError, ValueError, struct.error) as error:
         raise DescriptionError(
-            "HeightMap.path", str(file), "be in a format that SurfaceTopography reads",
+            "HeightMap.path",
+            str(file),
+            "be in a format that SurfaceTopography reads",
             hint="export it as text or npy from the instrument's software",
-        ) from error  # fmt: skip
+        ) from error
 
 
 def _read_channel(
@@ -412,9 +432,11 @@ def _read_channel(
     # These readers take any file of some length, for lack of a mark at its beginning.
     if reader.format() in _UNMARKED and file.suffix.lower() != f".{reader.format()}":
         raise DescriptionError(
-            "HeightMap.path", str(file), "be in a format that says what it is",
+            "HeightMap.path",
+            str(file),
+            "be in a format that says what it is",
             hint=f"it looks like {reader.format()!r}, but only by its length",
-        )  # fmt: skip
+        )
     channels = reader.channels
     if channel is not None and not 0 <= channel < len(channels):
         names = ", ".join(f"{i}: {c.name}" for i, c in enumerate(channels))
@@ -422,9 +444,11 @@ def _read_channel(
     info = channels[channel] if channel is not None else reader.default_channel
     if info.dim != 2 or not getattr(info, "is_height_channel", True):
         raise DescriptionError(
-            "HeightMap.channel", info.name, f"be a map of heights in {file.name}",
+            "HeightMap.channel",
+            info.name,
+            f"be a map of heights in {file.name}",
             hint="a profile along one line is no surface; a phase or a voltage is no height",
-        )  # fmt: skip
+        )
     if info.unit is not None and unit is not None:
         raise _double("unit", unit, file)
     if info.physical_sizes is not None and size is not None:

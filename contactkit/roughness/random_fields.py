@@ -82,9 +82,11 @@ def waves(
     kept = (square * cutoff_wavelength**2 <= _ON_THE_EDGE**2) & (square > 0.0)
     if not kept.any():
         raise DescriptionError(
-            "cutoff_wavelength", cutoff_wavelength,
-            f"leave waves that fit into the window of {window[0]:g} m by {window[1]:g} m", unit="m",
-        )  # fmt: skip
+            "cutoff_wavelength",
+            cutoff_wavelength,
+            f"leave waves that fit into the window of {window[0]:g} m by {window[1]:g} m",
+            unit="m",
+        )
     times = np.where(kept, np.where(kx > 0, 2.0, 1.0), 0.0)
     turn = 2.0 * math.pi
     return Waves(ky * (turn / window[0]), kx * (turn / window[1]), times)

@@ -35,9 +35,14 @@ from .elementary import paraboloid, sphere, wave
 from .random_fields import Normalise, Waves, add_up, waves
 
 __all__ = [
-    "VarianceBudget", "gaussian_exponential", "paraboloid", "resolved_variance", "self_affine",
-    "sphere", "wave",
-]  # fmt: skip
+    "VarianceBudget",
+    "gaussian_exponential",
+    "paraboloid",
+    "resolved_variance",
+    "self_affine",
+    "sphere",
+    "wave",
+]
 
 Array = NDArray[np.float64]
 Shape = tuple[int, int]

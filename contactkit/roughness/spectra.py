@@ -17,9 +17,13 @@ from scipy import fft
 from ..errors import DescriptionError
 
 __all__ = [
-    "Spectrum", "autocorrelation", "correlation_length", "radial_spectrum", "spectral_moment",
+    "Spectrum",
+    "autocorrelation",
+    "correlation_length",
+    "radial_spectrum",
+    "spectral_moment",
     "standardised",
-]  # fmt: skip
+]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]

@@ -29,10 +29,20 @@ from .spectra import (
 )
 
 __all__ = [
-    "Spectrum", "Summary", "autocorrelation", "bearing_fraction", "correlation_length",
-    "kurtosis", "radial_spectrum", "rms", "rms_curvature", "rms_slope", "skewness",
-    "spectral_moment", "summary",
-]  # fmt: skip
+    "Spectrum",
+    "Summary",
+    "autocorrelation",
+    "bearing_fraction",
+    "correlation_length",
+    "kurtosis",
+    "radial_spectrum",
+    "rms",
+    "rms_curvature",
+    "rms_slope",
+    "skewness",
+    "spectral_moment",
+    "summary",
+]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -176,10 +186,17 @@ def summary(heights: Array, pixel_size: Pair, periodic: bool) -> Summary:
     dy, dx = pixel_size
     ny, nx = z.shape
     return Summary(
-        rms(z), float(z.min()), float(z.max()), skewness(z), kurtosis(z),
-        rms_slope(z, pixel_size, periodic), rms_curvature(z, pixel_size, periodic),
-        correlation_length(z, pixel_size, periodic), pixel_size, (ny * dy, nx * dx),
-    )  # fmt: skip
+        rms(z),
+        float(z.min()),
+        float(z.max()),
+        skewness(z),
+        kurtosis(z),
+        rms_slope(z, pixel_size, periodic),
+        rms_curvature(z, pixel_size, periodic),
+        correlation_length(z, pixel_size, periodic),
+        pixel_size,
+        (ny * dy, nx * dx),
+    )
 
 
 def _need_pixels(heights: Array, least: int) -> None:

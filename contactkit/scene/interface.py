@@ -138,17 +138,21 @@ class Opening:
     def _check_vibration(self, vibration: Vibration) -> None:
         if self.speed is None:
             raise DescriptionError(
-                "Opening.vibration", vibration, "stand beside a speed [m/s]",
+                "Opening.vibration",
+                vibration,
+                "stand beside a speed [m/s]",
                 hint=f"with {self.imposed} imposed the path of the gap is not given",
-            )  # fmt: skip
+            )
         room = self.initial_gap - self.rest_gap
         if vibration.amplitude >= room:
             rest = f" less rest_gap = {self.rest_gap:g} m" if self.rest_gap else ""
             raise DescriptionError(
-                "Vibration.amplitude", vibration.amplitude,
-                f"be below initial_gap = {self.initial_gap:g} m{rest}", unit="m",
+                "Vibration.amplitude",
+                vibration.amplitude,
+                f"be below initial_gap = {self.initial_gap:g} m{rest}",
+                unit="m",
                 hint="the bodies would touch; shake less, or start from a larger gap",
-            )  # fmt: skip
+            )
 
     @property
     def smallest_gap(self) -> float:

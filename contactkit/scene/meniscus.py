@@ -63,10 +63,11 @@ class Meniscus:
     def __attrs_post_init__(self) -> None:
         if self.volume is not None and self.pressure is not None:
             raise DescriptionError(
-                "Meniscus", ["volume", "pressure"],
+                "Meniscus",
+                ["volume", "pressure"],
                 "be given a volume [m3] or a pressure [Pa], not both",
                 hint="one follows from the other and the gap",
-            )  # fmt: skip
+            )
 
     @classmethod
     def from_humidity(
@@ -116,9 +117,11 @@ class Meniscus:
 
         if not (_is_number(relative_humidity) and 0.0 <= relative_humidity <= 1.0):
             raise DescriptionError(
-                "Meniscus.from_humidity(relative_humidity)", relative_humidity,
-                "lie between 0 and 1", hint="it is a share, not per cent",
-            )  # fmt: skip
+                "Meniscus.from_humidity(relative_humidity)",
+                relative_humidity,
+                "lie between 0 and 1",
+                hint="it is a share, not per cent",
+            )
         volume = liquid.molar_volume(temperature)
         pressure = laplace_pressure(volume, temperature, relative_humidity)
         return cls(

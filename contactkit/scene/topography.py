@@ -23,9 +23,17 @@ if TYPE_CHECKING:
     Map = NDArray[np.float64]
 
 __all__ = [
-    "SHAPES", "CombinedSurface", "GaussianRoughness", "Grid", "Heights", "Measured",
-    "Paraboloid", "SelfAffineRoughness", "Topography", "Wave",
-]  # fmt: skip
+    "SHAPES",
+    "CombinedSurface",
+    "GaussianRoughness",
+    "Grid",
+    "Heights",
+    "Measured",
+    "Paraboloid",
+    "SelfAffineRoughness",
+    "Topography",
+    "Wave",
+]
 
 
 class Grid(NamedTuple):
@@ -197,10 +205,12 @@ def _as_map(value: Any) -> Map:
     given = np.asarray(value)
     if given.dtype.kind not in "fiu":
         raise DescriptionError(
-            "Heights.heights", value if given.ndim == 0 else f"an array of {given.dtype}",
-            "be an array of real numbers", unit="m",
+            "Heights.heights",
+            value if given.ndim == 0 else f"an array of {given.dtype}",
+            "be an array of real numbers",
+            unit="m",
             hint="for a file use Measured(path=...)",
-        )  # fmt: skip
+        )
     made = np.array(given, dtype=float, order="C")
     made.flags.writeable = False
     return made
@@ -229,17 +239,22 @@ class Heights:
 
         if value.ndim != 2 or min(value.shape) < 2:
             raise DescriptionError(
-                "Heights.heights", f"an array of shape {value.shape}",
-                "have two dimensions (ny, nx) of at least 2 pixels each", unit="m",
-            )  # fmt: skip
+                "Heights.heights",
+                f"an array of shape {value.shape}",
+                "have two dimensions (ny, nx) of at least 2 pixels each",
+                unit="m",
+            )
         if not np.isfinite(value).all():
             first = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
             n = int((~np.isfinite(value)).sum())
             raise DescriptionError(
-                "Heights.heights", float(value[first]), f"be finite everywhere; at [y, x] = "
-                f"{list(first)} and {n - 1} more pixels they are not", unit="m",
+                "Heights.heights",
+                float(value[first]),
+                f"be finite everywhere; at [y, x] = "
+                f"{list(first)} and {n - 1} more pixels they are not",
+                unit="m",
                 hint="fill the holes of the measurement first",
-            )  # fmt: skip
+            )
 
     @property
     def checksum(self) -> str:

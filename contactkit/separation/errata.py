@@ -86,8 +86,11 @@ def _viscous(plan: Plan, number: str, effect: Any) -> PublishedValue:
     viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
     # Over a time of one second, so that the number is the impulse.
     given = {
-        "gap_start": start, "gap_end": end, "separation_time": 1.0, "viscosity": viscosity,
-    }  # fmt: skip
+        "gap_start": start,
+        "gap_end": end,
+        "separation_time": 1.0,
+        "viscosity": viscosity,
+    }
     if not scene.interface.is_flat:
         height = film.height(start)
         shape = {"sphere_radius": film.sphere_radius, "film_height": height}

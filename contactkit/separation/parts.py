@@ -19,9 +19,14 @@ if TYPE_CHECKING:
     Curve = NDArray[np.float64]
 
 __all__ = [
-    "AdhesionPart", "AsperityPart", "ForcePart", "LimitPart", "MeniscusPart", "ViscousPart",
+    "AdhesionPart",
+    "AsperityPart",
+    "ForcePart",
+    "LimitPart",
+    "MeniscusPart",
+    "ViscousPart",
     "known",
-]  # fmt: skip
+]
 
 
 @frozen(eq=False)
@@ -96,9 +101,12 @@ class ViscousPart:
         time = time if time is not None else self.plan.scene.opening.time
         if time is None or not time > 0.0:
             raise DescriptionError(
-                "mean_force(time)", time, "be positive", unit="s",
+                "mean_force(time)",
+                time,
+                "be positive",
+                unit="s",
                 hint="give the duration of the opening here, or as Opening(time=...)",
-            )  # fmt: skip
+            )
         return self.impulse / time
 
     def time_at_constant_force(self, force: float | None = None) -> float:
@@ -115,9 +123,12 @@ class ViscousPart:
         force = force if force is not None else self.plan.scene.opening.force
         if force is None or not force > 0.0:
             raise DescriptionError(
-                "time_at_constant_force(force)", force, "be positive", unit="N",
+                "time_at_constant_force(force)",
+                force,
+                "be positive",
+                unit="N",
                 hint="give the pull here, or as Opening(force=...)",
-            )  # fmt: skip
+            )
         return constant_force_time(self.plan, force)
 
 

@@ -155,7 +155,7 @@ def _viscous(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> l
             detail="lubrication wants a film much wider than high",
             source="Reynolds 1886",
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _capillary(plan: Plan, film: FilmShape, gaps: list[float]) -> list[ValidityNumber]:

@@ -195,9 +195,15 @@ def vibrating(plan: Plan, begun: float) -> SeparationResult:
         impulses["newtonian_impulse"] = law(path.gap(0.0), path.gap(end))
     n = len(columns["gap"]) + len(cycles) * PANELS * NODES
     return SeparationResult(
-        plan, "curve", _message(path, end, breaks, len(cycles)), columns, impulses, None,
-        check(plan, path_of(plan, columns)), Work(0, 0, n, clock.perf_counter() - begun),
-    )  # fmt: skip
+        plan,
+        "curve",
+        _message(path, end, breaks, len(cycles)),
+        columns,
+        impulses,
+        None,
+        check(plan, path_of(plan, columns)),
+        Work(0, 0, n, clock.perf_counter() - begun),
+    )
 
 
 def _message(path: VibrationPath, end: float, breaks: float, drawn: int) -> str:

@@ -28,13 +28,24 @@ from .paths import Scene, changed
 from .store import Store, StudyPoint
 
 __all__ = [
-    "Done", "Piece", "Task", "put", "run_here", "run_in_processes", "run_on_client", "run_piece",
-]  # fmt: skip
+    "Done",
+    "Piece",
+    "Task",
+    "put",
+    "run_here",
+    "run_in_processes",
+    "run_on_client",
+    "run_piece",
+]
 
 _PINNED = (
-    "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS",
-    "VECLIB_MAXIMUM_THREADS", "NUMBA_NUM_THREADS",
-)  # fmt: skip
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "BLIS_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+    "NUMBA_NUM_THREADS",
+)
 
 
 class Task(NamedTuple):

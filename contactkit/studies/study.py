@@ -126,9 +126,14 @@ class _Run:
     """A study under way: which points are there, which are still to be solved."""
 
     def __init__(
-        self, scene: Scene, accuracy: Accuracy, varied: tuple[Axis, ...], store: Store | None,
-        keeps_maps: bool, progress: Callable[[float], None] | None,
-    ) -> None:  # fmt: skip
+        self,
+        scene: Scene,
+        accuracy: Accuracy,
+        varied: tuple[Axis, ...],
+        store: Store | None,
+        keeps_maps: bool,
+        progress: Callable[[float], None] | None,
+    ) -> None:
         self.scene, self.accuracy, self.varied = scene, accuracy, varied
         self.store, self.keeps_maps, self.progress = store, keeps_maps, progress
         paths = [axis.path for axis in varied]

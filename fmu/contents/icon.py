@@ -101,16 +101,21 @@ def _pixel(shapes: tuple[tuple[_Shape, tuple[int, ...]], ...], x: float, y: floa
         share = min(max(0.5 - shape(x, y), 0.0), 1.0)
         if share > 0.0:
             whole = share + opacity * (1.0 - share)
-            mixed = [(share * b + opacity * (1.0 - share) * a) / whole
-                     for a, b in zip(colour, own, strict=True)]  # fmt: skip
+            mixed = [
+                (share * b + opacity * (1.0 - share) * a) / whole
+                for a, b in zip(colour, own, strict=True)
+            ]
             colour, opacity = (mixed[0], mixed[1], mixed[2]), whole
     return bytes([*(round(part) for part in colour), round(255.0 * opacity)])
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
-    return struct.pack(">I", len(content)) + name + content + struct.pack(
-        ">I", zlib.crc32(name + content)
-    )  # fmt: skip
+    return (
+        struct.pack(">I", len(content))
+        + name
+        + content
+        + struct.pack(">I", zlib.crc32(name + content))
+    )
 
 
 def icon_svg() -> str:

@@ -111,9 +111,13 @@ def structure_xml(
     joined = SubElement(system, "ssd:Connections")
     for each in connections:
         SubElement(
-            joined, "ssd:Connection", startElement=each.start[0], startConnector=each.start[1],
-            endElement=each.end[0], endConnector=each.end[1],
-        )  # fmt: skip
+            joined,
+            "ssd:Connection",
+            startElement=each.start[0],
+            startConnector=each.start[1],
+            endElement=each.end[0],
+            endConnector=each.end[1],
+        )
     _oms_step(system, experiment.step)
     units = Element("ssd:Units")
     _units(units, models.values())
@@ -148,9 +152,13 @@ def _variables(model: Element) -> Iterator[_Variable]:
 
 def _component(elements: Element, one: Component, model: Element) -> None:
     node = SubElement(
-        elements, "ssd:Component", name=one.name, type="application/x-fmu-sharedlibrary",
-        source=one.source, implementation="CoSimulation",
-    )  # fmt: skip
+        elements,
+        "ssd:Component",
+        name=one.name,
+        type="application/x-fmu-sharedlibrary",
+        source=one.source,
+        implementation="CoSimulation",
+    )
     if one.description:
         node.set("description", one.description)
     connectors, variables = SubElement(node, "ssd:Connectors"), list(_variables(model))
@@ -204,10 +212,13 @@ def _oms_step(system: Element, step: float) -> None:
     """Master and step of OMSimulator, whose program does not run a system without."""
     inside = SubElement(_annotation(system, "org.openmodelica"), "oms:Annotations")
     SubElement(
-        SubElement(inside, "oms:SimulationInformation"), "oms:FixedStepMaster",
-        description="oms-ma", stepSize=repr(step), absoluteTolerance="1e-06",
+        SubElement(inside, "oms:SimulationInformation"),
+        "oms:FixedStepMaster",
+        description="oms-ma",
+        stepSize=repr(step),
+        absoluteTolerance="1e-06",
         relativeTolerance="1e-06",
-    )  # fmt: skip
+    )
 
 
 def _osp_step(experiment: Element, step: float) -> None:

@@ -80,14 +80,21 @@ def terminals_xml(ports: Sequence[Port], *, fmi: str = "2") -> bytes | None:
         SubElement(picture, "Icon", corners)
     if flange is not None:
         terminal = SubElement(
-            SubElement(root, "Terminals"), "Terminal", name="flange", matchingRule="plug",
-            terminalKind=f"contactkit.{flange.kind}", description=flange.description,
-        )  # fmt: skip
+            SubElement(root, "Terminals"),
+            "Terminal",
+            name="flange",
+            matchingRule="plug",
+            terminalKind=f"contactkit.{flange.kind}",
+            description=flange.description,
+        )
         for member, variable in flange.members.items():
             SubElement(
-                terminal, "TerminalMemberVariable", variableName=variable, memberName=member,
+                terminal,
+                "TerminalMemberVariable",
+                variableName=variable,
+                memberName=member,
                 variableKind="signal",
-            )  # fmt: skip
+            )
     indent(root)
     text: bytes = tostring(root, encoding="utf-8", xml_declaration=True)
     return text + b"\n"

@@ -21,13 +21,22 @@ from ...units import parse_unit
 from .ports import Kind, Port, Value, display_conversion
 
 __all__ = [
-    "Description", "details", "enumerations", "frame", "items", "model_description",
-    "unit_definitions", "value_references",
-]  # fmt: skip
+    "Description",
+    "details",
+    "enumerations",
+    "frame",
+    "items",
+    "model_description",
+    "unit_definitions",
+    "value_references",
+]
 
 _TAGS = {
-    "real": "Real", "integer": "Integer", "boolean": "Boolean", "enumeration": "Enumeration",
-}  # fmt: skip
+    "real": "Real",
+    "integer": "Integer",
+    "boolean": "Boolean",
+    "enumeration": "Enumeration",
+}
 
 
 @frozen(kw_only=True)

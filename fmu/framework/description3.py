@@ -24,17 +24,26 @@ from .ports import Port
 __all__ = ["build_description", "model_description3"]
 
 _TAGS = {
-    "real": "Float64", "integer": "Int32", "boolean": "Boolean", "enumeration": "Enumeration",
-}  # fmt: skip
+    "real": "Float64",
+    "integer": "Int32",
+    "boolean": "Boolean",
+    "enumeration": "Enumeration",
+}
 _ABLE = (
-    "canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives",
-    "providesAdjointDerivatives", "canHandleVariableCommunicationStepSize",
-    "mightReturnEarlyFromDoStep", "hasEventMode",
-)  # fmt: skip
+    "canGetAndSetFMUState",
+    "canSerializeFMUState",
+    "providesDirectionalDerivatives",
+    "providesAdjointDerivatives",
+    "canHandleVariableCommunicationStepSize",
+    "mightReturnEarlyFromDoStep",
+    "hasEventMode",
+)
 _UNABLE = (
-    "needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess", "providesIntermediateUpdate",
+    "needsExecutionTool",
+    "canBeInstantiatedOnlyOncePerProcess",
+    "providesIntermediateUpdate",
     "canReturnEarlyAfterIntermediateUpdate",
-)  # fmt: skip
+)
 
 
 def model_description3(about: Description, discrete: Collection[str] = ()) -> Element:
@@ -65,9 +74,15 @@ def model_description3(about: Description, discrete: Collection[str] = ()) -> El
             attributes["initial"] = "exact" if port.causality == "parameter" else "calculated"
         SubElement(variables, _TAGS[port.kind], attributes | details(port, about.start))
     SubElement(
-        variables, "Float64", name="time", valueReference=str(len(about.ports) + 1),
-        description="simulation time", causality="independent", variability="continuous", unit="s",
-    )  # fmt: skip
+        variables,
+        "Float64",
+        name="time",
+        valueReference=str(len(about.ports) + 1),
+        description="simulation time",
+        causality="independent",
+        variability="continuous",
+        unit="s",
+    )
     root.append(_structure(about.ports))
     return root
 

@@ -70,9 +70,11 @@ class Instance:
         if not self._folder.isascii() or set("#%") & set(self._folder):
             shutil.rmtree(self._folder)
             raise DescriptionError(
-                "TMPDIR", self._folder, "be a path of plain letters without # or %",
+                "TMPDIR",
+                self._folder,
+                "be a path of plain letters without # or %",
                 hint="pythonfmu ends the whole process on others; set TMPDIR to another folder",
-            )  # fmt: skip
+            )
         try:
             self._slave = self._loaded(path, description)
         except BaseException:
@@ -103,9 +105,11 @@ class Instance:
         ]
         if missing:
             raise DescriptionError(
-                "FMU", str(path), f"have the variables of {self.model}: it lacks "
-                f"{', '.join(missing)}", hint=f"take an FMU of the model {self.model}",
-            )  # fmt: skip
+                "FMU",
+                str(path),
+                f"have the variables of {self.model}: it lacks {', '.join(missing)}",
+                hint=f"take an FMU of the model {self.model}",
+            )
 
     def _loaded(self, path: Path, description: Any) -> Any:
         """Unpack and instantiate."""

@@ -204,10 +204,16 @@ class PortSlave(PortAccess):
 
     def _get_fmu_state(self) -> Snapshot:
         state = Snapshot(
-            build=self._identity(), phase=str(self._phase), prepared=self._prepared is not None,
-            stale=self._stale, failure=self.failure, time=self.time, start_time=self.start_time,
-            values=self.values.copy(), hidden={},  # numbers all: `check_outputs` has seen to it
-        )  # fmt: skip
+            build=self._identity(),
+            phase=str(self._phase),
+            prepared=self._prepared is not None,
+            stale=self._stale,
+            failure=self.failure,
+            time=self.time,
+            start_time=self.start_time,
+            values=self.values.copy(),
+            hidden={},  # numbers all: `check_outputs` has seen to it
+        )
         try:
             if self._prepared is not None:
                 state["hidden"] = plain(self.hidden_state())

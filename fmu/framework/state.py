@@ -18,8 +18,16 @@ from .ports import Port
 __all__ = ["Phase", "Snapshot", "check_state", "from_bytes", "plain", "to_bytes"]
 
 _FIELDS = {
-    "build", "phase", "prepared", "stale", "failure", "time", "start_time", "values", "hidden",
-}  # fmt: skip
+    "build",
+    "phase",
+    "prepared",
+    "stale",
+    "failure",
+    "time",
+    "start_time",
+    "values",
+    "hidden",
+}
 _CURE = "take the state from this FMU, and keep its bytes unchanged"
 
 
@@ -91,9 +99,12 @@ def check_state(state: Any, build: str, ports: Sequence[Port]) -> None:
     if state["phase"] not in list(Phase):
         raise DescriptionError("phase of the FMU state", state["phase"], "be known", hint=_CURE)
     types = {
-        "prepared": bool, "stale": bool, "failure": str, "values": dict,
+        "prepared": bool,
+        "stale": bool,
+        "failure": str,
+        "values": dict,
         "hidden": dict,
-    }  # fmt: skip
+    }
     for name, kind in types.items():
         if not isinstance(state[name], kind):
             expected = f"be a {kind.__name__}"

@@ -22,10 +22,19 @@ from ...errors import ContactkitError, DescriptionError
 __all__ = ["PLATFORMS", "compile_kernel", "fmi_headers", "has_zig", "kernel_sources", "local"]
 
 _FLAGS = (
-    "-std=c99", "-O3", "-DNDEBUG", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off",
-    "-fno-math-errno", "-shared",
-    "-Wall", "-Wextra", "-Werror", "-s",
-)  # fmt: skip
+    "-std=c99",
+    "-O3",
+    "-DNDEBUG",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-shared",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-s",
+)
 _HEADERS = {
     2: ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h"),
     3: ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h"),
@@ -136,10 +145,13 @@ def compile_kernel(sources: Path, name: str, out: Path, compiler: str = "auto") 
         made = Path(folder) / f"kernel{PLATFORMS[name].suffix}"  # some keep the name they had
         more = _more(name, zig="ziglang" in driver)
         done = subprocess.run(
-            [*driver, *_FLAGS, *files, "-o", str(made), *more], cwd=sources,
-            capture_output=True, text=True, check=False,
+            [*driver, *_FLAGS, *files, "-o", str(made), *more],
+            cwd=sources,
+            capture_output=True,
+            text=True,
+            check=False,
             env=os.environ | {"SOURCE_DATE_EPOCH": "315532800", "ZERO_AR_DATE": "1"},
-        )  # fmt: skip
+        )
         if done.returncode or not made.exists():
             raise ContactkitError(f"the kernel could not be compiled for {name}:\n{done.stderr}")
         shutil.copy(made, out)

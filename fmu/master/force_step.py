@@ -104,7 +104,7 @@ def forced(
         total = body.mass * end.speed + impulse
         return Doubled(
             end.gap, end.speed, total, there.damping, way, gap_error, missed, speed_error
-        )  # fmt: skip
+        )
     finally:
         pull.restore(mark)
         pull.forget(mark)

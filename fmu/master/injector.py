@@ -284,9 +284,7 @@ def cosimulate(
     table = np.array(rows)
     table.flags.writeable = False
     columns = {name: table[:, k] for k, name in enumerate(names)}
-    return CoSimulation(
-        np.array(times), columns, _ports(), log, len(times) - 1, seconds, rejected
-    )  # fmt: skip
+    return CoSimulation(np.array(times), columns, _ports(), log, len(times) - 1, seconds, rejected)
 
 
 def _nothing(share: float) -> None:

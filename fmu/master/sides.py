@@ -101,9 +101,11 @@ class FilmSide(Restorable):
         self._forces, self._limit = self.references(*_FORCES), self.references("limit")
         for name in _OWN.keys() & values.keys():
             raise DescriptionError(
-                f"film_start[{name!r}]", values[name], "be left out: the master sets it",
+                f"film_start[{name!r}]",
+                values[name],
+                "be left out: the master sets it",
                 hint=f"it follows from {_OWN[name]}",
-            )  # fmt: skip
+            )
         gap = self.quantity("h0", values.get("h0", float(self.variables["h0"].start)))
         if not 0.0 < gap < math.inf:
             raise DescriptionError("h0", gap, "be positive and finite", unit="m")

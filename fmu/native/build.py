@@ -118,10 +118,15 @@ def build_native(
     check_start(ports, values)
     title = f" ({scene.name})" if scene.name else ""
     about = Description(
-        identifier=_identifier(model), guid="", tool="contactkit", ports=ports, start=values,
-        summary=_SUMMARIES[model] + title, log_categories=CATEGORIES,
+        identifier=_identifier(model),
+        guid="",
+        tool="contactkit",
+        ports=ports,
+        start=values,
+        summary=_SUMMARIES[model] + title,
+        log_categories=CATEGORIES,
         experiment=_SLAVES[model].experiment,
-    )  # fmt: skip
+    )
     names = chosen_platforms(platforms)
     return write_native(model, about, film.numbers, place, fmi, names, compiler, scene)
 

@@ -74,9 +74,15 @@ def build_native_drive(
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
     check_drive(values)
     about = Description(
-        identifier=_NAME.replace("-", "_"), guid="", tool="contactkit", ports=ports, start=values,
-        summary=ValveDrive.summary, log_categories=CATEGORIES, experiment=ValveDrive.experiment,
-    )  # fmt: skip
+        identifier=_NAME.replace("-", "_"),
+        guid="",
+        tool="contactkit",
+        ports=ports,
+        start=values,
+        summary=ValveDrive.summary,
+        log_categories=CATEGORIES,
+        experiment=ValveDrive.experiment,
+    )
     tables = face_numbers(StopCurve.from_data(faces) if faces is not None else None)
     return write_native(_NAME, about, tables, place, fmi, chosen_platforms(platforms), compiler)
 
@@ -113,13 +119,18 @@ def face_numbers(curve: StopCurve | None) -> list[float]:
 def _plain(curve: Curve, nodes: Sequence[float]) -> list[float]:
     points = [curve(x) for x in nodes]
     return [
-        float(len(nodes)), *nodes, *(value for value, _ in points), *(slope for _, slope in points)
-    ]  # fmt: skip
+        float(len(nodes)),
+        *nodes,
+        *(value for value, _ in points),
+        *(slope for _, slope in points),
+    ]
 
 
 def _in_logarithms(curve: Curve, nodes: Sequence[float]) -> list[float]:
     points = [curve(x) for x in nodes]
     return [
-        float(len(nodes)), *map(math.log, nodes), *(math.log(value) for value, _ in points),
+        float(len(nodes)),
+        *map(math.log, nodes),
+        *(math.log(value) for value, _ in points),
         *(slope * x / value for x, (value, slope) in zip(nodes, points, strict=True)),
-    ]  # fmt: skip
+    ]

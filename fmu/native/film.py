@@ -97,9 +97,14 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     is_sphere = not interface.is_flat
     lowest = max(1e-13, 1e-3 * opening.initial_gap)
     numbers = [
-        float(is_sphere), interface.sphere_radius, float(interface.meniscus.count),
-        float(reynolds), share, float(max(accuracy.max_steps, 1)), float(len(shares)),
-    ]  # fmt: skip
+        float(is_sphere),
+        interface.sphere_radius,
+        float(interface.meniscus.count),
+        float(reynolds),
+        share,
+        float(max(accuracy.max_steps, 1)),
+        float(len(shares)),
+    ]
     for one in shares:
         numbers += _film(prepared, one, lowest)
     return FilmNumbers(numbers, lowest)
@@ -138,9 +143,15 @@ def _law(
         scale, unit = _SURFACE, surface_tension
     table = _law_table(scene, kind, law, lowest, lambda gap: law.force(gap, speed) / unit)
     return [
-        scale, float(kind.needs_film), law.end, law.release, law.rejoin,
-        float(len(law.kinks)), *law.kinks, *table.numbers(),
-    ]  # fmt: skip
+        scale,
+        float(kind.needs_film),
+        law.end,
+        law.release,
+        law.rejoin,
+        float(len(law.kinks)),
+        *law.kinks,
+        *table.numbers(),
+    ]
 
 
 def _law_table(

@@ -32,8 +32,9 @@ __all__ = ["MODELS", "Model", "check_free", "check_start", "native_ports", "star
 
 Model = Literal["stiction-mass", "stiction-force"]
 MODELS: Mapping[Model, tuple[Port, ...]] = {
-    "stiction-mass": MASS_PORTS, "stiction-force": FORCE_PORTS,
-}  # fmt: skip
+    "stiction-mass": MASS_PORTS,
+    "stiction-force": FORCE_PORTS,
+}
 """Models that have a native form, and the variables of their Python FMUs."""
 
 _LABELS = {
@@ -133,9 +134,11 @@ def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value 
     for name, value in given.items():
         if name not in free and name in {port.name for port in MODELS[model]}:
             raise DescriptionError(
-                name, value, f"be left out: in a native {model} of this scene it is no variable",
+                name,
+                value,
+                f"be left out: in a native {model} of this scene it is no variable",
                 hint="change the scene, whose geometry, liquid and laws are in the tables",
-            )  # fmt: skip
+            )
 
 
 def check_start(ports: tuple[Port, ...], values: Mapping[str, Value]) -> None:

@@ -161,9 +161,12 @@ def _slave_class(name: str) -> type[PortSlave]:
 
 
 def _pack(
-    slave: type[PortSlave], name: str, baked: Mapping[str, Value], folder: Path,
+    slave: type[PortSlave],
+    name: str,
+    baked: Mapping[str, Value],
+    folder: Path,
     data: Mapping[str, Any],
-) -> Path:  # fmt: skip
+) -> Path:
     """Lay out the files of an FMU in a folder and let pythonfmu pack them."""
     closure = find_closure(slave.__module__, f"{__package__}.integrity")
     record = {
@@ -179,9 +182,12 @@ def _pack(
     identity = content_hash(record, closure.sources)
     module = slave.__module__.rpartition(".")[2]
     script = _SCRIPT.format(
-        package=package_name(identity), module=module, class_name=slave.__name__,
-        build=identity, baked=dict(baked),
-    )  # fmt: skip
+        package=package_name(identity),
+        module=module,
+        class_name=slave.__name__,
+        build=identity,
+        baked=dict(baked),
+    )
     main = f"{module}_{identity[:12]}.py"
     files = {f"{package_name(identity)}/{path}": text for path, text in closure.sources.items()}
     files |= {main: script.encode(), RECORD: json.dumps(record, sort_keys=True).encode()}
@@ -202,9 +208,14 @@ def _documentation(
     requires = (closure.requires & needed) - {"attr", "attrs"}
     later = closure.requires - needed
     page = Page.of_python(
-        requires, name=name, title=slave.__name__, summary=slave.summary, ports=slave.ports,
-        start=start, scene=_scene(slave, start),
-    )  # fmt: skip
+        requires,
+        name=name,
+        title=slave.__name__,
+        summary=slave.summary,
+        ports=slave.ports,
+        start=start,
+        scene=_scene(slave, start),
+    )
     package = sys.modules[(__package__ or "").partition(".")[0]]
     own = Path(package.__path__[0]).parent / "LICENSE"
     return {
@@ -238,9 +249,12 @@ def _run_builder(folder: Path, main: str, others: list[str], name: str) -> Path:
     settings = {"PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": str(folder), "TEMP": str(folder)}
     done = subprocess.run(
         [sys.executable, "-c", _PACK, *map(str, arguments)],
-        cwd=folder, capture_output=True, text=True, check=False,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
         env=os.environ | settings,
-    )  # fmt: skip
+    )
     if done.returncode or not fmu.exists():
         raise ContactkitError(f"pythonfmu could not build {name!r}:\n{done.stderr.strip()}")
     return fmu

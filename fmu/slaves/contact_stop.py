@@ -44,14 +44,18 @@ def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **mor
 
 
 def _size(name: str, unit: str, label: str, value: float, **more: Any) -> Port:
-    return Port(
-        name, unit, causality="parameter", label=label, start=value, minimum=0.0, **more
-    )  # fmt: skip
+    return Port(name, unit, causality="parameter", label=label, start=value, minimum=0.0, **more)
 
 
 PORTS = (
-    Port("h", "m", causality="input", label="gap, at the end of the step to come",
-         display_unit="um", nominal=1e-5),
+    Port(
+        "h",
+        "m",
+        causality="input",
+        label="gap, at the end of the step to come",
+        display_unit="um",
+        nominal=1e-5,
+    ),
     Port("v", "m/s", causality="input", label="opening speed there", nominal=0.1),
     _output("F", "N", "force that pushes out of the stop, never negative", _ALL, nominal=100.0),
     _output("F_el", "N", "the same without damping: what the tables give", _STATIC, nominal=100.0),
@@ -59,25 +63,56 @@ PORTS = (
     _output("c", "N.s/m", "damping: growth of F with the speed of approach", _ALL, nominal=100.0),
     _output("contact_area", "m2", "area of contact", _STATIC, display_unit="mm2"),
     _output("plastic_area", "m2", "area that has yielded so far", _STATIC, display_unit="mm2"),
-    _output("d", "m", "approach of the faces from first touch, < 0 apart", _STATIC,
-            display_unit="um", nominal=1e-7),
-    _output("d_max", "m", "largest approach so far, at the end of a step", (), display_unit="um",
-            nominal=1e-7),
+    _output(
+        "d",
+        "m",
+        "approach of the faces from first touch, < 0 apart",
+        _STATIC,
+        display_unit="um",
+        nominal=1e-7,
+    ),
+    _output(
+        "d_max",
+        "m",
+        "largest approach so far, at the end of a step",
+        (),
+        display_unit="um",
+        nominal=1e-7,
+    ),
     _output("d_res", "m", "approach at which they let go after it", (), display_unit="um"),
     _output("W", "J", "work lost to plasticity since the start", (), nominal=1e-6),
     _output("W_d", "J", "work lost to damping since the start", (), nominal=1e-6),
-    _output("state", "-", "branch of the contact", _STATIC, kind="enumeration",
-            enumeration=StopBranch, start=StopBranch.FREE),
+    _output(
+        "state",
+        "-",
+        "branch of the contact",
+        _STATIC,
+        kind="enumeration",
+        enumeration=StopBranch,
+        start=StopBranch.FREE,
+    ),
     _output("n_beyond", "-", "number of steps that ended beyond the tables", (), kind="integer"),
     _size("h_touch", "m", "gap at which the faces touch", 25e-6, display_unit="um"),
-    Port("side", "-", causality="parameter", label="from where the stop is met",
-         kind="enumeration", enumeration=StopSide, start=StopSide.ABOVE),
+    Port(
+        "side",
+        "-",
+        causality="parameter",
+        label="from where the stop is met",
+        kind="enumeration",
+        enumeration=StopSide,
+        start=StopSide.ABOVE,
+    ),
     _size("scale", "-", "number of windows, or spots, side by side", 1.0, exclusive=True),
-    _size("k_body", "N/m", "stiffness of the bodies behind the faces; 0: rigid", 0.0,
-          display_unit="N/um"),
+    _size(
+        "k_body",
+        "N/m",
+        "stiffness of the bodies behind the faces; 0: rigid",
+        0.0,
+        display_unit="N/um",
+    ),
     _size("d_stop", "s/m", "damping, F = F_el (1 + d_stop x speed of approach)", 0.0),
     _size("d_max0", "m", "largest approach the faces have had before", 0.0, display_unit="um"),
-)  # fmt: skip
+)
 
 
 class _Memory(NamedTuple):
@@ -96,8 +131,10 @@ class ContactStop(PortSlave):
     ports: ClassVar[tuple[Port, ...]] = PORTS
     summary = "Rough faces that meet at an end stop: force over approach, plastic or not"
     experiment: ClassVar[Mapping[str, float]] = {
-        "startTime": 0.0, "stopTime": 1e-3, "stepSize": 1e-6,
-    }  # fmt: skip
+        "startTime": 0.0,
+        "stopTime": 1e-3,
+        "stepSize": 1e-6,
+    }
 
     curve: StopCurve
     memory: _Memory
@@ -155,11 +192,15 @@ class ContactStop(PortSlave):
         )
         gain = max(1.0 + values["d_stop"] * speed, 0.0)
         values.update(
-            F=point.force * gain, F_el=point.force, k=point.stiffness,
+            F=point.force * gain,
+            F_el=point.force,
+            k=point.stiffness,
             c=point.force * values["d_stop"] if gain > 0.0 else 0.0,
-            contact_area=point.contact_area, plastic_area=point.plastic_area, d=faces,
+            contact_area=point.contact_area,
+            plastic_area=point.plastic_area,
+            d=faces,
             state=int(point.branch),
-        )  # fmt: skip
+        )
         return point, faces
 
     def _memory(self, largest: float, point: StopPoint) -> _Memory:

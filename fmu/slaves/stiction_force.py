@@ -38,9 +38,20 @@ _MENISCUS = ("h", *_FILM, "gamma", "theta1", "theta2", "meniscus_law")
 _VISCOUS = (*_MOTION, *_FILM, "eta", "dp_cav", "tau_lim")
 _ALL = tuple(dict.fromkeys((*_VISCOUS, *_MENISCUS)))
 _KEPT = (
-    "h0", "h_break", "rewet", "R", "eta", "gamma", "theta1", "theta2", "V", "N", "meniscus_law",
-    "dp_cav", "tau_lim",
-)  # fmt: skip
+    "h0",
+    "h_break",
+    "rewet",
+    "R",
+    "eta",
+    "gamma",
+    "theta1",
+    "theta2",
+    "V",
+    "N",
+    "meniscus_law",
+    "dp_cav",
+    "tau_lim",
+)
 _DOUBT = 0.2  # coupling error beyond which the flag is raised
 _SAME = 1e-9  # gaps closer than this, relatively, are one
 _ENDLESS = sys.float_info.max  # a step without bound: hosts choke on infinity
@@ -51,8 +62,17 @@ def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **mor
 
 
 PORTS = (
-    Port("h", "m", causality="input", label="gap, at the end of the step to come", start=5e-6,
-         minimum=0.0, exclusive=True, display_unit="um", nominal=1e-6),
+    Port(
+        "h",
+        "m",
+        causality="input",
+        label="gap, at the end of the step to come",
+        start=5e-6,
+        minimum=0.0,
+        exclusive=True,
+        display_unit="um",
+        nominal=1e-6,
+    ),
     Port("v", "m/s", causality="input", label="opening speed there", nominal=0.1),
     _output("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
     _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS),
@@ -63,27 +83,75 @@ PORTS = (
     _output("J_m", "N.s", "meniscus impulse since the start", ()),
     _output("F_mean", "N", "mean of F over the way of the last step", ()),
     _output("coupling_error", "-", "what F_mean differs by from F, over what moves the mass", ()),
-    _output("H_stable", "s", "longest communication step for exchanging forces: m_ref/c",
-            (*_VISCOUS, "m_ref")),
-    _output("in_doubt", "-", "last step longer than H_stable, or coupling_error above 0.2", (),
-            kind="boolean"),
+    _output(
+        "H_stable",
+        "s",
+        "longest communication step for exchanging forces: m_ref/c",
+        (*_VISCOUS, "m_ref"),
+    ),
+    _output(
+        "in_doubt",
+        "-",
+        "last step longer than H_stable, or coupling_error above 0.2",
+        (),
+        kind="boolean",
+    ),
     _output("n_doubt", "-", "number of steps in doubt so far", (), kind="integer"),
-    _output("state", "-", "state of the film", _MENISCUS, kind="enumeration",
-            enumeration=FilmStatus, start=FilmStatus.FULL),
-    _output("limit", "-", "limit of the liquid that acts", _VISCOUS, kind="enumeration",
-            enumeration=LimitKind, start=LimitKind.NONE),
-    _output("h_above", "m", "next gap above at which a force is not smooth; 0: none",
-            _MENISCUS, display_unit="um"),
-    _output("h_below", "m", "next gap below at which a force is not smooth; 0: none",
-            _MENISCUS, display_unit="um"),
+    _output(
+        "state",
+        "-",
+        "state of the film",
+        _MENISCUS,
+        kind="enumeration",
+        enumeration=FilmStatus,
+        start=FilmStatus.FULL,
+    ),
+    _output(
+        "limit",
+        "-",
+        "limit of the liquid that acts",
+        _VISCOUS,
+        kind="enumeration",
+        enumeration=LimitKind,
+        start=LimitKind.NONE,
+    ),
+    _output(
+        "h_above",
+        "m",
+        "next gap above at which a force is not smooth; 0: none",
+        _MENISCUS,
+        display_unit="um",
+    ),
+    _output(
+        "h_below",
+        "m",
+        "next gap below at which a force is not smooth; 0: none",
+        _MENISCUS,
+        display_unit="um",
+    ),
     _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
     _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
-    Port("m_ref", "kg", causality="parameter", label="mass that the tool moves", start=0.02,
-         minimum=0.0, exclusive=True, display_unit="g"),
-    Port("exchange", "-", causality="parameter", kind="enumeration", enumeration=Exchange,
-         label="what the tool exchanges; impulses need no stable step", start=Exchange.FORCE),
+    Port(
+        "m_ref",
+        "kg",
+        causality="parameter",
+        label="mass that the tool moves",
+        start=0.02,
+        minimum=0.0,
+        exclusive=True,
+        display_unit="g",
+    ),
+    Port(
+        "exchange",
+        "-",
+        causality="parameter",
+        kind="enumeration",
+        enumeration=Exchange,
+        label="what the tool exchanges; impulses need no stable step",
+        start=Exchange.FORCE,
+    ),
     *(find_port(stiction_mass.PORTS, name) for name in _KEPT),
-)  # fmt: skip
+)
 
 
 class _Memory(NamedTuple):
@@ -102,8 +170,11 @@ class StictionForce(PortSlave):
     ports: ClassVar[tuple[Port, ...]] = PORTS
     summary = "Liquid film between two flats: meniscus and viscous force, and doubts of coupling"
     experiment: ClassVar[Mapping[str, float]] = {
-        "startTime": 0.0, "stopTime": 1e-3, "stepSize": 1e-8, "tolerance": 1e-4,
-    }  # fmt: skip
+        "startTime": 0.0,
+        "stopTime": 1e-3,
+        "stepSize": 1e-8,
+        "tolerance": 1e-4,
+    }
 
     plan: Plan
     memory: _Memory
@@ -117,9 +188,15 @@ class StictionForce(PortSlave):
         film = self.plan.film
         self.memory = _Memory(start, film.resistance(start), film.static_force(start))
         self.values.update(
-            J=0.0, J_m=0.0, F_mean=0.0, coupling_error=0.0, in_doubt=False, n_doubt=0,
-            t_break=-1.0, n_break=0,
-        )  # fmt: skip
+            J=0.0,
+            J_m=0.0,
+            F_mean=0.0,
+            coupling_error=0.0,
+            in_doubt=False,
+            n_doubt=0,
+            t_break=-1.0,
+            n_break=0,
+        )
         self.refresh()
 
     def refresh(self) -> None:
@@ -129,19 +206,31 @@ class StictionForce(PortSlave):
         film = self._film()
         if film is None or gap >= film.end * (1.0 - _SAME):
             values.update(
-                F=0.0, F_m=0.0, F_v=0.0, c=0.0, k=0.0, H_stable=_ENDLESS, h_above=0.0,
-                state=int(FilmStatus.BROKEN), limit=int(LimitKind.NONE),
+                F=0.0,
+                F_m=0.0,
+                F_v=0.0,
+                c=0.0,
+                k=0.0,
+                H_stable=_ENDLESS,
+                h_above=0.0,
+                state=int(FilmStatus.BROKEN),
+                limit=int(LimitKind.NONE),
                 h_below=values["h0"] if values["h0"] < gap and values["rewet"] > 0.0 else 0.0,
-            )  # fmt: skip
+            )
             return
         static, viscous, acting = film.forces(gap, speed)
         damping, stiffness = _slopes(film, gap, speed, limited=acting is not None)
         whole = gap <= film.full_gap * (1.0 + _SAME)
         values.update(
-            F=static + viscous, F_m=static, F_v=viscous, c=damping, k=stiffness,
+            F=static + viscous,
+            F_m=static,
+            F_v=viscous,
+            c=damping,
+            k=stiffness,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
-            state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE), limit=int(LIMITS[acting]),
-        )  # fmt: skip
+            state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE),
+            limit=int(LIMITS[acting]),
+        )
         above = below = 0.0
         for mark in (*film.kinks, film.end):  # they ascend
             if mark < gap * (1.0 - _SAME):

@@ -45,8 +45,10 @@ class MeniscusLaw(IntEnum):
 
 
 _PROFILES: Mapping[MeniscusLaw, Literal["exact", "arc", "as-published"]] = {
-    MeniscusLaw.EXACT: "exact", MeniscusLaw.ARC: "arc", MeniscusLaw.PUBLISHED: "as-published",
-}  # fmt: skip
+    MeniscusLaw.EXACT: "exact",
+    MeniscusLaw.ARC: "arc",
+    MeniscusLaw.PUBLISHED: "as-published",
+}
 
 _FILM = ("h0", "R", "V", "N")
 _MENISCUS = (*_FILM, "gamma", "theta1", "theta2", "meniscus_law")
@@ -92,12 +94,22 @@ PORTS = (
     _output("J_m", "N.s", "meniscus impulse since the start"),
     _output("W", "J", "work dissipated in the film since the start"),
     _output(
-        "state", "-", "state of the film", (*_MENISCUS, "k_s", "h_min", "v0"),
-        kind="enumeration", enumeration=FilmStatus, start=FilmStatus.FULL,
+        "state",
+        "-",
+        "state of the film",
+        (*_MENISCUS, "k_s", "h_min", "v0"),
+        kind="enumeration",
+        enumeration=FilmStatus,
+        start=FilmStatus.FULL,
     ),
     _output(
-        "limit", "-", "limit of the liquid that acts", _VISCOUS,
-        kind="enumeration", enumeration=LimitKind, start=LimitKind.NONE,
+        "limit",
+        "-",
+        "limit of the liquid that acts",
+        _VISCOUS,
+        kind="enumeration",
+        enumeration=LimitKind,
+        start=LimitKind.NONE,
     ),
     _output("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     _output("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
@@ -119,17 +131,27 @@ PORTS = (
     _size("theta2", "rad", "contact angle on the moving body", 0.2, "deg", maximum=math.pi),
     _size("V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3"),
     Port(
-        "N", "-", causality="parameter", label="number of equal menisci",
-        kind="integer", start=1, minimum=1,
+        "N",
+        "-",
+        causality="parameter",
+        label="number of equal menisci",
+        kind="integer",
+        start=1,
+        minimum=1,
     ),
     Port(
-        "meniscus_law", "-", causality="parameter", label="meniscus force that acts",
-        kind="enumeration", enumeration=MeniscusLaw, start=MeniscusLaw.EXACT,
+        "meniscus_law",
+        "-",
+        causality="parameter",
+        label="meniscus force that acts",
+        kind="enumeration",
+        enumeration=MeniscusLaw,
+        start=MeniscusLaw.EXACT,
     ),
     _size("dp_cav", "Pa", "tension the liquid bears; 0: no limit", 0.0, "bar"),
     _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     _size("rtol", "-", "tolerance of an internal step", 1e-8, exclusive=True, maximum=0.1),
-)  # fmt: skip
+)
 
 
 def scene_of(values: Mapping[str, Any]) -> SeparationScene:
@@ -193,8 +215,11 @@ class StictionMass(PortSlave):
     ports: ClassVar[tuple[Port, ...]] = PORTS
     summary = "Mass held by a liquid film: meniscus and viscous force, limits, rupture, re-wetting"
     experiment: ClassVar[Mapping[str, float]] = {
-        "startTime": 0.0, "stopTime": 1e-2, "stepSize": 1e-5, "tolerance": 1e-6,
-    }  # fmt: skip
+        "startTime": 0.0,
+        "stopTime": 1e-2,
+        "stepSize": 1e-5,
+        "tolerance": 1e-6,
+    }
 
     plan: Plan
     state: MotionState
@@ -227,10 +252,25 @@ class StictionMass(PortSlave):
         values["F"], values["F_m"], values["F_v"], status, limit = outputs(self.plan, state, pull)
         values["state"], values["limit"] = int(status), int(limit)
         (
-            _, values["h"], values["v"], _, _, _, _, values["J"], values["J_m"], values["W"], _,
-            values["t_break"], values["t_release"], _, values["n_break"], values["n_release"],
-            values["F_peak"], *_,
-        ) = state  # fmt: skip
+            _,
+            values["h"],
+            values["v"],
+            _,
+            _,
+            _,
+            _,
+            values["J"],
+            values["J_m"],
+            values["W"],
+            _,
+            values["t_break"],
+            values["t_release"],
+            _,
+            values["n_break"],
+            values["n_release"],
+            values["F_peak"],
+            *_,
+        ) = state
 
     def hidden_state(self) -> Mapping[str, Any]:
         """See `PortSlave.hidden_state`."""

@@ -80,9 +80,15 @@ def _size(
 ) -> Port:
     """Describe a parameter that is zero or positive."""
     return Port(
-        name, unit, causality="parameter", label=label, start=value, minimum=0.0,
-        display_unit=display, **more,
-    )  # fmt: skip
+        name,
+        unit,
+        causality="parameter",
+        label=label,
+        start=value,
+        minimum=0.0,
+        display_unit=display,
+        **more,
+    )
 
 
 def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **more: Any) -> Port:
@@ -90,43 +96,87 @@ def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **mor
 
 
 PORTS = (
-    Port("z", "m", causality="input", label="height of the root over where an unbent tip lands",
-         display_unit="um", nominal=1e-6),
+    Port(
+        "z",
+        "m",
+        causality="input",
+        label="height of the root over where an unbent tip lands",
+        display_unit="um",
+        nominal=1e-6,
+    ),
     Port("vz", "m/s", causality="input", label="speed of the root, > 0 lifts", nominal=0.1),
-    Port("az", "m/s2", causality="input", label="acceleration of the root in the next step",
-         nominal=1e6),
-    _output("F", "N", "force of all tips on the root, > 0 holds it down",
-            (*_SPRING, "vz", "c"), display_unit="nN", nominal=1e-7),
+    Port(
+        "az",
+        "m/s2",
+        causality="input",
+        label="acceleration of the root in the next step",
+        nominal=1e6,
+    ),
+    _output(
+        "F",
+        "N",
+        "force of all tips on the root, > 0 holds it down",
+        (*_SPRING, "vz", "c"),
+        display_unit="nN",
+        nominal=1e-7,
+    ),
     _output("F_mean", "N", "mean of F over the last step", (), display_unit="nN", nominal=1e-7),
     _output("h", "m", "gap under a tip", _START, display_unit="nm", nominal=1e-8),
     _output("v", "m/s", "speed of a tip", ("vz",), nominal=0.1),
-    _output("F_film", "N", "force on one tip from its site, > 0 holds", _FILM,
-            display_unit="nN", nominal=1e-7),
+    _output(
+        "F_film",
+        "N",
+        "force on one tip from its site, > 0 holds",
+        _FILM,
+        display_unit="nN",
+        nominal=1e-7,
+    ),
     _output("J", "N.s", "impulse of all tips on the root since the start", (), nominal=1e-13),
     _output("W_visc", "J", "work dissipated in the films of all tips", (), nominal=1e-16),
     _output("W_land", "J", "energy lost in all landings, of all tips", (), nominal=1e-17),
     _output("state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus),
     _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
-    _output("t_free", "s", "time at which the tips were free for the last time, -1 before", (),
-            start=-1.0),
+    _output(
+        "t_free",
+        "s",
+        "time at which the tips were free for the last time, -1 before",
+        (),
+        start=-1.0,
+    ),
     _output("t_land", "s", "time of the latest landing, -1 before", (), start=-1.0),
     _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
     _output("n_land", "-", "number of landings so far", (), kind="integer"),
-    _output("d", "m", "approach of apex and site, or the dent they left; 0 if rigid", _START,
-            display_unit="nm", nominal=1e-9),
+    _output(
+        "d",
+        "m",
+        "approach of apex and site, or the dent they left; 0 if rigid",
+        _START,
+        display_unit="nm",
+        nominal=1e-9,
+    ),
     _output("d_max", "m", "largest approach of a tip so far; 0 if rigid", (), display_unit="nm"),
-    _output("F_max", "N", "largest force of the site on a tip so far; 0 if rigid", (),
-            display_unit="nN"),
+    _output(
+        "F_max", "N", "largest force of the site on a tip so far; 0 if rigid", (), display_unit="nN"
+    ),
     _output("W_plastic", "J", "work that yielding took, of all tips", (), nominal=1e-17),
-    Port("N", "-", causality="parameter", label="number of equal tips", kind="integer", start=2,
-         minimum=1),
+    Port(
+        "N",
+        "-",
+        causality="parameter",
+        label="number of equal tips",
+        kind="integer",
+        start=2,
+        minimum=1,
+    ),
     _size("m", "kg", "mass of one tip", 4e-16, exclusive=True),
     _size("k", "N/m", "stiffness of one tip", 1.0, exclusive=True),
     _size("c", "N.s/m", "damping of one tip while it is free", 2e-10),
-    _size("h0", "m", "gap that roughness keeps open under a landed tip", 4e-10, "nm",
-          exclusive=True),
-    _size("h_free", "m", "gap beyond which solids do not attract a tip", 5e-8, "nm",
-          exclusive=True),
+    _size(
+        "h0", "m", "gap that roughness keeps open under a landed tip", 4e-10, "nm", exclusive=True
+    ),
+    _size(
+        "h_free", "m", "gap beyond which solids do not attract a tip", 5e-8, "nm", exclusive=True
+    ),
     _size("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True),
     _size("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19),
     _size("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0),
@@ -134,11 +184,18 @@ PORTS = (
     _size("eta", "Pa.s", "viscosity of the liquid; 0: no viscous force", 1e-3, "mPa.s"),
     _size("theta1", "rad", "contact angle on the landing site", 0.7, "deg", maximum=math.pi),
     _size("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
-    Port("profile", "-", causality="parameter", label="profile of the meniscus",
-         kind="enumeration", enumeration=TipLaw, start=TipLaw.EXACT),
+    Port(
+        "profile",
+        "-",
+        causality="parameter",
+        label="profile of the meniscus",
+        kind="enumeration",
+        enumeration=TipLaw,
+        start=TipLaw.EXACT,
+    ),
     _size("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     _size("rtol", "-", "tolerance of an internal step", 1e-7, exclusive=True, maximum=0.1),
-)  # fmt: skip
+)
 
 
 def tip_scene(values: Mapping[str, Any]) -> SeparationScene:
@@ -199,8 +256,11 @@ class TipContact(PortSlave):
         "landing (needs numpy and scipy unless V = 0)"
     )
     experiment: ClassVar[Mapping[str, float]] = {
-        "startTime": 0.0, "stopTime": 2e-5, "stepSize": 2e-8, "tolerance": 1e-6,
-    }  # fmt: skip
+        "startTime": 0.0,
+        "stopTime": 2e-5,
+        "stepSize": 2e-8,
+        "tolerance": 1e-6,
+    }
 
     plan: Plan
     state: TipState
@@ -228,9 +288,12 @@ class TipContact(PortSlave):
             return TipStop(StopCurve.from_data(self.data["curve"]), damping)
         if damping > 0.0:
             raise DescriptionError(
-                "d_stop", damping, "be 0 on a rigid site", unit="s/m",
+                "d_stop",
+                damping,
+                "be 0 on a rigid site",
+                unit="s/m",
                 hint="build the FMU with a curve",
-            )  # fmt: skip
+            )
         return None
 
     def refresh(self) -> None:
@@ -264,13 +327,23 @@ class TipContact(PortSlave):
         taken = stop.curve.lost(state.largest) if stop is not None else 0.0
         status = TipStatus.FREE if state.free else TipStatus.HELD
         self.values.update(
-            h=state.gap, v=motion.speed, F_film=film_force(self.plan, state)[0],
-            J=n * state.impulse, W_visc=n * motion.dissipated_work, W_land=n * state.landing_loss,
-            state=int(TipStatus.LANDED if state.on_site else status), t_break=motion.break_time,
-            t_free=state.free_time, t_land=state.landing_time, n_break=motion.n_breaks,
-            n_land=state.n_landings, d=state.depth, d_max=state.largest, F_max=state.peak,
+            h=state.gap,
+            v=motion.speed,
+            F_film=film_force(self.plan, state)[0],
+            J=n * state.impulse,
+            W_visc=n * motion.dissipated_work,
+            W_land=n * state.landing_loss,
+            state=int(TipStatus.LANDED if state.on_site else status),
+            t_break=motion.break_time,
+            t_free=state.free_time,
+            t_land=state.landing_time,
+            n_break=motion.n_breaks,
+            n_land=state.n_landings,
+            d=state.depth,
+            d_max=state.largest,
+            F_max=state.peak,
             W_plastic=n * taken,
-        )  # fmt: skip
+        )
 
     def hidden_state(self) -> Mapping[str, Any]:
         """See `PortSlave.hidden_state`."""

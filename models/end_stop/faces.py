@@ -21,10 +21,11 @@ def _contact(owner: object, attribute: Attribute[Any], value: Any) -> None:
     if isinstance(value, Mapping | str) and value:
         return
     raise DescriptionError(
-        f"StopFaces.{attribute.name}", value,
+        f"StopFaces.{attribute.name}",
+        value,
         "be a contact scene: its file, its name, or its tables",
         hint="for example contact = 'contact-stop', or a table [...faces.contact]",
-    )  # fmt: skip
+    )
 
 
 @frozen(kw_only=True)

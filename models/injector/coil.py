@@ -25,8 +25,14 @@ from ...units import si
 from ...validators import count, optional, positive
 
 __all__ = [
-    "Coil", "advance_flux", "current", "field_energy", "flux_rate", "inductance", "magnet_force",
-]  # fmt: skip
+    "Coil",
+    "advance_flux",
+    "current",
+    "field_energy",
+    "flux_rate",
+    "inductance",
+    "magnet_force",
+]
 
 _MU0 = 4e-7 * math.pi  # [N/A2]
 _KNEE = 8  # how sharply the iron saturates

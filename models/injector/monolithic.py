@@ -183,10 +183,15 @@ class _Run:
         if film is None and not self.mode.held:
             method = {"method": "DOP853", "max_step": self._longest}
         solution = solve_ivp(
-            rates, (self.time, stop), self._unknowns(self.state), dense_output=True,
+            rates,
+            (self.time, stop),
+            self._unknowns(self.state),
+            dense_output=True,
             events=[watch for watch, _ in watched] or None,
-            rtol=self.rtol, atol=self.rtol * self._sizes(), **method,
-        )  # fmt: skip
+            rtol=self.rtol,
+            atol=self.rtol * self._sizes(),
+            **method,
+        )
         if not solution.success or solution.sol is None:
             raise ConvergenceError(f"scipy stopped at {self.time:g} s: {solution.message}")
         self.n_steps += len(solution.t) - 1

@@ -19,9 +19,17 @@ from . import valve as law
 from .valve import Valve
 
 __all__ = [
-    "COLUMNS", "FLUX", "Cycle", "Drive", "Event", "Mode", "MonolithicResult", "Piece", "in_si",
+    "COLUMNS",
+    "FLUX",
+    "Cycle",
+    "Drive",
+    "Event",
+    "Mode",
+    "MonolithicResult",
+    "Piece",
+    "in_si",
     "read",
-]  # fmt: skip
+]
 
 _Floats = NDArray[np.float64]
 
@@ -33,12 +41,24 @@ Drive = Valve | Callable[[float], float]
 
 COLUMNS: Mapping[str, str] = MappingProxyType(
     {
-        "time": "s", "gap": "m", "speed": "m/s", "flux": "Wb", "current": "A", "voltage": "V",
-        "magnet_force": "N", "spring_force": "N", "stop_force": "N", "pull": "N",
-        "film_force": "N", "meniscus_force": "N", "viscous_force": "N", "status": "-",
-        "viscous_impulse": "N.s", "dissipated_work": "J",
+        "time": "s",
+        "gap": "m",
+        "speed": "m/s",
+        "flux": "Wb",
+        "current": "A",
+        "voltage": "V",
+        "magnet_force": "N",
+        "spring_force": "N",
+        "stop_force": "N",
+        "pull": "N",
+        "film_force": "N",
+        "meniscus_force": "N",
+        "viscous_force": "N",
+        "status": "-",
+        "viscous_impulse": "N.s",
+        "dissipated_work": "J",
     }
-)  # fmt: skip
+)
 """The curves of a result and their units; a drive without a valve leaves those of the coil at 0."""
 
 
@@ -131,9 +151,14 @@ def in_si(
 
 
 def read(
-    plan: Plan, drive: Drive, pieces: Sequence[Piece], events: Sequence[Event],
-    times: _Floats | None, counts: tuple[int, int], faces: StopCurve | None = None,
-) -> MonolithicResult:  # fmt: skip
+    plan: Plan,
+    drive: Drive,
+    pieces: Sequence[Piece],
+    events: Sequence[Event],
+    times: _Floats | None,
+    counts: tuple[int, int],
+    faces: StopCurve | None = None,
+) -> MonolithicResult:
     """Read curves and cycles off the pieces of a simulation."""
     rows: list[tuple[float, ...]] = []
     for piece in pieces:
@@ -233,8 +258,10 @@ def _peak(plan: Plan, piece: Piece) -> tuple[float, float]:
     if piece.mode.held or not low < high:
         return forces[best], float(times[best])
     sharp = minimize_scalar(
-        lambda time: -force(time), bounds=(low, high), method="bounded",
+        lambda time: -force(time),
+        bounds=(low, high),
+        method="bounded",
         options={"xatol": 1e-9 * (high - low)},
-    )  # fmt: skip
+    )
     at_step = forces[best], float(times[best])
     return max(at_step, (-float(sharp.fun), float(sharp.x)))

@@ -26,10 +26,26 @@ from ..end_stop.faces import StopFaces
 from .coil import Coil, advance_flux, current, field_energy, flux_rate, inductance, magnet_force
 
 __all__ = [
-    "Coil", "DriveProfile", "Spring", "Stop", "Valve", "advance_flux", "current",
-    "energising_times", "field_energy", "flux_rate", "inductance", "magnet_force", "pull",
-    "rough_stop_force", "spring_force", "stop_force", "stopping", "switching_times", "voltage",
-]  # fmt: skip
+    "Coil",
+    "DriveProfile",
+    "Spring",
+    "Stop",
+    "Valve",
+    "advance_flux",
+    "current",
+    "energising_times",
+    "field_energy",
+    "flux_rate",
+    "inductance",
+    "magnet_force",
+    "pull",
+    "rough_stop_force",
+    "spring_force",
+    "stop_force",
+    "stopping",
+    "switching_times",
+    "voltage",
+]
 
 
 @frozen(kw_only=True)
@@ -127,9 +143,12 @@ class Valve:
     def __attrs_post_init__(self) -> None:
         if self.stop.gap >= self.coil.air_gap:
             raise DescriptionError(
-                "Stop.gap", self.stop.gap, f"be less than Coil.air_gap = {self.coil.air_gap:g} m",
-                unit="m", hint="else the armature meets the poles before the spool meets the stop",
-            )  # fmt: skip
+                "Stop.gap",
+                self.stop.gap,
+                f"be less than Coil.air_gap = {self.coil.air_gap:g} m",
+                unit="m",
+                hint="else the armature meets the poles before the spool meets the stop",
+            )
 
 
 def energising_times(profile: DriveProfile) -> list[float]:

@@ -33,9 +33,20 @@ if TYPE_CHECKING:
 __all__ = ["FmuTip", "LocalTip", "Motion", "Tip", "couple", "longest_step", "mirror_step"]
 
 SIGNALS = (
-    "time", "tilt", "rate", "volts_plus", "volts_minus", "gap_plus", "gap_minus", "force_plus",
-    "force_minus", "film_plus", "film_minus", "state_plus", "state_minus",
-)  # fmt: skip
+    "time",
+    "tilt",
+    "rate",
+    "volts_plus",
+    "volts_minus",
+    "gap_plus",
+    "gap_minus",
+    "force_plus",
+    "force_minus",
+    "film_plus",
+    "film_minus",
+    "state_plus",
+    "state_minus",
+)
 """What `couple` records; SI units, forces of all tips of a side, films of one tip."""
 
 LANDED, HELD, FREE = 1.0, 2.0, 3.0

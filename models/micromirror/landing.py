@@ -51,9 +51,12 @@ class TipLanding(NamedTuple):
 
 
 def tip_faces(
-    tip: SeparationScene, most: float, *, material: Material = _ALUMINIUM,
+    tip: SeparationScene,
+    most: float,
+    *,
+    material: Material = _ALUMINIUM,
     accuracy: Accuracy | None = None,
-) -> StopCurve:  # fmt: skip
+) -> StopCurve:
     """Curve of the apex of a tip on its site, up to an approach [m]; both of one material.
 
     Raises

@@ -33,9 +33,17 @@ from ..end_stop.faces import StopFaces
 from .electrostatics import Electrode, largest_tilt, torque
 
 __all__ = [
-    "Hinge", "Mirror", "SpringTips", "Waveform", "acceleration", "drive_torque", "electrode_volts",
-    "landed_tilt", "root_height", "switching_times",
-]  # fmt: skip
+    "Hinge",
+    "Mirror",
+    "SpringTips",
+    "Waveform",
+    "acceleration",
+    "drive_torque",
+    "electrode_volts",
+    "landed_tilt",
+    "root_height",
+    "switching_times",
+]
 
 
 @frozen(kw_only=True)
@@ -99,9 +107,12 @@ class SpringTips:
     def __attrs_post_init__(self) -> None:
         if self.landing_damping > 0.0 and self.faces is None:
             raise DescriptionError(
-                "SpringTips.landing_damping", self.landing_damping, "be 0 on a rigid site",
-                unit="s/m", hint="give SpringTips.faces, such as contact = 'tip-landing'",
-            )  # fmt: skip
+                "SpringTips.landing_damping",
+                self.landing_damping,
+                "be 0 on a rigid site",
+                unit="s/m",
+                hint="give SpringTips.faces, such as contact = 'tip-landing'",
+            )
 
 
 @frozen(kw_only=True)
@@ -162,10 +173,12 @@ class Mirror:
         most = largest_tilt(self.electrode)
         if self.tips.landing_tilt >= most:
             raise DescriptionError(
-                "SpringTips.landing_tilt", self.tips.landing_tilt,
-                f"be less than {most:g} rad, where the plate meets the electrode", unit="rad",
+                "SpringTips.landing_tilt",
+                self.tips.landing_tilt,
+                f"be less than {most:g} rad, where the plate meets the electrode",
+                unit="rad",
                 hint="raise Electrode.gap, or shorten Electrode.outer",
-            )  # fmt: skip
+            )
 
 
 def root_height(tips: SpringTips, tilt: float, side: float) -> float:

@@ -195,10 +195,16 @@ class WholeRun:
             sizes[2 + 2 * side] = 1e-3 if mode == HELD else 1e-9
         method: dict[str, Any] = {"method": "Radau" if HELD in self.modes else "DOP853"}
         solution = solve_ivp(
-            self._rates, (self.time, stop), self._unknowns(), dense_output=True,
-            events=[watch for watch, _ in watched] or None, rtol=self.rtol,
-            atol=self.rtol * np.array(sizes), max_step=2.0 * swing, **method,
-        )  # fmt: skip
+            self._rates,
+            (self.time, stop),
+            self._unknowns(),
+            dense_output=True,
+            events=[watch for watch, _ in watched] or None,
+            rtol=self.rtol,
+            atol=self.rtol * np.array(sizes),
+            max_step=2.0 * swing,
+            **method,
+        )
         if not solution.success or solution.sol is None:
             raise ConvergenceError(f"scipy stopped at {self.time:g} s: {solution.message}")
         self.n_steps += len(solution.t) - 1

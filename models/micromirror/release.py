@@ -91,10 +91,14 @@ def release(scene: MicromirrorScene, made: Plan, reset_voltage: float | None) ->
     mirror = scene.first_flip(reset_voltage)
     wave, away = mirror.waveform, _AWAY * mirror.tips.landing_tilt
     motion = couple(
-        mirror, scene.tips(made), scene.opening.stiffness, scene.start,
-        wave.reset_time + wave.release_time, scene.study.communication_step,
+        mirror,
+        scene.tips(made),
+        scene.opening.stiffness,
+        scene.start,
+        wave.reset_time + wave.release_time,
+        scene.study.communication_step,
         until=lambda time, tilt: tilt < away,
-    )  # fmt: skip
+    )
     if motion["tilt"][-1] >= away:
         return math.nan
     held = motion["state_plus"] < 3.0

@@ -40,9 +40,11 @@ def _humidity(study: object, attribute: Any, value: float) -> None:
     fraction(study, attribute, value)
     if value == 1.0:
         raise DescriptionError(
-            f"MirrorStudy.{attribute.name}", value, "be less than 1",
+            f"MirrorStudy.{attribute.name}",
+            value,
+            "be less than 1",
             hint="at saturation all is flooded",
-        )  # fmt: skip
+        )
 
 
 @frozen(kw_only=True)
@@ -88,10 +90,12 @@ class MicromirrorScene:
         opening = self.opening
         if opening.rest_gap != opening.initial_gap:
             raise DescriptionError(
-                "Opening.rest_gap", opening.rest_gap,
-                f"equal initial_gap = {opening.initial_gap:g} m", unit="m",
+                "Opening.rest_gap",
+                opening.rest_gap,
+                f"equal initial_gap = {opening.initial_gap:g} m",
+                unit="m",
                 hint="a tip that has landed rests on its roughness",
-            )  # fmt: skip
+            )
         if opening.mass is None or opening.stiffness == 0.0:
             name, unit = ("mass", "kg") if opening.mass is None else ("stiffness", "N/m")
             value = getattr(opening, name)
@@ -196,12 +200,19 @@ def tip_values(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
         raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
     assert isinstance(interface.upper, Sphere)
     return {
-        "N": tips.per_side, "m": opening.mass, "k": opening.stiffness, "c": tips.damping,
-        "h0": opening.initial_gap, "h_free": opening.final_gap, "R": interface.upper.radius,
+        "N": tips.per_side,
+        "m": opening.mass,
+        "k": opening.stiffness,
+        "c": tips.damping,
+        "h0": opening.initial_gap,
+        "h_free": opening.final_gap,
+        "R": interface.upper.radius,
         "A_H": solids.hamaker_constant if solids is not None else 0.0,
-        "V": meniscus.volume or 0.0, "gamma": liquid.surface_tension,
+        "V": meniscus.volume or 0.0,
+        "gamma": liquid.surface_tension,
         "eta": (liquid.viscosity or 0.0) if viscous is not None else 0.0,
-        "theta1": meniscus.contact_angle_lower, "theta2": meniscus.contact_angle_upper,
+        "theta1": meniscus.contact_angle_lower,
+        "theta2": meniscus.contact_angle_upper,
         "profile": profiles[film.profile] if film is not None else "EXACT",
         **({"curve": stop.curve, "d_stop": stop.damping} if stop is not None else {}),
-    }  # fmt: skip
+    }

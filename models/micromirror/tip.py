@@ -156,9 +156,13 @@ _IMPULSES = tuple(
 
 
 def advance_tip(
-    plan: Plan, damping: float, state: TipState, root: Root, dt: float,
+    plan: Plan,
+    damping: float,
+    state: TipState,
+    root: Root,
+    dt: float,
     stop: TipStop | None = None,
-) -> TipState:  # fmt: skip
+) -> TipState:
     """Advance a tip by `dt` [s] while its root moves on.
 
     Parameters
@@ -261,9 +265,11 @@ def _flight(plan: Plan, damping: float, state: TipState, root: Root) -> Flight:
     if square <= 0.0:
         critical = 2.0 * math.sqrt(opening.stiffness * opening.mass)
         raise DescriptionError(
-            "SpringTips.damping", damping, f"be less than critical, {critical:g} N.s/m",
+            "SpringTips.damping",
+            damping,
+            f"be less than critical, {critical:g} N.s/m",
             unit="N.s/m",
-        )  # fmt: skip
+        )
     frequency, rest = math.sqrt(square), -opening.mass * root.acceleration / opening.stiffness
     cosine = motion.gap - opening.initial_gap - root.height - rest
     sine = (motion.speed - root.speed + decay * cosine) / frequency
@@ -317,10 +323,15 @@ def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) 
         time=found.time, speed=-found.speed, held=found.end is BlowEnd.REST, step=0.0
     )
     return state._replace(
-        motion=moved, touching=found.end is BlowEnd.TIME, impulse=state.impulse + found.impulse,
-        landing_loss=state.landing_loss + found.lost, depth=found.depth,
-        dent=stop.curve.residual(found.largest), largest=found.largest, peak=found.peak,
-    )  # fmt: skip
+        motion=moved,
+        touching=found.end is BlowEnd.TIME,
+        impulse=state.impulse + found.impulse,
+        landing_loss=state.landing_loss + found.lost,
+        depth=found.depth,
+        dent=stop.curve.residual(found.largest),
+        largest=found.largest,
+        peak=found.peak,
+    )
 
 
 def _rest(plan: Plan, stop: TipStop, before: TipState, root: Root, after: TipState) -> TipState:

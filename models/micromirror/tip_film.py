@@ -34,9 +34,14 @@ if TYPE_CHECKING:
     from ...capillary.exact.bridge import ExactBridge
 
 __all__ = [
-    "Adhesion", "adhesion", "condensed_volume", "pressure_law", "separation_energy", "tip_law",
+    "Adhesion",
+    "adhesion",
+    "condensed_volume",
+    "pressure_law",
+    "separation_energy",
+    "tip_law",
     "tip_scene",
-]  # fmt: skip
+]
 
 
 class Adhesion(NamedTuple):
@@ -103,9 +108,14 @@ def _at_pressure(scene: SeparationScene, gap: Any, pressure: float) -> ExactBrid
 
     interface, meniscus = scene.interface, scene.interface.meniscus
     return bridge_at_pressure(
-        gap, pressure, meniscus.contact_angle_lower, meniscus.contact_angle_upper,
-        interface.lower.curvature, interface.upper.curvature, beyond="nan",
-    )  # fmt: skip
+        gap,
+        pressure,
+        meniscus.contact_angle_lower,
+        meniscus.contact_angle_upper,
+        interface.lower.curvature,
+        interface.upper.curvature,
+        beyond="nan",
+    )
 
 
 @lru_cache(maxsize=64)

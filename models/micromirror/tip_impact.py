@@ -43,9 +43,14 @@ _ROWS = (
 )
 _LAST = (35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0)
 _ERROR = (
-    71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0,
+    71.0 / 57600.0,
+    0.0,
+    -71.0 / 16695.0,
+    71.0 / 1920.0,
+    -17253.0 / 339200.0,
+    22.0 / 525.0,
     -1.0 / 40.0,
-)  # fmt: skip
+)
 
 _Four = tuple[float, float, float, float]
 _Rates = Callable[[float, _Four], _Four]
@@ -244,9 +249,13 @@ def _moved(contact: Contact, here: Blow, length: float, reached: _Four) -> Blow:
     force = curve.force_at(depth, here.largest)[0] if depth > 0.0 else 0.0
     held = force * max(1.0 + contact.stop.damping * speed, 0.0)
     now = here._replace(
-        time=time, depth=_known(curve, depth, time), speed=speed, impulse=here.impulse + impulse,
-        lost=here.lost + damped, peak=max(here.peak, held),
-    )  # fmt: skip
+        time=time,
+        depth=_known(curve, depth, time),
+        speed=speed,
+        impulse=here.impulse + impulse,
+        lost=here.lost + damped,
+        peak=max(here.peak, held),
+    )
     if here.speed > 0.0 and speed == 0.0:
         return _turned(contact, now)
     # A tip that came and was drawn off before it pressed has nothing to turn at.

@@ -138,14 +138,24 @@ def test_volume_between_a_sphere_and_a_flat_by_integration(lower, upper):
 
 
 BANDS = {  # largest relative error of the force, up to a share of the exact stability limit
-    "flat_60_60_D0.02": 0.007, "flat_60_60_D1": 0.07, "flat_0_0_D0.5": 0.07,
-    "flat_0_60_D0.05": 0.007, "flat_30_75_D0.5": 0.07, "flat_0_90_D0.4": 0.07,
-    "flat_30_30_D1.2": 0.19, "flat_180_180_D0.3": 0.042, "flat_60_60_x/h~100": 0.007,
-    "flat_0_60_x/h~100000": 2e-6, "sphere/flat_40_40_V1e-15_D0": 1e-5,
-    "sphere/flat_40_40_V0.001_D0.05": 0.07, "sphere/flat_60_60_V0.01_D0.1": 0.07,
-    "sphere/flat_0_60_V0.001_D0.04": 0.07, "sphere/flat_180_150_V0.001_D0.01": 0.034,
-    "sphere/sphere_0_0_V0.001_D0.05": 0.07, "sphere/sphere_0_20_V0.01_D0.1": 0.07,
-}  # fmt: skip
+    "flat_60_60_D0.02": 0.007,
+    "flat_60_60_D1": 0.07,
+    "flat_0_0_D0.5": 0.07,
+    "flat_0_60_D0.05": 0.007,
+    "flat_30_75_D0.5": 0.07,
+    "flat_0_90_D0.4": 0.07,
+    "flat_30_30_D1.2": 0.19,
+    "flat_180_180_D0.3": 0.042,
+    "flat_60_60_x/h~100": 0.007,
+    "flat_0_60_x/h~100000": 2e-6,
+    "sphere/flat_40_40_V1e-15_D0": 1e-5,
+    "sphere/flat_40_40_V0.001_D0.05": 0.07,
+    "sphere/flat_60_60_V0.01_D0.1": 0.07,
+    "sphere/flat_0_60_V0.001_D0.04": 0.07,
+    "sphere/flat_180_150_V0.001_D0.01": 0.034,
+    "sphere/sphere_0_0_V0.001_D0.05": 0.07,
+    "sphere/sphere_0_20_V0.01_D0.1": 0.07,
+}
 
 
 @pytest.mark.parametrize(

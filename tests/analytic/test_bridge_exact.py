@@ -42,9 +42,14 @@ def fixed(case):
 
 def compare(state, case, rtol=RTOL):
     for name, key in (
-        ("force", "F_over_gamma"), ("pressure", "P_over_gamma"), ("radius_lower", "r1"),
-        ("radius_upper", "r2"), ("neck", "neck"), ("bulge", "bulge"), ("volume", "V"),
-    ):  # fmt: skip
+        ("force", "F_over_gamma"),
+        ("pressure", "P_over_gamma"),
+        ("radius_lower", "r1"),
+        ("radius_upper", "r2"),
+        ("neck", "neck"),
+        ("bulge", "bulge"),
+        ("volume", "V"),
+    ):
         if key in case:
             assert float(getattr(state, name)) == pytest.approx(case[key], rel=rtol, abs=1e-13), (
                 name
@@ -76,9 +81,11 @@ def test_reference_limits(case):
     assert float(limit.gap) == pytest.approx(case["D_limit"], rel=1e-12)
     assert LIMITS[int(limit.kind)] == case["kind"]
     for name, key in (
-        ("force", "F_over_gamma"), ("pressure", "P_over_gamma"), ("radius_lower", "r1"),
+        ("force", "F_over_gamma"),
+        ("pressure", "P_over_gamma"),
+        ("radius_lower", "r1"),
         ("radius_upper", "r2"),
-    ):  # fmt: skip
+    ):
         assert float(getattr(limit, name)) == pytest.approx(case[key], rel=1e-10), name
 
 
@@ -149,10 +156,16 @@ def test_the_limit_of_equal_angles_changes_its_kind_at_31_degrees():
 
 
 SHAPES = [
-    (0.3, 1.0, 60, 60, 0.0, 0.0), (0.9, 1.0, 20, 20, 0.0, 0.0), (0.5, 1.0, 30, 120, 0.0, 0.0),
-    (1.0, 1.0, 120, 120, 0.0, 0.0), (0.05, 1e-3, 40, 70, 0.0, 1.0), (0.1, 0.1, 110, 95, 0.0, 1.0),
-    (0.02, 1e-2, 10, 30, 1.0, 0.4), (0.0, 0.1, 30, 30, 0.0, 1.0), (0.03, 0.1, 30, 120, 0.0, 1.0),
-]  # fmt: skip
+    (0.3, 1.0, 60, 60, 0.0, 0.0),
+    (0.9, 1.0, 20, 20, 0.0, 0.0),
+    (0.5, 1.0, 30, 120, 0.0, 0.0),
+    (1.0, 1.0, 120, 120, 0.0, 0.0),
+    (0.05, 1e-3, 40, 70, 0.0, 1.0),
+    (0.1, 0.1, 110, 95, 0.0, 1.0),
+    (0.02, 1e-2, 10, 30, 1.0, 0.4),
+    (0.0, 0.1, 30, 30, 0.0, 1.0),
+    (0.03, 0.1, 30, 120, 0.0, 1.0),
+]
 
 
 @pytest.mark.parametrize("case", SHAPES, ids=str)

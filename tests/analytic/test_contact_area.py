@@ -14,9 +14,11 @@ def pressed(surface, grid, **window):
     interface = ck.ContactInterface(lower=ck.Body(solid=SOFT), upper=ck.Body(surface=surface))
     pressing = window.pop("pressing")
     scene = ck.ContactScene(
-        interface=interface, window=ck.Window(**window), pressing=pressing,
+        interface=interface,
+        window=ck.Window(**window),
+        pressing=pressing,
         effects=(ck.HalfSpace(),),
-    )  # fmt: skip
+    )
     return ck.solve(ck.plan(scene, ck.Accuracy(grid=grid, rtol=1e-6)))
 
 
@@ -50,8 +52,14 @@ def test_a_rough_contact_converges_much_sooner():
 def test_the_edges_are_counted_along_both_axes_and_round_the_window(periodic):
     """A strip along y: two edges for each row, or with its free ends two more for each column."""
     strip = ck.Wave(amplitude=1e-9, wavelength=1e-6)
-    run = pressed(strip, (8, 64), width=1e-6, height=0.125e-6, periodic=periodic,
-                  pressing=ck.Pressing(pressure=1e5))  # fmt: skip
+    run = pressed(
+        strip,
+        (8, 64),
+        width=1e-6,
+        height=0.125e-6,
+        periodic=periodic,
+        pressing=ck.Pressing(pressure=1e5),
+    )
     rows, columns = run.contact.sum(0).max(), run.contact.sum(1).max()
     share = (np.pi - 1.0 + np.log(2.0)) / 24.0
     if periodic:

@@ -143,9 +143,7 @@ def test_full_contact_is_the_closed_form_to_rounding(solid, both):
 def test_layered_full_contact_begins_where_the_compliance_says(both, ratio):
     wavenumber = 2.0 * math.pi * (math.sqrt(2.0) if both else 1.0)
     full = layered_wave.full_contact_pressure(1.0, wavenumber, *MODULI)
-    run = (
-        product(ratio, 96, COATED, full) if both else strip(ratio * full, 256, solid=COATED)
-    )  # fmt: skip
+    run = product(ratio, 96, COATED, full) if both else strip(ratio * full, 256, solid=COATED)
     assert (run.contact_fraction == 1.0) is (ratio > 1.0)
 
 

@@ -167,11 +167,13 @@ def test_only_the_forces_of_the_scene_are_compared():
 OWN_LAWS = [
     ((ck.MeniscusForce(), ck.ViscousForce()), "exact"),
     ((ck.MeniscusForce(profile="arc"), ck.ViscousForce()), "arc"),
-    ((ck.MeniscusForce(profile="as-published"), ck.ViscousForce(closure="as-published")),
-     "as-published"),
+    (
+        (ck.MeniscusForce(profile="as-published"), ck.ViscousForce(closure="as-published")),
+        "as-published",
+    ),
     ((ck.ViscousForce(),), "exact"),
     ((ck.ViscousForce(closure="as-published"),), "as-published"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("effects", "law"), OWN_LAWS)
@@ -180,25 +182,50 @@ def test_the_effects_of_the_scene_choose_the_law(effects, law):
 
 
 REFUSED = [
-    (lambda: divide_meniscus(scene(effects=(ck.MeniscusForce(profile="as-published"),
-                                            ck.ViscousForce()))), "would be mixed", ck.PlanError),
-    (lambda: divide_meniscus(scene(effects=(ck.ViscousForce(closure="as-published"),)),
-                             law="exact"), "never both", ck.PlanError),
+    (
+        lambda: divide_meniscus(
+            scene(effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce()))
+        ),
+        "would be mixed",
+        ck.PlanError,
+    ),
+    (
+        lambda: divide_meniscus(
+            scene(effects=(ck.ViscousForce(closure="as-published"),)), law="exact"
+        ),
+        "never both",
+        ck.PlanError,
+    ),
     (lambda: divide_meniscus(scene(volume=None)), "meniscus.volume", ck.PlanError),
-    (lambda: divide_meniscus(scene(effects=(ck.Rupture(),)), law="exact"),
-     r"knows MeniscusForce\(\) and ViscousForce\(\) only.*leave out Rupture", ck.PlanError),
-    (lambda: divide_meniscus(scene(force=1e-6, mass=1e-9), law="exact"),
-     r"needs Opening.time \[s\] or Opening.speed \[m/s\]", ck.PlanError),
+    (
+        lambda: divide_meniscus(scene(effects=(ck.Rupture(),)), law="exact"),
+        r"knows MeniscusForce\(\) and ViscousForce\(\) only.*leave out Rupture",
+        ck.PlanError,
+    ),
+    (
+        lambda: divide_meniscus(scene(force=1e-6, mass=1e-9), law="exact"),
+        r"needs Opening.time \[s\] or Opening.speed \[m/s\]",
+        ck.PlanError,
+    ),
     (lambda: divide_meniscus(scene(), law="parabola"), "no law 'parabola'", ck.PlanError),
     (lambda: divide_meniscus(scene(), [1, 2.5], law="exact"), "whole numbers", ck.DescriptionError),
     (lambda: divide_meniscus(scene(), [0], law="exact"), "whole numbers", ck.DescriptionError),
-    (lambda: divide_meniscus(scene(1e-6, 1e-21), law="exact"), "no meniscus spans the initial gap",
-     ck.InfeasibleError),
-    (lambda: critical_meniscus(scene(angle=120.0), law="exact"), "the meniscus repels",
-     ck.InfeasibleError),
-    (lambda: critical_meniscus(scene(time=1e-25), law="exact"), "for every bridge that spans",
-     ck.InfeasibleError),
-]  # fmt: skip
+    (
+        lambda: divide_meniscus(scene(1e-6, 1e-21), law="exact"),
+        "no meniscus spans the initial gap",
+        ck.InfeasibleError,
+    ),
+    (
+        lambda: critical_meniscus(scene(angle=120.0), law="exact"),
+        "the meniscus repels",
+        ck.InfeasibleError,
+    ),
+    (
+        lambda: critical_meniscus(scene(time=1e-25), law="exact"),
+        "for every bridge that spans",
+        ck.InfeasibleError,
+    ),
+]
 
 
 @pytest.mark.parametrize(("call", "message", "error"), REFUSED)

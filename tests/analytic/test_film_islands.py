@@ -15,8 +15,11 @@ from contactkit.roughness.roughness import gaussian_exponential, paraboloid
 
 few = settings(deadline=None, max_examples=60)
 MASKS = arrays(bool, st.tuples(st.integers(1, 7), st.integers(1, 7)))
-GAPS = arrays(np.float64, st.tuples(st.integers(1, 7), st.integers(1, 7)),
-              elements=st.sampled_from([0.0, 0.5, 1.5, 2.5]))  # fmt: skip
+GAPS = arrays(
+    np.float64,
+    st.tuples(st.integers(1, 7), st.integers(1, 7)),
+    elements=st.sampled_from([0.0, 0.5, 1.5, 2.5]),
+)
 CONNECTIVITY = st.sampled_from([4, 8])
 
 

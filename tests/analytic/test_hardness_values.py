@@ -59,10 +59,12 @@ def test_the_rule_of_the_source_jumps_by_what_the_reference_says(row):
 @pytest.mark.parametrize(
     ("hardness", "before", "after"),
     [
-        ([1.0, 0.5, 1.0], 1.000, 0.528), ([1.0, 2.0, 1.0], 1.000, 1.752),
-        ([2.0, 2.0, 1.0], 2.000, 1.752), ([0.5, 0.5, 1.0], 0.500, 0.528),
+        ([1.0, 0.5, 1.0], 1.000, 0.528),
+        ([1.0, 2.0, 1.0], 1.000, 1.752),
+        ([2.0, 2.0, 1.0], 2.000, 1.752),
+        ([0.5, 0.5, 1.0], 0.500, 0.528),
     ],
-)  # fmt: skip
+)
 def test_two_layers_forget_the_top_one_at_once(hardness, before, after):
     found = effective_hardness_literal([0.2999, 0.3], [1.0] * 3, hardness, [1.0, 1.0])
     np.testing.assert_allclose(found, [before, after], atol=5e-4)

@@ -58,8 +58,12 @@ def shot(radius, gap, pressure, lower, upper):
     def meridian(x):
         def grow(_, y):
             r, phi = y[0], y[1]
-            return [math.cos(phi), pressure - math.sin(phi) / r, math.sin(phi),
-                    math.pi * r * r * math.sin(phi)]  # fmt: skip
+            return [
+                math.cos(phi),
+                pressure - math.sin(phi) / r,
+                math.sin(phi),
+                math.pi * r * r * math.sin(phi),
+            ]
 
         def meets(_, y):
             beta = math.asin(min(max(y[0] / radius, -1.0), 1.0))
@@ -67,8 +71,15 @@ def shot(radius, gap, pressure, lower, upper):
 
         meets.terminal = True
         span = 20.0 / abs(pressure)
-        done = solve_ivp(grow, (0.0, span), [x, math.pi - lower, 0.0, 0.0], events=meets,
-                         rtol=1e-12, atol=1e-18, method="DOP853")  # fmt: skip
+        done = solve_ivp(
+            grow,
+            (0.0, span),
+            [x, math.pi - lower, 0.0, 0.0],
+            events=meets,
+            rtol=1e-12,
+            atol=1e-18,
+            method="DOP853",
+        )
         r, _, z, v = done.y[:, -1]
         beta = math.asin(r / radius)
         return z - gap - 2.0 * radius * math.sin(0.5 * beta) ** 2, r, v, beta
@@ -121,8 +132,11 @@ def test_force_is_the_slope_of_the_energy_at_fixed_pressure():
     def at(humidity, gaps):
         scene = near_sphere(radius, 0.0, 0.3, 0.6)
         curves = [humidity_curve(scene, [humidity], gap=g) for g in gaps]
-        return (np.array([c.force[0] for c in curves]), np.array([c.volume[0] for c in curves]),
-                curves[0].pressure[0])  # fmt: skip
+        return (
+            np.array([c.force[0] for c in curves]),
+            np.array([c.volume[0] for c in curves]),
+            curves[0].pressure[0],
+        )
 
     nodes, weights = np.polynomial.legendre.leggauss(12)
     low, high = 0.1e-9, 0.4e-9
@@ -142,9 +156,12 @@ def test_force_is_the_slope_of_the_energy_at_fixed_pressure():
 def rough_scene(rms=1e-9, gap=3e-9, radius=1e-6, **choices):
     population = ck.AsperityPopulation(density=5e13, radius=radius, rms_height=rms)
     film = ck.Meniscus.from_humidity(
-        liquid=WATER, relative_humidity=0.5, temperature=ROOM,
-        contact_angle_lower=0.4, contact_angle_upper=0.2,
-    )  # fmt: skip
+        liquid=WATER,
+        relative_humidity=0.5,
+        temperature=ROOM,
+        contact_angle_lower=0.4,
+        contact_angle_upper=0.2,
+    )
     return ck.SeparationScene(
         interface=ck.Interface(lower=ck.Flat(radius=1e-5), meniscus=film),
         opening=ck.Opening(initial_gap=gap, final_gap=20e-9, speed=1e-6),
@@ -223,8 +240,10 @@ def test_a_smooth_ball_in_contact_is_one_island_with_the_bridge_of_its_sphere():
     assert found.force == pytest.approx(one.force, rel=0.02)  # the area of pixels
     cut = humidity_curve(result, [0.8, 0.9, 0.95], law="cross-cut")
     assert cut.law == "cross-cut of the gap, Eq. (2.43)"
-    thin = [kelvin.thin_film_force(radius, 0.0, 0.072, 2 * math.cos(0.3), h)
-            for h in found.meniscus_height]  # fmt: skip
+    thin = [
+        kelvin.thin_film_force(radius, 0.0, 0.072, 2 * math.cos(0.3), h)
+        for h in found.meniscus_height
+    ]
     assert cut.force == pytest.approx(thin, rel=0.02)
     with pytest.raises(ck.NotSimulatedError, match="has no cover"):
         cut.cover  # noqa: B018
@@ -236,13 +255,14 @@ def test_the_cross_cut_is_that_of_the_film_islands():
     solid = ck.Material(young_modulus=1e10, poisson_ratio=0.3)
     scene = ck.ContactScene(
         interface=ck.ContactInterface(
-            lower=ck.Body(solid=solid), upper=ck.Body(surface=heights),
+            lower=ck.Body(solid=solid),
+            upper=ck.Body(surface=heights),
             meniscus=ck.Meniscus(liquid=WATER),
         ),
         pressing=ck.Pressing(pressure=1e6),
         effects=(ck.HalfSpace(),),
         temperature=ROOM,
-    )  # fmt: skip
+    )
     result = ck.solve(ck.plan(scene))
     found = humidity_curve(result, [0.7], law="cross-cut")
     height = found.meniscus_height[0]
@@ -265,12 +285,18 @@ REFUSED = [
     (lambda: humidity_curve(near_sphere(1e-6), [0.0]), "nothing condenses", ck.InfeasibleError),
     (lambda: humidity_curve(near_sphere(1e-6), [math.nan]), "numbers between", ck.DescriptionError),
     (lambda: humidity_curve(near_sphere(1e-6), []), "numbers between", ck.DescriptionError),
-    (lambda: humidity_curve(near_sphere(1e-6), [0.5], gap=-1.0), r"\(gap\) must be zero or",
-     ck.DescriptionError),
-    (lambda: humidity_curve(_flats(), [0.5]), "between smooth flats.*it dries up",
-     ck.InfeasibleError),
+    (
+        lambda: humidity_curve(near_sphere(1e-6), [0.5], gap=-1.0),
+        r"\(gap\) must be zero or",
+        ck.DescriptionError,
+    ),
+    (
+        lambda: humidity_curve(_flats(), [0.5]),
+        "between smooth flats.*it dries up",
+        ck.InfeasibleError,
+    ),
     (lambda: humidity_curve("scene", [0.5]), "a SeparationScene or a ContactResult", ck.PlanError),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("call", "message", "error"), REFUSED)

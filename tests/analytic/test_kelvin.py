@@ -114,22 +114,34 @@ REFUSED = [
     (lambda w: ck.Meniscus(liquid=w, pressure=1e5), r"\[Pa\], got 100000.0; liquid of a positive"),
     (lambda w: ck.Meniscus(liquid=w, pressure=-math.inf), "be negative and finite"),
     (lambda w: ck.Meniscus(liquid=w, pressure=-1e5, volume=1e-20), "not both"),
-    (lambda w: ck.Meniscus.from_humidity(liquid=w, relative_humidity=50.0),
-     "lie between 0 and 1, got 50.0; it is a share, not per cent"),
+    (
+        lambda w: ck.Meniscus.from_humidity(liquid=w, relative_humidity=50.0),
+        "lie between 0 and 1, got 50.0; it is a share, not per cent",
+    ),
     (lambda w: ck.Meniscus.from_humidity(liquid=w, relative_humidity=math.nan), "between 0 and 1"),
-    (lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=1.1, area=1.0, gap=1.0),
-     r"from_coverage\(coverage\) must lie above 0 and not above 1"),
-    (lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=0.0, gap=1.0),
-     r"from_coverage\(area\) must be positive and finite \[m2\]"),
-    (lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=1.0, gap=math.inf),
-     r"from_coverage\(gap\) must be positive and finite \[m\]"),
-    (lambda w: ck.Liquid(name="water", molar_mass=18.015),
-     r"molar_mass must be at most 10 \[kg/mol\].*'18.015 g/mol'"),
+    (
+        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=1.1, area=1.0, gap=1.0),
+        r"from_coverage\(coverage\) must lie above 0 and not above 1",
+    ),
+    (
+        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=0.0, gap=1.0),
+        r"from_coverage\(area\) must be positive and finite \[m2\]",
+    ),
+    (
+        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=1.0, gap=math.inf),
+        r"from_coverage\(gap\) must be positive and finite \[m\]",
+    ),
+    (
+        lambda w: ck.Liquid(name="water", molar_mass=18.015),
+        r"molar_mass must be at most 10 \[kg/mol\].*'18.015 g/mol'",
+    ),
     (lambda w: ck.Liquid(name="oil", molar_mass=-1.0), "be positive and finite"),
-    (lambda w: ck.Liquid(name="oil", density=900.0).molar_volume(300.0),
-     r"Liquid.molar_mass must be given for a liquid in equilibrium with its vapour \[kg/mol\]"),
+    (
+        lambda w: ck.Liquid(name="oil", density=900.0).molar_volume(300.0),
+        r"Liquid.molar_mass must be given for a liquid in equilibrium with its vapour \[kg/mol\]",
+    ),
     (lambda w: ck.Liquid(name="oil", molar_mass=0.4).molar_volume(300.0), "Liquid.density"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("make", "message"), REFUSED)

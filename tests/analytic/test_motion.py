@@ -230,9 +230,14 @@ def test_scipy_finds_the_same_motion(release_cases, release_scene, name):
 
     released.terminal = True
     found = solve_ivp(
-        slope, (0.0, 1.0), [math.log(case["h0"]), 0.0], "Radau", events=released,
-        rtol=1e-9, atol=1e-11,
-    )  # fmt: skip
+        slope,
+        (0.0, 1.0),
+        [math.log(case["h0"]), 0.0],
+        "Radau",
+        events=released,
+        rtol=1e-9,
+        atol=1e-11,
+    )
     result = ck.simulate(made)
     assert result.state.release_time == approx(found.t_events[0][0], 1e-6)
     assert result.state.release_speed == approx(found.y_events[0][0][1], 1e-6)

@@ -19,13 +19,30 @@ FILM = {"surface_tension": 0.072, "angle_lower": 60 * DEG, "angle_upper": 60 * D
 
 # One possible value of each argument, for a film of nanometres.
 GIVEN = {
-    **FILM, "radius": 100 * NM, "gap": 1 * NM, "angle": 1.0, "number": 4, "kelvin_radius": 1 * NM,
-    "molar_volume": 18e-6, "temperature": 298.15, "relative_humidity": 0.5,
-    "sphere_radius": 100 * NM, "immersion": 1 * NM, "filling_angle": 0.2, "volume": 927.3e-27,
-    "height": 2 * NM, "film_height": 3 * NM, "gap_start": 1 * NM, "gap_end": 39 * NM,
-    "separation_time": 1e-7, "viscosity": 0.89e-3, "speed": 0.02, "position": 5 * NM,
-    "travel": 30 * NM, "force": 1e-9,
-}  # fmt: skip
+    **FILM,
+    "radius": 100 * NM,
+    "gap": 1 * NM,
+    "angle": 1.0,
+    "number": 4,
+    "kelvin_radius": 1 * NM,
+    "molar_volume": 18e-6,
+    "temperature": 298.15,
+    "relative_humidity": 0.5,
+    "sphere_radius": 100 * NM,
+    "immersion": 1 * NM,
+    "filling_angle": 0.2,
+    "volume": 927.3e-27,
+    "height": 2 * NM,
+    "film_height": 3 * NM,
+    "gap_start": 1 * NM,
+    "gap_end": 39 * NM,
+    "separation_time": 1e-7,
+    "viscosity": 0.89e-3,
+    "speed": 0.02,
+    "position": 5 * NM,
+    "travel": 30 * NM,
+    "force": 1e-9,
+}
 
 
 def ask(number, /, **changed):
@@ -71,9 +88,13 @@ def test_every_argument_is_used():
 )
 def test_flats_3_11_beside_the_exact_bridge(row):
     found = ck.published(
-        "3.11", radius=row["x_n0_nm"] * NM, gap=row["h0_nm"] * NM, surface_tension=0.072,
-        angle_lower=row["theta1_deg"] * DEG, angle_upper=row["theta2_deg"] * DEG,
-    )  # fmt: skip
+        "3.11",
+        radius=row["x_n0_nm"] * NM,
+        gap=row["h0_nm"] * NM,
+        surface_tension=0.072,
+        angle_lower=row["theta1_deg"] * DEG,
+        angle_upper=row["theta2_deg"] * DEG,
+    )
     assert found.value * 1e9 == pytest.approx(row["F0_published_pull_lower_nN"], rel=1e-13)
     assert found.corrected * 1e9 == pytest.approx(row["F0_exact_nN"], rel=1e-9)
 
@@ -97,9 +118,12 @@ def test_sphere_3_12_beside_the_exact_bridge(row):
 def test_break_distance_of_section_3_2_3(row):
     """45 to 104 nm for a closed neck, where the exact bridge lets go at 13 to 28 nm."""
     found = ck.published(
-        "zero neck", volume=row["V_arc_nm3"] * 1e-27, angle_lower=60 * DEG, angle_upper=60 * DEG,
+        "zero neck",
+        volume=row["V_arc_nm3"] * 1e-27,
+        angle_lower=60 * DEG,
+        angle_upper=60 * DEG,
         curvature_upper=1e7,
-    )  # fmt: skip
+    )
     assert found.value / NM == pytest.approx(row["arc_zero_neck_break_nm"], rel=1e-9)
     assert found.corrected / NM == pytest.approx(row["exact_limit_nm"], rel=1e-8)
 
@@ -107,9 +131,13 @@ def test_break_distance_of_section_3_2_3(row):
 @pytest.mark.parametrize("case", CASES["viscous_normal"][:2], ids=lambda case: case["id"])
 def test_flats_3_19_beside_a_film_that_keeps_its_volume(case):
     found = ck.published(
-        "3.19", radius=case["x0_m"], gap_start=case["h0_m"], gap_end=case["hs_m"],
-        separation_time=case["ts_s"], viscosity=case["eta_Pa_s"],
-    )  # fmt: skip
+        "3.19",
+        radius=case["x0_m"],
+        gap_start=case["h0_m"],
+        gap_end=case["hs_m"],
+        separation_time=case["ts_s"],
+        viscosity=case["eta_Pa_s"],
+    )
     assert found.value == pytest.approx(case["F_published_3_19_N"], rel=1e-13)
     assert found.corrected == pytest.approx(case["F_consistent_avg_N"], rel=1e-13)
 
@@ -147,9 +175,13 @@ def test_sliding_3_53_and_3_56():
     assert found.value == pytest.approx(1.186666666666667e-08, rel=1e-13)
     assert found.corrected == pytest.approx(found.value, rel=1e-12)  # a mean, and no more
     found = ck.published(
-        "3.56", sphere_radius=100 * NM, gap=1 * NM, film_height=2 * NM, separation_time=1e-7,
+        "3.56",
+        sphere_radius=100 * NM,
+        gap=1 * NM,
+        film_height=2 * NM,
+        separation_time=1e-7,
         viscosity=0.89e-3,
-    )  # fmt: skip
+    )
     assert found.value == pytest.approx(3.356400188032146e-11, rel=1e-13)
     assert found.corrected > 1.2 * found.value  # the film is thinner inside than at its rim
 

@@ -160,8 +160,10 @@ def derive(field, *weights):
 def test_the_field_is_in_equilibrium(place, nu):
     s = around(place, nu, 0.6)
     dx, dy, dz = (
-        derive(s, FIRST, HERE, HERE), derive(s, HERE, FIRST, HERE), derive(s, HERE, HERE, FIRST)
-    )  # fmt: skip
+        derive(s, FIRST, HERE, HERE),
+        derive(s, HERE, FIRST, HERE),
+        derive(s, HERE, HERE, FIRST),
+    )
     xx, yy, zz, xy, xz, yz = range(6)
     assert dx[xx] + dy[xy] + dz[xz] == pytest.approx(0.0, abs=1e-7)
     assert dx[xy] + dy[yy] + dz[yz] == pytest.approx(0.0, abs=1e-7)
@@ -180,10 +182,13 @@ def test_the_field_belongs_to_displacements(place, nu):
         + derive(s, HERE, HERE, SECOND)
     )
     hessian = [
-        derive(trace, SECOND, HERE, HERE), derive(trace, HERE, SECOND, HERE),
-        derive(trace, HERE, HERE, SECOND), derive(trace, FIRST, FIRST, HERE),
-        derive(trace, FIRST, HERE, FIRST), derive(trace, HERE, FIRST, FIRST),
-    ]  # fmt: skip
+        derive(trace, SECOND, HERE, HERE),
+        derive(trace, HERE, SECOND, HERE),
+        derive(trace, HERE, HERE, SECOND),
+        derive(trace, FIRST, FIRST, HERE),
+        derive(trace, FIRST, HERE, FIRST),
+        derive(trace, HERE, FIRST, FIRST),
+    ]
     defect = (1 + nu) * laplacian + hessian
     np.testing.assert_allclose(defect, 0.0, atol=1e-5 * max(1.0, np.abs(hessian).max()))
 
@@ -208,8 +213,9 @@ def test_a_plane_under_the_contact_carries_load_and_friction(z):
 def test_the_punch_carries_its_load():
     load, _ = quad(
         lambda t: 2 * np.pi * np.sin(t) * np.cos(t) * flat_punch.pressure(np.sin(t), 3.0, 1.0),
-        0, np.pi / 2,
-    )  # fmt: skip
+        0,
+        np.pi / 2,
+    )
     assert load == pytest.approx(3.0, rel=1e-9)
     assert float(flat_punch.pressure(1.0, 3.0, 1.0)) == np.inf
 
@@ -218,8 +224,9 @@ def test_the_punch_displaces_evenly():
     """u(0) = 1/(pi E*) int p / r dA over the disc, with r = a sin t."""
     integral, _ = quad(
         lambda t: 2 * np.pi * np.cos(t) * flat_punch.pressure(2.0 * np.sin(t), 3.0, 2.0) * 2.0,
-        0, np.pi / 2,
-    )  # fmt: skip
+        0,
+        np.pi / 2,
+    )
     assert integral / (np.pi * 5.0) == pytest.approx(flat_punch.approach(3.0, 2.0, 5.0), rel=1e-9)
     far = float(flat_punch.surface_displacement(1e5, 3.0, 2.0, 5.0))
     assert far == pytest.approx(3.0 / (np.pi * 5.0 * 1e5), rel=1e-9)  # Boussinesq
@@ -296,10 +303,11 @@ def test_full_contact_on_a_layer():
 @pytest.mark.parametrize(
     "stack",
     [
-        ([1e6, 1.0], [0.2, 0.4], [1.0]), ([1e-6, 1.0], [0.5, 0.3], [1.0]),
+        ([1e6, 1.0], [0.2, 0.4], [1.0]),
+        ([1e-6, 1.0], [0.5, 0.3], [1.0]),
         ([100.0, 50.0, 100.0], [0.3, 0.2, 0.45], [1.0, 0.3]),
     ],
-)  # fmt: skip
+)
 def test_equations_of_elasticity_integrated_over_the_depth(wave, stack):
     """The compliance of the engine, which climbs in closed form, against the integration."""
     expected = layered_wave.compliance(wave, *stack)

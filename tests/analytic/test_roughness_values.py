@@ -74,10 +74,14 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
 @pytest.mark.parametrize(
     ("beta", "n", "share"),
     [
-        (0.5e-6, 256, 0.89), (0.5e-6, 1024, 0.97), (0.05e-6, 256, 0.25), (0.05e-6, 1024, 0.72),
-        (0.05e-6, 4096, 0.93), (0.05e-6, 8192, 0.96),
+        (0.5e-6, 256, 0.89),
+        (0.5e-6, 1024, 0.97),
+        (0.05e-6, 256, 0.25),
+        (0.05e-6, 1024, 0.72),
+        (0.05e-6, 4096, 0.93),
+        (0.05e-6, 8192, 0.96),
     ],
-)  # fmt: skip
+)
 def test_the_cutoff_takes_the_share_of_the_notes(beta, n, share):
     pixel, cutoff = (SCAN / 256, SCAN / 256), 2.0 * SCAN / n
     found = roughness.resolved_variance((256, 256), pixel, beta, cutoff)
@@ -246,9 +250,12 @@ def test_the_autocorrelation_is_the_mean_of_products(periodic):
                 brute = np.mean(z * np.roll(z, (-i, -j), (0, 1)))
             else:
                 brute = np.mean(
-                    [z[a, b] * z[a + i, b + j] for a in range(max(0, -i), min(4, 4 - i))
-                     for b in range(max(0, -j), min(5, 5 - j))]
-                )  # fmt: skip
+                    [
+                        z[a, b] * z[a + i, b + j]
+                        for a in range(max(0, -i), min(4, 4 - i))
+                        for b in range(max(0, -j), min(5, 5 - j))
+                    ]
+                )
             assert found[i, j] == pytest.approx(brute, abs=1e-13)
 
 
@@ -269,11 +276,14 @@ def test_the_correlation_length_is_the_one_asked_for():
         [
             stats.correlation_length(
                 roughness.gaussian_exponential((512, 512), pixel, 1e-9, beta, 0.09e-6, seed),
-                pixel, periodic,
+                pixel,
+                periodic,
             )
-            for seed in range(8) for periodic in (True, False)
-        ], axis=0,
-    )  # fmt: skip
+            for seed in range(8)
+            for periodic in (True, False)
+        ],
+        axis=0,
+    )
     np.testing.assert_allclose(found, beta, rtol=0.08)
 
 

@@ -39,9 +39,7 @@ def test_a_film_without_a_mass_obeys_its_impulse(exponent, share):
     n = exponent - 1.0
     dt = share * gap * drag / pull
     at = film(drag, exponent, gap=gap)
-    found = smooth_step(
-        1e-12, at(gap), pull / drag, dt, (pull, 0.0, 0.0, 0.0), at, (TIGHT, 0.0)
-    )  # fmt: skip
+    found = smooth_step(1e-12, at(gap), pull / drag, dt, (pull, 0.0, 0.0, 0.0), at, (TIGHT, 0.0))
     assert found is not None
     end = gap * (1.0 - n * pull * dt / (drag * gap)) ** (-1.0 / n)
     assert found[0] / gap - 1.0 == pytest.approx(end / gap - 1.0, rel=1e-9, abs=1e-15)
@@ -54,9 +52,14 @@ def test_a_mass_on_a_spring_swings(angle):
     mass, spring, gap, speed = 0.02, 5e3, 1e-3, 0.4
     rate = math.sqrt(spring / mass)
     found = smooth_step(
-        mass, film(0.0, 0.0)(gap), speed, angle / rate, (3.0, 0.0, spring, 0.5e-3),
-        film(0.0, 0.0), (TIGHT, 0.0),
-    )  # fmt: skip
+        mass,
+        film(0.0, 0.0)(gap),
+        speed,
+        angle / rate,
+        (3.0, 0.0, spring, 0.5e-3),
+        film(0.0, 0.0),
+        (TIGHT, 0.0),
+    )
     assert found is not None
     middle = 0.5e-3 + 3.0 / spring
     offset, sine, cosine = gap - middle, math.sin(angle), math.cos(angle)
@@ -149,9 +152,14 @@ def scene(effects=(), **changes):
         liquid=oil, volume=given["volume"], contact_angle_lower=0.2, contact_angle_upper=0.2
     )
     opening = ck.Opening(
-        initial_gap=5e-6, final_gap=1e-4, force=40.0, mass=0.02, stiffness=given["stiffness"],
-        initial_speed=given["speed"], rest_gap=given["rest"],
-    )  # fmt: skip
+        initial_gap=5e-6,
+        final_gap=1e-4,
+        force=40.0,
+        mass=0.02,
+        stiffness=given["stiffness"],
+        initial_speed=given["speed"],
+        rest_gap=given["rest"],
+    )
     return ck.plan(
         ck.SeparationScene(
             interface=ck.Interface(lower=face, upper=face, meniscus=meniscus),
@@ -171,12 +179,16 @@ RUNS = {
     "no meniscus": (scene(), 40.0, 4e-4),
     "tension": (scene((*EXACT, ck.TensionLimit(tension=1e6))), 40.0, 4e-4),
     "tension and shear": (
-        scene((*EXACT, ck.TensionLimit(tension=3e6), ck.ShearLimit(strength=2e4))), 40.0, 4e-4,
+        scene((*EXACT, ck.TensionLimit(tension=3e6), ck.ShearLimit(strength=2e4))),
+        40.0,
+        4e-4,
     ),
     "breaks and flies": (
-        scene((*EXACT, ck.Rupture(gap=5.2e-6), ck.TensionLimit(tension=1e4))), 40.0, 2e-4,
+        scene((*EXACT, ck.Rupture(gap=5.2e-6), ck.TensionLimit(tension=1e4))),
+        40.0,
+        2e-4,
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", RUNS)

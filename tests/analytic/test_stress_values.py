@@ -308,9 +308,14 @@ def test_a_maximum_on_a_face_stays_there():
 )
 def test_what_is_impossible_is_refused_before_anything_is_computed(change, message):
     given = {
-        "pressure": np.ones((4, 4)), "traction_x": None, "traction_y": None,
-        "pixel_size": (1.0, 1.0), "young_modulus": [1.0], "poisson_ratio": [0.3], "thickness": [],
+        "pressure": np.ones((4, 4)),
+        "traction_x": None,
+        "traction_y": None,
+        "pixel_size": (1.0, 1.0),
+        "young_modulus": [1.0],
+        "poisson_ratio": [0.3],
+        "thickness": [],
         "depths": [0.0],
-    }  # fmt: skip
+    }
     with pytest.raises(DescriptionError, match=message):
         planes(**{**given, **change})

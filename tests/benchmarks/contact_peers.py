@@ -40,8 +40,9 @@ def asked_for():
     ask.add_argument("--budget", type=float, default=8.0, help="CPU seconds of a solver on a case")
     ask.add_argument("--repeats", type=int, default=5, help="at least, of a short solve")
     ask.add_argument("--only", nargs="+", help="solvers to run; plain and fast are ours")
-    ask.add_argument("--skip", nargs="+", default=[], metavar="NAME@SIZE",
-                     help="a peer to leave out at one size")  # fmt: skip
+    ask.add_argument(
+        "--skip", nargs="+", default=[], metavar="NAME@SIZE", help="a peer to leave out at one size"
+    )
     ask.add_argument("--no-effects", action="store_true", help="leave out layers, cap and curves")
     ask.add_argument("--peers", type=Path, default=Path(".venv/peers"))
     ask.add_argument("--out", type=Path, default=Path("out/bench"))
@@ -80,9 +81,12 @@ def run(python, job, patience=1.0):
         try:
             done = subprocess.run(
                 [python, str(HERE / "contact_peers_run.py"), str(path)],
-                capture_output=True, text=True, check=False, timeout=limit,
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=limit,
                 env=os.environ | dict.fromkeys(pinned, threads),
-            )  # fmt: skip
+            )
         except subprocess.TimeoutExpired:
             return {"failed": f"not done after {limit:.0f} s"}
     if done.returncode:
@@ -136,11 +140,16 @@ def write(given, before, missing, rows, more):
     """Keep what is there so far, for a run may be stopped; return the tables."""
     left_out = [f"- {name}: left out: {reason}" for name, reason in missing.items()]
     text = "\n\n".join(
-        part for part in (
-            f"Before: {before}  \nAfter: {conditions()}", "\n".join(left_out), table(rows),
-            verdict(rows), effects_table(more) if more else "",
-        ) if part
-    )  # fmt: skip
+        part
+        for part in (
+            f"Before: {before}  \nAfter: {conditions()}",
+            "\n".join(left_out),
+            table(rows),
+            verdict(rows),
+            effects_table(more) if more else "",
+        )
+        if part
+    )
     given.out.mkdir(parents=True, exist_ok=True)
     (given.out / "contact.md").write_text(text + "\n", encoding="utf-8")
     kept = {"conditions": before, "missing": missing, "contest": rows, "effects": more}

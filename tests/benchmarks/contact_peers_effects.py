@@ -18,7 +18,7 @@ from contact_peers_cases import (
     case,
     symbol_maker,
     violation,
-)  # fmt: skip
+)
 from contact_peers_timing import goes_on
 
 POISSON = 0.3

@@ -91,11 +91,18 @@ def table(rows):
                 f"{row['seconds'] / ours[o]:.1f}" if o in ours else "-" for o in ("plain", "fast")
             )
             cells = [
-                name, row["solver"], f"{row['seconds']:.3f}", f"{row['wall']:.3f}",
-                f"{row['setup']:.3f}", f"{row['iterations']}",
-                f"{row['kkt']:.0e}" + ("" if good(row) else " MISSED"), f"{row['tolerance']:.0e}",
-                f"{row['memory'] / 1e6:.0f}", f"{arrays(row):.1f}", *over,
-            ]  # fmt: skip
+                name,
+                row["solver"],
+                f"{row['seconds']:.3f}",
+                f"{row['wall']:.3f}",
+                f"{row['setup']:.3f}",
+                f"{row['iterations']}",
+                f"{row['kkt']:.0e}" + ("" if good(row) else " MISSED"),
+                f"{row['tolerance']:.0e}",
+                f"{row['memory'] / 1e6:.0f}",
+                f"{arrays(row):.1f}",
+                *over,
+            ]
             text.append("| " + " | ".join(cells) + " |")
     return "\n".join(text)
 
@@ -143,10 +150,20 @@ def effects_table(rows):
         if "plastic" in row:
             name += f" ({100 * row['plastic']:.0f} % of the contact)"
         mark = "" if row["ratio"] <= row["goal"] else " missed"
-        count = ["-" if row[k] is None else f"{row[k]:.0f}"
-                 for k in ("applications", "reference_applications")]  # fmt: skip
+        count = [
+            "-" if row[k] is None else f"{row[k]:.0f}"
+            for k in ("applications", "reference_applications")
+        ]
         kkt = "-" if row["kkt"] is None else f"{row['kkt']:.0e}"
-        cells = [name, row["path"], f"{row['seconds']:.3f}", f"{row['reference_seconds']:.3f}",
-                 f"{row['ratio']:.2f}{mark}", f"{row['goal']}", *count, kkt]  # fmt: skip
+        cells = [
+            name,
+            row["path"],
+            f"{row['seconds']:.3f}",
+            f"{row['reference_seconds']:.3f}",
+            f"{row['ratio']:.2f}{mark}",
+            f"{row['goal']}",
+            *count,
+            kkt,
+        ]
         text.append("| " + " | ".join(cells) + " |")
     return "\n".join(text)

@@ -42,12 +42,21 @@ def run(job):
         count_again, spent_again = count_again + 1, spent_again + again
         seconds, wall = min(seconds, again), min(wall, again_wall)
     return {
-        "seconds": seconds, "wall": wall, "setup": setup, "setup_wall": setup_wall,
-        "first_use": first_use, "iterations": count, "kkt": kkt, "load_error": load_error,
-        "tolerance": tolerance, "memory": memory, "spent": spent + spent_again,
-        "contact": float((pressure > 0.0).mean()), "checksum": float((given.heights**3).sum()),
+        "seconds": seconds,
+        "wall": wall,
+        "setup": setup,
+        "setup_wall": setup_wall,
+        "first_use": first_use,
+        "iterations": count,
+        "kkt": kkt,
+        "load_error": load_error,
+        "tolerance": tolerance,
+        "memory": memory,
+        "spent": spent + spent_again,
+        "contact": float((pressure > 0.0).mean()),
+        "checksum": float((given.heights**3).sum()),
         "version": version(job["solver"]),
-    }  # fmt: skip
+    }
 
 
 def version(solver):

@@ -49,9 +49,12 @@ def aspher(given, threads):
 
     def solve(tolerance):
         found = solve_nested(
-            grid_size=n, gap=gap, p_nominal=given.load, tol=tolerance,
+            grid_size=n,
+            gap=gap,
+            p_nominal=given.load,
+            tol=tolerance,
             backend="periodic" if given.periodic else "fft",
-        )  # fmt: skip
+        )
         return np.asarray(found.pressure).reshape(n, n), int(found.iterations)
 
     return solve
@@ -121,9 +124,14 @@ def ContactMechanics(given, threads):
 
     def solve(tolerance):
         found = constrained_conjugate_gradients(
-            substrate, given.heights, external_force=given.load, pentol=tolerance * given.scale,
-            forcetol=np.inf, thermotol=1e-6, logger=quiet,
-        )  # fmt: skip
+            substrate,
+            given.heights,
+            external_force=given.load,
+            pentol=tolerance * given.scale,
+            forcetol=np.inf,
+            thermotol=1e-6,
+            logger=quiet,
+        )
         return np.asarray(found.jac)[:n, :n] * n**2, int(found.nit)
 
     return solve

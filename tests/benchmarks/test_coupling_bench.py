@@ -121,18 +121,22 @@ def test_release_by_impulses(benchmark, film, name, most):
 
     def run():
         return couple(
-            film, Mass(mass=case["m"], stiffness=case["k_s"]),
+            film,
+            Mass(mass=case["m"], stiffness=case["k_s"]),
             lambda t: force if tau == 0.0 else -force * math.expm1(-t / tau),
-            2.0 * values["t_rel"], release_gap=case["h_rel"],
+            2.0 * values["t_rel"],
+            release_gap=case["h_rel"],
             film_start=start | {"meniscus_law": "PUBLISHED"},
-        )  # fmt: skip
+        )
 
     found = benchmark.pedantic(run, rounds=5)
     benchmark.extra_info |= {
-        "steps": found.n_steps, "rejected": found.n_rejected, "film calls": found.n_calls,
+        "steps": found.n_steps,
+        "rejected": found.n_rejected,
+        "film calls": found.n_calls,
         "seconds in the steps": found.seconds,
         "error": found.release_time / values["t_rel"] - 1.0,
-    }  # fmt: skip
+    }
     assert found.n_calls < most
 
 
@@ -151,7 +155,9 @@ def test_injector_cycle_by_the_pair(benchmark, pairs, kind, tolerance):
 
     found = benchmark.pedantic(run, rounds=9)
     benchmark.extra_info |= {
-        "steps": found.n_steps, "rejected": found.n_rejected, "seconds in the steps": min(seconds),
-    }  # fmt: skip
+        "steps": found.n_steps,
+        "rejected": found.n_rejected,
+        "seconds in the steps": min(seconds),
+    }
     assert found.n_steps < 900
     assert found["n_release"][-1] == 1

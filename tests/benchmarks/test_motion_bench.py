@@ -37,8 +37,9 @@ def test_release_case(benchmark, release_scene, name, most_steps, most_evaluatio
     made = ck.plan(release_scene(name))
     result = benchmark(ck.simulate, made)
     benchmark.extra_info |= {
-        "steps": result.work.n_steps, "evaluations": result.work.n_evaluations,
-    }  # fmt: skip
+        "steps": result.work.n_steps,
+        "evaluations": result.work.n_evaluations,
+    }
     assert result.work.n_steps < most_steps
     assert result.work.n_evaluations < most_evaluations
 

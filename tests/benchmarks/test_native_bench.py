@@ -26,9 +26,15 @@ if shutil.which("cc") is None or not sys.platform.startswith("linux"):
 
 HOST = Path(__file__).with_name("native_speed.c")
 FLAGS = (
-    "-std=c99", "-O3", "-DNDEBUG", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off",
-    "-fno-math-errno", "-Wl,--wrap=ck_forces_at",
-)  # fmt: skip
+    "-std=c99",
+    "-O3",
+    "-DNDEBUG",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-Wl,--wrap=ck_forces_at",
+)
 ROUNDS = 200
 
 # case of release_cases, pull [N], communication step [s], steps, most evaluations per internal step
@@ -76,15 +82,19 @@ def test_do_step_in_a_host_in_c(benchmark, host, unpacked, name):
     folder, guid = unpacked(case)
     words = [host, folder / "resources", guid, pull, step, count, ROUNDS]
     said = benchmark.pedantic(
-        subprocess.run, ([str(word) for word in words],),
-        {"check": True, "capture_output": True, "text": True}, rounds=3,
-    ).stdout  # fmt: skip
+        subprocess.run,
+        ([str(word) for word in words],),
+        {"check": True, "capture_output": True, "text": True},
+        rounds=3,
+    ).stdout
     step_ns, exchange_ns, steps, iterations, evaluations, _ = map(float, said.split())
     benchmark.extra_info |= {
-        "us per doStep": 1e-3 * step_ns, "us per set, doStep, get": 1e-3 * exchange_ns,
-        "internal steps per doStep": steps, "iterations per doStep": iterations,
+        "us per doStep": 1e-3 * step_ns,
+        "us per set, doStep, get": 1e-3 * exchange_ns,
+        "internal steps per doStep": steps,
+        "iterations per doStep": iterations,
         "evaluations per doStep": evaluations,
-    }  # fmt: skip
+    }
     assert evaluations <= most * steps
     assert iterations <= 1.6 * steps
 
@@ -98,10 +108,13 @@ def test_do_step_of_the_drive_in_a_host_in_c(benchmark, host, step, tmp_path):
     guid = re.search('guid="([^"]*)"', (tmp_path / "modelDescription.xml").read_text())[1]
     words = [host, tmp_path / "resources", guid, 5e-6, step, round(1e-3 / step), ROUNDS]
     said = benchmark.pedantic(
-        subprocess.run, ([str(word) for word in words],),
-        {"check": True, "capture_output": True, "text": True}, rounds=3,
-    ).stdout  # fmt: skip
+        subprocess.run,
+        ([str(word) for word in words],),
+        {"check": True, "capture_output": True, "text": True},
+        rounds=3,
+    ).stdout
     step_ns, exchange_ns, *_ = map(float, said.split())
     benchmark.extra_info |= {
-        "us per doStep": 1e-3 * step_ns, "us per set, doStep, get": 1e-3 * exchange_ns,
-    }  # fmt: skip
+        "us per doStep": 1e-3 * step_ns,
+        "us per set, doStep, get": 1e-3 * exchange_ns,
+    }

@@ -38,10 +38,14 @@ def says(*parts):
 @pytest.mark.parametrize("model", ["jkr", "dmt", "maugis-dugdale"])
 def test_bodies_that_do_not_touch_do_not_adhere(model):
     far = attrs.evolve(OPENING, initial_gap=1e-9)
-    with pytest.raises(ck.InfeasibleError, match=says(
-        f"AdhesiveContact ({model}) lets go at a gap of", "Opening.initial_gap is 1e-09 m",
-        "start closer, or take VanDerWaalsForce()",
-    )):  # fmt: skip
+    with pytest.raises(
+        ck.InfeasibleError,
+        match=says(
+            f"AdhesiveContact ({model}) lets go at a gap of",
+            "Opening.initial_gap is 1e-09 m",
+            "start closer, or take VanDerWaalsForce()",
+        ),
+    ):
         ck.plan(scene(ck.AdhesiveContact(model=model, **HARD), opening=far))
 
 

@@ -22,15 +22,18 @@ SIXTY = math.pi / 3
         ({"gap": [1e-9, math.inf]}, r"bridge\.gap .* got inf"),
         ({"volume": 0.0}, r"bridge\.volume must be positive and finite \[m\^3\], got 0\.0"),
         ({"volume": "much"}, r"bridge must be given numbers or arrays that broadcast"),
-        ({"angle_lower": 60.0}, r"bridge\.angle_lower must lie between 0 and pi \[rad\], got 60\.0"
-                                r"; was it meant in degrees\?"),
+        (
+            {"angle_lower": 60.0},
+            r"bridge\.angle_lower must lie between 0 and pi \[rad\], got 60\.0"
+            r"; was it meant in degrees\?",
+        ),
         ({"angle_upper": -0.1}, r"bridge\.angle_upper must lie between 0 and pi .*, got -0\.1"),
         ({"curvature_upper": -1.0}, r"bridge\.curvature_upper must be zero or positive.*\[1/m\]"),
         ({"curvature_lower": math.nan}, r"bridge\.curvature_lower must be"),
         ({"gap": [1.0, 2.0, 3.0], "volume": [1.0, 2.0]}, r"that broadcast, got \{'gap': \(3,\)"),
         ({"beyond": "maybe"}, r"bridge\.beyond must be 'raise' or 'nan', got 'maybe'"),
     ],
-)  # fmt: skip
+)
 def test_impossible_arguments(given, message):
     arguments = {"gap": 1e-9, "volume": 1e-24, "angle_lower": SIXTY, "angle_upper": SIXTY}
     with pytest.raises(DescriptionError, match=message):

@@ -42,11 +42,12 @@ def scene(*effects, solid=STEEL, surface=ROUGH, upper=None, meniscus=None, **giv
     given = {"window": WINDOW, "pressing": PRESSURE, "effects": effects or (HALF_SPACE,)} | given
     return ck.ContactScene(
         interface=ck.ContactInterface(
-            lower=ck.Body(solid=solid), upper=ck.Body(surface=surface, solid=upper),
+            lower=ck.Body(solid=solid),
+            upper=ck.Body(surface=surface, solid=upper),
             meniscus=meniscus,
         ),
         **given,
-    )  # fmt: skip
+    )
 
 
 def refuses_plan(*parts, effects=(HALF_SPACE,), error=ck.PlanError, accuracy=None, **given):
@@ -142,28 +143,46 @@ def test_the_list_above_is_complete():
 @pytest.mark.parametrize(
     ("build", "says_what"),
     [
-        (lambda: ck.GaussianRoughness(rms=1e-9, correlation_length=(1e-7,), cutoff=1e-8),
-         ("GaussianRoughness.correlation_length must be one length or a pair", "[m]", "(1e-07,)")),
-        (lambda: ck.Heights(heights=np.zeros((4, 4)), pixel_size=(1e-8, 1e-8, 1e-8)),
-         ("Heights.pixel_size must be one length or a pair", "[m]")),
-        (lambda: ck.Heights(heights=np.zeros((4, 4)), pixel_size=(1e-8, -1e-8)),
-         ("Heights.pixel_size must be positive", "[m], got -1e-08")),
+        (
+            lambda: ck.GaussianRoughness(rms=1e-9, correlation_length=(1e-7,), cutoff=1e-8),
+            (
+                "GaussianRoughness.correlation_length must be one length or a pair",
+                "[m]",
+                "(1e-07,)",
+            ),
+        ),
+        (
+            lambda: ck.Heights(heights=np.zeros((4, 4)), pixel_size=(1e-8, 1e-8, 1e-8)),
+            ("Heights.pixel_size must be one length or a pair", "[m]"),
+        ),
+        (
+            lambda: ck.Heights(heights=np.zeros((4, 4)), pixel_size=(1e-8, -1e-8)),
+            ("Heights.pixel_size must be positive", "[m], got -1e-08"),
+        ),
         (lambda: ck.Accuracy(grid=(4, 4, 4)), ("Accuracy.grid must be one number or a pair",)),
         (lambda: ck.Accuracy(grid=(4, 1)), ("Accuracy.grid must be a whole number of at least 2",)),
-        (lambda: ck.SelfAffineRoughness(rms=1e-9, hurst=1.1, rolloff=1e-6, cutoff=1e-8),
-         ("SelfAffineRoughness.hurst must lie above 0 and not above 1, got 1.1",)),
-        (lambda: ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=1e-8, cutoff=1e-8),
-         ("SelfAffineRoughness.cutoff must be smaller than rolloff = 1e-08 m [m], got 1e-08",)),
+        (
+            lambda: ck.SelfAffineRoughness(rms=1e-9, hurst=1.1, rolloff=1e-6, cutoff=1e-8),
+            ("SelfAffineRoughness.hurst must lie above 0 and not above 1, got 1.1",),
+        ),
+        (
+            lambda: ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=1e-8, cutoff=1e-8),
+            ("SelfAffineRoughness.cutoff must be smaller than rolloff = 1e-08 m [m], got 1e-08",),
+        ),
         (lambda: ck.SubsurfaceStress(depths=()), ("SubsurfaceStress.depths must be depths that",)),
-        (lambda: ck.SubsurfaceStress(depths=(1e-8, 1e-8)),
-         ("SubsurfaceStress.depths must be depths that grow [m]",)),
-        (lambda: ck.SubsurfaceStress(depths=(-1e-8, 1e-8)),
-         ("SubsurfaceStress.depths must be zero or positive, and finite [m], got -1e-08",)),
+        (
+            lambda: ck.SubsurfaceStress(depths=(1e-8, 1e-8)),
+            ("SubsurfaceStress.depths must be depths that grow [m]",),
+        ),
+        (
+            lambda: ck.SubsurfaceStress(depths=(-1e-8, 1e-8)),
+            ("SubsurfaceStress.depths must be zero or positive, and finite [m], got -1e-08",),
+        ),
         (lambda: ck.HardnessMap([[1e9, -1.0]]), ("HardnessMap.values must", "[Pa]", "(1, 2)")),
         (lambda: ck.HardnessMap([[1e9, math.nan]]), ("HardnessMap.values must", "[Pa]")),
         (lambda: ck.HardnessMap([1e9, 1e9]), ("HardnessMap.values must have two dimensions",)),
     ],
-)  # fmt: skip
+)
 def test_what_is_more_than_one_number_is_named_too(build, says_what):
     refuses(build, *says_what)
 
@@ -185,8 +204,10 @@ def test_exactly_one_quantity_is_imposed(given, shown):
 
 
 def test_a_pull_is_a_matter_of_separation():
-    refuses(lambda: ck.Pressing(force=-1.0), "Pressing.force must be zero or positive [N], got "
-            "-1.0; a pull is a matter of separation")  # fmt: skip
+    refuses(
+        lambda: ck.Pressing(force=-1.0),
+        "Pressing.force must be zero or positive [N], got -1.0; a pull is a matter of separation",
+    )
 
 
 # Choices and parts --------------------------------------------------------------------------
@@ -216,15 +237,19 @@ def test_an_unknown_choice_is_refused_with_the_known_ones(build, field, right):
         (lambda: ck.Stack(substrate=COATED), "Stack.substrate"),
         (lambda: ck.CombinedSurface(parts=(WAVE, "rough")), "CombinedSurface.parts"),
         (lambda: ck.ContactInterface(lower=STEEL), "ContactInterface.lower"),
-        (lambda: ck.ContactInterface(lower=ck.Body(solid=STEEL), meniscus=OIL),
-         "ContactInterface.meniscus"),
+        (
+            lambda: ck.ContactInterface(lower=ck.Body(solid=STEEL), meniscus=OIL),
+            "ContactInterface.meniscus",
+        ),
         (lambda: scene(window=1e-6), "ContactScene.window"),
         (lambda: scene(pressing=1e6), "ContactScene.pressing"),
         (lambda: ck.Window(periodic="no"), "Window.periodic"),
-        (lambda: ck.FilmMeniscus(film_thickness=1e-9, self_consistent="yes"),
-         "FilmMeniscus.self_consistent"),
+        (
+            lambda: ck.FilmMeniscus(film_thickness=1e-9, self_consistent="yes"),
+            "FilmMeniscus.self_consistent",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_part_of_another_kind_is_refused_where_it_is_given(build, field):
     """Not later, as an AttributeError from within a kernel."""
     refuses(build, field)
@@ -266,60 +291,99 @@ def test_an_effect_is_listed_once():
 @pytest.mark.parametrize("effect", [ck.ViscousForce(), ck.ViscousForce, "friction", None])
 def test_an_effect_of_something_else_is_refused_with_the_known_ones(effect):
     refuses_plan(
-        "is not an effect of a contact scene", "known: HalfSpace", "SubsurfaceStress",
+        "is not an effect of a contact scene",
+        "known: HalfSpace",
+        "SubsurfaceStress",
         effects=(HALF_SPACE, effect),
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize(
     ("effects", "given", "parts"),
     [
-        ((HALF_SPACE,), {"solid": COATED}, ("HalfSpace needs bodies without layers",
-                                            "LayeredHalfSpace()")),
-        ((HALF_SPACE, ck.HardnessLimit()), {"solid": BARE},
-         ("HardnessLimit needs hardness [Pa] of 'bare'",)),
-        ((LAYERED, ck.HardnessLimit()), {"solid": COATED},
-         ("HardnessLimit needs hardness [Pa] of 'bare'",)),
-        ((HALF_SPACE, ck.HardnessLimit(rule="constant")), {},
-         ("HardnessLimit needs HardnessLimit.hardness [Pa]",)),
-        ((HALF_SPACE, ck.HardnessLimit(hardness=1e9)), {},
-         ("no hardness [Pa] with rule='continuous' (or rule='constant')",)),
-        ((LAYERED, ck.HardnessLimit(rule="literal")),
-         {"solid": ck.Stack(layers=[attrs.evolve(FILM, material=STEEL)] * 3, substrate=STEEL)},
-         ("at most two layers with rule='literal' (or rule='continuous')",)),
-        ((HALF_SPACE, ck.FrictionCoupling()), {},
-         ("FrictionCoupling needs FrictionTraction(coefficient=...) beside it",)),
-        ((HALF_SPACE, STRESS), {"solid": None, "upper": STEEL},
-         ("SubsurfaceStress needs interface.lower.solid: the stress of a rigid body",)),
+        (
+            (HALF_SPACE,),
+            {"solid": COATED},
+            ("HalfSpace needs bodies without layers", "LayeredHalfSpace()"),
+        ),
+        (
+            (HALF_SPACE, ck.HardnessLimit()),
+            {"solid": BARE},
+            ("HardnessLimit needs hardness [Pa] of 'bare'",),
+        ),
+        (
+            (LAYERED, ck.HardnessLimit()),
+            {"solid": COATED},
+            ("HardnessLimit needs hardness [Pa] of 'bare'",),
+        ),
+        (
+            (HALF_SPACE, ck.HardnessLimit(rule="constant")),
+            {},
+            ("HardnessLimit needs HardnessLimit.hardness [Pa]",),
+        ),
+        (
+            (HALF_SPACE, ck.HardnessLimit(hardness=1e9)),
+            {},
+            ("no hardness [Pa] with rule='continuous' (or rule='constant')",),
+        ),
+        (
+            (LAYERED, ck.HardnessLimit(rule="literal")),
+            {"solid": ck.Stack(layers=[attrs.evolve(FILM, material=STEEL)] * 3, substrate=STEEL)},
+            ("at most two layers with rule='literal' (or rule='continuous')",),
+        ),
+        (
+            (HALF_SPACE, ck.FrictionCoupling()),
+            {},
+            ("FrictionCoupling needs FrictionTraction(coefficient=...) beside it",),
+        ),
+        (
+            (HALF_SPACE, STRESS),
+            {"solid": None, "upper": STEEL},
+            ("SubsurfaceStress needs interface.lower.solid: the stress of a rigid body",),
+        ),
         ((HALF_SPACE, WET), {}, ("FilmMeniscus needs interface.meniscus",)),
-        ((HALF_SPACE, WET),
-         {"meniscus": ck.Meniscus(liquid=attrs.evolve(OIL, surface_tension=None))},
-         ("FilmMeniscus needs interface.meniscus.liquid.surface_tension [N/m]",)),
-        ((HALF_SPACE, WET), {"meniscus": ck.Meniscus(liquid=OIL, volume=1e-15)},
-         ("not interface.meniscus.volume [m3]: leave that out",)),
-        ((HALF_SPACE, ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True)),
-         {"meniscus": ck.Meniscus(liquid=OIL), "pressing": ck.Pressing(approach=1e-9)},
-         ("self_consistent=True", "Pressing(approach=...) imposes none", "pressure or force")),
+        (
+            (HALF_SPACE, WET),
+            {"meniscus": ck.Meniscus(liquid=attrs.evolve(OIL, surface_tension=None))},
+            ("FilmMeniscus needs interface.meniscus.liquid.surface_tension [N/m]",),
+        ),
+        (
+            (HALF_SPACE, WET),
+            {"meniscus": ck.Meniscus(liquid=OIL, volume=1e-15)},
+            ("not interface.meniscus.volume [m3]: leave that out",),
+        ),
+        (
+            (HALF_SPACE, ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True)),
+            {"meniscus": ck.Meniscus(liquid=OIL), "pressing": ck.Pressing(approach=1e-9)},
+            ("self_consistent=True", "Pressing(approach=...) imposes none", "pressure or force"),
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_an_effect_lacks_is_named_with_its_unit_and_cure(effects, given, parts):
     refuses_plan(*parts, effects=effects, **given)
 
 
 def test_all_that_is_lacking_is_said_at_once():
     refuses_plan(
-        "HalfSpace needs", "HardnessLimit needs hardness [Pa] of 'bare'", "FilmMeniscus needs",
+        "HalfSpace needs",
+        "HardnessLimit needs hardness [Pa] of 'bare'",
+        "FilmMeniscus needs",
         "FrictionCoupling needs",
-        effects=(HALF_SPACE, ck.HardnessLimit(), WET, ck.FrictionCoupling()), solid=COATED,
-    )  # fmt: skip
+        effects=(HALF_SPACE, ck.HardnessLimit(), WET, ck.FrictionCoupling()),
+        solid=COATED,
+    )
 
 
 def test_a_load_beyond_the_hardness_is_infeasible_with_both_numbers():
     refuses_plan(
-        "load 0.008 N reaches H*A = 0.007 N", "7e+09 Pa", "1e-12 m2", "lower the load",
-        effects=(HALF_SPACE, ck.HardnessLimit()), pressing=ck.Pressing(pressure=8e9),
+        "load 0.008 N reaches H*A = 0.007 N",
+        "7e+09 Pa",
+        "1e-12 m2",
+        "lower the load",
+        effects=(HALF_SPACE, ck.HardnessLimit()),
+        pressing=ck.Pressing(pressure=8e9),
         error=ck.InfeasibleError,
-    )  # fmt: skip
+    )
 
 
 # Grids and surfaces -------------------------------------------------------------------------
@@ -329,31 +393,55 @@ def test_a_load_beyond_the_hardness_is_infeasible_with_both_numbers():
     ("given", "parts"),
     [
         ({"window": ck.Window()}, ("Window.width must be given where no surface is measured [m]",)),
-        ({"surface": MAP},
-         ("Window.width must be that of the height map, 5e-08", "[m], got 1e-06")),
-        ({"surface": MAP, "window": ck.Window(height=1e-6)},
-         ("Window.height must be that of the height map, 4e-08", "got 1e-06")),
-        ({"surface": MAP, "window": ck.Window(), "accuracy": ck.Accuracy(grid=8)},
-         ("Accuracy.grid must be that of the height map, (4, 5), or left out, got 8",)),
-        ({"surface": ROUGH, "accuracy": ck.Accuracy(grid=16)},
-         ("GaussianRoughness.cutoff must be at least two pixels, 1.25e-07 m [m], got 6e-08",
-          "finer Accuracy.grid")),
-        ({"surface": SELF_AFFINE, "accuracy": ck.Accuracy(grid=16)},
-         ("SelfAffineRoughness.cutoff must be at least two pixels",)),
-        ({"surface": ck.Wave(amplitude=1e-9, wavelength=0.3e-6)},
-         ("Wave.wavelength must fit a whole number of times into the periodic window of 1e-06 m",
-          "[m], got 3e-07")),
-        ({"surface": ck.Wave(amplitude=1e-9, wavelength=1e-6, wavelength_y=0.3e-6)},
-         ("Wave.wavelength_y must fit",)),
+        (
+            {"surface": MAP},
+            ("Window.width must be that of the height map, 5e-08", "[m], got 1e-06"),
+        ),
+        (
+            {"surface": MAP, "window": ck.Window(height=1e-6)},
+            ("Window.height must be that of the height map, 4e-08", "got 1e-06"),
+        ),
+        (
+            {"surface": MAP, "window": ck.Window(), "accuracy": ck.Accuracy(grid=8)},
+            ("Accuracy.grid must be that of the height map, (4, 5), or left out, got 8",),
+        ),
+        (
+            {"surface": ROUGH, "accuracy": ck.Accuracy(grid=16)},
+            (
+                "GaussianRoughness.cutoff must be at least two pixels, 1.25e-07 m [m], got 6e-08",
+                "finer Accuracy.grid",
+            ),
+        ),
+        (
+            {"surface": SELF_AFFINE, "accuracy": ck.Accuracy(grid=16)},
+            ("SelfAffineRoughness.cutoff must be at least two pixels",),
+        ),
+        (
+            {"surface": ck.Wave(amplitude=1e-9, wavelength=0.3e-6)},
+            (
+                "Wave.wavelength must fit a whole number of times into the periodic window of 1e-06 m",
+                "[m], got 3e-07",
+            ),
+        ),
+        (
+            {"surface": ck.Wave(amplitude=1e-9, wavelength=1e-6, wavelength_y=0.3e-6)},
+            ("Wave.wavelength_y must fit",),
+        ),
         ({"surface": ck.Wave(amplitude=1e-9, wavelength=2e-6)}, ("Wave.wavelength must fit",)),
-        ({"surface": ck.Sphere(radius=0.7e-6)},
-         ("Sphere.radius must exceed half the diagonal of the window, 7.07107e-07 m [m], got 7e-07",
-          "Paraboloid")),
+        (
+            {"surface": ck.Sphere(radius=0.7e-6)},
+            (
+                "Sphere.radius must exceed half the diagonal of the window, 7.07107e-07 m [m], got 7e-07",
+                "Paraboloid",
+            ),
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_surface_that_does_not_fit_the_window_is_refused(given, parts):
-    accuracy = given.pop("accuracy", ck.Accuracy(grid=64) if "surface" not in given or
-                         given["surface"] is not MAP else None)  # fmt: skip
+    accuracy = given.pop(
+        "accuracy",
+        ck.Accuracy(grid=64) if "surface" not in given or given["surface"] is not MAP else None,
+    )
     refuses(lambda: ck.solve(ck.plan(scene(**given), accuracy)), *parts)
 
 
@@ -364,8 +452,9 @@ def test_two_maps_of_different_grids_are_refused():
     )
     refuses(
         lambda: ck.plan(attrs.evolve(scene(), interface=interface, window=ck.Window())),
-        "surfaces of one grid", "resample one of the maps",
-    )  # fmt: skip
+        "surfaces of one grid",
+        "resample one of the maps",
+    )
 
 
 def test_a_wave_of_less_than_two_pixels_is_refused():
@@ -414,8 +503,15 @@ def test_press_refuses_what_it_cannot_use(given, parts):
 def test_press_takes_numbers_of_numpy(threads):
     """People who come with arrays come with numpy's numbers too."""
     size = np.float64(1e-8)
-    run = ck.press(MAP.heights, (size, size), STEEL, np.float64(1e6), hardness=np.float64(1e9),
-                   rtol=np.float64(1e-8), threads=threads)  # fmt: skip
+    run = ck.press(
+        MAP.heights,
+        (size, size),
+        STEEL,
+        np.float64(1e6),
+        hardness=np.float64(1e9),
+        rtol=np.float64(1e-8),
+        threads=threads,
+    )
     whole = ck.press(MAP.heights, np.float32(1e-8), STEEL, np.int64(1e6), hardness=np.array(1e9))
     assert run.status == whole.status == "converged"
 
@@ -429,24 +525,35 @@ def test_what_was_not_simulated_is_not_invented(kind):
     run = ck.solve(ck.plan(scene(effect), ck.Accuracy(grid=64)))
     if kind is ck.HalfSpace or kind is ck.LayeredHalfSpace:
         other = ck.HalfSpace if kind is ck.HalfSpace else ck.LayeredHalfSpace
-        refuses(lambda: run.of(other), other.name, f"add {other.__name__}(...) to its effects",
-                error=ck.NotSimulatedError)  # fmt: skip
+        refuses(
+            lambda: run.of(other),
+            other.name,
+            f"add {other.__name__}(...) to its effects",
+            error=ck.NotSimulatedError,
+        )
         return
-    refuses(lambda: run.of(kind), f"the scene does not call for {kind.name}",
-            f"add {kind.__name__}(...) to its effects", error=ck.NotSimulatedError)  # fmt: skip
+    refuses(
+        lambda: run.of(kind),
+        f"the scene does not call for {kind.name}",
+        f"add {kind.__name__}(...) to its effects",
+        error=ck.NotSimulatedError,
+    )
 
 
 def test_the_plastic_area_of_an_elastic_contact_is_not_zero_but_refused():
     run = ck.solve(ck.plan(scene(), ck.Accuracy(grid=64)))
-    refuses(lambda: run.plastic_area, "hardness-limit", "HardnessLimit(...)",
-            error=ck.NotSimulatedError)  # fmt: skip
-    refuses(lambda: run.of(ck.HalfSpace), "HalfSpace has no part of its own",
-            error=ck.NotSimulatedError)  # fmt: skip
+    refuses(
+        lambda: run.plastic_area, "hardness-limit", "HardnessLimit(...)", error=ck.NotSimulatedError
+    )
+    refuses(
+        lambda: run.of(ck.HalfSpace), "HalfSpace has no part of its own", error=ck.NotSimulatedError
+    )
 
 
 def test_a_solve_that_gives_up_says_how_far_it_came_and_hands_it_over():
-    plan = ck.plan(scene(), ck.Accuracy(grid=64, rtol=1e-11, max_iterations=1,
-                                        method="conjugate-gradient"))  # fmt: skip
+    plan = ck.plan(
+        scene(), ck.Accuracy(grid=64, rtol=1e-11, max_iterations=1, method="conjugate-gradient")
+    )
     said = ("contact conditions are violated by", "1e-11", "raise Accuracy.max_iterations or rtol")
     with pytest.raises(ck.ConvergenceError, match=says(*said)) as caught:
         ck.solve(plan)

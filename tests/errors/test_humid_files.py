@@ -62,17 +62,23 @@ def test_a_saved_scene_holds_the_pressure(written, tmp_path):
 @pytest.mark.parametrize(
     ("meniscus", "error", "message"),
     [
-        ('relative_humidity = 0.5\nvolume = "1 nm3"', ck.DescriptionError,
-         "relative_humidity or volume, not both"),
-        ('relative_humidity = 0.5\npressure = "-1 MPa"', ck.DescriptionError,
-         "relative_humidity or pressure, not both"),
+        (
+            'relative_humidity = 0.5\nvolume = "1 nm3"',
+            ck.DescriptionError,
+            "relative_humidity or volume, not both",
+        ),
+        (
+            'relative_humidity = 0.5\npressure = "-1 MPa"',
+            ck.DescriptionError,
+            "relative_humidity or pressure, not both",
+        ),
         ("relative_humidity = 50.0", ck.DescriptionError, "share"),
         ("relative_humidity = true", ck.DescriptionError, "relative_humidity"),
         ('relative_humidity = "wet"', ck.DescriptionError, "relative_humidity"),
         ("relative_humidity = 0.0", ck.InfeasibleError, "condenses"),
         ("relative_humidity = 1.0", ck.InfeasibleError, "saturat"),
     ],
-)  # fmt: skip
+)
 def test_a_wrong_humidity_is_refused(written, meniscus, error, message):
     with pytest.raises(error, match=re.compile(message)):
         ck.load_scene(written(meniscus))

@@ -176,8 +176,13 @@ def test_a_warning_names_the_caller_and_suspects_degrees_celsius():
         (
             VogelViscosity(**WATER),
             140.0,
-            ("VogelViscosity.temperature must be above 154.9", " [K], got 140.0", "a glass",
-             "the law is meant to hold from 273.15 to 373.15 K", "write celsius(140.0)"),
+            (
+                "VogelViscosity.temperature must be above 154.9",
+                " [K], got 140.0",
+                "a glass",
+                "the law is meant to hold from 273.15 to 373.15 K",
+                "write celsius(140.0)",
+            ),
         ),
         (
             VogelViscosity(**WATER),
@@ -187,23 +192,32 @@ def test_a_warning_names_the_caller_and_suspects_degrees_celsius():
         (
             IapwsSurfaceTension(),
             647.096,
-            ("IapwsSurfaceTension.temperature must lie between 0 and 647.096 [K], got 647.096",
-             "at the critical point", "from 248.15 to 647 K"),
+            (
+                "IapwsSurfaceTension.temperature must lie between 0 and 647.096 [K], got 647.096",
+                "at the critical point",
+                "from 248.15 to 647 K",
+            ),
         ),
         (
             KellWaterDensity(),
             230.0,
-            ("KellWaterDensity.temperature must lie between 231 and 647.096 [K], got 230.0",
-             "water freezes by itself", "from 273.15 to 423.15 K"),
+            (
+                "KellWaterDensity.temperature must lie between 231 and 647.096 [K], got 230.0",
+                "water freezes by itself",
+                "from 273.15 to 423.15 K",
+            ),
         ),
         (
             LinearSurfaceTension(**TENSION),
             627.0,
-            ("LinearSurfaceTension.temperature must lie between 0 and 626.483 [K], got 627.0",
-             "no longer positive", "from 253.15 to 393.15 K"),
+            (
+                "LinearSurfaceTension.temperature must lie between 0 and 626.483 [K], got 627.0",
+                "no longer positive",
+                "from 253.15 to 393.15 K",
+            ),
         ),
     ],
-)  # fmt: skip
+)
 def test_where_a_law_has_no_meaning_it_says_so(law, temperature, parts):
     refuses(lambda: law(temperature), *parts)
 

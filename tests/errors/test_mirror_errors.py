@@ -35,18 +35,24 @@ def scene():
         (PAD, {"inner": -1e-6}, "Electrode.inner must be zero or positive, and finite [m]"),
         (PAD, {"width": float("inf")}, "Electrode.width must be positive and finite [m]"),
         (TIPS, {"arm": 0.0}, "SpringTips.arm must be positive and finite [m], got 0.0"),
-        (TIPS, {"landing_tilt": 10.0},
-         "SpringTips.landing_tilt must be less than a right angle [rad], got 10.0; was it meant in "
-         "degrees? write '10 deg'"),
+        (
+            TIPS,
+            {"landing_tilt": 10.0},
+            "SpringTips.landing_tilt must be less than a right angle [rad], got 10.0; was it meant in "
+            "degrees? write '10 deg'",
+        ),
         (TIPS, {"per_side": 0}, "SpringTips.per_side must be a whole number of at least 1, got 0"),
         (TIPS, {"damping": -1.0}, "SpringTips.damping must be zero or positive, and finite"),
         (WAVE, {"bias_voltage": float("nan")}, "Waveform.bias_voltage must be a finite number [V]"),
         (WAVE, {"release_time": 0.0}, "Waveform.release_time must be positive and finite [s]"),
         (WAVE, {"flips": 0}, "Waveform.flips must be a whole number of at least 1, got 0"),
-        (WAVE, {"period": 1e-6},
-         "Waveform.period must be at least reset_time + release_time = 2e-06 s [s], got 1e-06"),
+        (
+            WAVE,
+            {"period": 1e-6},
+            "Waveform.period must be at least reset_time + release_time = 2e-06 s [s], got 1e-06",
+        ),
     ],
-)  # fmt: skip
+)
 def test_an_impossible_number_is_refused(noun, change, message):
     with pytest.raises(DescriptionError, match=re.escape(message)):
         evolve(noun, **change)

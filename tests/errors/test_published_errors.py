@@ -8,9 +8,12 @@ import contactkit as ck
 from contactkit.as_published.arguments import ARGUMENTS
 
 FILM = {
-    "radius": 1e-7, "gap_start": 2e-9, "gap_end": 1e-7, "separation_time": 1e-7,
+    "radius": 1e-7,
+    "gap_start": 2e-9,
+    "gap_end": 1e-7,
+    "separation_time": 1e-7,
     "viscosity": 1e-3,
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(
@@ -66,24 +69,61 @@ def test_only_whole_numbers_of_menisci():
 def test_the_pulled_body_is_lower_or_upper():
     with pytest.raises(ck.DescriptionError, match="pulled must be 'lower' or 'upper', got 'both'"):
         ck.published(
-            "3.11", radius=1e-7, gap=2e-9, surface_tension=0.07, angle_lower=1.0, angle_upper=1.0,
+            "3.11",
+            radius=1e-7,
+            gap=2e-9,
+            surface_tension=0.07,
+            angle_lower=1.0,
+            angle_upper=1.0,
             pulled="both",
-        )  # fmt: skip
+        )
 
 
 @pytest.mark.parametrize(
     ("number", "given"),
     [
-        ("3.11", {"radius": 1e-7, "gap": 0.0, "surface_tension": 0.07, "angle_lower": 1.0,
-                  "angle_upper": 1.0}),
-        ("3.26", {"sphere_radius": 1e-7, "gap_start": 0.0, "film_height": 2e-9, "gap_end": 3e-8,
-                  "separation_time": 1e-7, "viscosity": 1e-3}),
-        ("3.3", {"surface_tension": 0.07, "molar_volume": 18e-6, "temperature": 298.0,
-                 "relative_humidity": 1.0}),
-        ("3.42", {"force": 1.0, "radius": 1e-7, "surface_tension": 0.07,
-                  "angle_lower": math.pi / 2, "angle_upper": math.pi / 2}),
+        (
+            "3.11",
+            {
+                "radius": 1e-7,
+                "gap": 0.0,
+                "surface_tension": 0.07,
+                "angle_lower": 1.0,
+                "angle_upper": 1.0,
+            },
+        ),
+        (
+            "3.26",
+            {
+                "sphere_radius": 1e-7,
+                "gap_start": 0.0,
+                "film_height": 2e-9,
+                "gap_end": 3e-8,
+                "separation_time": 1e-7,
+                "viscosity": 1e-3,
+            },
+        ),
+        (
+            "3.3",
+            {
+                "surface_tension": 0.07,
+                "molar_volume": 18e-6,
+                "temperature": 298.0,
+                "relative_humidity": 1.0,
+            },
+        ),
+        (
+            "3.42",
+            {
+                "force": 1.0,
+                "radius": 1e-7,
+                "surface_tension": 0.07,
+                "angle_lower": math.pi / 2,
+                "angle_upper": math.pi / 2,
+            },
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_printed_equation_without_a_finite_value_is_refused(number, given):
     with pytest.raises(ck.InfeasibleError, match=r"Eq\. \(3\.\d+\) (has no finite value|is inf)"):
         ck.published(number, **given)

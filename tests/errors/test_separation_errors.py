@@ -503,8 +503,11 @@ LIBRARY = '[interface.meniscus.liquid]\nname = "oil"\nviscosity = "100 mPa.s"\n'
 MISTAKES = {
     "wrong unit": (
         [('"2 um"', '"2 N"')],
-        ["Opening.initial_gap must be in a unit that converts to m, got '2 N'", "2.5 m",
-         "at opening.initial_gap"],
+        [
+            "Opening.initial_gap must be in a unit that converts to m, got '2 N'",
+            "2.5 m",
+            "at opening.initial_gap",
+        ],
     ),
     "no unit": (
         [('"2 um"', '"2"')],
@@ -516,8 +519,10 @@ MISTAKES = {
         ["unit must be made of known symbols ('parsec' is not one)", "at opening.initial_gap"],
     ),
     "a boolean": ([('"2 um"', "true")], ["Opening.initial_gap must be", "[m], got True"]),
-    "impossible": ([('"3 mm"', '"-3 mm"')], ["Flat.radius must be positive", "got -0.003",
-                                             "at interface.lower"]),
+    "impossible": (
+        [('"3 mm"', '"-3 mm"')],
+        ["Flat.radius must be positive", "got -0.003", "at interface.lower"],
+    ),
     "degrees": (
         [('"60 deg"', "60")],
         ["Meniscus.contact_angle_lower must lie between 0 and pi", "degrees", "at interface"],
@@ -532,8 +537,11 @@ MISTAKES = {
     ),
     "misspelt effect": (
         [("viscous-force", "viscos-force")],
-        ["effect must name a known kind, got 'viscos-force'", "did you mean 'viscous-force'?",
-         "at effects[0]"],
+        [
+            "effect must name a known kind, got 'viscos-force'",
+            "did you mean 'viscous-force'?",
+            "at effects[0]",
+        ],
     ),
     "nameless effect": (
         [('effect = "tension-limit"\n', "")],
@@ -545,14 +553,21 @@ MISTAKES = {
     ),
     "misspelt shape": (
         [('"sphere"', '"spere"')],
-        ["shape must name a known kind, got 'spere'", "did you mean 'sphere'?",
-         "at interface.upper"],
+        [
+            "shape must name a known kind, got 'spere'",
+            "did you mean 'sphere'?",
+            "at interface.upper",
+        ],
     ),
     "unknown liquid": (
-        [(LIBRARY + 'surface_tension = "30 mN/m"\n', ""),
-         ("volume =", 'liquid = "engin-oil-15w-40"\nvolume =')],
-        ["liquid must be a liquid of the library, got 'engin-oil-15w-40'",
-         "did you mean 'engine-oil-15w-40'?"],
+        [
+            (LIBRARY + 'surface_tension = "30 mN/m"\n', ""),
+            ("volume =", 'liquid = "engin-oil-15w-40"\nvolume ='),
+        ],
+        [
+            "liquid must be a liquid of the library, got 'engin-oil-15w-40'",
+            "did you mean 'engine-oil-15w-40'?",
+        ],
     ),
     "missing key": ([('final_gap = "20 um"\n', "")], ["missing key 'final_gap'", "at opening"]),
     "missing table": (
@@ -561,8 +576,11 @@ MISTAKES = {
     ),
     "kinematic viscosity alone": (
         [('viscosity = "100 mPa.s"', 'kinematic_viscosity = "105 cSt"')],
-        ["Liquid.kinematic_viscosity must come together with a density [m2/s]",
-         "give density too, or viscosity in Pa.s", "at interface.meniscus.liquid"],
+        [
+            "Liquid.kinematic_viscosity must come together with a density [m2/s]",
+            "give density too, or viscosity in Pa.s",
+            "at interface.meniscus.liquid",
+        ],
     ),
     "law of another property": (
         [('"100 mPa.s"', '{law = "iapws-surface-tension"}')],
@@ -581,11 +599,13 @@ MISTAKES = {
         ["Meniscus.count must be a whole number of at least 1, got 2.5"],
     ),
     "not a table": (
-        [("[interface.upper]\nshape = \"sphere\"\nradius = \"5 mm\"\n", ""),
-         ("[interface.lower]", "[interface]\nupper = 3\n\n[interface.lower]")],
+        [
+            ('[interface.upper]\nshape = "sphere"\nradius = "5 mm"\n', ""),
+            ("[interface.lower]", "[interface]\nupper = 3\n\n[interface.lower]"),
+        ],
         ["shape must be a table with a key 'shape', got 3", "at interface.upper"],
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("changes", "parts"), MISTAKES.values(), ids=MISTAKES)
@@ -650,8 +670,11 @@ def test_a_result_that_is_none_is_refused(tmp_path):
 
 
 def test_an_unknown_liquid_of_the_library_gets_a_guess():
-    refuses(lambda: ck.load_liquid("watr"), "liquid must be a liquid of the library, got 'watr'",
-            "did you mean 'water'?")  # fmt: skip
+    refuses(
+        lambda: ck.load_liquid("watr"),
+        "liquid must be a liquid of the library, got 'watr'",
+        "did you mean 'water'?",
+    )
 
 
 # Never half a file --------------------------------------------------------------------------

@@ -84,12 +84,16 @@ def test_one_of_speed_and_time_is_imposed():
 def test_an_angle_needs_its_partner():
     refuses(
         lambda: ck.ContactAngleHysteresis(advancing_upper=1.0),
-        "receding_upper", "be given with the advancing angle of that body", "None",
-    )  # fmt: skip
+        "receding_upper",
+        "be given with the advancing angle of that body",
+        "None",
+    )
     refuses(
         lambda: ck.ContactAngleHysteresis(advancing_lower=0.5, receding_lower=0.6),
-        "receding_lower", "not exceed the advancing angle, 0.5 rad", "0.6",
-    )  # fmt: skip
+        "receding_lower",
+        "not exceed the advancing angle, 0.5 rad",
+        "0.6",
+    )
     refuses(ck.ContactAngleHysteresis, "be given the advancing and receding angle [rad]")
     refuses(lambda: ck.CouetteForce(closure="exact"), "'local-film', 'lubrication', 'as-published'")
 
@@ -117,9 +121,10 @@ def test_a_vibration_that_tears_the_film_at_once_is_refused():
     shaken = ck.Vibration(amplitude=0.9e-6, frequency=1e3, phase=math.pi / 2)
     opening = ck.Opening(**OPENING, speed=1e-3, vibration=shaken)
     torn = ck.SeparationScene(
-        interface=ck.Interface(meniscus=film), opening=opening,
+        interface=ck.Interface(meniscus=film),
+        opening=opening,
         effects=(ck.ViscousForce(), ck.Rupture(gap=1.5e-6)),
-    )  # fmt: skip
+    )
     made = ck.plan(torn)
     message = ("Opening.vibration takes the gap to 1.9e-06 m", "reaches 1.5e-06 m", "shake less")
     refuses(lambda: ck.simulate(made), *message, error=ck.InfeasibleError)
@@ -131,25 +136,45 @@ def test_a_vibration_that_tears_the_film_at_once_is_refused():
         (lambda: scene(), ("at least one force along the bodies", "CouetteForce")),
         (lambda: scene(DRAG, DRAG), ("listed more than once: CouetteForce",)),
         (lambda: scene(DRAG, ck.MeniscusForce()), ("MeniscusForce needs a SeparationScene",)),
-        (lambda: scene(STICKS, ck.ShearLimit(strength=1e6)),
-         ("ShearLimit needs CouetteForce() beside it",)),
-        (lambda: scene(DRAG, ck.ShearLimit(strength=1e6), sliding=ck.Sliding(gap=1e-9, time=1.0)),
-         ("ShearLimit needs Sliding.speed [m/s]", "path")),
-        (lambda: scene(ck.CouetteForce(closure="lubrication"), ck.ShearLimit(strength=1e6),
-                       upper=SPHERE), ('closure="local-film"', "no closed form")),
-        (lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=WATER)),
-         ("CouetteForce needs interface.meniscus.volume [m3], or the radius [m] of a Flat",)),
-        (lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=WATER), upper=SPHERE),
-         ("CouetteForce needs interface.meniscus.volume [m3]",)),
-        (lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=ck.Liquid(name="x"), volume=1e-22)),
-         ("CouetteForce needs liquid.viscosity [Pa.s]",)),
-        (lambda: scene(STICKS, meniscus=ck.Meniscus(liquid=ck.Liquid(name="x"), volume=1e-22)),
-         ("ContactAngleHysteresis needs liquid.surface_tension [N/m]",)),
-        (lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=WATER, pressure=-1e6)),
-         ("needs interface.meniscus.volume [m3] in place of its pressure",)),
+        (
+            lambda: scene(STICKS, ck.ShearLimit(strength=1e6)),
+            ("ShearLimit needs CouetteForce() beside it",),
+        ),
+        (
+            lambda: scene(
+                DRAG, ck.ShearLimit(strength=1e6), sliding=ck.Sliding(gap=1e-9, time=1.0)
+            ),
+            ("ShearLimit needs Sliding.speed [m/s]", "path"),
+        ),
+        (
+            lambda: scene(
+                ck.CouetteForce(closure="lubrication"), ck.ShearLimit(strength=1e6), upper=SPHERE
+            ),
+            ('closure="local-film"', "no closed form"),
+        ),
+        (
+            lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=WATER)),
+            ("CouetteForce needs interface.meniscus.volume [m3], or the radius [m] of a Flat",),
+        ),
+        (
+            lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=WATER), upper=SPHERE),
+            ("CouetteForce needs interface.meniscus.volume [m3]",),
+        ),
+        (
+            lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=ck.Liquid(name="x"), volume=1e-22)),
+            ("CouetteForce needs liquid.viscosity [Pa.s]",),
+        ),
+        (
+            lambda: scene(STICKS, meniscus=ck.Meniscus(liquid=ck.Liquid(name="x"), volume=1e-22)),
+            ("ContactAngleHysteresis needs liquid.surface_tension [N/m]",),
+        ),
+        (
+            lambda: scene(DRAG, meniscus=ck.Meniscus(liquid=WATER, pressure=-1e6)),
+            ("needs interface.meniscus.volume [m3] in place of its pressure",),
+        ),
         (lambda: scene("drag"), ("'drag' is not an effect of a sliding scene",)),
     ],
-)  # fmt: skip
+)
 def test_a_scene_that_does_not_fit_is_refused(made, parts):
     refuses(lambda: ck.plan(made()), *parts, error=ck.PlanError)
 
@@ -160,9 +185,10 @@ def test_a_closed_gap_is_infinite_drag(closure):
     drag = ck.CouetteForce(closure=closure)
     message = ("Sliding.gap is 0 m", "ln(1/gap)", "cut-off gap [m]")
     refuses(
-        lambda: ck.plan(scene(drag, sliding=touching, upper=SPHERE)), *message,
+        lambda: ck.plan(scene(drag, sliding=touching, upper=SPHERE)),
+        *message,
         error=ck.InfeasibleError,
-    )  # fmt: skip
+    )
     refuses(
         lambda: ck.plan(scene(drag, sliding=touching)), "between flats", error=ck.InfeasibleError
     )

@@ -55,7 +55,8 @@ PATHS = {
     "interface.lower.solid.layers.0.thickness": ("'interface.lower.solid' is a Material",),
     "interface.upper.surface.rms": ("is a Wave, with amplitude, wavelength",),
     "effects.friction-tracton.coefficient": (
-        "did you mean 'effects.friction-traction'?", "half-space, friction-traction",
+        "did you mean 'effects.friction-traction'?",
+        "half-space, friction-traction",
     ),
     "effects.0.coefficient": ("'effects' has the items half-space",),
     "pressing.pressure.value": ("must end at 'pressing.pressure'", "that is 1000000000.0"),
@@ -63,7 +64,7 @@ PATHS = {
     "accuracy": ("such as 'accuracy.rtol'",),
     "interface.meniscus.volume": ("must end at 'interface.meniscus'", "that is None"),
     "": ("there are accuracy, interface",),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("path", PATHS)
@@ -116,8 +117,10 @@ def test_a_study_of_refused_points_only_is_refused():
     rough = ck.GaussianRoughness(rms=1e-9, correlation_length=3e-7, cutoff=1e-8)
     refuses(
         lambda: ck.study(contact(surface=rough), {"pressing.pressure": [1e8, 2e8]}, ACCURACY),
-        "every point of the study is refused", "at least two pixels", error=ck.PlanError,
-    )  # fmt: skip
+        "every point of the study is refused",
+        "at least two pixels",
+        error=ck.PlanError,
+    )
 
 
 def test_an_unknown_column_gets_a_guess():
@@ -162,8 +165,11 @@ def test_a_worker_that_dies_is_said_to(tmp_path):
     script.write_text(DIES, encoding="utf-8")
     done = subprocess.run(
         [sys.executable, str(script), str(Path(__file__).parent)],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
     assert "a worker process ended before its points did" in done.stdout, done.stderr
     assert "__main__" in done.stdout
 

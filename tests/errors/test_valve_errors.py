@@ -31,15 +31,24 @@ SPRING, STOP = Spring(stiffness=2e4, preload=15.0), Stop(gap=25e-6, stiffness=1e
         (STOP, {"stiffness": 0.0}, "Stop.stiffness must be positive and finite [N/m]"),
         (STOP, {"damping": -1.0}, "Stop.damping must be zero or positive, and finite [s/m]"),
         (PROFILE, {"cycles": 0}, "DriveProfile.cycles must be a whole number of at least 1"),
-        (PROFILE, {"off_voltage": 1.0},
-         "DriveProfile.off_voltage must be zero or negative: it ends the current [V], got 1.0"),
+        (
+            PROFILE,
+            {"off_voltage": 1.0},
+            "DriveProfile.off_voltage must be zero or negative: it ends the current [V], got 1.0",
+        ),
         (PROFILE, {"off_voltage": float("nan")}, "DriveProfile.off_voltage must be a finite"),
-        (PROFILE, {"boost_time": 5e-3},
-         "DriveProfile.boost_time must not exceed on_time = 0.004 s [s], got 0.005"),
-        (PROFILE, {"on_time": 11e-3},
-         "DriveProfile.on_time must not exceed period = 0.01 s [s], got 0.011"),
+        (
+            PROFILE,
+            {"boost_time": 5e-3},
+            "DriveProfile.boost_time must not exceed on_time = 0.004 s [s], got 0.005",
+        ),
+        (
+            PROFILE,
+            {"on_time": 11e-3},
+            "DriveProfile.on_time must not exceed period = 0.01 s [s], got 0.011",
+        ),
     ],
-)  # fmt: skip
+)
 def test_an_impossible_number_is_refused(noun, change, message):
     with pytest.raises(DescriptionError, match=re.escape(message)):
         evolve(noun, **change)

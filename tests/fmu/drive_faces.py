@@ -15,7 +15,11 @@ def rough(most=1e-6, limit=0.25, count=5):
         for d in ends
     ]
     return StopCurve(
-        approach=depths, force=[3e11 * d**1.4 for d in depths], contact_area=depths,
-        plastic_area=[0.0] * len(depths), unloading=tuple(ways), nominal_area=1e-5,
+        approach=depths,
+        force=[3e11 * d**1.4 for d in depths],
+        contact_area=depths,
+        plastic_area=[0.0] * len(depths),
+        unloading=tuple(ways),
+        nominal_area=1e-5,
         elastic_limit=limit * most,
-    )  # fmt: skip
+    )

@@ -23,8 +23,14 @@ class Intel:
     """The x86-64, and where functions find their arguments."""
 
     kind = unicorn.UC_ARCH_X86, unicorn.UC_MODE_64
-    wholes = (x86.UC_X86_REG_RDI, x86.UC_X86_REG_RSI, x86.UC_X86_REG_RDX, x86.UC_X86_REG_RCX,
-              x86.UC_X86_REG_R8, x86.UC_X86_REG_R9)  # fmt: skip
+    wholes = (
+        x86.UC_X86_REG_RDI,
+        x86.UC_X86_REG_RSI,
+        x86.UC_X86_REG_RDX,
+        x86.UC_X86_REG_RCX,
+        x86.UC_X86_REG_R8,
+        x86.UC_X86_REG_R9,
+    )
     reals = tuple(x86.UC_X86_REG_XMM0 + i for i in range(8))
     stack, counter, result = x86.UC_X86_REG_RSP, x86.UC_X86_REG_RIP, x86.UC_X86_REG_RAX
     leave = b"\xc3"

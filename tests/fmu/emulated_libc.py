@@ -112,9 +112,12 @@ class LibC:
             return self.read(at - 8, layout)[0]
 
         return self._print(
-            to, size, words=self.text(words), whole=lambda _: further("<Q"),
+            to,
+            size,
+            words=self.text(words),
+            whole=lambda _: further("<Q"),
             real=lambda _: further("<d"),
-        )  # fmt: skip
+        )
 
     def _print(self, to, size, words, whole, real):
         def one(found):

@@ -61,8 +61,9 @@ class Cosim:
     def get(self, name: str, variable: str):
         found = self.variables[name][variable]
         read = {
-            "Real": self.observer.last_real_values, "Boolean": self.observer.last_boolean_values
-        }.get(found.type, self.observer.last_integer_values)  # fmt: skip
+            "Real": self.observer.last_real_values,
+            "Boolean": self.observer.last_boolean_values,
+        }.get(found.type, self.observer.last_integer_values)
         return read(self.index[name], [self.reference(name, variable)])[0]
 
 

@@ -52,17 +52,26 @@ def run(code: str, *given: str, folder=None) -> subprocess.CompletedProcess:
     """Run a program that may crash."""
     return subprocess.run(
         [sys.executable, "-c", code, *given],
-        capture_output=True, text=True, check=False, timeout=100, cwd=folder,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+        cwd=folder,
+    )
 
 
 def ecos(step, steps, read, fmus=None, wires=(), start=None, ssp=None, again=False):
     """Values of `read` (`film.h`) after so many steps; `again`: and after a reset and as many."""
     job = {
-        "step": step, "steps": steps, "read": list(read), "wires": list(wires),
+        "step": step,
+        "steps": steps,
+        "read": list(read),
+        "wires": list(wires),
         "fmus": {name: str(path) for name, path in (fmus or {}).items()},
-        "start": start or {}, "ssp": str(ssp or ""), "again": again,
-    }  # fmt: skip
+        "start": start or {},
+        "ssp": str(ssp or ""),
+        "again": again,
+    }
     program = f"import runpy; runpy.run_path({__file__!r}, run_name='__main__')"
     done = run(program, json.dumps(job))
     assert "found" in done.stdout, done.stdout + done.stderr

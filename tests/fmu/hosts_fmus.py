@@ -42,13 +42,19 @@ def native_fmu(folder, model, name, fmi=2, **changes):
     """The same without Python."""
     case, start = CASES[name]["case"], values(name) | changes
     built = scene(
-        lower=FACE, upper=FACE, volume=case["V"] or None, gap=case["h0"], mass=case["m"],
-        final=case["h_rel"], stiffness=start["k_s"],
+        lower=FACE,
+        upper=FACE,
+        volume=case["V"] or None,
+        gap=case["h0"],
+        mass=case["m"],
+        final=case["h_rel"],
+        stiffness=start["k_s"],
         effects=(
-            ck.MeniscusForce(profile="as-published"), ck.ViscousForce(),
+            ck.MeniscusForce(profile="as-published"),
+            ck.ViscousForce(),
             *((ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()),
         ),
-    )  # fmt: skip
+    )
     given = {key: start[key] for key in ("eta", "gamma", "F_ext") if key in start}
     out = folder / f"{model}-{name}-native-{fmi}.fmu"
     here = {"platforms": [local()], "compiler": "cc"}

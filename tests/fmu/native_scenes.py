@@ -22,20 +22,33 @@ FORCES = (ck.MeniscusForce(), ck.ViscousForce())
 
 
 def scene(
-    lower=FACE, upper=FACE, volume=None, angles=(0.2, 0.2), effects=FORCES, gap=5e-6, mass=0.02,
-    final=1e-4, rest=0.0, stiffness=5e3, **meniscus,
-):  # fmt: skip
+    lower=FACE,
+    upper=FACE,
+    volume=None,
+    angles=(0.2, 0.2),
+    effects=FORCES,
+    gap=5e-6,
+    mass=0.02,
+    final=1e-4,
+    rest=0.0,
+    stiffness=5e3,
+    **meniscus,
+):
     liquid = ck.Meniscus(
-        liquid=OIL, volume=volume, contact_angle_lower=angles[0], contact_angle_upper=angles[1],
+        liquid=OIL,
+        volume=volume,
+        contact_angle_lower=angles[0],
+        contact_angle_upper=angles[1],
         **meniscus,
-    )  # fmt: skip
+    )
     opening = ck.Opening(
         initial_gap=gap, final_gap=final, force=1.0, mass=mass, rest_gap=rest, stiffness=stiffness
     )
     return ck.SeparationScene(
         interface=ck.Interface(lower=lower, upper=upper, meniscus=liquid),
-        opening=opening, effects=effects,
-    )  # fmt: skip
+        opening=opening,
+        effects=effects,
+    )
 
 
 DROP = math.pi * FACE.radius**2 * 5e-6
@@ -50,16 +63,21 @@ SCENES = {
     "arc, many": scene(volume=DROP, effects=(ck.MeniscusForce(profile="arc"), FORCES[1]), count=4),
     "sphere": scene(**SPHERE, angles=(0.5, 0.7), effects=(*FORCES, ck.TensionLimit())),
     "rewetting": scene(
-        volume=DROP, rest=4e-6, final=8e-4, effects=(*FORCES, ck.TensionLimit(tension=1e6)),
+        volume=DROP,
+        rest=4e-6,
+        final=8e-4,
+        effects=(*FORCES, ck.TensionLimit(tension=1e6)),
         rewetting=0.5,
     ),
     "solids": scene(
-        volume=DROP, gap=1e-6, effects=(*FORCES, ck.VanDerWaalsForce(hamaker_constant=1e-19)),
+        volume=DROP,
+        gap=1e-6,
+        effects=(*FORCES, ck.VanDerWaalsForce(hamaker_constant=1e-19)),
         final=1e-3,
     ),
     "stieber": scene(gap=5e-6, effects=(*FORCES, ck.TensionLimit(tension=1e5, cavity="reynolds"))),
     "shear": scene(gap=1e-7, effects=(*FORCES, ck.ShearLimit(strength=1e5))),
-}  # fmt: skip
+}
 
 
 TIP = {"lower": ck.Flat(), "upper": ck.Sphere(radius=1e-6), "gap": 1e-10, "mass": 1e-12}
@@ -67,18 +85,24 @@ TIP |= {"final": 1e-7, "stiffness": 0.0}
 STUCK = ck.AdhesiveContact(model="jkr", work_of_adhesion=0.05, reduced_modulus=1e9)
 SUMMITS = ck.AsperityMenisci(
     asperities=ck.AsperityPopulation(density=1e12, radius=1e-6, rms_height=5e-9),
-    profile="thin-film", meniscus_height=2e-8,
-)  # fmt: skip
+    profile="thin-film",
+    meniscus_height=2e-8,
+)
 ROUGH = ck.Flat(radius=1e-4)
 
 SCENES |= {
     "humid tip": scene(**TIP, pressure=-1e7),
     "tip that sticks": scene(**TIP, volume=1e-20, effects=(*FORCES, STUCK)),
     "rough": scene(
-        lower=ROUGH, upper=ROUGH, gap=1e-8, mass=1e-6, final=1e-6, stiffness=0.0,
+        lower=ROUGH,
+        upper=ROUGH,
+        gap=1e-8,
+        mass=1e-6,
+        final=1e-6,
+        stiffness=0.0,
         effects=(SUMMITS,),
     ),
-}  # fmt: skip
+}
 
 
 # Degrees, which a liquid repelled by one or both faces ends at as no power of what is left.
@@ -90,9 +114,15 @@ def bare_meniscus(lower, upper):
     angles = (math.radians(lower), math.radians(upper))
     free = ck.Flat()
     return scene(
-        lower=free, upper=free, volume=1e-12, angles=angles, gap=1e-6, final=1e-3, stiffness=0.0,
+        lower=free,
+        upper=free,
+        volume=1e-12,
+        angles=angles,
+        gap=1e-6,
+        final=1e-3,
+        stiffness=0.0,
         effects=(ck.MeniscusForce(),),
-    )  # fmt: skip
+    )
 
 
 def write_sources(folder):

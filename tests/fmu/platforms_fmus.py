@@ -29,10 +29,15 @@ def case_scene(name):
     """A release case."""
     case = CASES[name]["case"]
     return scene(
-        lower=FACE, upper=FACE, volume=case["V"] or None, gap=case["h0"], mass=case["m"],
-        final=case["h_rel"], stiffness=case["k_s"],
+        lower=FACE,
+        upper=FACE,
+        volume=case["V"] or None,
+        gap=case["h0"],
+        mass=case["m"],
+        final=case["h_rel"],
+        stiffness=case["k_s"],
         effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce()),
-    )  # fmt: skip
+    )
 
 
 def liquid(name):

@@ -111,10 +111,11 @@ def trouble(lab, act, phase="stepping"):
     go_on(lab, instance, phase)
     statuses = [status for _, status in instance.statuses]
     found = {
-        "worst": max(statuses), "finite": lab.finite(instance),
+        "worst": max(statuses),
+        "finite": lab.finite(instance),
         "errors": [e for e in instance.log if e[0] == ERROR],
         "fatal": [name for name, status in instance.statuses if status >= FATAL],
-    }  # fmt: skip
+    }
     found["again"] = lab.again(instance, 1)
     instance.free()
     return found
@@ -201,13 +202,19 @@ def calls_out_of_turn(lab):
         "instantiated": {"exit": Instance.exit, "step": lambda i: i.step(0.0, h)},
         "initialization": {"enter": Instance.enter, "step": lambda i: i.step(0.0, h)},
         "stepping": {"enter": Instance.enter, "exit": Instance.exit},
-        "terminated": {"enter": Instance.enter, "exit": Instance.exit,
-                       "step": lambda i: i.step(0.0, h)},
-    }  # fmt: skip
-    return each({
-        f"{name} while {phase}": trouble(lab, act, phase)
-        for phase, calls in wrong.items() for name, act in calls.items()
-    })  # fmt: skip
+        "terminated": {
+            "enter": Instance.enter,
+            "exit": Instance.exit,
+            "step": lambda i: i.step(0.0, h),
+        },
+    }
+    return each(
+        {
+            f"{name} while {phase}": trouble(lab, act, phase)
+            for phase, calls in wrong.items()
+            for name, act in calls.items()
+        }
+    )
 
 
 @case
@@ -221,8 +228,10 @@ def twice(lab):
     ends = [instance.terminate(), instance.terminate()]
     finite = lab.finite(instance)
     return each({"initialization": trouble(lab, initialize)}) | {
-        "ends": ends, "finite": finite, "again": lab.again(instance),
-    }  # fmt: skip
+        "ends": ends,
+        "finite": finite,
+        "again": lab.again(instance),
+    }
 
 
 @case
@@ -234,9 +243,10 @@ def bad_steps(lab):
         i.step(0.0, h)
 
     odd = {
-        "back in time": back, "ahead": lambda i: i.step(3.0 * h, h),
+        "back in time": back,
+        "ahead": lambda i: i.step(3.0 * h, h),
         "backwards": lambda i: i.step(0.0, -h),
-    }  # fmt: skip
+    }
     for value in WILD:
         odd[f"of {value}"] = lambda i, x=value: i.step(0.0, x)
         odd[f"at {value}"] = lambda i, x=value: i.step(x, h)
@@ -490,8 +500,9 @@ def null_arguments(lab):
     some = (Reference * 3)(1, 2, 3)
     statuses = [
         instance.call(f"{verb}{name}", refs, c.c_size_t(3), None, *size)
-        for verb in ("Get", "Set") for refs in (None, some)
-    ]  # fmt: skip
+        for verb in ("Get", "Set")
+        for refs in (None, some)
+    ]
     again = lab.again(instance)
     instance.free()
     return {"statuses": statuses, "again": again}
@@ -501,10 +512,11 @@ def null_states(lab):
     instance = lab.bring(lab.open())
     none = c.c_void_p()
     statuses = [
-        instance.restore(none), instance.write(none)[0],
+        instance.restore(none),
+        instance.write(none)[0],
         instance.call(instance._state("GetFMUstate"), None),
         instance.call(instance._state("DeSerializeFMUstate"), None, c.c_size_t(9), None),
-    ]  # fmt: skip
+    ]
     again = lab.again(instance)
     instance.free()
     return {"statuses": statuses, "again": again}
@@ -550,20 +562,36 @@ def wrong_counts(lab):
     """FMI 3 says how many values there are; here it is not as many as the references."""
     instance = lab.bring(lab.open())
     values = (c.c_double * 4)()
-    statuses = [
-        instance.call(f"{verb}Float64", (Reference * 3)(1, 2, 3), c.c_size_t(3), values,
-                      c.c_size_t(n))
-        for verb in ("Get", "Set") for n in (0, 2, 4)
-    ] if instance.version == 3 else [ERROR]  # fmt: skip
+    statuses = (
+        [
+            instance.call(
+                f"{verb}Float64", (Reference * 3)(1, 2, 3), c.c_size_t(3), values, c.c_size_t(n)
+            )
+            for verb in ("Get", "Set")
+            for n in (0, 2, 4)
+        ]
+        if instance.version == 3
+        else [ERROR]
+    )
     again = lab.again(instance)
     instance.free()
     return {"statuses": statuses, "again": again}
 
 
 HARD = [
-    no_instance, freed_twice, used_after_free, no_instance_at_all, foreign_pointer, null_arguments,
-    null_states, state_freed_twice, nameless, odd_path, deaf, wrong_counts,
-]  # fmt: skip
+    no_instance,
+    freed_twice,
+    used_after_free,
+    no_instance_at_all,
+    foreign_pointer,
+    null_arguments,
+    null_states,
+    state_freed_twice,
+    nameless,
+    odd_path,
+    deaf,
+    wrong_counts,
+]
 
 
 def main() -> None:
@@ -593,7 +621,7 @@ def together(specs) -> dict:
     return {
         "same": [row == lab.reference for (lab, _), row in zip(open_, rows, strict=True)],
         "discarded": [row[0] == DISCARD for lab in labs for row in lab.reference],
-    }  # fmt: skip
+    }
 
 
 if __name__ == "__main__":

@@ -20,9 +20,12 @@ _FREE = c.CFUNCTYPE(None, c.c_void_p)
 
 class Callbacks(c.Structure):
     _fields_ = (
-        ("logger", _LOG2), ("allocate", _NEW), ("free", _FREE),
-        ("finished", c.c_void_p), ("environment", c.c_void_p),
-    )  # fmt: skip
+        ("logger", _LOG2),
+        ("allocate", _NEW),
+        ("free", _FREE),
+        ("finished", c.c_void_p),
+        ("environment", c.c_void_p),
+    )
 
 
 _libc = c.CDLL(None)
@@ -30,10 +33,12 @@ _libc.calloc.restype, _libc.calloc.argtypes = c.c_void_p, (c.c_size_t, c.c_size_
 _libc.free.restype, _libc.free.argtypes = None, (c.c_void_p,)
 _KINDS2 = {"real": c.c_double, "integer": c.c_int, "boolean": c.c_int, "string": c.c_char_p}
 _KINDS3 = {
-    "real": ("Float64", c.c_double), "integer": ("Int32", c.c_int32),
-    "enumeration": ("Int64", c.c_int64), "boolean": ("Boolean", c.c_bool),
+    "real": ("Float64", c.c_double),
+    "integer": ("Int32", c.c_int32),
+    "enumeration": ("Int64", c.c_int64),
+    "boolean": ("Boolean", c.c_bool),
     "string": ("String", c.c_char_p),
-}  # fmt: skip
+}
 
 
 class Library:
@@ -71,9 +76,14 @@ class Instance:
         self.log: list[tuple[int, str, str]] = []
         library.keep.append(self)
         given = {
-            "name": b"probe", "guid": library.spec["guid"].encode(), "logging": True,
-            "resources": library.resources.encode(), "kind": 1, "silent": False, "events": False,
-        }  # fmt: skip
+            "name": b"probe",
+            "guid": library.spec["guid"].encode(),
+            "logging": True,
+            "resources": library.resources.encode(),
+            "kind": 1,
+            "silent": False,
+            "events": False,
+        }
         given |= changes
         self.pointer = (self._open2 if self.version == 2 else self._open3)(given)
 
@@ -85,9 +95,14 @@ class Instance:
         allocate, free = _NEW(lambda n, size: _libc.calloc(n, size)), _FREE(_libc.free)
         self.callbacks = Callbacks(logger, allocate, free, None, None)
         return self.library.function("Instantiate", c.c_void_p)(
-            given["name"], c.c_int(given["kind"]), given["guid"], given["resources"],
-            c.byref(self.callbacks), c.c_int(0), c.c_int(given["logging"]),
-        )  # fmt: skip
+            given["name"],
+            c.c_int(given["kind"]),
+            given["guid"],
+            given["resources"],
+            c.byref(self.callbacks),
+            c.c_int(0),
+            c.c_int(given["logging"]),
+        )
 
     def _open3(self, given):
         def hear(_environment, status, category, message):
@@ -95,16 +110,27 @@ class Instance:
 
         self.callbacks = _LOG3() if given["silent"] else _LOG3(hear)
         if given["kind"] == 1:
-            name, more = "CoSimulation", (
-                c.c_bool(given["events"]), c.c_bool(given["events"]), None, c.c_size_t(0),
-            )  # fmt: skip
+            name, more = (
+                "CoSimulation",
+                (
+                    c.c_bool(given["events"]),
+                    c.c_bool(given["events"]),
+                    None,
+                    c.c_size_t(0),
+                ),
+            )
             after = (None, self.callbacks, None)
         else:
             name, more, after = "ModelExchange", (), (None, self.callbacks)
         return self.library.function(f"Instantiate{name}", c.c_void_p)(
-            given["name"], given["guid"], given["resources"], c.c_bool(False),
-            c.c_bool(given["logging"]), *more, *after,
-        )  # fmt: skip
+            given["name"],
+            given["guid"],
+            given["resources"],
+            c.c_bool(False),
+            c.c_bool(given["logging"]),
+            *more,
+            *after,
+        )
 
     def call(self, name: str, *arguments) -> int:
         """Status of a function, called with just these arguments after the instance."""
@@ -119,19 +145,26 @@ class Instance:
         if self.version == 3:
             return OK
         return self.call(
-            "SetupExperiment", c.c_int(tolerance is not None), c.c_double(tolerance or 0.0),
-            c.c_double(start), c.c_int(stop is not None), c.c_double(stop or 0.0),
-        )  # fmt: skip
+            "SetupExperiment",
+            c.c_int(tolerance is not None),
+            c.c_double(tolerance or 0.0),
+            c.c_double(start),
+            c.c_int(stop is not None),
+            c.c_double(stop or 0.0),
+        )
 
     def enter(self) -> int:
         if self.version == 2:
             return self.call("EnterInitializationMode")
         start, stop, tolerance = getattr(self, "begin", (0.0, None, None))
         return self.call(
-            "EnterInitializationMode", c.c_bool(tolerance is not None),
-            c.c_double(tolerance or 0.0), c.c_double(start), c.c_bool(stop is not None),
+            "EnterInitializationMode",
+            c.c_bool(tolerance is not None),
+            c.c_double(tolerance or 0.0),
+            c.c_double(start),
+            c.c_bool(stop is not None),
             c.c_double(stop or 0.0),
-        )  # fmt: skip
+        )
 
     def exit(self) -> int:
         return self.call("ExitInitializationMode")
@@ -150,9 +183,13 @@ class Instance:
             return self.call("DoStep", c.c_double(time), c.c_double(length), c.c_int(1))
         flags, last = [c.c_bool() for _ in range(3)], c.c_double()
         return self.call(
-            "DoStep", c.c_double(time), c.c_double(length), c.c_bool(True),
-            *map(c.byref, flags), c.byref(last),
-        )  # fmt: skip
+            "DoStep",
+            c.c_double(time),
+            c.c_double(length),
+            c.c_bool(True),
+            *map(c.byref, flags),
+            c.byref(last),
+        )
 
     # variables -------------------------------------------------------------------------------
 

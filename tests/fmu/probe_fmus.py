@@ -27,9 +27,13 @@ from contactkit.fmu.python.build import FMUS, build
 
 HERE = Path(__file__).parent
 KINDS = {
-    "Real": "real", "Float64": "real", "Integer": "integer", "Int32": "integer",
-    "Enumeration": "enumeration", "Boolean": "boolean",
-}  # fmt: skip
+    "Real": "real",
+    "Float64": "real",
+    "Integer": "integer",
+    "Int32": "integer",
+    "Enumeration": "enumeration",
+    "Boolean": "boolean",
+}
 
 VOLUME = 1.5834608721796803e-10  # m3: the film of release case E is full at 5 um
 
@@ -58,11 +62,11 @@ RUNS = {
 }
 """Start values, and the length and the inputs of every step."""
 
-NATIVE = [
-    (model, fmi)
-    for model in ("stiction-mass", "stiction-force", "valve-drive")
-    for fmi in (2, 3)
-] if HAS_CC else []  # fmt: skip
+NATIVE = (
+    [(model, fmi) for model in ("stiction-mass", "stiction-force", "valve-drive") for fmi in (2, 3)]
+    if HAS_CC
+    else []
+)
 
 PYTHON = list(FMUS)
 NATIVES = [f"{model} native {fmi}" for model, fmi in NATIVE]
@@ -95,12 +99,17 @@ def specification(name: str, folder: Path) -> dict:
     found = fmpy.read_model_description(str(folder))
     variables = [
         {
-            "name": v.name, "reference": v.valueReference, "kind": KINDS[v.type],
-            "causality": v.causality, "start": float(v.start) if v.type in ("Real", "Float64")
-            and v.start is not None else 0.0,
+            "name": v.name,
+            "reference": v.valueReference,
+            "kind": KINDS[v.type],
+            "causality": v.causality,
+            "start": float(v.start)
+            if v.type in ("Real", "Float64") and v.start is not None
+            else 0.0,
         }
-        for v in found.modelVariables if v.causality in ("input", "output", "parameter")
-    ]  # fmt: skip
+        for v in found.modelVariables
+        if v.causality in ("input", "output", "parameter")
+    ]
     model = name.split()[0]
     start, steps = RUNS.get(model, ({}, None))
     names = {v["name"] for v in variables}  # a native FMU has the geometry in its tables
@@ -111,10 +120,14 @@ def specification(name: str, folder: Path) -> dict:
     identifier = found.coSimulation.modelIdentifier
     libraries = [p for p in folder.glob(f"binaries/*/{identifier}.*") if fits(p)]
     return {
-        "folder": str(folder), "version": found.fmiVersion[0], "library": str(libraries[0]),
-        "guid": found.guid or found.instantiationToken, "variables": variables,
-        "start": start, "steps": steps,
-    }  # fmt: skip
+        "folder": str(folder),
+        "version": found.fmiVersion[0],
+        "library": str(libraries[0]),
+        "guid": found.guid or found.instantiationToken,
+        "variables": variables,
+        "start": start,
+        "steps": steps,
+    }
 
 
 def fits(path: Path) -> bool:
@@ -130,8 +143,11 @@ def start_probe(spec: dict, folder: Path, *cases: str, **environment: str) -> su
     program = f"import sys; sys.path.insert(0, {str(HERE)!r}); import probe; probe.main()"
     return subprocess.Popen(
         [sys.executable, "-I", "-c", program, str(path), *cases],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | environment,
-    )  # fmt: skip
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | environment,
+    )
 
 
 def end_probe(process: subprocess.Popen) -> tuple[int, str, dict]:

@@ -68,12 +68,14 @@ def test_a_system_whose_values_contradict_each_other_is_not_written(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "start", "said"),
-    [("stiction-mass", {"h_rel": "4 um"}, r"h_rel must exceed h0 = 5e-06 m"),
-     ("stiction-mass", {"h0": "0.1 mm"}, r"h_rel must exceed h0 = 0\.0001 m"),
-     ("stiction-mass", {"h_min": "6 um"}, r"h_min must not exceed h0"),
-     ("stiction-mass", {"h_break": "5 um"}, r"h_break must be 0 or exceed h0"),
-     ("stiction-force", {"h_break": "4 um"}, r"h_break must be 0 or exceed h0")],
-)  # fmt: skip
+    [
+        ("stiction-mass", {"h_rel": "4 um"}, r"h_rel must exceed h0 = 5e-06 m"),
+        ("stiction-mass", {"h0": "0.1 mm"}, r"h_rel must exceed h0 = 0\.0001 m"),
+        ("stiction-mass", {"h_min": "6 um"}, r"h_min must not exceed h0"),
+        ("stiction-mass", {"h_break": "5 um"}, r"h_break must be 0 or exceed h0"),
+        ("stiction-force", {"h_break": "4 um"}, r"h_break must be 0 or exceed h0"),
+    ],
+)
 def test_gaps_that_contradict_each_other_are_not_baked_in(name, start, said, tmp_path):
     with pytest.raises(ck.DescriptionError, match=said):
         build(name, tmp_path / "x.fmu", start=start)

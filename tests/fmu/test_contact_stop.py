@@ -211,9 +211,12 @@ def test_beyond_its_tables_it_goes_on_and_says_so(host, curve):
 
 @pytest.mark.parametrize(
     ("set_it", "said"),
-    [({"h": math.nan}, "h must be a finite number"), ({"v": math.inf}, "v must be"),
-     ({"h": -math.inf}, "h must be")],
-)  # fmt: skip
+    [
+        ({"h": math.nan}, "h must be a finite number"),
+        ({"v": math.inf}, "v must be"),
+        ({"h": -math.inf}, "h must be"),
+    ],
+)
 def test_inputs_that_are_no_numbers_are_refused(host, curve, set_it, said):
     host.start()
     press(host, 0.5 * curve.most)
@@ -228,9 +231,13 @@ def test_inputs_that_are_no_numbers_are_refused(host, curve, set_it, said):
 
 @pytest.mark.parametrize(
     ("values", "said"),
-    [({"scale": 0.0}, "scale must be"), ({"k_body": -1.0}, "k_body"), ({"d_max0": 1.0}, "d_max0"),
-     ({"side": 3}, "side")],
-)  # fmt: skip
+    [
+        ({"scale": 0.0}, "scale must be"),
+        ({"k_body": -1.0}, "k_body"),
+        ({"d_max0": 1.0}, "d_max0"),
+        ({"side": 3}, "side"),
+    ],
+)
 def test_parameters_out_of_range_are_refused(host, values, said):
     host.slave.setupExperiment(startTime=0.0)
     host.set(**values)

@@ -197,9 +197,11 @@ def test_what_is_no_fmu_of_fmi_2_is_named(pair, tmp_path, temporary):
         archive.writestr("modelDescription.xml", FMI3)
     rewritten(pair[0], torn, lambda xml: xml[: len(xml) // 2])
     for path, said in (
-        (tmp_path / "none.fmu", "a file that is there"), (text, "a zip archive"),
-        (third, "one of FMI 3.0: take the FMI 2 build"), (torn, "description that can be read"),
-    ):  # fmt: skip
+        (tmp_path / "none.fmu", "a file that is there"),
+        (text, "a zip archive"),
+        (third, "one of FMI 3.0: take the FMI 2 build"),
+        (torn, "description that can be read"),
+    ):
         with pytest.raises(DescriptionError, match=said) as caught:
             cosimulate(path, pair[1], 1e-4, 1e-5)
         assert caught.value.value == str(path)

@@ -86,9 +86,12 @@ def test_a_native_fmu_follows_its_reference(name, tmp_path):
     options = read_ref_opt_file(KEPT / f"{name}_ref.opt")
     signals = reference.dtype.names[1:]
     result = fmpy.simulate_fmu(
-        str(fmu), input=table(KEPT / f"{name}_in.csv"), output=list(signals),
-        stop_time=options["StopTime"], output_interval=options["StepSize"],
-    )  # fmt: skip
+        str(fmu),
+        input=table(KEPT / f"{name}_in.csv"),
+        output=list(signals),
+        stop_time=options["StopTime"],
+        output_interval=options["StepSize"],
+    )
     every = round((len(result) - 1) / (len(reference) - 1))
     np.testing.assert_allclose(result["time"][::every], reference["time"], atol=1e-12)
     for signal in signals:

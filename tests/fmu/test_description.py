@@ -135,9 +135,14 @@ def test_enumeration_starts_with_its_first_member():
 
 @pytest.mark.parametrize(
     ("unit", "shown", "factor"),
-    [("m", "um", 1e6), ("Pa.s", "mPa.s", 1e3), ("Pa", "bar", 1e-5), ("m3", "mm3", 1e9),
-     ("rad", "deg", 180 / math.pi)],
-)  # fmt: skip
+    [
+        ("m", "um", 1e6),
+        ("Pa.s", "mPa.s", 1e3),
+        ("Pa", "bar", 1e-5),
+        ("m3", "mm3", 1e9),
+        ("rad", "deg", 180 / math.pi),
+    ],
+)
 def test_display_units_have_clean_factors(unit, shown, factor):
     assert display_conversion(unit, shown) == (pytest.approx(factor, rel=1e-14), 0.0)
 

@@ -22,8 +22,10 @@ from contactkit.fmu.master.injector import cosimulate
 pytestmark = pytest.mark.skipif(bool(why_not()), reason=why_not() or "it is there")
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 KINDS = [
-    "python", pytest.param("native 2", marks=needs_cc), pytest.param("native 3", marks=needs_cc)
-]  # fmt: skip
+    "python",
+    pytest.param("native 2", marks=needs_cc),
+    pytest.param("native 3", marks=needs_cc),
+]
 KIND = "native 2" if HAS_CC else "python"  # where any will do
 DOCS = HERE.parents[1] / "docs" / "hosts.md"
 
@@ -45,10 +47,13 @@ def test_case_a_by_two_instances_and_again_after_a_reset(fmu, tmp_path, kind):
     film = fmu(kind, "stiction-mass")
     other = shutil.copy(film, tmp_path / "other.fmu")
     *runs, said = ecos(
-        1e-5, 50, ["film.t_release", "film.n_release", "other.t_release"],
-        {"film": film, "other": other}, start={"film.F_ext": 40.0, "other.F_ext": 80.0},
+        1e-5,
+        50,
+        ["film.t_release", "film.n_release", "other.t_release"],
+        {"film": film, "other": other},
+        start={"film.F_ext": 40.0, "other.F_ext": 80.0},
         again=True,
-    )  # fmt: skip
+    )
     for found in runs:
         assert found["film.t_release"] == pytest.approx(reference("A"), rel=2e-7)
         assert found["film.n_release"] == 1
@@ -62,10 +67,12 @@ def test_case_a_by_two_instances_and_again_after_a_reset(fmu, tmp_path, kind):
 def test_pull_and_spring_in_another_fmu(fmu, step, error):
     """As in libcosim; a step that is a quarter of the release itself does no harm."""
     found = ecos(
-        step, round(5e-4 / step), ["film.t_release"],
+        step,
+        round(5e-4 / step),
+        ["film.t_release"],
         {"drive": fmu("helper", "Drive"), "film": fmu(KIND, "stiction-mass", k_s=0.0)},
         ["drive.F_ext -> film.F_ext", "film.h -> drive.h"],
-    )  # fmt: skip
+    )
     assert found["film.t_release"] / reference("A") - 1.0 == pytest.approx(error, rel=0.1)
 
 
@@ -75,9 +82,12 @@ WIRES = ("body.h -> film.h", "body.v -> film.v", "film.F -> body.F")
 def test_forces_exchanged(fmu):
     """Case A, the harmless one: seventy times the error at the same step."""
     found = ecos(
-        1e-5, 50, ["body.t_release", "film.n_doubt"],
-        {"body": fmu("helper", "Body"), "film": fmu(KIND, "stiction-force")}, WIRES,
-    )  # fmt: skip
+        1e-5,
+        50,
+        ["body.t_release", "film.n_doubt"],
+        {"body": fmu("helper", "Body"), "film": fmu(KIND, "stiction-force")},
+        WIRES,
+    )
     assert found["body.t_release"] / reference("A") - 1.0 == pytest.approx(-1.1e-2, rel=0.1)
     assert found["film.n_doubt"] == 0
 
@@ -86,9 +96,12 @@ def test_forces_exchanged(fmu):
 def test_forces_exchanged_that_are_nonsense_are_called_so(fmu, step):
     """Case B far beyond the stable step: much too early, or at 100 us stopped dead for good."""
     found = ecos(
-        step, round(1e-3 / step), ["body.t_release", "film.n_doubt"],
-        {"body": fmu("helper", "Body", "B"), "film": fmu(KIND, "stiction-force", "B")}, WIRES,
-    )  # fmt: skip
+        step,
+        round(1e-3 / step),
+        ["body.t_release", "film.n_doubt"],
+        {"body": fmu("helper", "Body", "B"), "film": fmu(KIND, "stiction-force", "B")},
+        WIRES,
+    )
     assert found["body.t_release"] < 0.1 * reference("B")
     assert found["film.n_doubt"] > 0
 
@@ -96,9 +109,12 @@ def test_forces_exchanged_that_are_nonsense_are_called_so(fmu, step):
 def test_a_refused_start_value_gives_no_release(fmu):
     """Ecos goes on as if nothing was; all that is seen is a gap of nothing and no release."""
     found = ecos(
-        1e-5, 50, ["film.h", "film.t_release", "film.n_release"],
-        {"film": fmu(KIND, "stiction-mass")}, start={"film.F_ext": 40.0, "film.h0": -1.0},
-    )  # fmt: skip
+        1e-5,
+        50,
+        ["film.h", "film.t_release", "film.n_release"],
+        {"film": fmu(KIND, "stiction-mass")},
+        start={"film.F_ext": 40.0, "film.h0": -1.0},
+    )
     assert found["film.h"] == 0.0
     assert found["film.t_release"] == -1.0
     assert found["film.n_release"] == 0

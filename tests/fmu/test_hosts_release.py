@@ -46,9 +46,12 @@ def fmu(tmp_path_factory):
 def test_fmpy_releases_case_a(fmu, kind):
     """The mass and its spring inside, a steady pull: nothing is lost to the coupling."""
     found = fmpy.simulate_fmu(
-        str(fmu(kind, "stiction-mass")), start_values={"F_ext": 40.0}, stop_time=STOP["A"],
-        output=["t_release", "h"], output_interval=1e-5,
-    )  # fmt: skip
+        str(fmu(kind, "stiction-mass")),
+        start_values={"F_ext": 40.0},
+        stop_time=STOP["A"],
+        output=["t_release", "h"],
+        output_interval=1e-5,
+    )
     assert found["time"][-1] == pytest.approx(STOP["A"])  # it may end early without a word
     assert found["t_release"][-1] == pytest.approx(reference("A"), rel=ROOM[kind])
 
@@ -65,9 +68,12 @@ def test_fmpy_releases_case_b(fmu, kind):
         list(zip(time, middle, strict=True)), dtype=[("time", float), ("F_ext", float)]
     )
     found = fmpy.simulate_fmu(
-        str(fmu(kind, "stiction-mass", "B")), stop_time=STOP["B"], input=table,
-        output=["t_release"], output_interval=step,
-    )  # fmt: skip
+        str(fmu(kind, "stiction-mass", "B")),
+        stop_time=STOP["B"],
+        input=table,
+        output=["t_release"],
+        output_interval=step,
+    )
     assert found["time"][-1] == pytest.approx(STOP["B"])
     assert found["t_release"][-1] == pytest.approx(reference("B"), rel=1e-3)
 
@@ -149,9 +155,14 @@ def test_omsimulator_releases_case_a(fmu, tmp_path, kind):
     options = ["--startTime=0", f"--stopTime={STOP['A']}", "--stepSize=1e-5"]
     out = tmp_path / "release.csv"
     done = subprocess.run(
-        ["OMSimulator", *options, f"--resultFile={out}", str(path)], capture_output=True,
-        text=True, check=False, cwd=tmp_path, env=os.environ | more, timeout=100,
-    )  # fmt: skip
+        ["OMSimulator", *options, f"--resultFile={out}", str(path)],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
+        env=os.environ | more,
+        timeout=100,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     with out.open(newline="") as stream:
         *_, last = csv.DictReader(stream)
@@ -196,10 +207,21 @@ def release_in_c(path, folder, version, **environment):
     where = resources.as_uri() if version == 2 else f"{resources}/"
     clean = {key: value for key, value in os.environ.items() if "PYTHON" not in key}
     return subprocess.run(
-        [str(program), str(library), where, found.guid or found.instantiationToken,
-         "40", "1e-5", str(STOP["A"])],
-        capture_output=True, text=True, check=False, timeout=60, env=clean | environment,
-    )  # fmt: skip
+        [
+            str(program),
+            str(library),
+            where,
+            found.guid or found.instantiationToken,
+            "40",
+            "1e-5",
+            str(STOP["A"]),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+        env=clean | environment,
+    )
 
 
 @linux_only

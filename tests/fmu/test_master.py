@@ -102,8 +102,15 @@ def test_momentum_is_kept(film):
     """Without meniscus and spring: m v + J = F t, whatever the steps and the film."""
     start = {"h0": 1e-7, "gamma": 0.0}
     for tolerance in (1e-1, 1e-4):
-        found = couple(film, Mass(mass=0.02), lambda t: 40.0, 80.0, film_start=start,
-                       release_gap=1e-3, tolerance=tolerance)  # fmt: skip
+        found = couple(
+            film,
+            Mass(mass=0.02),
+            lambda t: 40.0,
+            80.0,
+            film_start=start,
+            release_gap=1e-3,
+            tolerance=tolerance,
+        )
         assert found.release_time > 0.0
         # where the film rules the speed is no more than an estimate, and m v is nothing
         kept = 0.02 * found["v"] + found["J"] - 40.0 * found.time
@@ -135,16 +142,28 @@ def test_a_mass_rests_until_it_is_pulled(film):
     """Pushed onto its asperities for 1 ms, then pulled: as if it had started then."""
     pull = ramp(40.0, 0.0)
     given = {"mass": 0.02, "rest_gap": 5e-6}
-    late = couple(film, Mass(**given), lambda t: -15.0 if t < 1e-3 else 40.0, 0.05,
-                  release_gap=1e-4, jumps=[1e-3])  # fmt: skip
+    late = couple(
+        film,
+        Mass(**given),
+        lambda t: -15.0 if t < 1e-3 else 40.0,
+        0.05,
+        release_gap=1e-4,
+        jumps=[1e-3],
+    )
     soon = couple(film, Mass(**given), pull, 0.05, release_gap=1e-4)
     assert late.release_time - 1e-3 == pytest.approx(soon.release_time, rel=1e-3)
     assert late["h"].min() == 5e-6
 
 
 def test_a_mass_that_is_pushed_back_lands_on_its_asperities(film):
-    found = couple(film, Mass(mass=0.02, speed=1e-4, rest_gap=4e-6), lambda t: -20.0, 0.5,
-                   release_gap=1e-4, tolerance=1e-3)  # fmt: skip
+    found = couple(
+        film,
+        Mass(mass=0.02, speed=1e-4, rest_gap=4e-6),
+        lambda t: -20.0,
+        0.5,
+        release_gap=1e-4,
+        tolerance=1e-3,
+    )
     assert found["h"][-1] == 4e-6
     assert found["v"][-1] == 0.0
     assert found.time[-1] == 0.5

@@ -25,9 +25,12 @@ def settings(tmp_path_factory):
 
 def test_every_way_of_coupling_is_there(settings):
     assert {method for method, _ in settings} == {
-        "film by force, Jacobi", "film by force, Gauss-Seidel", "film by force, implicit",
-        "film by impulse, fixed step", "film by impulse, steps by error",
-    }  # fmt: skip
+        "film by force, Jacobi",
+        "film by force, Gauss-Seidel",
+        "film by force, implicit",
+        "film by impulse, fixed step",
+        "film by impulse, steps by error",
+    }
 
 
 def test_forces_are_wrong_where_impulses_are_right(settings):

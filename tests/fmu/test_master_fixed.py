@@ -32,8 +32,15 @@ def test_a_step_that_becomes_too_long_on_the_way_is_refused_there(film):
     """Pushed together the film stiffens: c grows as 1/h^3."""
     start = {"h0": 40e-6, "eta": 0.01, "gamma": 0.0}
     with pytest.raises(InfeasibleError, match=r"at a gap of [12]\.\d+e-05 m"):
-        couple(film, Mass(mass=0.02), lambda t: -40.0, 1e-3, film_start=start,
-               scheme="gauss-seidel", step=5e-5)  # fmt: skip
+        couple(
+            film,
+            Mass(mass=0.02),
+            lambda t: -40.0,
+            1e-3,
+            film_start=start,
+            scheme="gauss-seidel",
+            step=5e-5,
+        )
 
 
 @pytest.mark.parametrize("scheme", ["jacobi", "gauss-seidel"])
@@ -47,9 +54,15 @@ def test_what_is_refused_would_have_been_wrong(film, release_cases, scheme):
 
 @pytest.mark.parametrize(
     ("scheme", "step", "error"),
-    [("jacobi", 1e-6, -1.1e-3), ("gauss-seidel", 1e-6, -3.6e-4), ("end-point", 1e-6, -2.5e-3),
-     ("jacobi", 1e-5, -1.1e-2), ("gauss-seidel", 1e-5, -4.0e-3), ("end-point", 1e-5, -2.5e-2)],
-)  # fmt: skip
+    [
+        ("jacobi", 1e-6, -1.1e-3),
+        ("gauss-seidel", 1e-6, -3.6e-4),
+        ("end-point", 1e-6, -2.5e-3),
+        ("jacobi", 1e-5, -1.1e-2),
+        ("gauss-seidel", 1e-5, -4.0e-3),
+        ("end-point", 1e-5, -2.5e-2),
+    ],
+)
 def test_stable_fixed_steps_have_the_errors_known_from_elsewhere(
     film, release_cases, scheme, step, error
 ):
@@ -80,8 +93,9 @@ def test_impulses_do_not_fail_at_a_fixed_step(film, release_cases, step):
 
 def test_a_blow_up_is_an_error(film, release_cases):
     with pytest.raises(ConvergenceError, match="blew up: the gap became -"):
-        release(film, release_cases["B"]["case"], 1e-3, 0.02, scheme="jacobi", step=1e-4,
-                refuse=False)  # fmt: skip
+        release(
+            film, release_cases["B"]["case"], 1e-3, 0.02, scheme="jacobi", step=1e-4, refuse=False
+        )
 
 
 # Arguments -----------------------------------------------------------------------------------
@@ -89,23 +103,33 @@ def test_a_blow_up_is_an_error(film, release_cases):
 
 @pytest.mark.parametrize(
     ("changes", "field"),
-    [({"tolerance": 0.5}, "tolerance"), ({"tolerance": math.nan}, "tolerance"),
-     ({"scheme": "strong"}, "scheme"), ({"scheme": "jacobi"}, "step"), ({"step": -1.0}, "step"),
-     ({"release_gap": 1e-6}, "release_gap"), ({"release_gap": math.nan}, "release_gap"),
-     ({"tolerance": "a"}, "tolerance"), ({"tolerance": 1e-10}, "tighter ones are not met"),
-     ({"jumps": [math.nan]}, "jumps"), ({"pull": math.inf}, "pull"), ({"pull": None}, "pull"),
-     ({"pull_start": {"h": 1.0}}, "pull_start"), ({"film_start": {"h9": 1.0}}, "h9"),
-     ({"film_start": {"N": 2.5}}, "N must be a whole number"),
-     ({"film_start": {"N": 2**32 + 2}}, "N must be a whole number"),
-     ({"film_start": {"meniscus_law": 7}}, "be one of NONE, EXACT"),
-     ({"film_start": {"h0": "20 s"}}, "h0 must be in a unit that converts to m"),
-     ({"film_start": {"h0": -1.0}}, "h0 must be positive"),
-     ({"film_start": {"eta": math.nan}}, "eta must be a number"),
-     ({"film_start": {"h": 1e-5}}, "it follows from h0"),
-     ({"film_start": {"v": 0.0}}, "it follows from Mass.speed"),
-     ({"film_start": {"m_ref": 7.0}}, "it follows from Mass.mass"),
-     ({"film_start": {"exchange": 1}}, "it follows from scheme")],
-)  # fmt: skip
+    [
+        ({"tolerance": 0.5}, "tolerance"),
+        ({"tolerance": math.nan}, "tolerance"),
+        ({"scheme": "strong"}, "scheme"),
+        ({"scheme": "jacobi"}, "step"),
+        ({"step": -1.0}, "step"),
+        ({"release_gap": 1e-6}, "release_gap"),
+        ({"release_gap": math.nan}, "release_gap"),
+        ({"tolerance": "a"}, "tolerance"),
+        ({"tolerance": 1e-10}, "tighter ones are not met"),
+        ({"jumps": [math.nan]}, "jumps"),
+        ({"pull": math.inf}, "pull"),
+        ({"pull": None}, "pull"),
+        ({"pull_start": {"h": 1.0}}, "pull_start"),
+        ({"film_start": {"h9": 1.0}}, "h9"),
+        ({"film_start": {"N": 2.5}}, "N must be a whole number"),
+        ({"film_start": {"N": 2**32 + 2}}, "N must be a whole number"),
+        ({"film_start": {"meniscus_law": 7}}, "be one of NONE, EXACT"),
+        ({"film_start": {"h0": "20 s"}}, "h0 must be in a unit that converts to m"),
+        ({"film_start": {"h0": -1.0}}, "h0 must be positive"),
+        ({"film_start": {"eta": math.nan}}, "eta must be a number"),
+        ({"film_start": {"h": 1e-5}}, "it follows from h0"),
+        ({"film_start": {"v": 0.0}}, "it follows from Mass.speed"),
+        ({"film_start": {"m_ref": 7.0}}, "it follows from Mass.mass"),
+        ({"film_start": {"exchange": 1}}, "it follows from scheme"),
+    ],
+)
 def test_an_argument_that_is_not_possible_is_named(film, changes, field):
     arguments = {"pull": lambda t: 40.0, "stop_time": 1e-3} | changes
     with pytest.raises(DescriptionError) as caught:
@@ -133,16 +157,18 @@ def test_a_pull_that_is_not_finite_is_named_with_its_time(film):
 
 def test_a_number_is_a_steady_pull_and_a_text_a_start_value(film):
     steady = couple(film, Mass(mass=0.02), 40, 0.1, release_gap=1e-4, film_start={"h0": "20 um"})
-    given = couple(film, Mass(mass=0.02), lambda t: 40.0, 0.1, release_gap=1e-4,
-                   film_start={"h0": 20e-6})  # fmt: skip
+    given = couple(
+        film, Mass(mass=0.02), lambda t: 40.0, 0.1, release_gap=1e-4, film_start={"h0": 20e-6}
+    )
     assert steady["h"][0] == 20e-6
     assert steady.release_time == given.release_time > 0.0
 
 
 @pytest.mark.parametrize("more", [{}, {"dp_cav": 1e5}])
 def test_nothing_moves_where_nothing_pulls(film, more):
-    found = couple(film, Mass(mass=0.02), 0.0, 0.1, release_gap=1e-4,
-                   film_start={"gamma": 0.0} | more)  # fmt: skip
+    found = couple(
+        film, Mass(mass=0.02), 0.0, 0.1, release_gap=1e-4, film_start={"gamma": 0.0} | more
+    )
     assert (found.release_time, found.time[-1]) == (-1.0, 0.1)
     assert set(found["h"]) == {5e-6}
     assert set(found["J"]) == {0.0}

@@ -64,8 +64,11 @@ def host(unpacked, tmp_path_factory):
         guid = re.search('guid="([^"]*)"', text)[1]
         found = subprocess.run(
             [str(program), str(library), (folder / "resources").as_uri(), guid, *words],
-            capture_output=True, text=True, check=False, timeout=100,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=100,
+        )
         assert found.returncode == 0, found.stderr
         return [float(word) for word in found.stdout.split()]
 
@@ -97,9 +100,13 @@ def release_of(folder):
     """Release under 40 N, of an FMU in a folder."""
     description = fmpy.read_model_description(str(folder))
     found = fmpy.simulate_fmu(
-        str(folder), model_description=description, start_values={"F_ext": 40.0},
-        stop_time=0.02, output_interval=1e-3, output=["t_release", "J"],
-    )  # fmt: skip
+        str(folder),
+        model_description=description,
+        start_values={"F_ext": 40.0},
+        stop_time=0.02,
+        output_interval=1e-3,
+        output=["t_release", "J"],
+    )
     return found["t_release"][-1], found["J"][-1]
 
 
@@ -134,8 +141,14 @@ def test_variables_are_those_of_the_python_fmu(fmu):
     ports = {port.name: port for port in StictionMass.ports}
     found = fmpy.read_model_description(str(fmu)).modelVariables
     assert set(ports) - {v.name for v in found} == {
-        "R", "V", "N", "theta1", "theta2", "meniscus_law", "rewet",
-    }  # fmt: skip
+        "R",
+        "V",
+        "N",
+        "theta1",
+        "theta2",
+        "meniscus_law",
+        "rewet",
+    }
     for variable in found:
         port = ports[variable.name]
         assert (variable.unit or "-", variable.causality) == (port.unit, port.causality)
@@ -161,9 +174,11 @@ def test_viscosity_and_surface_tension_are_free(fmu, tmp_path):
 
 @pytest.mark.parametrize(
     ("start", "said"),
-    [({"eta": -1.0}, r"drop refused eta = -1\.0: eta must "),
-     ({"h_break": 1e-9}, "cannot start with these values: .*h_break must be 0 or exceed h0 =")],
-)  # fmt: skip
+    [
+        ({"eta": -1.0}, r"drop refused eta = -1\.0: eta must "),
+        ({"h_break": 1e-9}, "cannot start with these values: .*h_break must be 0 or exceed h0 ="),
+    ],
+)
 def test_a_start_value_that_is_refused_says_why(fmu, start, said):
     with Instance(fmu) as host, pytest.raises(ContactkitError, match=said):
         host.start(start, 1.0)
@@ -234,9 +249,11 @@ def test_a_damaged_file_is_refused(unpacked, tmp_path):
         (folder / "binaries").symlink_to(unpacked / "binaries")
         (folder / "resources" / "film.bin").write_bytes(one)
         slave = fmi2.FMU2Slave(
-            instanceName="x", guid=description.guid, unzipDirectory=str(folder),
+            instanceName="x",
+            guid=description.guid,
+            unzipDirectory=str(folder),
             modelIdentifier=description.coSimulation.modelIdentifier,
-        )  # fmt: skip
+        )
         if one == content + b"x" * 8:
             slave.instantiate()  # what follows the tables is not read
             slave.freeInstance()

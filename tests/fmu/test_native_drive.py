@@ -113,8 +113,18 @@ def test_its_description_is_that_of_the_python_fmu(fmu, fmu3, python_fmu):
     """So that a host may take either; dependencies too."""
     kinds = {"Real": "Float64", "Integer": "Int32"}
     two, three, python = (fmpy.read_model_description(str(f)) for f in (fmu, fmu3, python_fmu))
-    same = ("name", "valueReference", "causality", "unit", "displayUnit", "min", "max", "start",
-            "nominal", "description")  # fmt: skip
+    same = (
+        "name",
+        "valueReference",
+        "causality",
+        "unit",
+        "displayUnit",
+        "min",
+        "max",
+        "start",
+        "nominal",
+        "description",
+    )
     for a, b, c in zip(
         two.modelVariables, python.modelVariables, three.modelVariables[:-1], strict=True
     ):
@@ -155,8 +165,16 @@ HARD = {
     "chopped": {"T_period": 1.3e-5, "t_on": 6e-6, "t_boost": 2e-6, "n_cycles": 4000},
     "no damping": {"d_stop": 0.0, "k_spring": 0.0, "F_preload": 0.0, "k_stop": 1e12},
 }
-MOTIONS = [(5e-6, 0.0), (-1e-5, 0.3), (2.4e-5, 0.5), (2.6e-5, -0.15), (2.6e-5, -3.0),
-           (2e-4, 0.0), (1.04e-4, 1.0), (2.5e-5, 1e-9)]  # fmt: skip
+MOTIONS = [
+    (5e-6, 0.0),
+    (-1e-5, 0.3),
+    (2.4e-5, 0.5),
+    (2.6e-5, -0.15),
+    (2.6e-5, -3.0),
+    (2e-4, 0.0),
+    (1.04e-4, 1.0),
+    (2.5e-5, 1e-9),
+]
 LENGTHS = [1e-3, 0.0, 1e-9, 5e-6, 1e-3 / 3.0, 4e-5, 2.2e-2, 1e-4]
 
 
@@ -212,9 +230,12 @@ def test_one_step_over_thousands_of_switches(host):
 
 @pytest.mark.parametrize(
     ("given", "length"),
-    [({"h": -1e6, "v": 1e9}, 5e-3), ({"h": 5e-6, "v": -1e12}, 1e-2),
-     ({"h": -1e150, "v": 0.0}, 1.0)],
-)  # fmt: skip
+    [
+        ({"h": -1e6, "v": 1e9}, 5e-3),
+        ({"h": 5e-6, "v": -1e12}, 1e-2),
+        ({"h": -1e150, "v": 0.0}, 1.0),
+    ],
+)
 def test_a_flux_that_cannot_follow_is_an_error_with_a_cure(host, given, length):
     host.start(t_delay=0.0)
     good = host.outputs()
@@ -237,10 +258,12 @@ def test_no_number_is_ever_infinite(host):
 
 @pytest.mark.parametrize(
     ("given", "said"),
-    [({"t_on": 2e-2}, "t_on must not exceed T_period"),
-     ({"t_boost": 5e-3}, "t_boost must not exceed t_on"),
-     ({"h_stop": 2e-4}, "h_stop must be less than g_air")],
-)  # fmt: skip
+    [
+        ({"t_on": 2e-2}, "t_on must not exceed T_period"),
+        ({"t_boost": 5e-3}, "t_boost must not exceed t_on"),
+        ({"h_stop": 2e-4}, "h_stop must be less than g_air"),
+    ],
+)
 def test_a_drive_that_contradicts_itself_is_refused(host, tmp_path_factory, given, said):
     host.slave.setupExperiment(startTime=0.0)
     host.set(**given)
@@ -393,9 +416,11 @@ def test_what_has_no_slope_is_refused_and_nothing_is_lost(host):
     assert slope("F_stop", "k_stop") == pytest.approx(1e-6, rel=1e-6)
     assert slope("F_stop", "h") == 1e8
     for of, by, said in (
-        ("u", "t_on", "the voltage jumps in time"), ("i", "B_sat", "0 stands for none"),
-        ("i", "N_turns", "not that of a real variable"), ("i", "flux", "an output, too"),
-    ):  # fmt: skip
+        ("u", "t_on", "the voltage jumps in time"),
+        ("i", "B_sat", "0 stands for none"),
+        ("i", "N_turns", "not that of a real variable"),
+        ("i", "flux", "an output, too"),
+    ):
         host.log.clear()
         with pytest.raises(FMICallException):
             slope(of, by)
@@ -419,9 +444,11 @@ def steps3(fmu3, lengths, **options):
     description = fmpy.read_model_description(str(fmu3))
     numbers = {v.name: v.valueReference for v in description.modelVariables}
     one = FMU3Slave(
-        instanceName="one", guid=description.guid, unzipDirectory=fmpy.extract(str(fmu3)),
+        instanceName="one",
+        guid=description.guid,
+        unzipDirectory=fmpy.extract(str(fmu3)),
         modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
+    )
     one.instantiate(**options)
     one.enterInitializationMode(startTime=0.0)
     one.exitInitializationMode()
@@ -466,9 +493,10 @@ def test_a_step_ends_where_the_voltage_switches(fmu3):
     assert early == 3
     switches = [(a[0], a[6], b[6]) for a, b in pairwise(rows) if a[6] != b[6]]
     assert switches == [
-        (pytest.approx(1e-3), -12.0, 12.0), (pytest.approx(1.25e-3), 12.0, 5.2),
+        (pytest.approx(1e-3), -12.0, 12.0),
+        (pytest.approx(1.25e-3), 12.0, 5.2),
         (pytest.approx(5e-3), 5.2, -12.0),
-    ]  # fmt: skip
+    ]
     last = {round(row[0], 9): row for row in rows}
     for row in plain:
         np.testing.assert_allclose(last[round(row[0], 9)], row, rtol=1e-10, atol=1e-12)
@@ -529,9 +557,12 @@ def test_a_host_in_c_runs_the_pair_without_python(fmu, film, tmp_path):
         words += [str(library), resources, re.search('guid="([^"]*)"', text)[1]]
     host = compile_c([HERE / "native_host_pair.c"], tmp_path / "host", f"-I{tmp_path}/film/sources")
     done = subprocess.run(
-        [str(host), *words, "1e-6", "1.6e-3"], capture_output=True, text=True, check=False,
+        [str(host), *words, "1e-6", "1.6e-3"],
+        capture_output=True,
+        text=True,
+        check=False,
         timeout=100,
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stderr
     release, pythons = done.stdout.split()
     assert int(pythons) == 0

@@ -68,14 +68,18 @@ class Slave:
         self.references = {v.name: v.valueReference for v in description.modelVariables}
         self.types = {v.name: v.type for v in description.modelVariables}
         self.fmu = FMU3Slave(
-            instanceName="one", guid=description.guid, unzipDirectory=str(folder),
+            instanceName="one",
+            guid=description.guid,
+            unzipDirectory=str(folder),
             modelIdentifier=description.coSimulation.modelIdentifier,
-        )  # fmt: skip
+        )
         self.log = []
         self.fmu.instantiate(
-            loggingOn=True, eventModeUsed=events, earlyReturnAllowed=early,
+            loggingOn=True,
+            eventModeUsed=events,
+            earlyReturnAllowed=early,
             logMessage=lambda _, status, category, text: self.log.append((category, text)),
-        )  # fmt: skip
+        )
         self.set(**start)
         self.fmu.enterInitializationMode(startTime=0.0)
         self.fmu.exitInitializationMode()
@@ -125,10 +129,14 @@ def test_fmpy_finds_no_problems(fmus, unpacked):
     assert next((unpacked / "binaries").iterdir()).name == PLATFORMS[local()].fmi3
     can = ElementTree.parse(unpacked / "modelDescription.xml").find("CoSimulation").attrib
     assert {name for name, value in can.items() if value == "true"} == {
-        "hasEventMode", "mightReturnEarlyFromDoStep", "canHandleVariableCommunicationStepSize",
-        "canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives",
+        "hasEventMode",
+        "mightReturnEarlyFromDoStep",
+        "canHandleVariableCommunicationStepSize",
+        "canGetAndSetFMUState",
+        "canSerializeFMUState",
+        "providesDirectionalDerivatives",
         "providesAdjointDerivatives",
-    }  # fmt: skip
+    }
 
 
 def test_both_versions_describe_the_same_variables(fmus):

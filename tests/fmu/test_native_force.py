@@ -224,11 +224,16 @@ def test_the_master_drives_it_as_the_python_one(name, release_cases, pair):
     free = {key: film[key] for key in ("h0", "eta", "gamma", "dp_cav", "tau_lim")}
     found = [
         couple(
-            path, Mass(mass=case["m"], stiffness=case["k_s"]), ramp(case["F0"], case["tau"]),
-            2.0 * values["t_rel"], release_gap=case["h_rel"], tolerance=1e-3, film_start=start,
+            path,
+            Mass(mass=case["m"], stiffness=case["k_s"]),
+            ramp(case["F0"], case["tau"]),
+            2.0 * values["t_rel"],
+            release_gap=case["h_rel"],
+            tolerance=1e-3,
+            film_start=start,
         )
         for path, start in zip(paths, (film_values(case), free), strict=True)
-    ]  # fmt: skip
+    ]
     for one in found:
         assert one.release_time == pytest.approx(values["t_rel"], rel=1e-3)
         assert one["v"][-1] == pytest.approx(values["v_rel"], rel=3e-3)

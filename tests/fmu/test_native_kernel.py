@@ -66,9 +66,12 @@ def kernel_forces(probe, film, folder, gaps, speeds, tension=0.0, strength=0.0):
     )
     words = [str(probe), str(folder), str(OIL.viscosity), str(OIL.surface_tension)]
     said = subprocess.run(
-        [*words, repr(tension), repr(strength)], check=True, capture_output=True, text=True,
+        [*words, repr(tension), repr(strength)],
+        check=True,
+        capture_output=True,
+        text=True,
         input="".join(f"{g!r} {v!r}\n" for g, v in zip(gaps, speeds, strict=True)),
-    ).stdout  # fmt: skip
+    ).stdout
     return np.array([[float(word) for word in line.split()] for line in said.splitlines()]).T
 
 
@@ -191,9 +194,12 @@ def test_motion_is_that_of_the_python_model(name, tmp_path):
     pulls, step, given = MOTIONS[name]
     scene = SCENES[name]
     path = build_native(
-        scene, tmp_path / "film.fmu", platforms=[local()], compiler="cc",
+        scene,
+        tmp_path / "film.fmu",
+        platforms=[local()],
+        compiler="cc",
         start=given | {"rtol": 1e-8},
-    )  # fmt: skip
+    )
     opening = attrs.evolve(scene.opening, rest_gap=given.get("h_min", scene.opening.rest_gap))
     prepared = plan(moving(attrs.evolve(scene, opening=opening), None), FINE)
     # The laws behind the tables are finer than those of the tolerance of the motion.

@@ -144,18 +144,23 @@ def host_program(folder, name, fmi):
         more += [f"-lapi-ms-win-crt-{part}-l1-1-0" for part in ("runtime", "convert")]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[name].target]
     subprocess.run(
-        [*command, *flags, *map(str, files), "-o", str(out), *more], check=True,
-        capture_output=True, text=True,
-    )  # fmt: skip
+        [*command, *flags, *map(str, files), "-o", str(out), *more],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     return out
 
 
 def run_host(command, library, where, guid, words, **environment):
     """What a host prints: rows of gap, speed, force, then the release."""
     done = subprocess.run(
-        [*map(str, command), str(library), str(where), guid, *words], capture_output=True,
-        check=False, timeout=120, env=os.environ | environment,
-    )  # fmt: skip
+        [*map(str, command), str(library), str(where), guid, *words],
+        capture_output=True,
+        check=False,
+        timeout=120,
+        env=os.environ | environment,
+    )
     assert done.returncode == 0, done.stderr
     return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
 
@@ -220,15 +225,20 @@ def wine(tmp_path_factory):
     if shutil.which("wine") is None:
         pytest.skip("needs Wine (Debian's wine and wine64)")
     common = {
-        "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree=;mshtml=", "LC_ALL": "C.UTF-8",
+        "WINEDEBUG": "-all",
+        "WINEDLLOVERRIDES": "mscoree=;mshtml=",
+        "LC_ALL": "C.UTF-8",
         "DISPLAY": "",
-    }  # fmt: skip
+    }
 
     def start(folder):
         subprocess.run(
-            ["wine", "wineboot", "--init"], check=True, capture_output=True, timeout=120,
+            ["wine", "wineboot", "--init"],
+            check=True,
+            capture_output=True,
+            timeout=120,
             env=os.environ | common | {"WINEPREFIX": str(folder)},
-        )  # fmt: skip
+        )
 
     try:
         prefix = made_once(tmp_path_factory, "wine", start)
@@ -259,8 +269,12 @@ def test_wine_opens_whatever_a_host_calls_the_folder(fmus, wine, tmp_path):
     shutil.copyfile(library_of(fmus, "windows-x86_64", 2), library)
     back, uri = str(folder).replace("/", "\\"), folder.as_uri().removeprefix("file://")
     for where in (
-        f"file:///Z:{uri}/resources", f"file:///z%3A{uri}/resources/", f"file://Z:{folder}/resources",
-        f"file:///Z:{back}\\resources", f"Z:{back}\\resources\\", f"FILE://localhost/Z:{uri}/resources",
-    ):  # fmt: skip
+        f"file:///Z:{uri}/resources",
+        f"file:///z%3A{uri}/resources/",
+        f"file://Z:{folder}/resources",
+        f"file:///Z:{back}\\resources",
+        f"Z:{back}\\resources\\",
+        f"FILE://localhost/Z:{uri}/resources",
+    ):
         rows = run_host(command, f"Z:{back}\\a name.dll", where, guid, RUNS["A"][:3], **wine)
         assert rows[-1][0] == pytest.approx(reference("A"), rel=2e-7)

@@ -84,7 +84,10 @@ def test_spoilt_tables_are_refused_or_harmless(unpacked, checked, tmp_path, name
     scratch.mkdir()
     done = subprocess.run(
         [str(program), str(unpacked[name] / "resources"), str(scratch), "2000"],
-        capture_output=True, text=True, check=False, timeout=120,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
     assert done.returncode == 0, done.stderr[-2000:]
     assert int(done.stdout) < 1500  # some changes are as good as the truth, most are not

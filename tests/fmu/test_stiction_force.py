@@ -66,11 +66,18 @@ def test_what_the_issue_asks_for_is_among_the_outputs():
 
 @pytest.mark.parametrize(
     "film",
-    [{}, {"V": 2e-11}, {"h0": 10e-9, "R": 0.5e-3, "V": 7.85e-15}, {"dp_cav": 1e6},
-     {"tau_lim": 1e4}, {"N": 100, "V": 1e-11}, {"gamma": 0.0},
-     {"theta1": math.pi / 2, "theta2": 0.1, "V": 1e-11}],
+    [
+        {},
+        {"V": 2e-11},
+        {"h0": 10e-9, "R": 0.5e-3, "V": 7.85e-15},
+        {"dp_cav": 1e6},
+        {"tau_lim": 1e4},
+        {"N": 100, "V": 1e-11},
+        {"gamma": 0.0},
+        {"theta1": math.pi / 2, "theta2": 0.1, "V": 1e-11},
+    ],
     ids=["flooded", "volume", "10 nm", "tension", "shear", "100 menisci", "dry", "90 deg"],
-)  # fmt: skip
+)
 def test_forces_and_slopes_are_those_of_the_plan(host, film):
     made = film_of(**film)
     host.start(**film)

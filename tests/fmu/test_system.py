@@ -200,8 +200,11 @@ def libcosim(archive, stop=STOP):
     """In a process of its own, because it aborts on what it does not like."""
     done = subprocess.run(
         [sys.executable, "-c", _LIBCOSIM, str(archive), str(round(stop * 1e9))],
-        capture_output=True, text=True, check=False, timeout=100,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+    )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
 
@@ -253,8 +256,12 @@ def test_omsimulator_runs_it(native_archive, tmp_path):
     """The program without Python."""
     done = subprocess.run(
         ["OMSimulator", str(native_archive), f"--stopTime={STOP}", "--resultFile=none.csv"],
-        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=100,
-    )  # fmt: skip
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "error" not in done.stdout + done.stderr
 
@@ -267,9 +274,14 @@ def test_start_values_go_to_both_places_and_native_ones_move_as_ours(unpacked, t
     mass = {"h0": 6e-6, "m": 0.025, "meniscus_law": "NONE"}
     given = {f"mass.{name}": value for name, value in mass.items()} | {"mass.h0": "6 um"}
     path = write_system(
-        "fuel-injector", tmp_path / "own.ssp", native=HAS_CC, step=STEP / 2,
-        start=given | {"drive.n_cycles": 1}, platforms=[local()], compiler="cc",
-    )  # fmt: skip
+        "fuel-injector",
+        tmp_path / "own.ssp",
+        native=HAS_CC,
+        step=STEP / 2,
+        start=given | {"drive.n_cycles": 1},
+        platforms=[local()],
+        compiler="cc",
+    )
     with zipfile.ZipFile(path) as packed:
         packed.extractall(tmp_path)
     text = (tmp_path / "SystemStructure.ssd").read_text()

@@ -42,10 +42,14 @@ def hertz(factor=1.0, most=4e-9, yields=True):
         for d in depths[4:]
     ]
     return StopCurve(
-        approach=depths, force=force, contact_area=area, plastic_area=[0.0] * len(depths),
-        unloading=tuple(ways) if yields else (), nominal_area=1e-13,
+        approach=depths,
+        force=force,
+        contact_area=area,
+        plastic_area=[0.0] * len(depths),
+        unloading=tuple(ways) if yields else (),
+        nominal_area=1e-13,
         elastic_limit=depths[3] if yields else most,
-    )  # fmt: skip
+    )
 
 
 @pytest.fixture(scope="module")
@@ -155,9 +159,15 @@ def dead_curve(factor):
     dead = tuple(u._replace(residual_approach=0.999 * u.largest_approach) for u in one.unloading)
     low = 1e-5 * one.approach[0]  # yields from the start
     return evolve(
-        one, unloading=(dead[0]._replace(largest_approach=one.approach[0], residual_approach=0.999 *
-                                         one.approach[0]), *dead), elastic_limit=low,
-    )  # fmt: skip
+        one,
+        unloading=(
+            dead[0]._replace(
+                largest_approach=one.approach[0], residual_approach=0.999 * one.approach[0]
+            ),
+            *dead,
+        ),
+        elastic_limit=low,
+    )
 
 
 def test_a_stiff_elastic_site_lets_go_as_the_rigid_one(dry):

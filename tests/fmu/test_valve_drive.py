@@ -61,9 +61,15 @@ def test_the_fmu_is_valid_and_tells_what_follows_at_once(drive_fmu):
         for unknown in description.outputs
     }
     assert follows == {
-        "F_ext": ["h", "v"], "dF_ext": [], "F_mag": [], "F_spring": ["h"], "F_stop": ["h", "v"],
-        "i": ["h"], "u": [], "flux": [],
-    }  # fmt: skip
+        "F_ext": ["h", "v"],
+        "dF_ext": [],
+        "F_mag": [],
+        "F_spring": ["h"],
+        "F_stop": ["h", "v"],
+        "i": ["h"],
+        "u": [],
+        "flux": [],
+    }
 
 
 def test_the_fmu_in_fmpy_gives_what_the_slave_gives(drive_fmu, open_fmu):

@@ -48,16 +48,33 @@ class Toy(PortSlave):
         Port("sum", "-", causality="output", label="sum of n", kind="integer", depends_on=()),
         Port("high", "-", causality="output", label="y above u", kind="boolean"),
         Port("side", "-", causality="output", label="y or u", kind="enumeration", enumeration=Side),
-        Port("tau", "s", causality="parameter", label="time constant <s> & more", start=0.1,
-             minimum=0.0, exclusive=True, display_unit="ms"),
-        Port("gain", "-", causality="parameter", label="gain", start=1.0,
-             minimum=-5.0, maximum=5.0),
+        Port(
+            "tau",
+            "s",
+            causality="parameter",
+            label="time constant <s> & more",
+            start=0.1,
+            minimum=0.0,
+            exclusive=True,
+            display_unit="ms",
+        ),
+        Port(
+            "gain", "-", causality="parameter", label="gain", start=1.0, minimum=-5.0, maximum=5.0
+        ),
         Port("y0", "N", causality="parameter", label="force at the start", display_unit="mN"),
-        Port("mode", "-", causality="parameter", label="mode", kind="enumeration",
-             enumeration=Mode),
-        Port("warm", "K", causality="parameter", label="temperature", start=293.15,
-             minimum=0.0, display_unit="degC"),
-    )  # fmt: skip
+        Port(
+            "mode", "-", causality="parameter", label="mode", kind="enumeration", enumeration=Mode
+        ),
+        Port(
+            "warm",
+            "K",
+            causality="parameter",
+            label="temperature",
+            start=293.15,
+            minimum=0.0,
+            display_unit="degC",
+        ),
+    )
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)

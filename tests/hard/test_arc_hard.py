@@ -19,9 +19,11 @@ EXACT = {case["id"]: case for case in CASES["exact_bridge"]}
 DEG = math.pi / 180.0
 RIGHT = math.pi / 2
 SPECIAL = [
-    (one, two) for one in (0.0, RIGHT, math.pi) for two in (0.0, RIGHT, math.pi)
+    (one, two)
+    for one in (0.0, RIGHT, math.pi)
+    for two in (0.0, RIGHT, math.pi)
     if {one, two} != {0.0, math.pi}
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("lower", "upper"), SPECIAL)

@@ -14,9 +14,11 @@ from contactkit.errors import DescriptionError, InfeasibleError
 DEG = math.pi / 180.0
 RIGHT = math.pi / 2
 SPECIAL = [
-    (one, two) for one in (0.0, RIGHT, math.pi) for two in (0.0, RIGHT, math.pi)
+    (one, two)
+    for one in (0.0, RIGHT, math.pi)
+    for two in (0.0, RIGHT, math.pi)
     if {one, two} != {0.0, math.pi}
-]  # fmt: skip
+]
 
 
 def numbers(state):
@@ -70,9 +72,15 @@ def test_straight_films(one, two, gap):
 
 
 FOLDS = [
-    (0, 0, 0.0, 0.0), (60, 61, 0.0, 0.0), (15, 165, 0.0, 0.0), (40, 40, 0.0, 0.1),
-    (0, 60, 0.0, 0.1), (20, 20, 0.1, 0.1), (120, 110, 0.0, 0.2), (30, 120, 0.0, 0.5),
-]  # fmt: skip
+    (0, 0, 0.0, 0.0),
+    (60, 61, 0.0, 0.0),
+    (15, 165, 0.0, 0.0),
+    (40, 40, 0.0, 0.1),
+    (0, 60, 0.0, 0.1),
+    (20, 20, 0.1, 0.1),
+    (120, 110, 0.0, 0.2),
+    (30, 120, 0.0, 0.5),
+]
 
 
 @pytest.mark.parametrize("case", FOLDS, ids=str)
@@ -138,8 +146,14 @@ def test_the_force_goes_to_zero_at_detachment(upper, curvature):
     assert np.all(np.diff(state.radius_lower) < 0.0)
 
 
-FREE = [(8, 156, 3e-3, 0.0), (30, 120, 0.1, 0.0), (15, 117, 0.07, 0.9), (60, 75, 0.1, 0.5),
-        (0, 165, 1e-3, 0.0), (75, 90, 0.01, 0.0)]  # fmt: skip
+FREE = [
+    (8, 156, 3e-3, 0.0),
+    (30, 120, 0.1, 0.0),
+    (15, 117, 0.07, 0.9),
+    (60, 75, 0.1, 0.5),
+    (0, 165, 1e-3, 0.0),
+    (75, 90, 0.01, 0.0),
+]
 
 
 @pytest.mark.parametrize("case", FREE, ids=str)
@@ -205,8 +219,9 @@ def test_at_fixed_pressure():
     with pytest.raises(InfeasibleError, match="even between touching bodies"):
         bridge_at_pressure(0.0, -1e8, 2.0, 2.0, 0.0, 1e6)
     longest = longest_at_pressure(-1e8, 0.3, 0.3, 0.0, 1e6)
-    state = bridge_at_pressure(longest * np.array([0.0, 0.9, 0.999999, 1.01]), -1e8, 0.3, 0.3, 0.0,
-                               1e6, beyond="nan")  # fmt: skip
+    state = bridge_at_pressure(
+        longest * np.array([0.0, 0.9, 0.999999, 1.01]), -1e8, 0.3, 0.3, 0.0, 1e6, beyond="nan"
+    )
     assert np.isnan(state.force).tolist() == [False, False, False, True]
     assert state.pressure[:3] == pytest.approx(-1e8, rel=1e-13)
     with pytest.raises(InfeasibleError, match=f"no bridge beyond {longest * 1e9:.4g} nm"):
@@ -216,12 +231,15 @@ def test_at_fixed_pressure():
 @pytest.mark.parametrize(
     ("change", "match"),
     [
-        ({"gap": -1.0}, r"bridge\.gap"), ({"volume": 0.0}, r"bridge\.volume"),
-        ({"angle_lower": 60.0}, r"angle_lower.*degrees"), ({"curvature_upper": -1.0}, "curvature"),
-        ({"gap": math.nan}, r"bridge\.gap"), ({"beyond": "zero"}, r"bridge\.beyond"),
+        ({"gap": -1.0}, r"bridge\.gap"),
+        ({"volume": 0.0}, r"bridge\.volume"),
+        ({"angle_lower": 60.0}, r"angle_lower.*degrees"),
+        ({"curvature_upper": -1.0}, "curvature"),
+        ({"gap": math.nan}, r"bridge\.gap"),
+        ({"beyond": "zero"}, r"bridge\.beyond"),
         ({"gap": 0.0}, "touching flats"),
     ],
-)  # fmt: skip
+)
 def test_arguments_are_checked(change, match):
     given = {"gap": 0.1, "volume": 1.0, "angle_lower": 0.5, "angle_upper": 0.5} | change
     with pytest.raises(DescriptionError, match=match):

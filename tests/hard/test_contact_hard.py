@@ -22,9 +22,18 @@ NAN = float("nan")
 
 
 def made(
-    *effects, lower=SOLID, upper=None, surface=ROUGH, meniscus=None, grid=48, width=0.8e-6,
-    height=None, periodic=True, accuracy=None, **pressing,
-):  # fmt: skip
+    *effects,
+    lower=SOLID,
+    upper=None,
+    surface=ROUGH,
+    meniscus=None,
+    grid=48,
+    width=0.8e-6,
+    height=None,
+    periodic=True,
+    accuracy=None,
+    **pressing,
+):
     scene = ck.ContactScene(
         interface=ck.ContactInterface(
             lower=ck.Body(solid=lower),
@@ -43,9 +52,7 @@ def solved(*effects, **given):
 
 
 def layer(modulus, thickness, poisson_ratio=NU, hardness=None):
-    material = ck.Material(
-        young_modulus=modulus, poisson_ratio=poisson_ratio, hardness=hardness
-    )  # fmt: skip
+    material = ck.Material(young_modulus=modulus, poisson_ratio=poisson_ratio, hardness=hardness)
     return ck.Layer(material=material, thickness=thickness)
 
 
@@ -213,9 +220,16 @@ def test_nanometres_with_gigapascals_take_the_same_steps_as_metres_with_pascals(
 @pytest.mark.parametrize("periodic", [True, False], ids=["periodic", "free"])
 @pytest.mark.parametrize(
     ("shape", "pixel"),
-    [((33, 47), 1e-8), ((17, 64), (3e-8, 1e-8)), ((2, 2), 1e-8), ((2, 51), 1e-8),
-     ((64, 5), (1e-9, 5e-8)), ((31, 31), (1e-8, 1e-6)), ((130, 3), 1e-8)],
-)  # fmt: skip
+    [
+        ((33, 47), 1e-8),
+        ((17, 64), (3e-8, 1e-8)),
+        ((2, 2), 1e-8),
+        ((2, 51), 1e-8),
+        ((64, 5), (1e-9, 5e-8)),
+        ((31, 31), (1e-8, 1e-6)),
+        ((130, 3), 1e-8),
+    ],
+)
 def test_any_grid_will_do(shape, pixel, periodic):
     run = ck.press(rough_map(shape), pixel, SOLID, 1e7, periodic=periodic)
     check(run)
@@ -422,9 +436,15 @@ def test_in_full_contact_the_coupling_turns_the_phase_as_the_compliances_say(
     solid = ck.Material(young_modulus=E, poisson_ratio=poisson_ratio)
     wave = ck.Wave(amplitude=1e-9, wavelength=1e-6)
     run, part = coupled(
-        friction, lower=solid, surface=wave, width=1e-6, height=0.2e-6, grid=(2, 32), pressure=1e8,
+        friction,
+        lower=solid,
+        surface=wave,
+        width=1e-6,
+        height=0.2e-6,
+        grid=(2, 32),
+        pressure=1e8,
         accuracy={"rtol": 1e-10},
-    )  # fmt: skip
+    )
     k = (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio))
     alone = math.pi * solid.plane_strain_modulus * 1e-9 / 1e-6
     got = np.fft.rfft(run.pressure[0])[1] / 16.0
@@ -490,9 +510,15 @@ RIGID = ck.Material(young_modulus=1e15, poisson_ratio=NU)
 
 def ball_on_film(force, solid=RIGID, grid=96, width=6.0 * RIM):
     return solved(
-        film(1e-9), lower=solid, surface=ck.Paraboloid(radius=BALL), meniscus=FILM, grid=grid,
-        width=width, periodic=False, force=force,
-    )  # fmt: skip
+        film(1e-9),
+        lower=solid,
+        surface=ck.Paraboloid(radius=BALL),
+        meniscus=FILM,
+        grid=grid,
+        width=width,
+        periodic=False,
+        force=force,
+    )
 
 
 def test_a_stiff_ball_on_a_film_is_pulled_by_the_classical_force():
@@ -521,9 +547,15 @@ def test_a_result_under_a_film_is_in_balance_or_says_that_it_is_not(force):
     """On few pixels the force moves in steps; one that straddles the balance must be reported."""
     soft = ck.Material(young_modulus=1e9, poisson_ratio=NU)
     plan = made(
-        film(1e-9), lower=soft, surface=ck.Paraboloid(radius=BALL), meniscus=FILM, grid=64,
-        width=60.0 * RIM, periodic=False, force=force,
-    )  # fmt: skip
+        film(1e-9),
+        lower=soft,
+        surface=ck.Paraboloid(radius=BALL),
+        meniscus=FILM,
+        grid=64,
+        width=60.0 * RIM,
+        periodic=False,
+        force=force,
+    )
     run = ck.solve(plan, throw=False)
     assert balanced(run) < 1e-5 or run.status == "not converged" or "film" in run.message
 
@@ -554,7 +586,7 @@ def peak_on_a_plateau(**given):
         made(
             film(5e-10), lower=solid, surface=surface, meniscus=wet, width=None, grid=None, **given
         )
-    )  # fmt: skip
+    )
 
 
 def test_snap_in_is_reported_and_the_smallest_equilibrium_is_taken():

@@ -118,9 +118,19 @@ def test_a_hundred_thousand_menisci_share_one_volume(film_scene, count, effect):
 @pytest.mark.parametrize("profile", ["arc", "as-published"])
 @pytest.mark.parametrize(
     "angles",
-    [(0.0, 0.0), (0.0, SIXTY), (SIXTY, SIXTY), (90.0, 90.0), (120.0, 120.0), (180.0, 120.0),
-     (60.0, 120.0), (15.0, 165.0), (165.0, 15.0), (180.0, 180.0)],
-)  # fmt: skip
+    [
+        (0.0, 0.0),
+        (0.0, SIXTY),
+        (SIXTY, SIXTY),
+        (90.0, 90.0),
+        (120.0, 120.0),
+        (180.0, 120.0),
+        (60.0, 120.0),
+        (15.0, 165.0),
+        (165.0, 15.0),
+        (180.0, 180.0),
+    ],
+)
 @pytest.mark.parametrize("upper", [None, 2e-3], ids=["flats", "sphere"])
 def test_every_pair_of_contact_angles_gives_a_finite_curve(film_scene, profile, angles, upper):
     """Angles of 0, 90, 180 degrees and pairs that add up to 180 need no replacement."""
@@ -238,9 +248,14 @@ def test_touching_flats_are_a_contact_problem(film_scene, effects):
 
 def test_a_pull_does_not_start_from_contact(film_scene):
     scene = film_scene(
-        VISCOUS, lower=ck.Flat(), upper=ck.Sphere(radius=1e-3), film={"volume": 1e-15},
-        initial_gap=0.0, force=1.0, mass=1.0,
-    )  # fmt: skip
+        VISCOUS,
+        lower=ck.Flat(),
+        upper=ck.Sphere(radius=1e-3),
+        film={"volume": 1e-15},
+        initial_gap=0.0,
+        force=1.0,
+        mass=1.0,
+    )
     with pytest.raises(ck.InfeasibleError, match=r"bodies that touch do not move.*\[m\]"):
         ck.plan(scene)
 

@@ -293,9 +293,14 @@ def test_a_film_pressed_together_thins_and_never_vanishes(release_scene, force, 
 def test_a_flooded_film_thins_as_the_closed_form_has_it(release_scene):
     """1/h^2 grows linearly in time under a constant push, once inertia is spent."""
     scene = release_scene(
-        "B", effects=[VISCOUS], rise_time=0.0, force=-40.0, stiffness=0.0, mass=1e-9,
+        "B",
+        effects=[VISCOUS],
+        rise_time=0.0,
+        force=-40.0,
+        stiffness=0.0,
+        mass=1e-9,
         meniscus={"volume": None},
-    )  # fmt: skip
+    )
     state = walk(ck.plan(scene), ck.Pull(-40.0), 1.0, 1)
     pressed = squeeze.disc_impulse_flooded(FACE, state.gap, 5e-6, 0.1)
     assert pressed == approx(40.0, 1e-7)

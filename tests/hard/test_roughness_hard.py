@@ -21,8 +21,11 @@ def test_a_cutoff_at_the_window_leaves_the_longest_waves():
         )
         waves = np.abs(np.fft.fft2(heights, norm="forward"))
         assert {tuple(at) for at in np.argwhere(waves > 1e-12).tolist()} == {
-            (0, 1), (0, 29), (1, 0), (29, 0),
-        }  # fmt: skip
+            (0, 1),
+            (0, 29),
+            (1, 0),
+            (29, 0),
+        }
 
 
 def test_a_cutoff_beyond_the_window_leaves_nothing():
@@ -69,10 +72,14 @@ def test_neither_atoms_nor_planets_overflow(scale):
             (40, 50), (scale, scale), 1e-3 * scale, 8.0 * scale, 3.0 * scale, 4, "sample"
         ),
         roughness.self_affine(
-            (40, 50), (scale, scale), 1e-3 * scale, rolloff_wavelength=math.inf,
-            normalise="sample", **recipe,
+            (40, 50),
+            (scale, scale),
+            1e-3 * scale,
+            rolloff_wavelength=math.inf,
+            normalise="sample",
+            **recipe,
         ),
-    ]  # fmt: skip
+    ]
     for heights in maps:
         assert heights.std() == pytest.approx(1e-3 * scale, rel=1e-12)
         found = stats.summary(heights, (scale, scale), periodic=True)
@@ -164,7 +171,7 @@ def test_a_trend_of_a_small_map_takes_what_the_map_holds():
         (1e-9, 0.1, "expected", "rms must be given, or else rms_slope"),
         (1e-9, None, "none", "normalise must be 'expected' or 'sample'"),
     ],
-)  # fmt: skip
+)
 def test_a_self_affine_surface_has_one_size(rms, slope, normalise, message):
     with pytest.raises(DescriptionError, match=message):
         roughness.self_affine((8, 8), (1.0, 1.0), rms, 0.8, 8.0, 3.0, 1, normalise, rms_slope=slope)

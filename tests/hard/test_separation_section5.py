@@ -56,28 +56,45 @@ def force(*given):
 
 def printed_flat(radius, gap, *wetting):
     return ck.published(
-        "3.11", radius=radius, gap=gap, surface_tension=1.0, angle_lower=wetting[0],
-        angle_upper=wetting[1], pulled="lower",
-    )  # fmt: skip
+        "3.11",
+        radius=radius,
+        gap=gap,
+        surface_tension=1.0,
+        angle_lower=wetting[0],
+        angle_upper=wetting[1],
+        pulled="lower",
+    )
 
 
 def water_scene(*effects, gap, volume, angle=60.0, other=None, count=1, upper=None, **imposed):
     film = ck.Meniscus(
-        liquid=WATER, volume=volume, count=count, contact_angle_lower=angle * DEG,
+        liquid=WATER,
+        volume=volume,
+        count=count,
+        contact_angle_lower=angle * DEG,
         contact_angle_upper=(angle if other is None else other) * DEG,
-    )  # fmt: skip
+    )
     motion = {"initial_gap": gap, "final_gap": 20.0 * gap or 1e-6} | (imposed or {"speed": 1e-9})
     return ck.SeparationScene(
         interface=ck.Interface(upper=upper or ck.Flat(), meniscus=film),
-        opening=ck.Opening(**motion), effects=effects or (ck.MeniscusForce(),),
-    )  # fmt: skip
+        opening=ck.Opening(**motion),
+        effects=effects or (ck.MeniscusForce(),),
+    )
 
 
 # Contact angles of exactly 0, 90 and 180 degrees --------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["flat_0_0_D0.5", "flat_0_90_D0.4", "flat_180_180_D0.3",
-                                  "cylinder_90_90_D0.2", "cylinder_90_90_D1.4"])  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    [
+        "flat_0_0_D0.5",
+        "flat_0_90_D0.4",
+        "flat_180_180_D0.3",
+        "cylinder_90_90_D0.2",
+        "cylinder_90_90_D1.4",
+    ],
+)
 def test_wetted_upright_and_repelled_exactly(name):
     case = BRIDGES[name] | ({"theta1_deg": 90, "theta2_deg": 90} if "cylinder" in name else {})
     assert float(found(case).force) == approx(case["F_over_gamma"])
@@ -166,9 +183,9 @@ def test_the_arc_passes_through_a_straight_line(one, two):
 
 
 @pytest.mark.parametrize(
-    ("name", "value"), [("flat_60_60_x/h~100000", 9956439.74092966),
-                        ("flat_0_60_x/h~100000", 14934600.625138277)],
-)  # fmt: skip
+    ("name", "value"),
+    [("flat_60_60_x/h~100000", 9956439.74092966), ("flat_0_60_x/h~100000", 14934600.625138277)],
+)
 def test_a_hundred_thousand_times_as_wide_as_high(name, value):
     gap = (1.0 / (math.pi * 1e10)) ** (1.0 / 3.0)
     one, two = (float(part) * DEG for part in name.split("_")[1:3])
@@ -375,9 +392,15 @@ def test_a_hundred_thousand_menisci_of_six_nanometres_do_not_exist():
             with pytest.raises(ck.InfeasibleError, match="at most 79611 menisci"):
                 ck.plan(scene)
     printed = ck.published(
-        "3.33", radius=math.sqrt(1e-12 / math.pi), gap=6e-9, surface_tension=0.072,
-        angle_lower=60 * DEG, angle_upper=60 * DEG, number=100_000, pulled="lower",
-    )  # fmt: skip
+        "3.33",
+        radius=math.sqrt(1e-12 / math.pi),
+        gap=6e-9,
+        surface_tension=0.072,
+        angle_lower=60 * DEG,
+        angle_upper=60 * DEG,
+        number=100_000,
+        pulled="lower",
+    )
     assert printed.value > 0.0
     assert printed.corrected is None
 
@@ -386,12 +409,19 @@ def test_a_hundred_thousand_menisci_of_two_nanometres():
     scene = water_scene(volume=2e-21, gap=2e-9, count=100_000)
     assert ck.plan(scene).film.static_force(2e-9) == approx(7.4007e-5, 1e-5)
     printed = ck.published(
-        "3.33", radius=math.sqrt(1e-12 / math.pi), gap=2e-9, surface_tension=0.072,
-        angle_lower=60 * DEG, angle_upper=60 * DEG, number=100_000, pulled="lower",
-    )  # fmt: skip
+        "3.33",
+        radius=math.sqrt(1e-12 / math.pi),
+        gap=2e-9,
+        surface_tension=0.072,
+        angle_lower=60 * DEG,
+        angle_upper=60 * DEG,
+        number=100_000,
+        pulled="lower",
+    )
     assert printed.value == approx(1.059e-4, 1e-3)
-    one = evolve(scene, interface=evolve(
-        scene.interface, meniscus=evolve(scene.interface.meniscus, count=1)))  # fmt: skip
+    one = evolve(
+        scene, interface=evolve(scene.interface, meniscus=evolve(scene.interface.meniscus, count=1))
+    )
     assert ck.divide_meniscus(one, [1]).largest_stable_count == 716506
 
 
@@ -434,9 +464,10 @@ def test_the_limit_has_a_cusp_at_equal_angles():
     lost = float(stability_limit(1.0, 60 * DEG, 60 * DEG).gap) - limit
     powers = np.diff(np.log(lost)) / np.diff(np.log(off))
     assert powers == pytest.approx(2.0 / 3.0, abs=0.02)
-    assert [f"{float(x):.4f}" for x in stability_limit(
-        1.0, 60 * DEG, np.array([60.0, 60.1, 61.0, 65.0]) * DEG
-    ).gap] == ["1.4205", "1.4095", "1.3709", "1.2813"]  # fmt: skip
+    assert [
+        f"{float(x):.4f}"
+        for x in stability_limit(1.0, 60 * DEG, np.array([60.0, 60.1, 61.0, 65.0]) * DEG).gap
+    ] == ["1.4205", "1.4095", "1.3709", "1.2813"]
 
 
 def test_a_thousandth_of_a_degree_matters_at_a_right_angle():

@@ -32,9 +32,12 @@ models = st.sampled_from(["jkr", "dmt", "maugis-dugdale"])
 def sticky(model="maugis-dugdale", length=1.0, stress=1.0, count=1, **more):
     """A contact; scaled, all its lengths and all its stresses."""
     effect = ck.AdhesiveContact(
-        model=model, work_of_adhesion=0.05 * length * stress, reduced_modulus=1e9 * stress,
-        equilibrium_distance=0.165e-9 * length, **more,
-    )  # fmt: skip
+        model=model,
+        work_of_adhesion=0.05 * length * stress,
+        reduced_modulus=1e9 * stress,
+        equilibrium_distance=0.165e-9 * length,
+        **more,
+    )
     return ck.SeparationScene(
         interface=ck.Interface(
             upper=ck.Sphere(radius=1e-6 * length), meniscus=ck.Meniscus(liquid=AIR, count=count)
@@ -119,9 +122,9 @@ def test_the_force_of_spheres_does_not_mind_which_is_the_lower(gap, lower, upper
     one = van_der_waals.hamaker_sphere_force(gap, 1.0, lower, upper)
     assert van_der_waals.hamaker_sphere_force(gap, 1.0, upper, lower) == approx(one, 1e-13)
     assert one <= van_der_waals.sphere_force(gap, 1.0, lower + upper) * (1.0 + 1e-12)
-    assert van_der_waals.hamaker_sphere_force(
-        np.array([gap]), 1.0, lower, upper
-    ) == approx(one, 1e-14)  # fmt: skip
+    assert van_der_waals.hamaker_sphere_force(np.array([gap]), 1.0, lower, upper) == approx(
+        one, 1e-14
+    )
 
 
 @pytest.mark.parametrize("wet", [True, False])
@@ -141,8 +144,9 @@ def test_a_scene_with_adhesion_survives_its_file(model, wet):
 
 
 def test_a_result_with_adhesion_survives_its_file(tmp_path):
-    scene = attrs.evolve(sticky(), opening=ck.Opening(
-        initial_gap=1e-11, final_gap=1e-8, force=1e-6, mass=1e-12))  # fmt: skip
+    scene = attrs.evolve(
+        sticky(), opening=ck.Opening(initial_gap=1e-11, final_gap=1e-8, force=1e-6, mass=1e-12)
+    )
     result = simulate(ck.plan(scene))
     again = ck.load_result(ck.save_result(result, tmp_path / "sticky"))
     assert again.state == result.state

@@ -59,9 +59,11 @@ def test_bodies_may_be_swapped(lower, upper, volume, share, one_curved, two_curv
     two = arc_bridge(gap, volume, upper, lower, two_curved, one_curved, beyond="nan")
     size = np.maximum(abs(one.radius_lower), gap)
     for here, there in (
-        (one.radius_lower, two.radius_upper), (one.radius_upper, two.radius_lower),
-        (one.neck, two.neck), (one.bulge, two.bulge),
-    ):  # fmt: skip
+        (one.radius_lower, two.radius_upper),
+        (one.radius_upper, two.radius_lower),
+        (one.neck, two.neck),
+        (one.bulge, two.bulge),
+    ):
         assert np.all((abs(here - there) <= 1e-10 * size) | np.isnan(here))
     stiff = size + size**2 / gap
     assert np.all((abs(one.force - two.force) <= 1e-10 * stiff) | np.isnan(one.force))
@@ -128,9 +130,12 @@ def test_weakly_curved_bodies_join_the_flats(lower, upper, share, which):
 
 @settings(deadline=None, max_examples=40)
 @given(
-    st.floats(0.0, math.pi), st.floats(0.0, math.pi), VOLUME, BEND,
+    st.floats(0.0, math.pi),
+    st.floats(0.0, math.pi),
+    VOLUME,
+    BEND,
     st.sampled_from(["sphere", "parabola"]),
-)  # fmt: skip
+)
 def test_arcs_exist_up_to_the_closed_neck_and_not_beyond(lower, upper, volume, curvature, profile):
     assume(abs(lower - upper) < math.radians(120.0))
     fixed = (volume, lower, upper, curvature, 1.0, profile)
@@ -144,8 +149,11 @@ def test_arcs_exist_up_to_the_closed_neck_and_not_beyond(lower, upper, volume, c
 
 
 @settings(deadline=None, max_examples=25)
-@given(st.lists(st.tuples(ANGLE, ANGLE, VOLUME, st.sampled_from([0.0, 0.3, 1.0])), min_size=2,
-                max_size=6))  # fmt: skip
+@given(
+    st.lists(
+        st.tuples(ANGLE, ANGLE, VOLUME, st.sampled_from([0.0, 0.3, 1.0])), min_size=2, max_size=6
+    )
+)
 def test_a_point_does_not_depend_on_its_neighbours(points):
     lower, upper, volume, curvature = (np.array(column) for column in zip(*points, strict=True))
     gap = 0.1 * np.cbrt(volume)

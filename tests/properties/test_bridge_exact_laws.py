@@ -99,8 +99,9 @@ def test_one_force_through_every_cut(lower, upper, volume, bend, share):
     gap, fixed = case_of(lower, upper, volume, bend, share)
     state = bridge(gap, *fixed)
     for x, angle, k in (
-        (state.radius_lower, lower, bend[0]), (state.radius_upper, upper, bend[1]),
-    ):  # fmt: skip
+        (state.radius_lower, lower, bend[0]),
+        (state.radius_upper, upper, bend[1]),
+    ):
         sine = math.sin(angle + math.asin(min(k * float(x), 1.0)))
         cut = 2.0 * math.pi * x * sine - math.pi * x * x * state.pressure
         size = math.pi * x * x * abs(state.pressure) + 2.0 * math.pi * x

@@ -105,9 +105,10 @@ def test_any_bridge_is_a_solution_and_ends_at_its_limit(seed):
     wide = np.minimum(state.radius_lower, state.radius_upper) > 0.05 * size
     assert wide.mean() > 0.8
     for name, miss in zip(
-        ("gap", "volume", "angle", "radius"), integrated(np.concatenate(gaps), given, state),
+        ("gap", "volume", "angle", "radius"),
+        integrated(np.concatenate(gaps), given, state),
         strict=True,
-    ):  # fmt: skip
+    ):
         assert np.max(np.abs(miss[wide])) < 1e-5, name
 
 

@@ -304,8 +304,9 @@ def test_arrays_of_a_scene_are_kept_with_the_result(tmp_path):
     hard = ck.HardnessMap(np.linspace(3e9, 5e9, 256).reshape(16, 16))
     result = contact(
         ck.HardnessLimit(rule="constant", hardness=hard),
-        surface=ck.CombinedSurface(parts=parts), grid=None,
-    )  # fmt: skip
+        surface=ck.CombinedSurface(parts=parts),
+        grid=None,
+    )
     path = ck.save_result(result, tmp_path / "contact")
     scene = ck.load_result(path).plan.scene
     loaded = scene.interface.upper.surface.parts[1]

@@ -107,9 +107,7 @@ def test_lengths_and_moduli_scale(heights, pixel, solid, load, periodic):
         ),
         substrate=ck.Material(young_modulus=t * E, poisson_ratio=NU),
     )
-    far = ck.press(
-        s * heights, (s * pixel[0], s * pixel[1]), moved, t * load, periodic=periodic
-    )  # fmt: skip
+    far = ck.press(s * heights, (s * pixel[0], s * pixel[1]), moved, t * load, periodic=periodic)
     np.testing.assert_allclose(far.pressure, t * run.pressure, atol=2e-6 * t * run.max_pressure)
     assert far.approach == pytest.approx(s * run.approach, rel=1e-6)
     assert far.energy == pytest.approx(t * s**3 * run.energy, rel=1e-6)

@@ -40,8 +40,10 @@ def test_a_layer_cut_in_two_is_the_same_layer(stack, data):
     j = data.draw(st.integers(0, len(h) - 1))
     share = data.draw(st.floats(0.01, 0.99))
     cut = [*h[:j], h[j] * share, h[j] * (1 - share), *h[j + 1 :]]
-    agree(compliance(ALPHA, [*E[:j], E[j], *E[j:]], [*nu[:j], nu[j], *nu[j:]], cut),
-          compliance(ALPHA, E, nu, h))  # fmt: skip
+    agree(
+        compliance(ALPHA, [*E[:j], E[j], *E[j:]], [*nu[:j], nu[j], *nu[j:]], cut),
+        compliance(ALPHA, E, nu, h),
+    )
 
 
 @given(stacks(), st.floats(0.1, 10.0), st.floats(0.1, 10.0))
@@ -138,8 +140,11 @@ def test_the_states_obey_equilibrium_and_elasticity(stack, share):
     for name in ("pressure", "traction"):
         u, w, T, S = getattr(states[2], name)[:, 0]
         expected = (
-            2 * T - w, (1 - 2 * n) / (1 - n) * S + n / (1 - n) * u, (u - n * S) / (1 - n), T
-        )  # fmt: skip
+            2 * T - w,
+            (1 - 2 * n) / (1 - n) * S + n / (1 - n) * u,
+            (u - n * S) / (1 - n),
+            T,
+        )
         error = np.abs(slope(name) - expected).max()
         assert error < 1e-7 * np.abs([u, w, T, S]).max()
     v, Q = states[2].transverse[:, 0]

@@ -40,9 +40,15 @@ def test_asperities_scale_with_their_lengths(separation, height, scale):
     """All lengths times s, densities over s^2: so many summits, s times the force."""
     one = laws.greenwood_williamson(separation, 1.0, 30.0, 0.01, 1e4, 0.07, 1.5, height)
     other = laws.greenwood_williamson(
-        scale * separation, scale, scale * 30.0, 0.01 / scale**2, 1e4 * scale**2, 0.07, 1.5,
+        scale * separation,
+        scale,
+        scale * 30.0,
+        0.01 / scale**2,
+        1e4 * scale**2,
+        0.07,
+        1.5,
         scale * height,
-    )  # fmt: skip
+    )
     assert other.force == pytest.approx(scale * one.force, rel=1e-10)
     assert other.cover == pytest.approx(one.cover, rel=1e-10)
     assert one.n_touching <= one.n_wet <= 0.01 * 1e4 * (1.0 + 1e-12)

@@ -164,10 +164,11 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
     found = couple(mirror, tips, scene.opening.stiffness, scene.start, 3e-7, 2e-9)
     tilt, rate, volts = found["tilt"], found["rate"], electrode_volts(held, 1e-9)
     work = sum(
-        0.5 * v**2 * (capacitance(mirror.electrode, s * tilt[-1])
-                      - capacitance(mirror.electrode, s * tilt[0]))
+        0.5
+        * v**2
+        * (capacitance(mirror.electrode, s * tilt[-1]) - capacitance(mirror.electrode, s * tilt[0]))
         for v, s in zip(volts, (1.0, -1.0), strict=True)
-    )  # fmt: skip
+    )
     lost = mirror.hinge.damping * np.trapezoid(rate**2, found["time"])
     n, stiffness = mirror.tips.per_side, scene.opening.stiffness
 

@@ -31,10 +31,17 @@ KINDS = {
         shape, pixel, 1.0, (2.0, 5.0), 2.0, seed, normalise
     ),
     "self-affine": lambda shape, pixel, seed, normalise: roughness.self_affine(
-        shape, pixel, None, 0.7, 9.0, 2.0, seed,
-        "sample" if normalise == "sample" else "expected", rms_slope=0.2,
+        shape,
+        pixel,
+        None,
+        0.7,
+        9.0,
+        2.0,
+        seed,
+        "sample" if normalise == "sample" else "expected",
+        rms_slope=0.2,
     ),
-}  # fmt: skip
+}
 
 
 def realise(kind, shape, seed, normalise="expected"):

@@ -125,9 +125,9 @@ def test_the_force_is_the_slope_of_the_impulse(film, open_by, closure):
     step = 1e-4 * gap
     slope = (law.impulse(film.gap, gap + step) - law.impulse(film.gap, gap - step)) / (2.0 * step)
     # Central difference: 35 (dh/h)^2/6 at most, and rounding of a large impulse, 1e-16/1e-4.
-    assert slope == approx(law.force(gap, 1.0), 1e-6 + 1e-11 * law.impulse(film.gap, gap) / (
-        law.force(gap, 1.0) * gap
-    ))  # fmt: skip
+    assert slope == approx(
+        law.force(gap, 1.0), 1e-6 + 1e-11 * law.impulse(film.gap, gap) / (law.force(gap, 1.0) * gap)
+    )
 
 
 @given(film=films, first=st.floats(1.1, 5.0), second=st.floats(1.1, 5.0))
@@ -252,9 +252,11 @@ def test_a_span_of_time_may_be_divided_at_will(parts, gap, viscosity):
 
 @few
 @given(
-    gap=decades(-8.0, -5.0), viscosity=decades(-4.0, 1.0), force=st.floats(1.0, 100.0),
+    gap=decades(-8.0, -5.0),
+    viscosity=decades(-4.0, 1.0),
+    force=st.floats(1.0, 100.0),
     rise=st.sampled_from([0.0, 1e-4]),
-)  # fmt: skip
+)
 def test_momentum_is_conserved_by_every_motion(gap, viscosity, force, rise):
     film = Film(gap=gap, final_gap=1e-4, viscosity=viscosity, radius=5e-4, tension=1e-3)
     holding = film.plan().film.static_force(gap)
@@ -358,11 +360,21 @@ def test_a_number_written_with_its_unit_comes_back_the_same(value, unit):
 @given(
     value=decades(-12.0, 12.0),
     names=st.sampled_from(
-        [("nm", "m", 1e-9), ("µm", "m", 1e-6), ("mN/m", "N/m", 1e-3), ("cSt", "m2/s", 1e-6),
-         ("mPa.s", "Pa.s", 1e-3), ("bar", "Pa", 1e5), ("deg", "rad", math.pi / 180.0),
-         ("mm3", "m3", 1e-9), ("kN*s/m", "N.s/m", 1e3), ("g/cm^3", "kg/m3", 1e3), ("%", "-", 1e-2)]
+        [
+            ("nm", "m", 1e-9),
+            ("µm", "m", 1e-6),
+            ("mN/m", "N/m", 1e-3),
+            ("cSt", "m2/s", 1e-6),
+            ("mPa.s", "Pa.s", 1e-3),
+            ("bar", "Pa", 1e5),
+            ("deg", "rad", math.pi / 180.0),
+            ("mm3", "m3", 1e-9),
+            ("kN*s/m", "N.s/m", 1e3),
+            ("g/cm^3", "kg/m3", 1e3),
+            ("%", "-", 1e-2),
+        ]
     ),
-)  # fmt: skip
+)
 def test_a_unit_scales_what_it_is_written_behind(value, names):
     written, unit, factor = names
     assert parse_quantity(f"{value!r} {written}", unit) == approx(value * factor, 1e-15)

@@ -75,10 +75,14 @@ def test_units_do_not_matter(maker, periodic):
 
 @settings(max_examples=15, deadline=None)
 @given(
-    ny=st.integers(2, 70), nx=st.integers(2, 70), load=st.floats(1e-6, 3.0),
-    aspect=st.floats(0.1, 10.0), seed=st.integers(0, 99), periodic=st.booleans(),
+    ny=st.integers(2, 70),
+    nx=st.integers(2, 70),
+    load=st.floats(1e-6, 3.0),
+    aspect=st.floats(0.1, 10.0),
+    seed=st.integers(0, 99),
+    periodic=st.booleans(),
     cap=st.none() | st.floats(1.05, 30.0),
-)  # fmt: skip
+)
 def test_any_map_converges_to_its_conditions(ny, nx, load, aspect, seed, periodic, cap):
     maker = half_space if periodic else free_half_space
     press = Press((ny, nx), (aspect, 1.0), maker, periodic, fast=False)

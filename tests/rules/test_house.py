@@ -41,13 +41,35 @@ SOURCES = ("contactkit", "fmu", "models", "examples")
 MOST_LINES_OF_A_FUNCTION = 50
 
 NOUNS = [
-    ck.Accuracy, ck.AsperityPopulation, ck.Body, ck.CombinedSurface, ck.ContactInterface,
-    ck.ContactScene, ck.Flat, ck.GaussianRoughness, ck.HardnessMap, ck.Heights, ck.Interface,
-    ck.Layer, ck.Liquid,
-    ck.Material, ck.Measured, ck.Meniscus, ck.Opening, ck.Paraboloid, ck.Pressing,
-    ck.SelfAffineRoughness, ck.SeparationScene, ck.Sliding, ck.SlidingScene, ck.Sphere, ck.Stack,
-    ck.Vibration, ck.Wave, ck.Window,
-]  # fmt: skip
+    ck.Accuracy,
+    ck.AsperityPopulation,
+    ck.Body,
+    ck.CombinedSurface,
+    ck.ContactInterface,
+    ck.ContactScene,
+    ck.Flat,
+    ck.GaussianRoughness,
+    ck.HardnessMap,
+    ck.Heights,
+    ck.Interface,
+    ck.Layer,
+    ck.Liquid,
+    ck.Material,
+    ck.Measured,
+    ck.Meniscus,
+    ck.Opening,
+    ck.Paraboloid,
+    ck.Pressing,
+    ck.SelfAffineRoughness,
+    ck.SeparationScene,
+    ck.Sliding,
+    ck.SlidingScene,
+    ck.Sphere,
+    ck.Stack,
+    ck.Vibration,
+    ck.Wave,
+    ck.Window,
+]
 DESCRIBED = [*NOUNS, *ck.EFFECTS, *LAWS]
 
 
@@ -159,9 +181,16 @@ def test_every_effect_says_what_it_is_and_where_it_comes_from(kind):
 
 
 ROLES = (
-    SeparationForce, SlidingForce, FilmLimit, FilmEnd, Compliance, PressureCap, LoadTerm,
-    DisplacementTerm, Observer,
-)  # fmt: skip
+    SeparationForce,
+    SlidingForce,
+    FilmLimit,
+    FilmEnd,
+    Compliance,
+    PressureCap,
+    LoadTerm,
+    DisplacementTerm,
+    Observer,
+)
 
 
 @pytest.mark.parametrize("kind", ck.EFFECTS, ids=lambda kind: kind.__name__)
@@ -282,10 +311,14 @@ def test_no_file_names_a_place_on_a_machine():
 @pytest.mark.parametrize(
     ("text", "seen"),
     [
-        (f"open('/{'root'}/x')", True), (f"/{'work'}/main", True), (f"cd /{'tmp'}/abc", True),
-        ("https://example.org/work/x", False), ("in /tmp or so", False), ("a/work/b", False),
+        (f"open('/{'root'}/x')", True),
+        (f"/{'work'}/main", True),
+        (f"cd /{'tmp'}/abc", True),
+        ("https://example.org/work/x", False),
+        ("in /tmp or so", False),
+        ("a/work/b", False),
     ],
-)  # fmt: skip
+)
 def test_a_place_on_a_machine_would_be_seen(text, seen):
     assert bool(MACHINE.search(text)) is seen
 

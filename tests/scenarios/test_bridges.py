@@ -99,13 +99,16 @@ def test_the_bridges_that_come_with_contactkit(capsys):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"60 deg"\ncontact_angle_upper = "60', '"60 deg"\ncontact_angle_upper = "120',
-         "must not add up to pi"),
+        (
+            '"60 deg"\ncontact_angle_upper = "60',
+            '"60 deg"\ncontact_angle_upper = "120',
+            "must not add up to pi",
+        ),
         ('lower = "60', 'lower = "80', "must be further from a right angle"),
         ("1e-3", "-1e-3", "filling must be positive"),
         ("gaps = 20", "gaps = 0", "gaps must be a whole number"),
     ],
-)  # fmt: skip
+)
 def test_impossible_bridges_are_named(tmp_path, capsys, old, new, message):
     path = tmp_path / "wrong.toml"
     assert old in FEW

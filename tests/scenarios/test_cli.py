@@ -133,8 +133,10 @@ def test_a_bad_scene_writes_nothing(scene, tmp_path, capsys):
 def test_the_package_runs_as_a_module():
     done = subprocess.run(
         [sys.executable, "-m", "contactkit", "plan", "nothing.toml"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 2
     assert done.stderr.startswith("contactkit: ")
 

@@ -82,18 +82,34 @@ def test_only_what_is_on_is_cited():
 def test_every_effect_has_its_part_and_its_numbers(everything):
     numbers = everything.scalars()
     assert set(numbers) >= {
-        "hardness", "plastic_area", "friction_force", "coupling_pressure_change",
-        "max_von_mises", "max_von_mises_depth", "meniscus_force", "n_menisci",
-        "island_force", "n_island_bridges", "island_cover",
-    }  # fmt: skip
+        "hardness",
+        "plastic_area",
+        "friction_force",
+        "coupling_pressure_change",
+        "max_von_mises",
+        "max_von_mises_depth",
+        "meniscus_force",
+        "n_menisci",
+        "island_force",
+        "n_island_bridges",
+        "island_cover",
+    }
     assert all(math.isfinite(value) for value, _ in numbers.values())
     for kind in CONTACT_EFFECTS[2:]:
         assert everything.of(kind) is not None
     alone = solved().scalars()
     assert set(alone) == {
-        "load", "mean_pressure", "max_pressure", "contact_area", "contact_fraction",
-        "corrected_contact_area", "max_displacement", "approach", "residual", "energy",
-    }  # fmt: skip
+        "load",
+        "mean_pressure",
+        "max_pressure",
+        "contact_area",
+        "contact_fraction",
+        "corrected_contact_area",
+        "max_displacement",
+        "approach",
+        "residual",
+        "energy",
+    }
 
 
 def test_what_only_looks_changes_nothing():
@@ -162,9 +178,11 @@ def test_a_section_is_a_row_of_the_planes_and_the_maxima_are_theirs():
     tensor = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
     principal = np.linalg.eigvalsh(tensor)
     most = {
-        "von_mises": mises, "tension": principal[..., 2], "sigma_xz": np.abs(xz),
+        "von_mises": mises,
+        "tension": principal[..., 2],
+        "sigma_xz": np.abs(xz),
         "tresca": 0.5 * (principal[..., 2] - principal[..., 0]),
-    }  # fmt: skip
+    }
     for name, values in most.items():
         # A parabola in depth may lift a maximum between planes, never lower it.
         assert part.maxima[name].value >= values.max() * (1.0 - 1e-9), name
@@ -294,5 +312,6 @@ def test_surfaces_add_up():
         lower=ck.Body(surface=ball, solid=COATED),
         upper=ck.Body(surface=rough, solid=STEEL),
     )
-    np.testing.assert_array_equal(solved(interface=split, window=free, grid=32).pressure,
-                                  both.pressure)  # fmt: skip
+    np.testing.assert_array_equal(
+        solved(interface=split, window=free, grid=32).pressure, both.pressure
+    )

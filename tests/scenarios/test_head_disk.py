@@ -78,9 +78,12 @@ def test_the_disk_is_the_one_of_table_2_1():
     assert [m.hardness / 1e9 for m in disk.materials][:3] == [15.0, 9.0, 7.0]
     assert (slider.substrate.young_modulus, slider.substrate.hardness) == (450e9, 23e9)
     assert {e.name for e in scene.effects} == {
-        "layered-half-space", "hardness-limit", "friction-traction", "subsurface-stress",
+        "layered-half-space",
+        "hardness-limit",
+        "friction-traction",
+        "subsurface-stress",
         "film-meniscus",
-    }  # fmt: skip
+    }
 
 
 def test_the_disk_presses_as_it_did():
@@ -106,9 +109,14 @@ def test_a_scene_runs_into_numbers_files_and_figures(scene_file, tmp_path, capsy
         assert said in shown
     names = {path.name for path in out.iterdir()}
     assert names == {
-        "contact.png", "stress.png", "stack.png", "load-curve.png", "result.npz",
-        "load-curve-wet-film-reported-only.csv", "load-curve-wet-film-pulls-too.csv",
-    }  # fmt: skip
+        "contact.png",
+        "stress.png",
+        "stack.png",
+        "load-curve.png",
+        "result.npz",
+        "load-curve-wet-film-reported-only.csv",
+        "load-curve-wet-film-pulls-too.csv",
+    }
     loaded = ck.load_result(out / "result.npz")
     assert f"{loaded.max_pressure:.6g} Pa" in shown
     with (out / "load-curve-wet-film-reported-only.csv").open(newline="") as file:

@@ -67,9 +67,12 @@ def test_the_condensed_volume_has_the_pressure_of_the_vapour(device, humidity):
     tip = device.scene.tip
     angle = tip.interface.meniscus.contact_angle_lower
     at_pressure = ck.Meniscus.from_humidity(
-        liquid=tip.interface.meniscus.liquid, relative_humidity=humidity,
-        temperature=tip.temperature, contact_angle_lower=angle, contact_angle_upper=angle,
-    )  # fmt: skip
+        liquid=tip.interface.meniscus.liquid,
+        relative_humidity=humidity,
+        temperature=tip.temperature,
+        contact_angle_lower=angle,
+        contact_angle_upper=angle,
+    )
     scene = evolve(
         tip, interface=evolve(tip.interface, meniscus=at_pressure), effects=(ck.MeniscusForce(),)
     )
@@ -134,9 +137,16 @@ def test_the_report_tells_and_draws(short, run, tmp_path):
     made = report(short.scene, run, tmp_path, lambda share: None)
     names = {path.name for path in made.files}
     assert names == {
-        "signals.csv", "signals.npz", "release.csv", "side-view.png", "flips.png",
-        "first-flip.png", "lift-off.png", "release-against-humidity.png", "force-gap.png",
-    }  # fmt: skip
+        "signals.csv",
+        "signals.npz",
+        "release.csv",
+        "side-view.png",
+        "flips.png",
+        "first-flip.png",
+        "lift-off.png",
+        "release-against-humidity.png",
+        "force-gap.png",
+    }
     assert all(path.stat().st_size > 100 for path in made.files)
     for word in ("it is the force that fails", "spring alone", "pulls in at", "OUT OF RANGE"):
         assert word in made.text

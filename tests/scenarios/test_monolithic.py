@@ -51,10 +51,15 @@ def released(result):
 def test_without_film_a_constant_pull_is_a_ballistic_flight(film_scene):
     # A rupture just beyond the start takes the film away.
     scene = film_scene(
-        ck.ViscousForce(), ck.Rupture(gap=1e-6 * (1 + 1e-9)),
-        film={"volume": 1e-16}, liquid={"viscosity": 1e-12},
-        initial_gap=1e-6, final_gap=1e-4, force=0.0, mass=0.02,
-    )  # fmt: skip
+        ck.ViscousForce(),
+        ck.Rupture(gap=1e-6 * (1 + 1e-9)),
+        film={"volume": 1e-16},
+        liquid={"viscosity": 1e-12},
+        initial_gap=1e-6,
+        final_gap=1e-4,
+        force=0.0,
+        mass=0.02,
+    )
     result = simulate(plan(scene), lambda time: 40.0, 1e-3, rtol=1e-10)
     event = released(result)
     assert event.time == pytest.approx(math.sqrt(2.0 * 99e-6 * 0.02 / 40.0), rel=1e-7)
@@ -132,8 +137,13 @@ def test_with_a_tension_limit_every_temperature_fires_every_time(firing, tempera
         # The film can pull no harder than 10 bar over the face, and the meniscus.
         assert 30.0 < cycle.peak_force < 1e6 * math.pi * 3.175e-3**2 + 0.5
     whats = [event.what for event in result.events]
-    for what in ("leaves the end cap", "film breaks", "current ends", "film wets again",
-                 "meets the end cap"):  # fmt: skip
+    for what in (
+        "leaves the end cap",
+        "film breaks",
+        "current ends",
+        "film wets again",
+        "meets the end cap",
+    ):
         assert whats.count(what) == 5
 
 

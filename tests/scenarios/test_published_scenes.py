@@ -21,9 +21,12 @@ V, ANGLE = 2e-14, math.pi / 3  # between faces wide enough for it
 def film(count=1, volume=V):
     water = ck.Liquid(name="water", viscosity=0.89e-3, surface_tension=0.072)
     return ck.Meniscus(
-        liquid=water, volume=volume, count=count,
-        contact_angle_lower=ANGLE, contact_angle_upper=ANGLE,
-    )  # fmt: skip
+        liquid=water,
+        volume=volume,
+        count=count,
+        contact_angle_lower=ANGLE,
+        contact_angle_upper=ANGLE,
+    )
 
 
 def run(*effects, upper=None, count=1, face=None, volume=V, **imposed):

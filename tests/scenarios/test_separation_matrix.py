@@ -27,24 +27,35 @@ FACE, BALL = ck.Flat(radius=1e-5), ck.Sphere(radius=1e-5)
 SUMMITS = ck.AsperityPopulation(density=1e13, radius=1e-6, rms_height=2e-9)
 
 EFFECTS = (
-    ck.MeniscusForce(), ck.MeniscusForce(profile="arc"), ck.MeniscusForce(profile="as-published"),
-    ck.ViscousForce(), ck.ViscousForce(closure="as-published"), ck.ViscousForce(closure="flooded"),
-    ck.TensionLimit(tension=1e6), ck.ShearLimit(strength=1e6),
-    ck.Rupture(), ck.Rupture(criterion="zero-neck"), ck.Rupture(gap=1.5e-8),
+    ck.MeniscusForce(),
+    ck.MeniscusForce(profile="arc"),
+    ck.MeniscusForce(profile="as-published"),
+    ck.ViscousForce(),
+    ck.ViscousForce(closure="as-published"),
+    ck.ViscousForce(closure="flooded"),
+    ck.TensionLimit(tension=1e6),
+    ck.ShearLimit(strength=1e6),
+    ck.Rupture(),
+    ck.Rupture(criterion="zero-neck"),
+    ck.Rupture(gap=1.5e-8),
     ck.VanDerWaalsForce(hamaker_constant=1e-20),
     ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=70e9),
     ck.AdhesiveContact(work_of_adhesion="capillary", reduced_modulus=70e9, model="jkr"),
     ck.AsperityMenisci(asperities=SUMMITS),
     ck.AsperityMenisci(asperities=SUMMITS, law="identical", profile="thin-film"),
-)  # fmt: skip
+)
 FILMS = {
-    "volume": {"volume": 3e-19}, "menisci": {"volume": 3e-19, "count": 7},
-    "humidity": {"pressure": -1.5e7}, "bath": {},
-}  # fmt: skip
+    "volume": {"volume": 3e-19},
+    "menisci": {"volume": 3e-19, "count": 7},
+    "humidity": {"pressure": -1.5e7},
+    "bath": {},
+}
 MOTIONS = {
-    "speed": {"speed": 1e-6}, "time": {"time": 1e-2}, "force": {"force": 1e-2, "mass": 1e-9},
+    "speed": {"speed": 1e-6},
+    "time": {"time": 1e-2},
+    "force": {"force": 1e-2, "mass": 1e-9},
     "vibration": {"speed": 1e-6, "vibration": ck.Vibration(amplitude=1e-10, frequency=60.0)},
-}  # fmt: skip
+}
 FEW = ck.Accuracy(points=12)
 
 
@@ -56,8 +67,9 @@ def scene(effects, body, film, motion):
     gap = 0.2e-9 if sticks else 5e-9
     return ck.SeparationScene(
         interface=ck.Interface(lower=FACE, upper=body, meniscus=meniscus),
-        opening=ck.Opening(initial_gap=gap, final_gap=4e-8, **MOTIONS[motion]), effects=effects,
-    )  # fmt: skip
+        opening=ck.Opening(initial_gap=gap, final_gap=4e-8, **MOTIONS[motion]),
+        effects=effects,
+    )
 
 
 def combinations(motion):
@@ -152,8 +164,9 @@ def test_a_figure_of_no_force_is_refused_and_one_of_a_zero_force_is_drawn():
     ax = plot.forces(drawn)
     assert "meniscus force at the asperities [N]" not in ax.get_ylabel()
     assert [line.get_label() for line in ax.get_lines()] == [
-        "meniscus force at the asperities", "pull",
-    ]  # fmt: skip
+        "meniscus force at the asperities",
+        "pull",
+    ]
 
 
 def test_validity_is_judged_while_the_film_is_there():
@@ -244,8 +257,9 @@ def test_menisci_add_up_and_too_many_name_the_limit():
         made = attrs.evolve(one, interface=ck.Interface(meniscus=film))
         exact = 0.072 * count * float(bridge(5e-9, 3e-19 / count, 0.3, 0.5).force)
         assert ck.plan(made).film.static_force(5e-9) == pytest.approx(exact, rel=1e-7)
-    most = ck.divide_meniscus(attrs.evolve(one, interface=ck.Interface(
-        meniscus=one.interface.meniscus))).largest_stable_count  # fmt: skip
+    most = ck.divide_meniscus(
+        attrs.evolve(one, interface=ck.Interface(meniscus=one.interface.meniscus))
+    ).largest_stable_count
     film = attrs.evolve(one.interface.meniscus, count=10 * most)
     with pytest.raises(ck.InfeasibleError, match=rf"at most {most} menisci"):
         ck.plan(attrs.evolve(one, interface=ck.Interface(meniscus=film)))
@@ -266,8 +280,11 @@ def test_no_result_mixes_what_is_printed_with_what_is_right():
 def test_a_study_goes_on_where_a_point_has_no_answer():
     made = scene((EFFECTS[0],), FACE, "volume", "speed")
     made = attrs.evolve(
-        made, interface=attrs.evolve(made.interface, meniscus=attrs.evolve(
-            made.interface.meniscus, contact_angle_lower=0.0)))  # fmt: skip
+        made,
+        interface=attrs.evolve(
+            made.interface, meniscus=attrs.evolve(made.interface.meniscus, contact_angle_lower=0.0)
+        ),
+    )
     found = ck.study(
         made, {"interface.meniscus.contact_angle_upper": ["0 deg", "90 deg", "180 deg"]}, FEW
     )
@@ -275,21 +292,25 @@ def test_a_study_goes_on_where_a_point_has_no_answer():
     assert "spreads" in found.points[2].message
     profiles = ck.study(
         attrs.evolve(made, effects=(EFFECTS[0], ck.Rupture())),
-        {"effects.meniscus-force.profile": ["exact", "as-published"]}, FEW,
-    )  # fmt: skip
+        {"effects.meniscus-force.profile": ["exact", "as-published"]},
+        FEW,
+    )
     assert [point.status for point in profiles.points] == ["curve", "refused"]
 
 
 @pytest.mark.parametrize("angle", [100.0, 150.0])
 def test_a_drop_that_repels_a_sphere_warns(angle):
     film = ck.Meniscus(
-        liquid=WATER, volume=1e-16, contact_angle_lower=math.radians(angle),
+        liquid=WATER,
+        volume=1e-16,
+        contact_angle_lower=math.radians(angle),
         contact_angle_upper=math.radians(angle),
-    )  # fmt: skip
+    )
     made = ck.SeparationScene(
         interface=ck.Interface(upper=BALL, meniscus=film),
-        opening=ck.Opening(initial_gap=1e-7, final_gap=1e-6, speed=1e-6), effects=(EFFECTS[0],),
-    )  # fmt: skip
+        opening=ck.Opening(initial_gap=1e-7, final_gap=1e-6, speed=1e-6),
+        effects=(EFFECTS[0],),
+    )
     with pytest.warns(ck.ValidityWarning, match="laterally unstable"):
         result = ck.simulate(ck.plan(made, FEW))
     assert result.meniscus_force[0] < 0.0

@@ -168,16 +168,19 @@ def test_a_film_full_to_the_rim_slides_with_the_faces():
     film = ck.Meniscus(liquid=WATER)
     flooded = ck.SlidingScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        sliding=ck.Sliding(gap=1e-6, speed=1.0), effects=(ck.CouetteForce(),),
-    )  # fmt: skip
+        sliding=ck.Sliding(gap=1e-6, speed=1.0),
+        effects=(ck.CouetteForce(),),
+    )
     assert run(flooded).plan.wetted_radius == 1e-3
 
 
 @settings(max_examples=15, deadline=None)
 @given(
-    scale=st.floats(1e-3, 1e3), speed=st.floats(1e-3, 1e3), q=st.floats(1.01, 1e4),
+    scale=st.floats(1e-3, 1e3),
+    speed=st.floats(1e-3, 1e3),
+    q=st.floats(1.01, 1e4),
     closure=st.sampled_from(["local-film", "lubrication", "as-published"]),
-)  # fmt: skip
+)
 def test_scaling_of_lengths_and_speeds(scale, speed, q, closure):
     """A drag is eta v times a length."""
     few, drag = ck.Accuracy(points=5), ck.CouetteForce(closure=closure)

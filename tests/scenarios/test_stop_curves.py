@@ -97,9 +97,13 @@ def test_a_power_law_is_met_and_starts_at_zero():
 
 @pytest.mark.parametrize(
     ("nodes", "values", "said"),
-    [([1.0], [1.0], "two or more"), ([1.0, 1.0], [1.0, 2.0], "ascend"),
-     ([1.0, math.nan], [1.0, 2.0], "ascend"), ([1.0, 2.0], [2.0, 1.0], "nowhere fall")],
-)  # fmt: skip
+    [
+        ([1.0], [1.0], "two or more"),
+        ([1.0, 1.0], [1.0, 2.0], "ascend"),
+        ([1.0, math.nan], [1.0, 2.0], "ascend"),
+        ([1.0, 2.0], [2.0, 1.0], "nowhere fall"),
+    ],
+)
 def test_points_out_of_order_are_refused(nodes, values, said):
     with pytest.raises(ck.DescriptionError, match=said):
         monotone_slopes(nodes, values)
@@ -291,12 +295,18 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
 
 @pytest.mark.parametrize(
     ("choice", "said"),
-    [({"points": 3}, "points"), ({"ways": 0}, "ways"), ({"decades": 0.0}, "decades"),
-     ({"loads": [1.0]}, "ascending"), ({"loads": [1.0, 1.0]}, "ascending"),
-     ({"approaches": [0.0, 1e-9]}, r"ascending \[m\]"), ({"loads": [1.0, math.nan]}, "ascending"),
-     ({"loads": [1.0, math.inf]}, "ascending"),
-     ({"loads": [1.0, 2.0], "approaches": [1.0, 2.0]}, "or approaches")],
-)  # fmt: skip
+    [
+        ({"points": 3}, "points"),
+        ({"ways": 0}, "ways"),
+        ({"decades": 0.0}, "decades"),
+        ({"loads": [1.0]}, "ascending"),
+        ({"loads": [1.0, 1.0]}, "ascending"),
+        ({"approaches": [0.0, 1e-9]}, r"ascending \[m\]"),
+        ({"loads": [1.0, math.nan]}, "ascending"),
+        ({"loads": [1.0, math.inf]}, "ascending"),
+        ({"loads": [1.0, 2.0], "approaches": [1.0, 2.0]}, "or approaches"),
+    ],
+)
 def test_impossible_questions_are_refused(rough_scene, choice, said):
     with pytest.raises(ck.DescriptionError, match=said):
         ck.stop_curve(rough_scene, **choice)
@@ -317,10 +327,15 @@ def test_what_acts_back_on_the_contact_is_refused_and_what_looks_at_it_is_not_ru
 
 @pytest.mark.parametrize(
     ("change", "said"),
-    [({"approach": [1e-9]}, "two or more"), ({"force": [1.0]}, "two or more"),
-     ({"elastic_limit": 1.0}, "unloading"), ({"height": 1.0}, "tables of a curve"),
-     ({"unloading": [3]}, "tables of a curve"), ({"approach": ["a", "b"]}, "tables of a curve")],
-)  # fmt: skip
+    [
+        ({"approach": [1e-9]}, "two or more"),
+        ({"force": [1.0]}, "two or more"),
+        ({"elastic_limit": 1.0}, "unloading"),
+        ({"height": 1.0}, "tables of a curve"),
+        ({"unloading": [3]}, "tables of a curve"),
+        ({"approach": ["a", "b"]}, "tables of a curve"),
+    ],
+)
 def test_data_that_is_no_curve_is_refused(rough, change, said):
     with pytest.raises(ck.DescriptionError, match=said):
         StopCurve.from_data(rough.to_data() | change)

@@ -131,8 +131,10 @@ def test_materials_surfaces_and_settings_may_be_varied():
             "accuracy.rtol": [1e-6, 1e-8],
         },
     )
-    assert study.column("interface.lower.solid")[[0, -1]].tolist() == [ck.load_material("ni-p"),
-                                                                       steel]  # fmt: skip
+    assert study.column("interface.lower.solid")[[0, -1]].tolist() == [
+        ck.load_material("ni-p"),
+        steel,
+    ]
     fractions = study.column("contact_fraction").reshape(study.shape)
     assert fractions[..., 0] == pytest.approx(fractions[..., 1], rel=1e-9)  # of both tolerances
     assert (fractions[:, 0] != fractions[:, 1]).all()  # of two surfaces
@@ -231,9 +233,12 @@ def test_a_finished_point_is_not_solved_again(tmp_path):
     first = ck.study(contact(), {"pressing.pressure": PRESSURES[:2]}, ACCURACY, store=tmp_path)
     shares = []
     study = ck.study(
-        contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path,
+        contact(),
+        {"pressing.pressure": PRESSURES},
+        ACCURACY,
+        store=tmp_path,
         progress=shares.append,
-    )  # fmt: skip
+    )
     assert (first.n_solved, study.n_solved) == (2, 2)
     assert shares == [0.5, 0.75, 1.0]
     assert study.column("energy")[:2].tolist() == first.column("energy").tolist()  # to the bit
@@ -343,8 +348,9 @@ def test_chains_are_spread_and_cut():
     def lengths(slots, **vary):
         varied = axes(contact(), ACCURACY, {k.replace("_", "."): v for k, v in vary.items()})
         pieces = _Run(contact(), ACCURACY, varied, None, False, None).pieces(slots)
-        assert [t.place for p in pieces for t in p.tasks] == list(range(sum(map(len, (
-            p.tasks for p in pieces)))))  # fmt: skip
+        assert [t.place for p in pieces for t in p.tasks] == list(
+            range(sum(map(len, (p.tasks for p in pieces))))
+        )
         return [len(p.tasks) for p in pieces]
 
     many = {"window_width": [1e-6, 2e-6, 3e-6], "pressing_pressure": PRESSURES}
@@ -438,8 +444,9 @@ def test_an_interruption_reaches_the_caller(tmp_path):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        ck.study(contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path,
-                 progress=stop)  # fmt: skip
+        ck.study(
+            contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path, progress=stop
+        )
     assert (
         ck.study(contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path).n_solved
         == len(PRESSURES) - 1

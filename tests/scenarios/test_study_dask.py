@@ -48,9 +48,14 @@ def test_a_cluster_changes_nothing(client, tmp_path):
     vary, shares = {"pressing.pressure": [*PRESSURES, 3e10]}, []
     here = ck.study(scene(), vary, ACCURACY)
     there = ck.study(
-        scene(), vary, ACCURACY, client=client, keep_maps=True, store=tmp_path,
+        scene(),
+        vary,
+        ACCURACY,
+        client=client,
+        keep_maps=True,
+        store=tmp_path,
         progress=shares.append,
-    )  # fmt: skip
+    )
     assert [p.status for p in there.points] == ["converged"] * 4 + ["infeasible"]
     for name in ("contact_area", "max_pressure", "approach"):
         assert there.column(name) == pytest.approx(here.column(name), rel=1e-5, nan_ok=True)

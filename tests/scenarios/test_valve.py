@@ -20,9 +20,15 @@ COIL = Coil(
 LINEAR = evolve(COIL, saturation=None)
 STOP = Stop(gap=25e-6, stiffness=1e8, damping=5.0)
 PROFILE = DriveProfile(
-    start_delay=1e-3, period=10e-3, on_time=4e-3, boost_voltage=12.0, boost_time=0.25e-3,
-    hold_voltage=5.2, off_voltage=-12.0, cycles=3,
-)  # fmt: skip
+    start_delay=1e-3,
+    period=10e-3,
+    on_time=4e-3,
+    boost_voltage=12.0,
+    boost_time=0.25e-3,
+    hold_voltage=5.2,
+    off_voltage=-12.0,
+    cycles=3,
+)
 
 gaps = st.floats(5e-6, 30e-6)
 fluxes = st.floats(1e-5, 4e-3)

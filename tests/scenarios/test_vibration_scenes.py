@@ -30,8 +30,9 @@ def scene(*effects, body=FACE, volume=9.4e-12, vibration=None, **opening):
     given = {"initial_gap": 5e-6, "final_gap": 1e-5, "speed": 1e-5} | opening
     return ck.SeparationScene(
         interface=ck.Interface(lower=FACE, upper=body, meniscus=film),
-        opening=ck.Opening(**given, vibration=vibration), effects=effects,
-    )  # fmt: skip
+        opening=ck.Opening(**given, vibration=vibration),
+        effects=effects,
+    )
 
 
 def run(*effects, accuracy=None, **given):

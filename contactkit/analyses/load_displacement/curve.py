@@ -435,15 +435,19 @@ class StopCurve:
     def to_data(self) -> dict[str, Any]:
         """Return the tables as lists and numbers, for JSON."""
         return {
-            "approach": list(self.approach), "force": list(self.force),
-            "contact_area": list(self.contact_area), "plastic_area": list(self.plastic_area),
+            "approach": list(self.approach),
+            "force": list(self.force),
+            "contact_area": list(self.contact_area),
+            "plastic_area": list(self.plastic_area),
             "unloading": [
                 {name: list(v) if isinstance(v, tuple) else v for name, v in u._asdict().items()}
                 for u in self.unloading
             ],
-            "elastic_limit": self.elastic_limit, "nominal_area": self.nominal_area,
-            "datum": self.datum, "error": self.error,
-        }  # fmt: skip
+            "elastic_limit": self.elastic_limit,
+            "nominal_area": self.nominal_area,
+            "datum": self.datum,
+            "error": self.error,
+        }
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> StopCurve:

@@ -175,9 +175,12 @@ def _count(name: str, value: int, least: int) -> int:
 
 
 def _ladder(
-    scene: ContactScene, loads: Sequence[float] | None, approaches: Sequence[float] | None,
-    points: int, decades: float,
-) -> tuple[str, list[float]]:  # fmt: skip
+    scene: ContactScene,
+    loads: Sequence[float] | None,
+    approaches: Sequence[float] | None,
+    points: int,
+    decades: float,
+) -> tuple[str, list[float]]:
     """What is imposed, and its values."""
     if loads is not None and approaches is not None:
         raise DescriptionError("stop_curve", "both", "be given loads [N] or approaches [m]")
@@ -224,9 +227,14 @@ def _node(result: ContactResult, nodes: list[_Node]) -> _Node:
 
 
 def _tables(
-    scene: ContactScene, nodes: list[_Node], engine: Engine, n_ways: int, accuracy: Accuracy,
-    last: ContactResult, tell: Progress,
-) -> StopCurve:  # fmt: skip
+    scene: ContactScene,
+    nodes: list[_Node],
+    engine: Engine,
+    n_ways: int,
+    accuracy: Accuracy,
+    last: ContactResult,
+    tell: Progress,
+) -> StopCurve:
     plastic = [i for i, node in enumerate(nodes) if node.overlap is not None]
     begins = plastic[0] if plastic else len(nodes)
     limit = nodes[begins - 1].approach if begins else 0.0
@@ -272,9 +280,13 @@ def _way_out(engine: Engine, node: _Node, accuracy: Accuracy) -> Unloading:
     start, found = node.pressure, [(1.0, 1.0, 1.0)]
     for way in reversed(_WAYS):
         solution = engine.press.solve(
-            left, level=way * length - touch, rtol=accuracy.rtol, start=start,
-            max_iterations=accuracy.max_iterations, method=accuracy.method,
-        )  # fmt: skip
+            left,
+            level=way * length - touch,
+            rtol=accuracy.rtol,
+            start=start,
+            max_iterations=accuracy.max_iterations,
+            method=accuracy.method,
+        )
         if not solution.converged:
             raise ConvergenceError(
                 f"the way out from {node.approach:.6g} m is not solved: contact conditions are "

@@ -23,9 +23,16 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = [
-    "FLAT_BANDS", "SPHERE_BANDS", "BandError", "error_report", "flat_errors", "flat_forces",
-    "relative_errors", "sphere_errors", "sphere_forces",
-]  # fmt: skip
+    "FLAT_BANDS",
+    "SPHERE_BANDS",
+    "BandError",
+    "error_report",
+    "flat_errors",
+    "flat_forces",
+    "relative_errors",
+    "sphere_errors",
+    "sphere_forces",
+]
 
 Progress = Callable[[float], None]
 

@@ -45,16 +45,21 @@ class BridgeCase:
         sphere = self.filling is not None and lower + upper > math.pi
         if lower + upper == math.pi or sphere:
             raise DescriptionError(
-                "BridgeCase.contact_angle_upper", upper,
+                "BridgeCase.contact_angle_upper",
+                upper,
                 f"not add up to pi with contact_angle_lower = {lower:g}, nor to more under a "
-                f"sphere", unit="rad", hint="the reference knows no such bridge",
-            )  # fmt: skip
+                f"sphere",
+                unit="rad",
+                hint="the reference knows no such bridge",
+            )
         if abs(math.cos(lower)) < abs(math.cos(upper)):
             raise DescriptionError(
-                "BridgeCase.contact_angle_lower", lower,
+                "BridgeCase.contact_angle_lower",
+                lower,
                 f"be further from a right angle than contact_angle_upper = {upper:g}",
-                unit="rad", hint="between flats the two may be swapped",
-            )  # fmt: skip
+                unit="rad",
+                hint="between flats the two may be swapped",
+            )
 
     @property
     def curvature(self) -> float:

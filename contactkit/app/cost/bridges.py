@@ -127,10 +127,17 @@ def force_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:
             settings.append(Setting(closure, f"{name}, one gap", one, is_model))
     found = sweep(settings, 1.0, quantity="force", floor=FLOOR, budget=0.3, progress=progress)
     points = tuple(
-        Point(p.method, p.label, p.error, p.seconds / p.counts["gaps"], p.counts, p.problem,
-              p.is_model)
+        Point(
+            p.method,
+            p.label,
+            p.error,
+            p.seconds / p.counts["gaps"],
+            p.counts,
+            p.problem,
+            p.is_model,
+        )
         for p in found.points
-    )  # fmt: skip
+    )
     return WorkPrecision(found.quantity, found.reference, found.floor, points)
 
 

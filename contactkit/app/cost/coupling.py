@@ -52,17 +52,23 @@ def coupling_settings(
     part = build("stiction-force", target, start=values)
     return [
         *(
-            Setting(name, f"step {step * 1e6:g} us", partial(_run, scene, film, part, drive,
-                                                             scheme=scheme, step=step))
+            Setting(
+                name,
+                f"step {step * 1e6:g} us",
+                partial(_run, scene, film, part, drive, scheme=scheme, step=step),
+            )
             for scheme, name in _NAMES.items()
             for step in _STEPS
         ),
         *(
-            Setting("film by impulse, steps by error", f"tolerance {tolerance:.0e}",
-                    partial(_run, scene, film, part, drive, tolerance=tolerance))
+            Setting(
+                "film by impulse, steps by error",
+                f"tolerance {tolerance:.0e}",
+                partial(_run, scene, film, part, drive, tolerance=tolerance),
+            )
             for tolerance in _TOLERANCES
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _run(

@@ -60,14 +60,30 @@ def _line(ax: Any, runs: Sequence[Run], way: Way, of: str) -> None:
     color, marker, label = _LOOKS[way]
     good = sorted((getattr(run, of), max(run.error, _LOW)) for run in runs if run.error <= _WRONG)
     size = 10 if marker == "*" else 6
-    ax.plot(*zip(*good, strict=True) if good else ([], []), "-", color=color, marker=marker,
-            ms=size, lw=1.8, label=label, zorder=3)  # fmt: skip
+    ax.plot(
+        *zip(*good, strict=True) if good else ([], []),
+        "-",
+        color=color,
+        marker=marker,
+        ms=size,
+        lw=1.8,
+        label=label,
+        zorder=3,
+    )
     # All lies are of some 100 %: they are set side by side, so that none hides another.
     place = {"jacobi": 3.0, "gauss-seidel": 0.9}.get(way, 1.6)
     lies = [(getattr(run, of), place) for run in runs if run.error > _WRONG]
     if lies:
-        ax.plot(*zip(*lies, strict=True), ls="none", color=color, marker=marker, ms=7,
-                mfc="white", mew=1.8, zorder=4)  # fmt: skip
+        ax.plot(
+            *zip(*lies, strict=True),
+            ls="none",
+            color=color,
+            marker=marker,
+            ms=7,
+            mfc="white",
+            mew=1.8,
+            zorder=4,
+        )
     if of == "steps":
         row = WAYS.index(way)
         stops = [(run.steps, _STRIP * 2.0**row) for run in runs if run.problem]
@@ -98,8 +114,16 @@ def _bands(ax: Any) -> None:
         (6e-12, "error of the reference", "0.35"),
     ):
         low = text == "0.1 %"
-        ax.text(0.98, height, text, ha="right", va="bottom" if low else "top", fontsize=8.5,
-                color=color, transform=across)  # fmt: skip
+        ax.text(
+            0.98,
+            height,
+            text,
+            ha="right",
+            va="bottom" if low else "top",
+            fontsize=8.5,
+            color=color,
+            transform=across,
+        )
 
 
 def _names(ax: Any) -> None:
@@ -122,10 +146,16 @@ def _limit(ax: Any, stable: float, step: float) -> None:
         ax.text(stable * 1.15, 1e-9, words, fontsize=8.5, color=_DARK, va="center")
         return
     ax.annotate(
-        words, xy=(1.0, 0.22), xytext=(0.66, 0.22), xycoords="axes fraction", fontsize=8.5,
-        color=_DARK, va="center", ha="center",
+        words,
+        xy=(1.0, 0.22),
+        xytext=(0.66, 0.22),
+        xycoords="axes fraction",
+        fontsize=8.5,
+        color=_DARK,
+        va="center",
+        ha="center",
         arrowprops={"arrowstyle": "->", "color": "#D55E00", "lw": 1.4},
-    )  # fmt: skip
+    )
 
 
 def _number(value: float) -> str:

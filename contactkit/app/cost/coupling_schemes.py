@@ -28,15 +28,25 @@ if TYPE_CHECKING:
 __all__ = ["CASES", "WAYS", "Case", "Run", "Way", "runs"]
 
 Way = Literal[
-    "jacobi", "gauss-seidel", "end-point", "impulse", "impulse, adaptive", "mass inside, held",
+    "jacobi",
+    "gauss-seidel",
+    "end-point",
+    "impulse",
+    "impulse, adaptive",
+    "mass inside, held",
     "mass inside",
-]  # fmt: skip
+]
 """How film and mass are put together."""
 
 WAYS: tuple[Way, ...] = (
-    "jacobi", "gauss-seidel", "end-point", "impulse", "impulse, adaptive", "mass inside, held",
+    "jacobi",
+    "gauss-seidel",
+    "end-point",
+    "impulse",
+    "impulse, adaptive",
+    "mass inside, held",
     "mass inside",
-)  # fmt: skip
+)
 _COUNTS = (3, 10, 30, 100, 300, 1000)
 _INSIDE = (1, 3, 10, 30, 100, 300)
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
@@ -74,9 +84,15 @@ class Case:
     def values(self) -> dict[str, float | str]:
         """Start values of the film FMUs."""
         return {
-            "h0": self.gap, "R": self.radius, "eta": self.viscosity, "V": self.volume,
-            "gamma": 0.03, "theta1": 0.2, "theta2": 0.2, "meniscus_law": "PUBLISHED",
-        }  # fmt: skip
+            "h0": self.gap,
+            "R": self.radius,
+            "eta": self.viscosity,
+            "V": self.volume,
+            "gamma": 0.03,
+            "theta1": 0.2,
+            "theta2": 0.2,
+            "meniscus_law": "PUBLISHED",
+        }
 
     def pull(self, time: float) -> float:
         """Pull [N] at a time [s]."""
@@ -93,14 +109,21 @@ _DISC = math.pi * 3.175e-3**2
 CASES = (
     Case(name="20 um, warm, in a bath", gap=20e-6, radius=3.175e-3, viscosity=0.01, volume=0.0),
     Case(
-        name="5 um, cold", gap=5e-6, radius=3.175e-3, viscosity=0.1, volume=_DISC * 5e-6,
+        name="5 um, cold",
+        gap=5e-6,
+        radius=3.175e-3,
+        viscosity=0.1,
+        volume=_DISC * 5e-6,
         rise_time=0.2e-3,
     ),
     Case(
-        name="10 nm", gap=10e-9, radius=0.5e-3, viscosity=0.1,
+        name="10 nm",
+        gap=10e-9,
+        radius=0.5e-3,
+        viscosity=0.1,
         volume=math.pi * 0.5e-3**2 * 10e-9,
     ),
-)  # fmt: skip
+)
 
 
 @frozen(kw_only=True)
@@ -188,9 +211,17 @@ def _coupled(
     from ...fmu.master.couple import Mass, couple
 
     found = couple(
-        film, Mass(mass=MASS, stiffness=_SPRING), case.pull, end, release_gap=_END,
-        scheme=scheme, step=step, tolerance=tolerance, film_start=case.values, refuse=False,
-    )  # fmt: skip
+        film,
+        Mass(mass=MASS, stiffness=_SPRING),
+        case.pull,
+        end,
+        release_gap=_END,
+        scheme=scheme,
+        step=step,
+        tolerance=tolerance,
+        film_start=case.values,
+        refuse=False,
+    )
     return found.release_time, found.n_steps, found.seconds
 
 

@@ -56,9 +56,13 @@ def mirror_sweep(device: Micromirror, progress: Callable[[float], None]) -> Work
         fmu = device.build(Path(folder))
         settings = _settings(device, mirror, law, fmu, end)
         return sweep(
-            settings, exact, quantity="time at which the tips are free",
-            floor=max(abs(near / exact - 1.0), 1e-14), repeats=3, progress=progress,
-        )  # fmt: skip
+            settings,
+            exact,
+            quantity="time at which the tips are free",
+            floor=max(abs(near / exact - 1.0), 1e-14),
+            repeats=3,
+            progress=progress,
+        )
 
 
 def _settings(
@@ -90,11 +94,12 @@ def _settings(
     ]
     settings += [
         Setting(
-            "FMU pair tip-contact", f"step {step * 1e9:g} ns",
+            "FMU pair tip-contact",
+            f"step {step * 1e9:g} ns",
             partial(_fmus, device, mirror, fmu, end, step),
         )
         for step in _STEPS
-    ]  # fmt: skip
+    ]
     return settings
 
 

@@ -54,9 +54,14 @@ def _gap(ax: Any, scene: InjectorScene, run: Run, time: Any) -> None:
     for gap, text in ((scene.opening.rest_gap, "at rest"), (scene.valve.stop.gap, "stop")):
         ax.axhline(gap * 1e6, color="0.6", lw=0.8, ls=":")
         ax.annotate(
-            text, (0.0, gap * 1e6), xycoords=("axes fraction", "data"), xytext=(4, 3),
-            textcoords="offset points", color="0.4", fontsize=8,
-        )  # fmt: skip
+            text,
+            (0.0, gap * 1e6),
+            xycoords=("axes fraction", "data"),
+            xytext=(4, 3),
+            textcoords="offset points",
+            color="0.4",
+            fontsize=8,
+        )
     ax.set_ylabel("gap at the end cap [um]")
 
 

@@ -27,9 +27,14 @@ if TYPE_CHECKING:
     from ...models.injector.monolithic_result import MonolithicResult
 
 __all__ = [
-    "FuelInjector", "InjectorScene", "Run", "Study", "drive_values", "open_device",
+    "FuelInjector",
+    "InjectorScene",
+    "Run",
+    "Study",
+    "drive_values",
+    "open_device",
     "stop_curve_of",
-]  # fmt: skip
+]
 
 Progress = Callable[[float], None]
 
@@ -219,9 +224,13 @@ class FuelInjector:
         scene = self.scene.separation(temperature, limited=limited)
         begun = perf_counter()
         coupled = cosimulate(
-            drive, mass, self.scene.stop_time, self.scene.study.communication_step,
-            mass_start=mass_values(scene), progress=progress,
-        )  # fmt: skip
+            drive,
+            mass,
+            self.scene.stop_time,
+            self.scene.study.communication_step,
+            mass_start=mass_values(scene),
+            progress=progress,
+        )
         seconds = perf_counter() - begun
         made, valve = plan(scene), self.scene.valve
         whole = simulate(made, valve, self.scene.stop_time, faces=stop_curve_of(valve))
@@ -244,15 +253,27 @@ def drive_values(valve: Valve) -> dict[str, Any]:
     coil, spring, stop, profile = valve.coil, valve.spring, valve.stop, valve.profile
     faces = stop_curve_of(valve)
     return {
-        "R_coil": coil.resistance, "N_turns": coil.turns, "A_pole": coil.pole_area,
-        "g_air": coil.air_gap, "g_iron": coil.iron_gap, "B_sat": coil.saturation or 0.0,
-        "k_spring": spring.stiffness, "F_preload": spring.preload,
-        "h_stop": stop.gap, "k_stop": stop.stiffness, "d_stop": stop.damping,
-        "t_delay": profile.start_delay, "T_period": profile.period, "t_on": profile.on_time,
-        "U_boost": profile.boost_voltage, "t_boost": profile.boost_time,
-        "U_hold": profile.hold_voltage, "U_off": profile.off_voltage, "n_cycles": profile.cycles,
+        "R_coil": coil.resistance,
+        "N_turns": coil.turns,
+        "A_pole": coil.pole_area,
+        "g_air": coil.air_gap,
+        "g_iron": coil.iron_gap,
+        "B_sat": coil.saturation or 0.0,
+        "k_spring": spring.stiffness,
+        "F_preload": spring.preload,
+        "h_stop": stop.gap,
+        "k_stop": stop.stiffness,
+        "d_stop": stop.damping,
+        "t_delay": profile.start_delay,
+        "T_period": profile.period,
+        "t_on": profile.on_time,
+        "U_boost": profile.boost_voltage,
+        "t_boost": profile.boost_time,
+        "U_hold": profile.hold_voltage,
+        "U_off": profile.off_voltage,
+        "n_cycles": profile.cycles,
         **({"curve": faces} if faces is not None else {}),
-    }  # fmt: skip
+    }
 
 
 def stop_curve_of(valve: Valve) -> StopCurve | None:

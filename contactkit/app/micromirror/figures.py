@@ -69,9 +69,14 @@ def _first_flip(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
     tilt.plot(time, np.degrees(signals["tilt"]), color="k", label="FMUs")
     n = len(run.whole.time)
     tilt.plot(
-        time[:n:12], np.degrees(run.whole.unknowns[0, ::12]), "o", ms=3.5, mfc="none",
-        color="#e9a23b", label="one system, to the first touch",
-    )  # fmt: skip
+        time[:n:12],
+        np.degrees(run.whole.unknowns[0, ::12]),
+        "o",
+        ms=3.5,
+        mfc="none",
+        color="#e9a23b",
+        label="one system, to the first touch",
+    )
     plot.legend(tilt)
     volts.set_ylabel("voltage over\nelectrode [V]")
     tilt.set_ylabel("tilt [deg]")
@@ -103,9 +108,13 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
         mirror, last = scene.first_flip(reset), 0.5e-6
         for humidity, color in zip(_chosen(scene), cycle(_TONES), strict=False):
             motion = couple(
-                mirror, scene.tips(tip_law(scene.tip, humidity)), scene.opening.stiffness,
-                scene.start, 1.5e-6, 0.25 * scene.study.communication_step,
-            )  # fmt: skip
+                mirror,
+                scene.tips(tip_law(scene.tip, humidity)),
+                scene.opening.stiffness,
+                scene.start,
+                1.5e-6,
+                0.25 * scene.study.communication_step,
+            )
             time = motion["time"] * 1e6
             label = f"{100 * humidity:g} %"
             gap.plot(time, motion["gap_plus"] * 1e9, color=color, label=label)
@@ -132,9 +141,13 @@ def _release(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Pa
     parts = [[one.adhesion.solid_force, one.adhesion.meniscus_force] for one in found]
     solid, meniscus = (np.array(parts).reshape(-1, 2).T * n * 1e9).tolist()
     force.stackplot(
-        x, solid, meniscus, labels=["van der Waals", "meniscus"],
-        colors=[plot.COLORS["spring"], plot.COLORS["meniscus"]], alpha=0.6,
-    )  # fmt: skip
+        x,
+        solid,
+        meniscus,
+        labels=["van der Waals", "meniscus"],
+        colors=[plot.COLORS["spring"], plot.COLORS["meniscus"]],
+        alpha=0.6,
+    )
     preload = landing(scene).preload * 1e9
     force.axhline(preload, color="k", ls="--", lw=1.0, label="preload of the bent tips")
     force.set_ylabel("force that holds the tips [nN]")
@@ -148,9 +161,16 @@ def _release(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Pa
     freed = [not math.isnan(one.alone) for one in found]
     across = volts.get_xaxis_transform()
     volts.fill_between(
-        x, 0, 1, where=freed, transform=across, color=plot.COLORS["limit"], alpha=0.3, lw=0,
+        x,
+        0,
+        1,
+        where=freed,
+        transform=across,
+        color=plot.COLORS["limit"],
+        alpha=0.3,
+        lw=0,
         label="spring alone releases",
-    )  # fmt: skip
+    )
     volts.set(xlabel="relative humidity [%]", ylabel="reset pulse [V]")
     plot.title(volts, f"reset pulse of {wave.reset_time * 1e6:g} us")
     plot.legend(volts, loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -177,9 +197,12 @@ def _law(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Path:
         ax.plot(gaps[kept] * 1e9, at_pressure[kept] * 1e9, "--", color=color, lw=1.1)
     dry = tip_law(scene.tip, 0.0).film
     ax.plot(
-        gaps * 1e9, [dry.static_force(float(g)) * 1e9 for g in gaps], ":",
-        color=plot.COLORS["spring"], label="van der Waals",
-    )  # fmt: skip
+        gaps * 1e9,
+        [dry.static_force(float(g)) * 1e9 for g in gaps],
+        ":",
+        color=plot.COLORS["spring"],
+        label="van der Waals",
+    )
     _load_line(ax, scene, gaps)
     ax.plot([], [], "--", color="0.4", lw=1.1, label="dashed: pressure of the vapour kept")
     ax.plot([], [], "x", color="0.4", label="meniscus breaks")
@@ -196,5 +219,11 @@ def _load_line(ax: Any, scene: MicromirrorScene, gaps: Any) -> None:
     preload = landing(scene).preload / scene.mirror.tips.per_side
     line = preload - scene.opening.stiffness * (gaps - gaps[0])
     kept = line > 0.0
-    ax.plot(gaps[kept] * 1e9, line[kept] * 1e9, "-", color="0.5", lw=1.0,
-            label="spring of a tip, bent back as far")  # fmt: skip
+    ax.plot(
+        gaps[kept] * 1e9,
+        line[kept] * 1e9,
+        "-",
+        color="0.5",
+        lw=1.0,
+        label="spring of a tip, bent back as far",
+    )

@@ -236,8 +236,19 @@ def _write(
         "reset_voltage": [one.reset_voltage for one in found],
     }
     table = {name: np.array(values) for name, values in curve.items()}
-    heads = dict(zip(table, ("humidity [-]", "meniscus_force [N]", "solid_force [N]",
-                             "energy [J]", "reset_voltage [V]"), strict=True))  # fmt: skip
+    heads = dict(
+        zip(
+            table,
+            (
+                "humidity [-]",
+                "meniscus_force [N]",
+                "solid_force [N]",
+                "energy [J]",
+                "reset_voltage [V]",
+            ),
+            strict=True,
+        )
+    )
     return (
         save_csv(out / "signals", columns, headings),
         save_npz(out / "signals", columns, header),

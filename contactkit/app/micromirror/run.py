@@ -116,9 +116,12 @@ class Micromirror:
         with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
             fmu = self.build(out if out is not None else Path(folder))
             done = self.couple_fmus(
-                fmu, mirror, mirror.waveform.stop_time, self.scene.study.communication_step,
+                fmu,
+                mirror,
+                mirror.waveform.stop_time,
+                self.scene.study.communication_step,
                 progress,
-            )  # fmt: skip
+            )
         from ...models.micromirror.monolithic import simulate_whole
 
         made = tip_law(self.scene.tip, self.scene.study.humidity)
@@ -130,9 +133,13 @@ class Micromirror:
         return MirrorRun(made, done.motion, whole, done.seconds, done.log, done.sites)
 
     def couple_fmus(
-        self, fmu: Path, mirror: Mirror, stop_time: float, step: float,
+        self,
+        fmu: Path,
+        mirror: Mirror,
+        stop_time: float,
+        step: float,
         progress: Progress | None = None,
-    ) -> FmuRun:  # fmt: skip
+    ) -> FmuRun:
         """Couple a mirror at rest to an FMU on each side."""
         from time import perf_counter
 
@@ -145,9 +152,14 @@ class Micromirror:
                 one.start({"z": height}, stop_time)
             begun = perf_counter()
             motion = couple(
-                mirror, (FmuTip(plus), FmuTip(minus)), scene.opening.stiffness, scene.start,
-                stop_time, step, progress=progress,
-            )  # fmt: skip
+                mirror,
+                (FmuTip(plus), FmuTip(minus)),
+                scene.opening.stiffness,
+                scene.start,
+                stop_time,
+                step,
+                progress=progress,
+            )
             seconds = perf_counter() - begun
             sites = tuple(_site(one) for one in (plus, minus))
             free_time = plus.get(plus.references("t_free"))[0]

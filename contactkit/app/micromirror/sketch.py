@@ -42,27 +42,49 @@ def _mirror(ax: Any, scene: MicromirrorScene) -> None:
     for angle, color, style in ((0.0, "0.75", "--"), (-tilt, "0.75", "--"), (tilt, _METAL, "-")):
         ends = np.array([-pad.outer, pad.outer]) * um
         ax.plot(
-            ends * math.cos(angle), -ends * math.sin(angle), style, color=color,
-            lw=5.0 if style == "-" else 1.5, solid_capstyle="butt",
-        )  # fmt: skip
+            ends * math.cos(angle),
+            -ends * math.sin(angle),
+            style,
+            color=color,
+            lw=5.0 if style == "-" else 1.5,
+            solid_capstyle="butt",
+        )
     for side in (1.0, -1.0):
         start, end = side * pad.outer * um, side * tips.arm * um
         height = -end * math.sin(tilt)
         apex = max(height, site)  # a landed tip is bent
         places = np.linspace(0.0, 1.0, 20)
         run = start + (end - start) * places
-        ax.plot(run * math.cos(tilt), -run * math.sin(tilt) + (apex - height) * places**2,
-                color=plot.COLORS["meniscus"], lw=2.2)  # fmt: skip
+        ax.plot(
+            run * math.cos(tilt),
+            -run * math.sin(tilt) + (apex - height) * places**2,
+            color=plot.COLORS["meniscus"],
+            lw=2.2,
+        )
     ax.plot(0.0, 0.0, "o", color="k", ms=7)
     ax.annotate("hinge", (0.0, 0.0), xytext=(0, 12), textcoords="offset points", ha="center")
     ax.annotate(
-        "spring tip", (0.97 * tips.arm * um, site), xytext=(-10, 34), ha="center",
-        textcoords="offset points", arrowprops={"arrowstyle": "-"},
-    )  # fmt: skip
-    ax.annotate("landing site", (tips.arm * um, floor), xytext=(0, -26),
-                textcoords="offset points", ha="center")  # fmt: skip
-    ax.annotate("electrode", (-0.5 * (pad.inner + pad.outer) * um, floor), xytext=(0, -26),
-                textcoords="offset points", ha="center")  # fmt: skip
+        "spring tip",
+        (0.97 * tips.arm * um, site),
+        xytext=(-10, 34),
+        ha="center",
+        textcoords="offset points",
+        arrowprops={"arrowstyle": "-"},
+    )
+    ax.annotate(
+        "landing site",
+        (tips.arm * um, floor),
+        xytext=(0, -26),
+        textcoords="offset points",
+        ha="center",
+    )
+    ax.annotate(
+        "electrode",
+        (-0.5 * (pad.inner + pad.outer) * um, floor),
+        xytext=(0, -26),
+        textcoords="offset points",
+        ha="center",
+    )
     ax.set(xlabel="distance from the axis [um]", ylabel="height over the axis [um]")
     ax.set_aspect("equal")
     ax.set_ylim(floor - 1.0, 1.7)
@@ -116,7 +138,10 @@ def _meniscus(ax: Any, made: Plan) -> float:
         ax.fill_betweenx(z * 1e9, side * inner * 1e9, side * r * 1e9, color=_WATER, lw=0)
     at = 0.5 * height
     ax.annotate(
-        "water", (0.97 * float(np.interp(at, z, r)) * 1e9, at * 1e9), xytext=(30, 10),
-        textcoords="offset points", arrowprops={"arrowstyle": "-"},
-    )  # fmt: skip
+        "water",
+        (0.97 * float(np.interp(at, z, r)) * 1e9, at * 1e9),
+        xytext=(30, 10),
+        textcoords="offset points",
+        arrowprops={"arrowstyle": "-"},
+    )
     return high

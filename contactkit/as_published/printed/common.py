@@ -29,11 +29,22 @@ if TYPE_CHECKING:
     from ...capillary.arc.sphere import ArcState
 
 __all__ = [
-    "ERRATA", "laplace_sphere_3_7", "laplace_sphere_3_8", "line_tension_3_9",
-    "meniscus_divided_3_33", "meniscus_flat_3_11", "meniscus_number_3_42",
-    "meniscus_sphere_3_12", "viscous_divided_3_34", "viscous_flat_3_18", "viscous_flat_3_19",
-    "viscous_number_3_43", "viscous_sphere_3_22", "viscous_sphere_3_26", "viscous_sphere_3_27",
-]  # fmt: skip
+    "ERRATA",
+    "laplace_sphere_3_7",
+    "laplace_sphere_3_8",
+    "line_tension_3_9",
+    "meniscus_divided_3_33",
+    "meniscus_flat_3_11",
+    "meniscus_number_3_42",
+    "meniscus_sphere_3_12",
+    "viscous_divided_3_34",
+    "viscous_flat_3_18",
+    "viscous_flat_3_19",
+    "viscous_number_3_43",
+    "viscous_sphere_3_22",
+    "viscous_sphere_3_26",
+    "viscous_sphere_3_27",
+]
 
 
 def _pulled_angle(
@@ -95,9 +106,13 @@ def line_tension_3_9(
     2.0
     """
     return (
-        2.0 * math.pi * sphere_radius * surface_tension
-        * math.sin(filling_angle) * math.sin(filling_angle + angle_upper)
-    )  # fmt: skip
+        2.0
+        * math.pi
+        * sphere_radius
+        * surface_tension
+        * math.sin(filling_angle)
+        * math.sin(filling_angle + angle_upper)
+    )
 
 
 def meniscus_flat_3_11(
@@ -193,9 +208,11 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
 
     if np.any(abs(state.slope_lower) > 0.0):
         raise DescriptionError(
-            "meniscus_sphere_3_12.state", "a curved lower body", "have its sphere above a flat",
+            "meniscus_sphere_3_12.state",
+            "a curved lower body",
+            "have its sphere above a flat",
             hint="swap the bodies and their angles",
-        )  # fmt: skip
+        )
     x, inverse, phi = state.radius_upper, state.inverse_arc_radius, state.slope_upper
     # x_c - r1 times 1/r1, which stays finite for a straight arc
     centre = x * inverse - (1.0 - np.sin(angle_upper + phi))

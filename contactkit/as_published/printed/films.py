@@ -26,11 +26,22 @@ from .common import laplace_sphere_3_7, line_tension_3_9, meniscus_flat_3_11
 from .viscous import viscous_flat_3_19, viscous_sphere_3_26
 
 __all__ = [
-    "film_height_3_24", "film_volume_3_23", "kelvin_radius_3_3", "laplace_sphere_3_6",
-    "meniscus_number_n_3_35", "meniscus_of_n_3_31", "meniscus_pressure_radius_3_4",
-    "meniscus_sphere_3_10", "mean_pressure_3_17", "pressure_3_16", "pressure_sphere_3_21",
-    "sphere_shape_3_37", "viscous_divided_3_36", "viscous_of_n_3_32", "viscous_rough_3_29",
-]  # fmt: skip
+    "film_height_3_24",
+    "film_volume_3_23",
+    "kelvin_radius_3_3",
+    "laplace_sphere_3_6",
+    "meniscus_number_n_3_35",
+    "meniscus_of_n_3_31",
+    "meniscus_pressure_radius_3_4",
+    "meniscus_sphere_3_10",
+    "mean_pressure_3_17",
+    "pressure_3_16",
+    "pressure_sphere_3_21",
+    "sphere_shape_3_37",
+    "viscous_divided_3_36",
+    "viscous_of_n_3_32",
+    "viscous_rough_3_29",
+]
 
 _GAS_CONSTANT = 8.31  # [J/(mol.K)] as printed
 

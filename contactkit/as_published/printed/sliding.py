@@ -10,9 +10,13 @@ from __future__ import annotations
 from typing import Any
 
 __all__ = [
-    "sliding_flat_3_53", "sliding_flat_divided_3_61", "sliding_number_3_62",
-    "sliding_number_3_63", "sliding_sphere_3_56", "sliding_sphere_divided_3_59",
-]  # fmt: skip
+    "sliding_flat_3_53",
+    "sliding_flat_divided_3_61",
+    "sliding_number_3_62",
+    "sliding_number_3_63",
+    "sliding_sphere_3_56",
+    "sliding_sphere_divided_3_59",
+]
 
 
 def sliding_flat_3_53(radius: Any, gap: Any, separation_time: Any, viscosity: Any) -> Any:

@@ -13,9 +13,14 @@ from typing import Any
 from ...errors import InfeasibleError
 
 __all__ = [
-    "viscous_divided_3_34", "viscous_flat_3_18", "viscous_flat_3_19", "viscous_number_3_43",
-    "viscous_sphere_3_22", "viscous_sphere_3_26", "viscous_sphere_3_27",
-]  # fmt: skip
+    "viscous_divided_3_34",
+    "viscous_flat_3_18",
+    "viscous_flat_3_19",
+    "viscous_number_3_43",
+    "viscous_sphere_3_22",
+    "viscous_sphere_3_26",
+    "viscous_sphere_3_27",
+]
 
 
 def _open(gap: Any, number: str) -> None:

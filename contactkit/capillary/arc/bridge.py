@@ -85,9 +85,13 @@ def _checked(given: dict[str, ArrayLike]) -> dict[str, Array]:
         arrays[name] = np.where(tiny, 0.0, arrays[name])
     flat = (arrays["curvature_lower"] == 0.0) & (arrays["curvature_upper"] == 0.0)
     _refuse(
-        "gap", arrays["gap"], flat & (arrays["gap"] == 0.0), "be positive between flats", "m",
+        "gap",
+        arrays["gap"],
+        flat & (arrays["gap"] == 0.0),
+        "be positive between flats",
+        "m",
         hint="touching flats are a contact problem, not a bridge",
-    )  # fmt: skip
+    )
     return arrays
 
 
@@ -145,9 +149,13 @@ def _between_curved(points: list[Array], beyond: str) -> list[Array]:
         if beyond == "raise" or isinstance(error, ConvergenceError):
             raise error
     return [
-        state.force, state.pressure,
-        state.radius_lower, state.radius_upper, state.neck, state.bulge,
-    ]  # fmt: skip
+        state.force,
+        state.pressure,
+        state.radius_lower,
+        state.radius_upper,
+        state.neck,
+        state.bulge,
+    ]
 
 
 def arc_bridge(
@@ -222,10 +230,14 @@ def arc_bridge(
         raise DescriptionError("bridge.beyond", beyond, "be 'raise' or 'nan'")
     arrays = _checked(
         {
-            "gap": gap, "volume": volume, "angle_lower": angle_lower, "angle_upper": angle_upper,
-            "curvature_lower": curvature_lower, "curvature_upper": curvature_upper,
+            "gap": gap,
+            "volume": volume,
+            "angle_lower": angle_lower,
+            "angle_upper": angle_upper,
+            "curvature_lower": curvature_lower,
+            "curvature_upper": curvature_upper,
         }
-    )  # fmt: skip
+    )
     points = [np.ravel(value) for value in arrays.values()]
     columns = [np.full(points[0].shape, np.nan) for _ in Bridge._fields]
     spreading = np.cos(0.5 * (points[2] - points[3])) < SPREADING

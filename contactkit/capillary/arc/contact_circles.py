@@ -33,9 +33,16 @@ Array = NDArray[np.float64]
 
 _SERIES = 0.25  # below this the nine terms leave less than rounding
 _MOMENT = (
-    1 / 60, 1 / 252, 1 / 1350, 1 / 8316, 691 / 38697750, 1 / 400950, 3617 / 10854718875,
-    43867 / 1019066548500, 174611 / 32238515058750,
-)  # fmt: skip
+    1 / 60,
+    1 / 252,
+    1 / 1350,
+    1 / 8316,
+    691 / 38697750,
+    1 / 400950,
+    3617 / 10854718875,
+    43867 / 1019066548500,
+    174611 / 32238515058750,
+)
 
 
 class Segment(NamedTuple):
@@ -146,9 +153,7 @@ def circle(distance: Array, curvature: Array, profile: str) -> Circle:
         sag = 0.5 * steep * distance
         cap = _RIGHT * distance**2 * sag
         d_slope = curvature / (1.0 + steep**2)
-        return Circle(
-            distance, sag, np.arctan(steep), cap, np.ones_like(steep), steep, d_slope
-        )  # fmt: skip
+        return Circle(distance, sag, np.arctan(steep), cap, np.ones_like(steep), steep, d_slope)
     sine, cosine = np.sin(steep), np.cos(steep)
     radius = np.divide(sine, curvature, out=distance.copy(), where=curvature > 0.0)
     sag = radius * np.tan(0.5 * steep)

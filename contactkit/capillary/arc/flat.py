@@ -37,10 +37,21 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
-    "ArcShape", "bulge", "closed_neck", "contact_radius", "force", "neck", "pressure",
-    "rim_contact_radius", "shape", "upper_contact_radius", "volume", "wetting", "zero_neck_gap",
+    "ArcShape",
+    "bulge",
+    "closed_neck",
+    "contact_radius",
+    "force",
+    "neck",
+    "pressure",
+    "rim_contact_radius",
+    "shape",
+    "upper_contact_radius",
+    "volume",
+    "wetting",
+    "zero_neck_gap",
     "zero_neck_gap_at_rim",
-]  # fmt: skip
+]
 
 _Number = TypeVar("_Number", float, "NDArray[np.float64]")
 

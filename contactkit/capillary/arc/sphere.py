@@ -167,11 +167,19 @@ def solve(
         return flat.reshape(form)
 
     return ArcState(
-        shaped(below.radius), shaped(above.radius), shaped(below.slope), shaped(above.slope),
-        shaped(shape.neck), shaped(shape.bulge), shaped(shape.plane_radius),
-        shaped(shape.plane_sine), shaped(shape.height), shaped(shape.inverse_arc_radius),
-        found.reshape(form), closed.reshape(form),
-    )  # fmt: skip
+        shaped(below.radius),
+        shaped(above.radius),
+        shaped(below.slope),
+        shaped(above.slope),
+        shaped(shape.neck),
+        shaped(shape.bulge),
+        shaped(shape.plane_radius),
+        shaped(shape.plane_sine),
+        shaped(shape.height),
+        shaped(shape.inverse_arc_radius),
+        found.reshape(form),
+        closed.reshape(form),
+    )
 
 
 def volume(

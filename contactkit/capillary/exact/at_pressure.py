@@ -101,11 +101,14 @@ def bridge_at_pressure(
         raise DescriptionError("bridge.pressure", bad, "be finite", unit="1/m")
     arrays = _checked(
         {
-            "gap": gap, "volume": np.ones_like(level), "angle_lower": angle_lower,
-            "angle_upper": angle_upper, "curvature_lower": curvature_lower,
+            "gap": gap,
+            "volume": np.ones_like(level),
+            "angle_lower": angle_lower,
+            "angle_upper": angle_upper,
+            "curvature_lower": curvature_lower,
             "curvature_upper": curvature_upper,
         }
-    )  # fmt: skip
+    )
     gaps, _, lower, upper, below, above = (np.ravel(value) for value in arrays.values())
     pressures = np.ravel(np.broadcast_to(level, arrays["gap"].shape))
     bend = below + above
@@ -115,9 +118,12 @@ def bridge_at_pressure(
     size = 1.0 / np.where(flat, 1.0, bend)
     if (vast := abs(pressures) * size > _VAST).any():
         raise DescriptionError(
-            "bridge.pressure", float(pressures[vast][0]), "be at most 1e12 times the curvature",
-            unit="1/m", hint="so small a bridge is smaller than an atom; take its limit",
-        )  # fmt: skip
+            "bridge.pressure",
+            float(pressures[vast][0]),
+            "be at most 1e12 times the curvature",
+            unit="1/m",
+            hint="so small a bridge is smaller than an atom; take its limit",
+        )
     spreading = np.cos(0.5 * (lower - upper)) < SPREADING
     if beyond == "raise" and spreading.any():
         i = int(np.argmax(spreading))

@@ -105,10 +105,14 @@ def bridge(
         raise DescriptionError("bridge.beyond", beyond, "be 'raise' or 'nan'")
     arrays = _checked(
         {
-            "gap": gap, "volume": volume, "angle_lower": angle_lower, "angle_upper": angle_upper,
-            "curvature_lower": curvature_lower, "curvature_upper": curvature_upper,
+            "gap": gap,
+            "volume": volume,
+            "angle_lower": angle_lower,
+            "angle_upper": angle_upper,
+            "curvature_lower": curvature_lower,
+            "curvature_upper": curvature_upper,
         }
-    )  # fmt: skip
+    )
     gaps, volumes, lower, upper, below, above = (np.ravel(value) for value in arrays.values())
     size = np.cbrt(volumes)
     points = [gaps / size, lower, upper, below * size, above * size]

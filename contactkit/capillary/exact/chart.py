@@ -121,10 +121,14 @@ def _real(found: Ends) -> Ends:
         return End(*(value[0].real for value in end))
 
     return Ends(
-        found.shape[0].real, found.pressure[0].real, found.force[0].real,
-        first(found.binder), first(found.other),
-        found.sine_binder[0].real, found.sine_other[0].real,
-    )  # fmt: skip
+        found.shape[0].real,
+        found.pressure[0].real,
+        found.force[0].real,
+        first(found.binder),
+        first(found.other),
+        found.sine_binder[0].real,
+        found.sine_other[0].real,
+    )
 
 
 def integrals(e: Array, first: End, last: End) -> Array:
@@ -189,6 +193,13 @@ def point(where: Pair, waist: Array, chart: Array) -> Point:
         - caps
     )
     return Point(
-        real, gap, volume, d_gap[0] + gap, d_gap[1], d_volume[0] + 3.0 * volume, d_volume[1],
-        shape[0], shape[1],
-    )  # fmt: skip
+        real,
+        gap,
+        volume,
+        d_gap[0] + gap,
+        d_gap[1],
+        d_volume[0] + 3.0 * volume,
+        d_volume[1],
+        shape[0],
+        shape[1],
+    )

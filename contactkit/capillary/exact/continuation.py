@@ -178,9 +178,13 @@ def _branch(
 
 
 def _with_fold(
-    bodies: Pair, path: list[float], places: list[Free], ways: list[Array], step: float,
+    bodies: Pair,
+    path: list[float],
+    places: list[Free],
+    ways: list[Array],
+    step: float,
     pressure: float | None,
-) -> FreeBranch:  # fmt: skip
+) -> FreeBranch:
     """Find the fold less than a step ahead of the last place: there the gap stands still."""
     here, way = places[-1], ways[-1]
     low, high = 0.0, step

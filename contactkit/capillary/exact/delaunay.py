@@ -38,9 +38,18 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 __all__ = [
-    "COMPLEX", "NUMBERS", "Body", "Elementary", "End", "Ends", "body", "ends", "integrand",
-    "is_round", "reach",
-]  # fmt: skip
+    "COMPLEX",
+    "NUMBERS",
+    "Body",
+    "Elementary",
+    "End",
+    "Ends",
+    "body",
+    "ends",
+    "integrand",
+    "is_round",
+    "reach",
+]
 
 _RIGHT = math.pi / 2.0
 _TINY = 1e-300  # keeps a quotient of two zeros at its limit
@@ -73,9 +82,16 @@ def _expm1(value: complex) -> complex:
 
 
 COMPLEX = Elementary(
-    cmath.sin, cmath.cos, cmath.sqrt, cmath.sinh, cmath.cosh, cmath.asinh, cmath.atan,
-    _expm1, _either,
-)  # fmt: skip
+    cmath.sin,
+    cmath.cos,
+    cmath.sqrt,
+    cmath.sinh,
+    cmath.cosh,
+    cmath.asinh,
+    cmath.atan,
+    _expm1,
+    _either,
+)
 NUMBERS = Elementary(
     math.sin, math.cos, math.sqrt, math.sinh, math.cosh, math.asinh, math.atan, math.expm1, _either
 )
@@ -122,9 +138,12 @@ def body(m: Elementary, angle: Any, curvature: Any) -> Body:
     """A body from its contact angle [rad]; 0, a right angle and pi are exact."""
     tilt = _RIGHT - angle
     return Body(
-        m.cos(tilt), m.sin(tilt), 2.0 * m.sin(0.5 * tilt) ** 2, 2.0 * m.cos(0.5 * angle) ** 2,
+        m.cos(tilt),
+        m.sin(tilt),
+        2.0 * m.sin(0.5 * tilt) ** 2,
+        2.0 * m.cos(0.5 * angle) ** 2,
         curvature,
-    )  # fmt: skip
+    )
 
 
 def _arc(m: Elementary, tangent: Any, pressure: Any) -> tuple[Any, Any]:

@@ -87,9 +87,7 @@ def _at(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> Free:
     second = volumes - 1.0 if pressure is None else (1.0 - shape) - size * pressure
     rows = np.stack((gaps - gap, second, ends[0][4], ends[1][4]))
     jacobian = np.moveaxis(rows[:, 1:].imag / _STEP, 2, 0)
-    return Free(
-        x, rows[:, 0].real, jacobian, volumes[0].real, gaps[0].real, np.stack((r1, r2))
-    )  # fmt: skip
+    return Free(x, rows[:, 0].real, jacobian, volumes[0].real, gaps[0].real, np.stack((r1, r2)))
 
 
 def newton(

@@ -73,17 +73,24 @@ class Solution(NamedTuple):
         """Whether a bridge was found that is stable at fixed volume."""
         beyond = self.bodies.twin & (self.chart <= 0.0)
         result: Flags = (
-            self.settled & (self.determinant > 0.0) & ~beyond & (self.found.volume > 0.0)
-            & (self.found.ends.sine_other <= 1.0) & (self.found.ends.binder.radius > 0.0)
+            self.settled
+            & (self.determinant > 0.0)
+            & ~beyond
+            & (self.found.volume > 0.0)
+            & (self.found.ends.sine_other <= 1.0)
+            & (self.found.ends.binder.radius > 0.0)
             & (self.found.ends.other.radius > 0.0)
-        )  # fmt: skip
+        )
         return result
 
 
 def problem(
-    gap: Array, volume: Array | None, pressure: Array | None,
-    angles: tuple[Array, Array], curvatures: tuple[Array, Array],
-) -> Problem:  # fmt: skip
+    gap: Array,
+    volume: Array | None,
+    pressure: Array | None,
+    angles: tuple[Array, Array],
+    curvatures: tuple[Array, Array],
+) -> Problem:
     """Problem for bodies given by contact angles [rad] and curvatures, lower and upper."""
     lower, upper = solids(angles[0], curvatures[0]), solids(angles[1], curvatures[1])
     twin = (angles[0] == angles[1]) & (curvatures[0] == curvatures[1])
@@ -117,9 +124,10 @@ def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]
         logarithm = np.log(np.where(full, ratio, 1.0))
         scale = np.where(full, at.volume, given.volume)
         return (
-            np.where(full, logarithm, ratio - 1.0), at.volume_waist / scale,
+            np.where(full, logarithm, ratio - 1.0),
+            at.volume_waist / scale,
             at.volume_chart / scale,
-        )  # fmt: skip
+        )
     assert given.pressure is not None
     target = a * given.pressure
     return at.ends.pressure - target, -at.shape_waist - target, -at.shape_chart

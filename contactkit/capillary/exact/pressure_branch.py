@@ -66,9 +66,12 @@ def from_film(given: Problem, angles: Two, curvatures: Two) -> tuple[Solution, F
 
 @lru_cache(maxsize=512)
 def branch_at_pressure(
-    pressure: float, angle_lower: float, angle_upper: float,
-    curvature_lower: float, curvature_upper: float,
-) -> Branch | FreeBranch:  # fmt: skip
+    pressure: float,
+    angle_lower: float,
+    angle_upper: float,
+    curvature_lower: float,
+    curvature_upper: float,
+) -> Branch | FreeBranch:
     """Curve of bridges of one pressure from touching bodies to its limit."""
     angles = np.array([angle_lower]), np.array([angle_upper])
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
@@ -106,9 +109,12 @@ def branch_at_pressure(
 def _followed(found: Solution, bodies: Pair, pressure: float) -> Branch | FreeBranch:
     try:
         return march(
-            found.bodies, bool(found.flipped[0]), float(found.waist[0]), float(found.chart[0]),
+            found.bodies,
+            bool(found.flipped[0]),
+            float(found.waist[0]),
+            float(found.chart[0]),
             pressure,
-        )  # fmt: skip
+        )
     except ConvergenceError:
         return march_free(bodies, found.unknowns[:, 0], 0.0, pressure)
 

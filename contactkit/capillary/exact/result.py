@@ -70,9 +70,13 @@ def _kind(shape: Array) -> NDArray[np.int64]:
 
 
 def _columns(
-    waist: Array, shape: Array, pull: Array, radii: tuple[Array, Array], arcs: tuple[Array, Array],
+    waist: Array,
+    shape: Array,
+    pull: Array,
+    radii: tuple[Array, Array],
+    arcs: tuple[Array, Array],
     flip: NDArray[np.bool_],
-) -> Columns:  # fmt: skip
+) -> Columns:
     """Columns that need no derivative; radii and arcs over the waist, of the binding end first."""
     inside = (arcs[0] >= 0.0) & (arcs[1] >= 0.0)
     least, most = np.minimum(*radii), np.maximum(*radii)

@@ -51,9 +51,13 @@ def _on_curve(curve: Branch, given: Problem, gap: Array) -> Solution:
 
 
 def _close(
-    key: Key, gap: Array, pressure: float | None, curve: Branch | FreeBranch, columns: Columns,
+    key: Key,
+    gap: Array,
+    pressure: float | None,
+    curve: Branch | FreeBranch,
+    columns: Columns,
     lost: Flags,
-) -> None:  # fmt: skip
+) -> None:
     """Follow bridges closer than the curve begins, whose ends no chart covers, into columns."""
     is_flipped = isinstance(curve, Branch) and curve.flipped
     bodies = _given(key, gap[:1], pressure).bodies.swapped(np.array([is_flipped]))

@@ -33,8 +33,15 @@ from .newton import Solution, from_arc, problem, solve
 from .volume_branch import DETACHMENT, PITCHFORK, Branch, flat_branch, march
 
 __all__ = [
-    "LIMITS", "Key", "Limit", "branch", "contact", "is_cylinder", "no_bridge", "stability_limit",
-]  # fmt: skip
+    "LIMITS",
+    "Key",
+    "Limit",
+    "branch",
+    "contact",
+    "is_cylinder",
+    "no_bridge",
+    "stability_limit",
+]
 
 Array = NDArray[np.float64]
 
@@ -263,10 +270,14 @@ def stability_limit(
     """
     arrays = _checked(
         {
-            "gap": 1.0, "volume": volume, "angle_lower": angle_lower, "angle_upper": angle_upper,
-            "curvature_lower": curvature_lower, "curvature_upper": curvature_upper,
+            "gap": 1.0,
+            "volume": volume,
+            "angle_lower": angle_lower,
+            "angle_upper": angle_upper,
+            "curvature_lower": curvature_lower,
+            "curvature_upper": curvature_upper,
         }
-    )  # fmt: skip
+    )
     _, volumes, *rest = (np.ravel(value) for value in arrays.values())
     size = np.cbrt(volumes)
     keys = np.stack((rest[0], rest[1], rest[2] * size, rest[3] * size))
@@ -276,6 +287,12 @@ def stability_limit(
     columns = found[which.reshape(-1)].T
     shape = arrays["volume"].shape
     kind = columns[1].astype(np.int64)
-    scaled = (columns[0] * size, kind, columns[2] * size, columns[3] / size,
-              columns[4] * size, columns[5] * size)  # fmt: skip
+    scaled = (
+        columns[0] * size,
+        kind,
+        columns[2] * size,
+        columns[3] / size,
+        columns[4] * size,
+        columns[5] * size,
+    )
     return Limit(*(value.reshape(shape) for value in scaled))

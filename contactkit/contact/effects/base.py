@@ -27,9 +27,15 @@ if TYPE_CHECKING:
     SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Map]
 
 __all__ = [
-    "Cap", "Compliance", "Contact", "ContactEffect", "DisplacementTerm", "LoadTerm", "Observer",
+    "Cap",
+    "Compliance",
+    "Contact",
+    "ContactEffect",
+    "DisplacementTerm",
+    "LoadTerm",
+    "Observer",
     "PressureCap",
-]  # fmt: skip
+]
 
 
 class Contact(NamedTuple):

@@ -180,9 +180,11 @@ def effective_hardness_literal(
     """
     if len(thickness) > 2:
         raise DescriptionError(
-            "effective_hardness_literal.thickness", len(thickness), "be two layers at most",
+            "effective_hardness_literal.thickness",
+            len(thickness),
+            "be two layers at most",
             hint="effective_hardness takes any number",
-        )  # fmt: skip
+        )
     u = np.asarray(displacement, dtype=np.float64)
     fits = [
         layer_on_substrate(

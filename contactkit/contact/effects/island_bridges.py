@@ -197,8 +197,9 @@ def bridges_of(
         # A pixel that is no summit, such as the edge of a ridge, has none of its own.
         curvature = np.where((own > 0.0) & np.isfinite(curvature), own, curvature)
     volume = found.area * (effect.film_thickness or 0.0)
-    state = _bridges(found.gap, volume, curvature, angles, None if pressure is None else
-                     pressure / tension)  # fmt: skip
+    state = _bridges(
+        found.gap, volume, curvature, angles, None if pressure is None else pressure / tension
+    )
     return _part(effect, contact, pressure, tension, wet & ~touching, found, curvature, state)
 
 
@@ -222,9 +223,13 @@ def _wet(effect: IslandBridges, contact: Contact, height: float, pressure: float
     assert effect.film_thickness is not None
     no_contact = np.zeros_like(cut)
     return meniscus_area(
-        contact.gap, effect.film_thickness, height, no_contact, contact.grid.periodic,
+        contact.gap,
+        effect.film_thickness,
+        height,
+        no_contact,
+        contact.grid.periodic,
         effect.connectivity,
-    ).meniscus  # fmt: skip
+    ).meniscus
 
 
 class _Bridges:
@@ -236,9 +241,12 @@ class _Bridges:
 
 
 def _bridges(
-    gap: Floats, volume: Floats, curvature: Floats, angles: tuple[float, float],
+    gap: Floats,
+    volume: Floats,
+    curvature: Floats,
+    angles: tuple[float, float],
     pressure: float | None,
-) -> _Bridges:  # fmt: skip
+) -> _Bridges:
     """Solve the bridges of all islands at once; over the surface tension."""
     found = _Bridges(len(gap))
     room = np.flatnonzero(np.isfinite(curvature))
@@ -262,9 +270,15 @@ def _bridges(
 
 
 def _part(
-    effect: IslandBridges, contact: Contact, pressure: float | None, tension: float,
-    is_meniscus: Mask, found: kernel.Islands, curvature: Floats, state: _Bridges,
-) -> IslandPart:  # fmt: skip
+    effect: IslandBridges,
+    contact: Contact,
+    pressure: float | None,
+    tension: float,
+    is_meniscus: Mask,
+    found: kernel.Islands,
+    curvature: Floats,
+    state: _Bridges,
+) -> IslandPart:
     grid, exists = contact.grid, state.exists
     (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
     point: Floats = np.multiply(found.summit[exists] + 0.5, [dy, dx], dtype=np.float64)

@@ -48,9 +48,11 @@ class HardnessMap:
 
         if value.ndim != 2 or not (np.isfinite(value) & (value >= 0.0)).all():
             raise DescriptionError(
-                "HardnessMap.values", f"an array of shape {value.shape}",
-                "have two dimensions and be finite, zero or positive everywhere", unit="Pa",
-            )  # fmt: skip
+                "HardnessMap.values",
+                f"an array of shape {value.shape}",
+                "have two dimensions and be finite, zero or positive everywhere",
+                unit="Pa",
+            )
 
 
 def _hardness(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -146,9 +148,12 @@ class HardnessLimit(PressureCap):
             return lowest if lowest.ndim else float(lowest)
 
         return Cap(
-            least, most, at, is_local=self.displacement == "local",
+            least,
+            most,
+            at,
+            is_local=self.displacement == "local",
             has_jumps=self.rule == "literal",
-        )  # fmt: skip
+        )
 
     def _of_body(self, stack: Stack) -> Callable[[Map], Map]:
         """Hardness of one body for the displacement [m] of its surface."""

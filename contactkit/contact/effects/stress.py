@@ -178,12 +178,19 @@ def scan(
     kept = np.empty((6, n, ny, nx)) if keep_planes else None
     layers = np.empty(n, dtype=int)
     found = planes(
-        pressure, tractions[0], tractions[1], contact.grid.pixel_size,
-        stack.young_moduli, stack.poisson_ratios, stack.thicknesses,
-        [depth for depth, _ in where], [side for _, side in where],
-        mean="periodic" if contact.grid.periodic else "free", padding=window,
+        pressure,
+        tractions[0],
+        tractions[1],
+        contact.grid.pixel_size,
+        stack.young_moduli,
+        stack.poisson_ratios,
+        stack.thicknesses,
+        [depth for depth, _ in where],
+        [side for _, side in where],
+        mean="periodic" if contact.grid.periodic else "free",
+        padding=window,
         workers=contact.threads,
-    )  # fmt: skip
+    )
 
     def passing() -> Iterator[Plane]:
         for i, plane in enumerate(found):

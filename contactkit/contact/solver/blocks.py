@@ -54,9 +54,14 @@ class CoarseBlocks:
     """
 
     def __init__(
-        self, shape: tuple[int, int], blocks: tuple[int, int], symbol: Floats, periodic: bool,
-        fast: bool = False, own: float = 1.0,
-    ) -> None:  # fmt: skip
+        self,
+        shape: tuple[int, int],
+        blocks: tuple[int, int],
+        symbol: Floats,
+        periodic: bool,
+        fast: bool = False,
+        own: float = 1.0,
+    ) -> None:
         self.shape = blocks
         self.count = blocks[0] * blocks[1]
         self.width = shape[1]

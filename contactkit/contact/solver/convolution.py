@@ -28,9 +28,11 @@ SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Floats]
 
 
 def symbol_of(
-    make_symbol: SymbolMaker, shape: tuple[int, int], pixel_size: tuple[float, float],
+    make_symbol: SymbolMaker,
+    shape: tuple[int, int],
+    pixel_size: tuple[float, float],
     periodic: bool,
-) -> Floats:  # fmt: skip
+) -> Floats:
     """Symbol of a grid, refused if its shape, sign or values cannot be those of a compliance.
 
     A periodic compliance is zero at wavenumber 0 and positive elsewhere. The transform of padded
@@ -131,10 +133,16 @@ class Convolution:
     """
 
     def __init__(
-        self, shape: tuple[int, int], symbol: Floats, periodic: bool, threads: int = 1,
-        fast: bool = False, dtype: Any = np.float64, scale: Callable[..., None] = scale_spectrum,
+        self,
+        shape: tuple[int, int],
+        symbol: Floats,
+        periodic: bool,
+        threads: int = 1,
+        fast: bool = False,
+        dtype: Any = np.float64,
+        scale: Callable[..., None] = scale_spectrum,
         lender: Convolution | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.shape = shape
         self.count = 0
         self.source: NDArray[Any] = np.zeros(shape, dtype)
@@ -147,9 +155,14 @@ class Convolution:
         if fast and not periodic:
             self.nbytes += precise * 2 * shape[0] * shape[1]  # the padded rows
         self._transform = make_transform(
-            np.ascontiguousarray(symbol, dtype), shape, periodic, threads, fast, scale,
+            np.ascontiguousarray(symbol, dtype),
+            shape,
+            periodic,
+            threads,
+            fast,
+            scale,
             self._spectrum,
-        )  # fmt: skip
+        )
 
     def run(self) -> NDArray[Any]:
         """Convolve `source` into `target` and give back `target`, which the next run overwrites."""

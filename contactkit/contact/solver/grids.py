@@ -59,9 +59,12 @@ class _Maker:
     """Symbols of any grid on the same window, in units of the finest grid's self influence."""
 
     def __init__(
-        self, shape: Shape, pixel_size: tuple[float, float], make_symbol: SymbolMaker,
+        self,
+        shape: Shape,
+        pixel_size: tuple[float, float],
+        make_symbol: SymbolMaker,
         periodic: bool,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.window = (shape[0] * pixel_size[0], shape[1] * pixel_size[1])
         self.make, self.periodic = make_symbol, periodic
         self.unit = 1.0

@@ -227,9 +227,17 @@ def _around(i: int, size: int) -> int:
 
 
 def neighbour_masks(
-    order: Array, rank: Array, row: Array, column: Array, level: Array, strides: Array,
-    offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool,
-) -> Array:  # fmt: skip
+    order: Array,
+    rank: Array,
+    row: Array,
+    column: Array,
+    level: Array,
+    strides: Array,
+    offsets: Array,
+    allowed: Array,
+    shape: tuple[int, int],
+    periodic: bool,
+) -> Array:
     """One bit for every neighbour of each pixel that is there and comes before it."""
     masks = np.zeros(rank.size, np.int32)
     for a in prange(rank.size):
@@ -249,10 +257,23 @@ def neighbour_masks(
 
 
 def factor_rows(
-    order: Array, rank: Array, row: Array, column: Array, level: Array, strides: Array,
-    offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool, masks: Array,
-    ids: Array, rows: Array, first: Array, columns: Array, values: Array,
-) -> None:  # fmt: skip
+    order: Array,
+    rank: Array,
+    row: Array,
+    column: Array,
+    level: Array,
+    strides: Array,
+    offsets: Array,
+    allowed: Array,
+    shape: tuple[int, int],
+    periodic: bool,
+    masks: Array,
+    ids: Array,
+    rows: Array,
+    first: Array,
+    columns: Array,
+    values: Array,
+) -> None:
     """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
     for a in prange(rank.size):
         n, at = level[a], first[a]
@@ -269,9 +290,23 @@ def factor_rows(
 
 SERIAL = (select, block_sums)
 THREADED = (
-    scale_spectrum, reduce_gap, survey, grade, pick, put, less_block_values, add_block_values,
-    stencil, turn, advance, accumulate, settle, rescale, neighbour_masks, factor_rows,
-)  # fmt: skip
+    scale_spectrum,
+    reduce_gap,
+    survey,
+    grade,
+    pick,
+    put,
+    less_block_values,
+    add_block_values,
+    stencil,
+    turn,
+    advance,
+    accumulate,
+    settle,
+    rescale,
+    neighbour_masks,
+    factor_rows,
+)
 
 
 @functools.lru_cache(maxsize=2)

@@ -24,10 +24,25 @@ from numpy.typing import NDArray
 from ...numerics.fft import scale_spectrum
 
 __all__ = [
-    "accumulate", "add_block_values", "advance", "block_sums", "factor_rows", "grade",
-    "less_block_values", "neighbour_masks", "pick", "put", "reduce_gap", "rescale",
-    "scale_spectrum", "select", "settle", "stencil", "survey", "turn",
-]  # fmt: skip
+    "accumulate",
+    "add_block_values",
+    "advance",
+    "block_sums",
+    "factor_rows",
+    "grade",
+    "less_block_values",
+    "neighbour_masks",
+    "pick",
+    "put",
+    "reduce_gap",
+    "rescale",
+    "scale_spectrum",
+    "select",
+    "settle",
+    "stencil",
+    "survey",
+    "turn",
+]
 
 Array = NDArray[Any]
 Index = NDArray[np.intp]
@@ -110,9 +125,11 @@ def stencil(padded: Array, at: Index, stride: int, weights: tuple[float, ...], z
     centre, y, x, diagonal = weights
     z[...] = centre * padded[at]
     for weight, first, second in (
-        (y, stride, -stride), (x, 1, -1),
-        (diagonal, stride + 1, -stride - 1), (diagonal, stride - 1, 1 - stride),
-    ):  # fmt: skip
+        (y, stride, -stride),
+        (x, 1, -1),
+        (diagonal, stride + 1, -stride - 1),
+        (diagonal, stride - 1, 1 - stride),
+    ):
         z += weight * (padded[at + first] + padded[at + second])
 
 
@@ -170,9 +187,18 @@ PART = 2**14  # rows at a time, to bound what the neighbours of all pixels would
 
 
 def _neighbours(
-    part: slice, order: Array, rank: Array, row: Array, column: Array, level: Array,
-    strides: Array, offsets: Array, allowed: Array, shape: tuple[int, int], periodic: bool,
-) -> tuple[Array, NDArray[np.bool_]]:  # fmt: skip
+    part: slice,
+    order: Array,
+    rank: Array,
+    row: Array,
+    column: Array,
+    level: Array,
+    strides: Array,
+    offsets: Array,
+    allowed: Array,
+    shape: tuple[int, int],
+    periodic: bool,
+) -> tuple[Array, NDArray[np.bool_]]:
     """Order of the pixels around some, and which of them come before."""
     at = level[part]
     y = row[part, None] + strides[at, :1] * offsets[:, 0]

@@ -98,9 +98,12 @@ def free_level(pressure: Floats, reduced_gap: Floats, cap: float | Floats) -> fl
 
 
 def optimality(
-    pressure: Floats, displacement: Floats, heights: Floats, cap: float | Floats = np.inf,
+    pressure: Floats,
+    displacement: Floats,
+    heights: Floats,
+    cap: float | Floats = np.inf,
     level: float | None = None,
-) -> Optimality:  # fmt: skip
+) -> Optimality:
     r"""Violation of the contact conditions and a bound of the energy error.
 
     .. math:: g = \ell \;(0<p<c), \qquad g \ge \ell \;(p=0), \qquad g \le \ell \;(p=c)

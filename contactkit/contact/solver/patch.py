@@ -78,9 +78,13 @@ class Patch:
     """
 
     def __init__(
-        self, response: Floats, threads: int = 1, fast: bool = False,
-        scale: Callable[..., None] = scale_spectrum, lender: Convolution | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        response: Floats,
+        threads: int = 1,
+        fast: bool = False,
+        scale: Callable[..., None] = scale_spectrum,
+        lender: Convolution | None = None,
+    ) -> None:
         self.response = response
         self.shape = response.shape
         self._more: dict[str, Any] = {"threads": threads, "fast": fast}

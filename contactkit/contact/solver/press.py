@@ -102,9 +102,14 @@ class Press:
     """
 
     def __init__(
-        self, shape: tuple[int, int], pixel_size: tuple[float, float], make_symbol: SymbolMaker,
-        periodic: bool, threads: int = 1, fast: bool | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        shape: tuple[int, int],
+        pixel_size: tuple[float, float],
+        make_symbol: SymbolMaker,
+        periodic: bool,
+        threads: int = 1,
+        fast: bool | None = None,
+    ) -> None:
         if len(shape) != 2 or min(shape) < 2:
             raise DescriptionError("shape", shape, "be at least 2 x 2 pixels")
         if not all(np.isfinite(d) and d > 0.0 for d in pixel_size):
@@ -135,10 +140,18 @@ class Press:
         return fine.gap * self.self_influence
 
     def solve(
-        self, heights: Floats, *, mean_pressure: float | None = None, level: float | None = None,
-        cap: float | Floats | None = None, rtol: float = 1e-8, start: Start | None = None,
-        max_iterations: int = 5000, progress: Progress = None, method: str = "active-set",
-    ) -> Solution:  # fmt: skip
+        self,
+        heights: Floats,
+        *,
+        mean_pressure: float | None = None,
+        level: float | None = None,
+        cap: float | Floats | None = None,
+        rtol: float = 1e-8,
+        start: Start | None = None,
+        max_iterations: int = 5000,
+        progress: Progress = None,
+        method: str = "active-set",
+    ) -> Solution:
         """Pressure under a given load or rigid approach.
 
         Parameters
@@ -241,9 +254,14 @@ class Press:
                 p = grid.pressure
 
     def _by(
-        self, plain: Callable[..., Iterate], problem: Problem, outcome: Outcome, rtol: float,
-        most: int, progress: Progress,
-    ) -> Outcome:  # fmt: skip
+        self,
+        plain: Callable[..., Iterate],
+        problem: Problem,
+        outcome: Outcome,
+        rtol: float,
+        most: int,
+        progress: Progress,
+    ) -> Outcome:
         fine = self.grids[0]
 
         def apply(p: Floats) -> Floats:

@@ -19,8 +19,15 @@ from ...errors import DescriptionError, InfeasibleError
 from .transfer import restrict
 
 __all__ = [
-    "Problem", "Solution", "clip_to_load", "coarser", "fit", "known_pressure", "pose", "project",
-]  # fmt: skip
+    "Problem",
+    "Solution",
+    "clip_to_load",
+    "coarser",
+    "fit",
+    "known_pressure",
+    "pose",
+    "project",
+]
 
 Floats = NDArray[np.float64]
 

@@ -64,9 +64,12 @@ def _offsets(squared: int) -> NDArray[np.int32]:
 
 
 def pattern_rows(
-    K: Floats, shape: Shape, stride: NDArray[np.int32], there: NDArray[np.bool_],
+    K: Floats,
+    shape: Shape,
+    stride: NDArray[np.int32],
+    there: NDArray[np.bool_],
     offsets: NDArray[np.int32],
-) -> Floats:  # fmt: skip
+) -> Floats:
     """Rows of the factor for patterns of neighbours, the pixel itself last.
 
     Parameters
@@ -143,9 +146,15 @@ class NearInverse:
     """
 
     def __init__(
-        self, response: Floats, shape: Shape, pixel_size: tuple[float, float], periodic: bool,
-        steep: bool, loops: Any, memory: NDArray[Any] | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        response: Floats,
+        shape: Shape,
+        pixel_size: tuple[float, float],
+        periodic: bool,
+        steep: bool,
+        loops: Any,
+        memory: NDArray[Any] | None = None,
+    ) -> None:
         self.shape, self.periodic, self.loops = shape, periodic, loops
         self.response = response
         self.lift = min(0.0, float(response.min()))  # makes a periodic response positive

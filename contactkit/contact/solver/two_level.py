@@ -48,9 +48,13 @@ class TwoLevel:
     """
 
     def __init__(
-        self, shape: tuple[int, int], periodic: bool, stencil: Stencil,
-        blocks: CoarseBlocks | None, loops: Any,
-    ) -> None:  # fmt: skip
+        self,
+        shape: tuple[int, int],
+        periodic: bool,
+        stencil: Stencil,
+        blocks: CoarseBlocks | None,
+        loops: Any,
+    ) -> None:
         self.periodic, self.stencil, self.blocks, self.loops = periodic, stencil, blocks, loops
         self.width = shape[1]
         self.margin = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)  # zeros between solves

@@ -124,9 +124,11 @@ def planes(
         raise DescriptionError("planes.mean", mean, 'be "periodic" or "free"')
     if mean == "free" and (displacement or not 1.0 <= padding < np.inf):
         raise DescriptionError(
-            "planes.padding", padding, "be 1 or more, and displacement False",
+            "planes.padding",
+            padding,
+            "be 1 or more, and displacement False",
             hint='displacements are given for mean="periodic"',
-        )  # fmt: skip
+        )
     locate(depths, sides, stack.h)
     grids, steps = _grids(maps, pixel_size, mean, padding, workers)
     every = [

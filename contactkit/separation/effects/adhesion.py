@@ -305,9 +305,17 @@ def numbers(
             pull_off = -found.pull_off.load
             gap, last = -found.release.approach, -found.release.load
     return AdhesionNumbers(
-        model, radius, work, modulus, strength, transition, tabor,
-        pull_off * units.load, gap * units.approach, last * units.load,
-    )  # fmt: skip
+        model,
+        radius,
+        work,
+        modulus,
+        strength,
+        transition,
+        tabor,
+        pull_off * units.load,
+        gap * units.approach,
+        last * units.load,
+    )
 
 
 def law(found: AdhesionNumbers, count: int, start: float) -> ForceLaw:

@@ -78,9 +78,7 @@ def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
         pinned_volume = _sized(held.volume, film.rim, film.rim**3)
         pinned_end = held.end * film.rim
         pinned_series = held.series(film.rim, whole)
-    both = _Film(
-        free, pinned, pinned_volume, free_end, pinned_end, free_series, pinned_series
-    )  # fmt: skip
+    both = _Film(free, pinned, pinned_volume, free_end, pinned_end, free_series, pinned_series)
     return _law(both, film, surface_tension(scene))
 
 

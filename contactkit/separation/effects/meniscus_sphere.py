@@ -63,9 +63,11 @@ def _fixed(scene: SeparationScene) -> tuple[float, float, float, float]:
     """Angles [rad] and curvatures [1/m] of the bodies."""
     interface, meniscus = scene.interface, scene.interface.meniscus
     return (
-        meniscus.contact_angle_lower, meniscus.contact_angle_upper,
-        interface.lower.curvature, interface.upper.curvature,
-    )  # fmt: skip
+        meniscus.contact_angle_lower,
+        meniscus.contact_angle_upper,
+        interface.lower.curvature,
+        interface.upper.curvature,
+    )
 
 
 def exact_end(scene: SeparationScene) -> float:

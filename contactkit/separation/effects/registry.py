@@ -11,9 +11,18 @@ from .rupture import Rupture
 from .viscous import ShearLimit, TensionLimit, ViscousForce
 
 __all__ = [
-    "SEPARATION_EFFECTS", "AdhesiveContact", "AsperityMenisci", "Effect", "MeniscusForce",
-    "Rupture", "SeparationEffect", "ShearLimit", "TensionLimit", "VanDerWaalsForce", "ViscousForce",
-]  # fmt: skip
+    "SEPARATION_EFFECTS",
+    "AdhesiveContact",
+    "AsperityMenisci",
+    "Effect",
+    "MeniscusForce",
+    "Rupture",
+    "SeparationEffect",
+    "ShearLimit",
+    "TensionLimit",
+    "VanDerWaalsForce",
+    "ViscousForce",
+]
 
 SEPARATION_EFFECTS: tuple[type[SeparationEffect], ...] = (
     MeniscusForce,

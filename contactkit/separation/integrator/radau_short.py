@@ -150,10 +150,16 @@ def _inverse(
     if not abs(det) > 0.0 or det - det != 0.0:
         return None
     return (
-        m0 / det, (c * h - b * i) / det, (b * f - c * e) / det,
-        m1 / det, (a * i - c * g) / det, (c * d - a * f) / det,
-        m2 / det, (b * g - a * h) / det, (a * e - b * d) / det,
-    )  # fmt: skip
+        m0 / det,
+        (c * h - b * i) / det,
+        (b * f - c * e) / det,
+        m1 / det,
+        (a * i - c * g) / det,
+        (c * d - a * f) / det,
+        m2 / det,
+        (b * g - a * h) / det,
+        (a * e - b * d) / det,
+    )
 
 
 def _rounds(

@@ -133,9 +133,13 @@ def moved_by_powers(problem: Problem, matrix: Matrix, rate: float, left: Three) 
     """
     a, b, c = left
     return _turned(
-        problem, matrix, (rate, rate, rate), a * _W_1 + b * _W_2 + c * _W_3,
-        a * _X_1 + b * _X_2 + c * _X_3, a * _Y_1 + b * _Y_2 + c * _Y_3,
-    )  # fmt: skip
+        problem,
+        matrix,
+        (rate, rate, rate),
+        a * _W_1 + b * _W_2 + c * _W_3,
+        a * _X_1 + b * _X_2 + c * _X_3,
+        a * _Y_1 + b * _Y_2 + c * _Y_3,
+    )
 
 
 def moved(problem: Problem, matrix: Matrix, rates: Three, left: Three) -> Stages | None:
@@ -145,9 +149,13 @@ def moved(problem: Problem, matrix: Matrix, rates: Three, left: Three) -> Stages
     """
     a, b, c = left
     return _turned(
-        problem, matrix, rates, _W1 * a + _W2 * b + _W3 * c,
-        _X1 * a + _X2 * b + _X3 * c, _Y1 * a + _Y2 * b + _Y3 * c,
-    )  # fmt: skip
+        problem,
+        matrix,
+        rates,
+        _W1 * a + _W2 * b + _W3 * c,
+        _X1 * a + _X2 * b + _X3 * c,
+        _Y1 * a + _Y2 * b + _Y3 * c,
+    )
 
 
 def _turned(
@@ -287,9 +295,14 @@ def smooth_step(
 
 
 def _pose(
-    mass: float, begin: Here, speed: float, dt: float,
-    drive: tuple[float, float, float, float], limited: Limited | None, floor: float,
-) -> Problem:  # fmt: skip
+    mass: float,
+    begin: Here,
+    speed: float,
+    dt: float,
+    drive: tuple[float, float, float, float],
+    limited: Limited | None,
+    floor: float,
+) -> Problem:
     """Work out the numbers of the step; see `Problem`."""
     gap, static, slope, bend, drag, n, _, _ = begin
     pull, rate, spring, rest = drive
@@ -305,10 +318,20 @@ def _pose(
     rules = drag * dt > mass
     s = n - 1.0 if rules else -1.0
     return (
-        mass * gap, speed / gap, dt, s, drag * gap, by_gap + (1.0 + s) * drag * speed, first,
-        pull - spring * (gap - rest) - static, rate, spring * gap + slope, 0.5 * bend,
-        0.0 if rules else n, bound,
-    )  # fmt: skip
+        mass * gap,
+        speed / gap,
+        dt,
+        s,
+        drag * gap,
+        by_gap + (1.0 + s) * drag * speed,
+        first,
+        pull - spring * (gap - rest) - static,
+        rate,
+        spring * gap + slope,
+        0.5 * bend,
+        0.0 if rules else n,
+        bound,
+    )
 
 
 def _next_terms(share: float, missed: float, slid: float) -> tuple[float, float]:

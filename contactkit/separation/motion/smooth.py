@@ -61,10 +61,15 @@ def smooth_once(plan: Plan, state: MotionState, pull: Pull, end: float) -> Motio
         scale = max(size / drag, 1e-15 * scale)
     rtol = plan.accuracy.time_rtol
     found = smooth_step(
-        mass, here, speed, length, (pulled, rate, stiffness, start), at,
+        mass,
+        here,
+        speed,
+        length,
+        (pulled, rate, stiffness, start),
+        at,
         (_LEFT * rtol, min(1e-6 / length, scale / gap)),
         film.viscous_force if film is not None and film.limits else None,
-    )  # fmt: skip
+    )
     if found is None:
         return None
     # See `StepProblem.error`; a straight pull has no impulse that the nodes could miss.
@@ -93,10 +98,30 @@ def _after(
     """State after the step; None if its work is not known well enough."""
     gap, speed, (f1, f2, f3), (w1, w2, w3), work, _, _, first, _, calls = found
     (
-        time, begin, _, share, broken, held, armed, viscous, meniscus, dissipated, given,
-        break_time, release_time, release_speed, n_breaks, n_releases, peak, peak_time, _,
-        n_steps, n_rejected, n_evaluations, *rest,
-    ) = state  # fmt: skip
+        time,
+        begin,
+        _,
+        share,
+        broken,
+        held,
+        armed,
+        viscous,
+        meniscus,
+        dissipated,
+        given,
+        break_time,
+        release_time,
+        release_speed,
+        n_breaks,
+        n_releases,
+        peak,
+        peak_time,
+        _,
+        n_steps,
+        n_rejected,
+        n_evaluations,
+        *rest,
+    ) = state
     length, reached, following, delivered = spent
     if w1 - first > 0.9 * abs(w3 - first):
         low, high = min(w1, w2, w3), max(w1, w2, w3)
@@ -113,11 +138,31 @@ def _after(
         value, where = highest(first, (t1, t2, t3))
         if value > peak:
             peak, peak_time = value, time + where * length
-    return tuple.__new__(MotionState, (
-        reached, gap, speed, share, broken, held, armed,
-        viscous + length * (_W1 * w1 + _W2 * w2 + _W3 * w3),
-        meniscus + length * (_W1 * f1 + _W2 * f2 + _W3 * f3),
-        dissipated + work, given + delivered, break_time, release_time, release_speed,
-        n_breaks, n_releases, peak, peak_time, following, n_steps + 1, n_rejected,
-        n_evaluations + calls, *rest,
-    ))  # fmt: skip
+    return tuple.__new__(
+        MotionState,
+        (
+            reached,
+            gap,
+            speed,
+            share,
+            broken,
+            held,
+            armed,
+            viscous + length * (_W1 * w1 + _W2 * w2 + _W3 * w3),
+            meniscus + length * (_W1 * f1 + _W2 * f2 + _W3 * f3),
+            dissipated + work,
+            given + delivered,
+            break_time,
+            release_time,
+            release_speed,
+            n_breaks,
+            n_releases,
+            peak,
+            peak_time,
+            following,
+            n_steps + 1,
+            n_rejected,
+            n_evaluations + calls,
+            *rest,
+        ),
+    )

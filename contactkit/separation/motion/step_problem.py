@@ -48,9 +48,15 @@ class StepProblem(NamedTuple):
     def attempt(self, length: float) -> Step | None:
         """Try a step."""
         return step(
-            self.net, self.mass, self.begin, length, self._coordinate(length), self.rtol,
-            self.at_start, self.scale,
-        )  # fmt: skip
+            self.net,
+            self.mass,
+            self.begin,
+            length,
+            self._coordinate(length),
+            self.rtol,
+            self.at_start,
+            self.scale,
+        )
 
     def attempt_short(self, length: float) -> Short | None:
         """Try a step that is expected to change little; if it does not, `attempt` has to."""
@@ -121,9 +127,19 @@ def step_problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive)
         force, dh = pulled - spring * (gap - rest) - (viscous + static), 1e-7 * gap
         at_start = force, (net(time, gap + dh, speed) - force) / dh, -resistance
     return StepProblem(
-        holding, net, mass, begin, plan.accuracy.time_rtol, exponent, size, delivered, scale,
-        at_start, static, viscous,
-    )  # fmt: skip
+        holding,
+        net,
+        mass,
+        begin,
+        plan.accuracy.time_rtol,
+        exponent,
+        size,
+        delivered,
+        scale,
+        at_start,
+        static,
+        viscous,
+    )
 
 
 def _net(holding: Holding) -> NetForce:

@@ -241,9 +241,10 @@ class ContactAngleHysteresis(SlidingForce):
     def __attrs_post_init__(self) -> None:
         if not self._pairs:
             raise DescriptionError(
-                "ContactAngleHysteresis", "no angles",
+                "ContactAngleHysteresis",
+                "no angles",
                 "be given the advancing and receding angle [rad] of a body at least",
-            )  # fmt: skip
+            )
 
     @property
     def _pairs(self) -> tuple[tuple[float, float], ...]:

@@ -192,8 +192,11 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
         return evolve(scene, interface=evolve(interface, meniscus=more))
     if meniscus.volume is None:
         raise DescriptionError(
-            "Meniscus.volume", None, "be given to be shared out", unit="m3",
-        )  # fmt: skip
+            "Meniscus.volume",
+            None,
+            "be given to be shared out",
+            unit="m3",
+        )
     root = math.sqrt(number)
     film, gap = film_shape(scene), scene.sliding.gap
     depth = film.height(gap) - gap

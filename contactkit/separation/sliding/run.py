@@ -121,14 +121,20 @@ def check_sliding(plan: SlidingPlan) -> tuple[ValidityNumber, ...]:
     height, radius = plan.film.height(gap), plan.wetted_radius
     found = [
         ValidityNumber(
-            name="thinnest gap over 2 nm", value=gap / (2.0 * nm), low=1.0,
-            detail="below about 2 nm a liquid is not a continuum", source="Chan and Horn 1985",
+            name="thinnest gap over 2 nm",
+            value=gap / (2.0 * nm),
+            low=1.0,
+            detail="below about 2 nm a liquid is not a continuum",
+            source="Chan and Horn 1985",
         ),
         ValidityNumber(
-            name="slenderness of the film", value=numbers.slenderness(radius, height), low=5.0,
-            detail="lubrication wants a film much wider than high", source="Reynolds 1886",
+            name="slenderness of the film",
+            value=numbers.slenderness(radius, height),
+            low=5.0,
+            detail="lubrication wants a film much wider than high",
+            source="Reynolds 1886",
         ),
-    ]  # fmt: skip
+    ]
     viscosity, tension, density = state.viscosity, state.surface_tension, state.density
     if viscosity is None:
         return tuple(found)
@@ -148,9 +154,11 @@ def check_sliding(plan: SlidingPlan) -> tuple[ValidityNumber, ...]:
     if tension is not None:
         found.append(
             ValidityNumber(
-                name="capillary number", value=viscosity * speed / tension, high=0.1,
+                name="capillary number",
+                value=viscosity * speed / tension,
+                high=0.1,
                 detail="above, the meniscus does not keep its shape and leaves liquid behind",
                 source="eta v/gamma",
             )
-        )  # fmt: skip
+        )
     return tuple(found)
