@@ -419,7 +419,8 @@ def test_a_load_beyond_the_hardness_is_infeasible_with_both_numbers():
         (
             {"surface": ck.Wave(amplitude=1e-9, wavelength=0.3e-6)},
             (
-                "Wave.wavelength must fit a whole number of times into the periodic window of 1e-06 m",
+                "Wave.wavelength must fit a whole number of times into the "
+                "periodic window of 1e-06 m",
                 "[m], got 3e-07",
             ),
         ),
@@ -431,7 +432,8 @@ def test_a_load_beyond_the_hardness_is_infeasible_with_both_numbers():
         (
             {"surface": ck.Sphere(radius=0.7e-6)},
             (
-                "Sphere.radius must exceed half the diagonal of the window, 7.07107e-07 m [m], got 7e-07",
+                "Sphere.radius must exceed half the diagonal of the window, "
+                "7.07107e-07 m [m], got 7e-07",
                 "Paraboloid",
             ),
         ),

@@ -38,7 +38,8 @@ def scene():
         (
             TIPS,
             {"landing_tilt": 10.0},
-            "SpringTips.landing_tilt must be less than a right angle [rad], got 10.0; was it meant in "
+            "SpringTips.landing_tilt must be less than a right angle "
+            "[rad], got 10.0; was it meant in "
             "degrees? write '10 deg'",
         ),
         (TIPS, {"per_side": 0}, "SpringTips.per_side must be a whole number of at least 1, got 0"),

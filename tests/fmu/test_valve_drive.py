@@ -10,10 +10,10 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.injector.run import valve as law
 from contactkit.files.scenes import read_tables, structure
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.valve_drive import ValveDrive, _valve
+from contactkit.models.injector import valve as law
 from contactkit.models.injector.monolithic import simulate
 from contactkit.models.injector.valve import Valve
 from contactkit.separation.motion.advance import advance

@@ -84,7 +84,8 @@ def test_what_runs_inside_an_fmu_needs_no_numpy(module):
 def test_only_plot_brings_matplotlib():
     without = loaded_by(
         "import contactkit; contactkit.simulate; contactkit.load_scene; contactkit.save_result;"
-        "contactkit.solve; contactkit.press; contactkit.study; import contactkit.files.contact_results;"
+        "contactkit.solve; contactkit.press; contactkit.study;"
+        "import contactkit.files.contact_results;"
         "import contactkit.work_precision, contactkit.cli"
     )
     assert "matplotlib" not in roots(without)

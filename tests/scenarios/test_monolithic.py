@@ -10,8 +10,8 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.injector.run import valve as law
 from contactkit.files.scenes import read_tables, structure
+from contactkit.models.injector import valve as law
 from contactkit.models.injector.monolithic import simulate
 from contactkit.models.injector.valve import Valve
 from contactkit.separation.motion.advance import advance

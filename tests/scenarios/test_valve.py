@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from contactkit.app.injector.run import valve as law
+from contactkit.models.injector import valve as law
 from contactkit.models.injector.valve import Coil, DriveProfile, Stop
 
 COIL = Coil(
