@@ -38,7 +38,7 @@ from contactkit.separation.sliding.effects import SlidingForce
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")
-MOST_LINES_OF_A_FUNCTION = 50
+MOST_LINES_OF_A_FUNCTION = 75  # as the formatter lays them out
 
 NOUNS = [
     ck.Accuracy,
