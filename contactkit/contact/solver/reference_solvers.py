@@ -29,6 +29,8 @@ __all__ = ["Iterate", "conjugate_gradient", "quasi_newton"]
 Floats = NDArray[np.float64]
 Progress = Callable[[int, float], None] | None
 GRADIENT_EVERY = 25  # a projected gradient step this often makes the convergence a theorem
+MOST_SWEEPS = 100  # multipliers of the load that are tried
+PATIENCE = 6  # sweeps within which the residual must have halved
 
 
 class Iterate(NamedTuple):
@@ -36,6 +38,7 @@ class Iterate(NamedTuple):
 
     optimality : level, residual and energy bound; relative : residual over the height scale
     scale : the height scale; history : (step, relative)
+    is_stalled : whether round-off ended the steps: more of them would gain nothing
     """
 
     pressure: Floats
@@ -43,26 +46,24 @@ class Iterate(NamedTuple):
     optimality: Optimality
     relative: float
     scale: float
-    history: tuple[tuple[int, float], ...]
+    history: tuple[tuple[int, float], ...] = ()
+    is_stalled: bool = False
 
     def certificate(self, load: float) -> float:
         """Bound of the energy error over load and height scale."""
         return self.optimality.gap_energy / (load * self.scale) if load > 0.0 else 0.0
 
 
-def graded(p: Floats, u: Floats, problem: Problem) -> tuple[Optimality, float, float]:
-    """Optimality of a dimensionless iterate, its residual over the height scale, and that scale.
-
-    Examples
-    --------
-    >>> flat = Problem(np.zeros((1, 2)), 2.0, None, np.array([np.inf]), 1.0, 1.0, 0.0)
-    >>> graded(np.ones(2), np.ones(2), flat)[1]
-    0.0
-    """
+def _graded(p: Floats, u: Floats, problem: Problem) -> Iterate:
+    """Optimality of dimensionless pressures and their displacement."""
     h = problem.heights.ravel()
     found = optimality(p, u, h, problem.cap, problem.level)
     scale = height_scale(h, u, flat=1.0)
-    return found, found.residual / scale, scale
+    return Iterate(p, u, found, found.residual / scale, scale)
+
+
+def _violation(one: Iterate) -> float:
+    return one.relative
 
 
 def _movable(p: Floats, g: Floats, level: float, cap: Floats) -> NDArray[np.bool_]:
@@ -83,7 +84,8 @@ def conjugate_gradient(
 
     A step that would raise the energy is replaced by a projected gradient step of length
     ``1 / steepest``, and so is every 25th: the energy then falls at every step, and at those steps
-    by at least a fixed part of what the optimality conditions leave.
+    by at least a fixed part of what the optimality conditions leave. Where not even such a step
+    lowers the energy, the pressures are right to round-off.
 
     Parameters
     ----------
@@ -105,7 +107,7 @@ def conjugate_gradient(
     Returns
     -------
     Iterate
-        With ``relative > rtol`` if the steps ran out.
+        The best of all steps; with ``relative > rtol`` if they ran out or stalled.
 
     Examples
     --------
@@ -114,40 +116,81 @@ def conjugate_gradient(
     array([1., 0.])
     """
     h, cap = problem.heights.ravel(), problem.cap
-    lifted = h + (problem.level or 0.0)  # what the energy of a prescribed level is taken from
     p = fit(start, problem)
     u = apply(p)
+    best = _graded(p, u, problem)
     d, strength, before = np.zeros_like(p), 0.0, np.zeros(p.size, bool)
     history: list[tuple[int, float]] = []
+    is_stalled = False
+
+    def rise(q: Floats, v: Floats) -> float:
+        """Energy of q above that of p, from their difference: the rounding of each is larger."""
+        return float((q - p) @ (0.5 * (u + v) - h - level))
+
     for step in range(max_iterations + 1):
-        found, relative, scale = graded(p, u, problem)
-        history.append((step, relative))
+        found = _graded(p, u, problem)
+        best = min(best, found, key=_violation)
+        history.append((step, found.relative))
         if progress is not None:
-            progress(step, relative)
-        if relative <= rtol or step == max_iterations:
+            progress(step, found.relative)
+        if found.relative <= rtol or is_stalled or step == max_iterations:
             break
-        g = u - h
-        moving = _movable(p, g, found.level, cap)
-        r = np.where(moving, found.level - g, 0.0)
+        g, level = u - h, found.optimality.level
+        moving = _movable(p, g, level, cap)
+        r = np.where(moving, level - g, 0.0)
         if problem.load is not None:
             r[moving] -= r[moving].mean()
         rr = float(r @ r)
         same = np.array_equal(moving, before) and strength > 0.0
         d = r + (rr / strength) * d if same else r
         before, strength = moving, rr
-        q = apply(d)
-        curvature = float(d @ q)
-        energy = float(p @ (0.5 * u - lifted))
+        curvature = float(d @ apply(d))
         trial = fit(p + (float(r @ d) / curvature) * d, problem) if curvature > 0.0 else p
         moved = apply(trial)
-        if step % GRADIENT_EVERY == GRADIENT_EVERY - 1 or not (
-            float(trial @ (0.5 * moved - lifted)) < energy - 1e-14 * abs(energy)
-        ):
+        if step % GRADIENT_EVERY == GRADIENT_EVERY - 1 or not rise(trial, moved) < 0.0:
             trial = project(p - (g - (problem.level or 0.0)) / steepest, problem)
             moved = apply(trial)
+            is_stalled = not rise(trial, moved) < 0.0
             strength = 0.0
         p, u = trial, moved
-    return Iterate(p, u, found, relative, scale, tuple(history))
+    return best._replace(history=tuple(history), is_stalled=is_stalled)
+
+
+def _minimised(
+    apply: Callable[[Floats], Floats],
+    p: Floats,
+    g: Floats,
+    cap: Floats,
+    weight: float,
+    gtol: float,
+    max_iterations: int,
+) -> tuple[Floats, int]:
+    """Pressures that L-BFGS-B finds from `p`, whose gradient is `g`, and the steps it took.
+
+    The unknown is the change of the pressures, and the energy what is gained by it. The energy
+    itself is known to 1e-16 of its size only, and with it the pressures to 1e-8 of theirs.
+    """
+
+    def gain(d: Floats) -> tuple[float, Floats]:
+        q = apply(d) + weight * float(d.sum())
+        return float(d @ (g + 0.5 * q)), g + q
+
+    least: Any = scipy.optimize.minimize  # its stubs know no bounded method with a gradient
+    answer = least(
+        gain,
+        np.zeros_like(p),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=scipy.optimize.Bounds(-p, cap - p),
+        options={
+            "maxcor": 20,
+            "ftol": 0.0,
+            "gtol": gtol,
+            "maxiter": max_iterations,
+            "maxfun": 2 * max_iterations,
+        },
+    )
+    return np.clip(p + answer.x, 0.0, cap), int(answer.nit)
 
 
 def quasi_newton(
@@ -161,12 +204,14 @@ def quasi_newton(
 ) -> Iterate:
     """L-BFGS-B of scipy; a prescribed load enters by an augmented Lagrangian.
 
-    Parameters and return value are those of `conjugate_gradient`. Slower and less exact (some 1e-6
-    of the rms height in practice), but of quite another make, which is what a check needs.
+    Parameters and return value are those of `conjugate_gradient`, except that `progress` is called
+    with the number of the sweep, one minimisation under one multiplier and penalty. Slower, but of
+    quite another make, which is what a check needs.
 
     References
     ----------
     .. [1] R. H. Byrd, P. Lu, J. Nocedal, C. Zhu, SIAM J. Sci. Comput. 16 (1995) 1190-1208.
+    .. [2] J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed., Springer 2006, section 17.4.
 
     Examples
     --------
@@ -177,33 +222,32 @@ def quasi_newton(
     h, load = problem.heights.ravel(), problem.load
     level = 0.0 if problem.level is None else problem.level
     weight = steepest / h.size if load is not None else 0.0
+    rounding = 1e-15 * float(np.abs(h).max())
     p = fit(start, problem)
+    best = _graded(p, apply(p), problem)
     history: list[tuple[int, float]] = []
-    excess = np.inf
-
-    def energy(p: Floats) -> tuple[float, Floats]:
-        u = apply(p)
-        excess = float(p.sum()) - (load or 0.0)
-        value = 0.5 * float(p @ u) - float(h @ p) - level * excess + 0.5 * weight * excess**2
-        return value, u - h - level + weight * excess
-
-    bounds = scipy.optimize.Bounds(np.zeros(h.size), np.broadcast_to(problem.cap, h.shape))
-    options: dict[str, Any] = {"maxiter": max_iterations, "maxfun": 2 * max_iterations}
-    options |= {"maxcor": 20, "ftol": 1e-16, "gtol": 0.1 * rtol}
-    for sweep in range(40 if load is not None else 1):
-        least: Any = scipy.optimize.minimize  # its stubs know no bounded method with a gradient
-        answer = least(energy, p, jac=True, method="L-BFGS-B", bounds=bounds, options=options)
-        p = np.asarray(answer.x)
+    excess, steps, halved, is_stalled = np.inf, 0, 0, False
+    for sweep in range(MOST_SWEEPS):
+        missing = float(p.sum()) - load if load is not None else 0.0
+        g = apply(p) - h - level + weight * missing
+        gtol = 0.1 * rtol * best.scale
+        p, taken = _minimised(apply, p, g, problem.cap, weight, gtol, max_iterations - steps)
+        steps += taken
+        is_settled = True
         if load is not None:
             last, excess = excess, float(p.sum()) - load
-            level -= weight * excess
-            weight *= 4.0 if abs(excess) > 0.1 * abs(last) else 1.0
+            shift = weight * excess
+            level -= shift
+            is_settled = abs(shift) <= max(gtol, rounding) or abs(excess) <= 1e-14 * load
+            weight *= 1.0 if is_settled or abs(excess) <= 0.1 * abs(last) else 4.0
         admissible = fit(p, problem)
-        u = apply(admissible)
-        found, relative, scale = graded(admissible, u, problem)
-        history.append((sweep, relative))
+        found = _graded(admissible, apply(admissible), problem)
+        history.append((sweep, found.relative))
         if progress is not None:
-            progress(sweep, relative)
-        if relative <= rtol:
+            progress(sweep, found.relative)
+        halved = sweep if found.relative < 0.5 * best.relative else halved
+        best = min(best, found, key=_violation)
+        is_stalled = is_settled and sweep - halved >= PATIENCE
+        if best.relative <= rtol or is_stalled or steps >= max_iterations:
             break
-    return Iterate(admissible, u, found, relative, scale, tuple(history))
+    return best._replace(history=tuple(history), is_stalled=is_stalled)
