@@ -66,10 +66,14 @@ def solve_capped(plan: ContactPlan, engine: Engine, target: Target, counts: Coun
 def _unconverged(solution: Solution, plan: ContactPlan) -> str:
     if solution.converged:
         return ""
+    cure = "raise Accuracy.max_iterations or rtol"
+    if solution.is_stalled:
+        cure = "round-off keeps it from falling further; raise Accuracy.rtol"
+    if plan.accuracy.method != "active-set":
+        cure += ", or use method='active-set'"
     return (
         f"the contact conditions are violated by {solution.kkt:.2g} of the rms height, tolerance "
-        f"{plan.accuracy.rtol:g}, after {solution.n_applications} operator applications; raise "
-        "Accuracy.max_iterations or rtol, or use method='active-set'"
+        f"{plan.accuracy.rtol:g}, after {solution.n_applications} operator applications; {cure}"
     )
 
 

@@ -566,6 +566,23 @@ def test_a_solve_that_gives_up_says_how_far_it_came_and_hands_it_over():
     assert ck.solve(plan, throw=False).status == "not converged"
 
 
+@pytest.mark.parametrize("method", ["active-set", "conjugate-gradient", "quasi-newton"])
+def test_a_tolerance_below_round_off_is_told_from_a_lack_of_steps(method):
+    """A few spikes touch; their heights are known to 1e-16, what they sink by is far smaller."""
+    rng = np.random.default_rng(1)
+    spikes = np.zeros((128, 128))
+    spikes[*rng.integers(0, 128, (2, 40))] = 1e-6 + 1e-14 * rng.standard_normal(40)
+    surface = ck.Heights(heights=spikes, pixel_size=(1e-8, 1e-8))
+    window = ck.Window(width=1.28e-6)
+    contact = scene(surface=surface, window=window, pressing=ck.Pressing(pressure=1e3))
+    with pytest.raises(ck.ConvergenceError, match="round-off keeps it") as caught:
+        ck.solve(ck.plan(contact, ck.Accuracy(rtol=1e-11, method=method)))
+    assert ("method='active-set'" in str(caught.value)) == (method != "active-set")
+    assert "max_iterations" not in str(caught.value)
+    assert caught.value.result.residual < 1e-9
+    assert caught.value.result.work.n_operator_applications < 1000
+
+
 def test_a_start_or_an_engine_of_another_contact_is_refused():
     from contactkit.contact.engine import Engine
 

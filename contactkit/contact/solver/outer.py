@@ -39,6 +39,7 @@ class Outcome(NamedTuple):
     level : rigid approach; relative : largest violation over the height scale
     certificate : bound of the energy error over load times height scale
     steps : active sets tried; history : (applications so far, relative) of each
+    is_stalled : whether round-off ended the steps of who finished the work
     """
 
     level: float
@@ -46,6 +47,7 @@ class Outcome(NamedTuple):
     certificate: float
     steps: int
     history: tuple[tuple[int, float], ...]
+    is_stalled: bool = False
 
 
 class _Walk:

@@ -279,6 +279,7 @@ class Press:
             relative=done.relative,
             certificate=done.certificate(load),
             history=outcome.history + done.history,
+            is_stalled=done.is_stalled,
         )
 
     def _solution(
@@ -312,5 +313,6 @@ class Press:
             history=outcome.history,
             seconds=time.perf_counter() - begun,
             fallback=fallback,
+            is_stalled=outcome.is_stalled and not outcome.relative <= rtol,
             memory_arrays=held / padded,
         )

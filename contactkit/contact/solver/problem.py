@@ -61,6 +61,8 @@ class Solution(NamedTuple):
         Wall time.
     fallback : bool
         Whether the safeguarded conjugate gradients had to finish the work.
+    is_stalled : bool
+        Whether round-off ended the steps above the tolerance: more of them would gain nothing.
     memory_arrays : float
         Memory held, in maps of the (padded) grid in double precision.
     """
@@ -79,6 +81,7 @@ class Solution(NamedTuple):
     history: tuple[tuple[int, float], ...]
     seconds: float
     fallback: bool
+    is_stalled: bool
     memory_arrays: float
 
 
