@@ -114,7 +114,8 @@ def from_free(found: Free, flipped: bool) -> Columns:
     """Columns of bridges with free ends."""
     waist, shape, first, last = found.unknowns
     a = np.exp(waist)
-    moved = np.linalg.solve(found.jacobian, np.array([[1.0], [0.0], [0.0], [0.0]]))[..., 0]
+    unit = np.array([[[1.0], [0.0], [0.0], [0.0]]])
+    moved = np.linalg.solve(found.jacobian, unit)[..., 0]
     flip = np.full(a.shape, flipped)
     radii = (found.radii[0], found.radii[1])
     return _columns(a, shape, 1.0 + shape, radii, (first, last), flip) | {

@@ -108,7 +108,7 @@ def pattern_rows(
     G[:, diagonal, diagonal] = np.where(inside, matrix[0, 0] * (1.0 + 1e-7), 1.0)
     unit = np.zeros((len(place), 1))
     unit[-1] = 1.0
-    rows = np.asarray(np.linalg.solve(G, unit)[..., 0])
+    rows = np.asarray(np.linalg.solve(G, unit[None])[..., 0])
     own = rows[:, -1:]
     bad = ~(own > 0.0).ravel()  # rounding of a nearly singular matrix: the pixel alone
     rows[bad] = np.where(diagonal == diagonal[-1], 1.0 / matrix[0, 0], 0.0)
