@@ -255,8 +255,8 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
         if first is acting(high):
             continue
         width = 1e-9 * (high - low)
-        while high - low > width:
-            middle = 0.5 * (low + high)
+        # Late in a long run the times of a fast vibration have no digits for that width.
+        while high - low > width and low < (middle := 0.5 * (low + high)) < high:
             low, high = (middle, high) if acting(middle) is first else (low, middle)
         found.append(high)
     return found

@@ -115,6 +115,15 @@ def test_cycles_left_out_are_bridged():
         assert "were computed" in few.message
 
 
+def test_a_fast_vibration_late_in_a_long_run_is_computed_too():
+    """After 500 s a double tells 1e-13 s apart, of a period of 2.5e-6 s."""
+    opening = {"vibration": shaken(1e-6, 4e5), "accuracy": ck.Accuracy(points=20)}
+    slow, slower = (run(VISCOUS, TENSION, speed=s, **opening) for s in (1e-7, 1e-8))
+    assert slow.work.n_evaluations == slower.work.n_evaluations
+    ratio = slower.impulses["pull_impulse"] / slow.impulses["pull_impulse"]
+    assert ratio == approx(10.0, 1e-4)
+
+
 def test_a_vibration_breaks_the_film_earlier():
     rupture = ck.Rupture(gap=8e-6)
     calm = run(VISCOUS, rupture)
