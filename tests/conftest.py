@@ -6,10 +6,17 @@ import json
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 import contactkit as ck
 
 DATA = Path(__file__).parent / "data"
+
+# The same examples every time, and no clock: a busy machine is no failure.
+UNTIMED = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("repeatable", derandomize=True, **UNTIMED)
+settings.register_profile("random", print_blob=True, **UNTIMED)  # --hypothesis-profile=random
+settings.load_profile("repeatable")
 
 
 @pytest.fixture(scope="session")
