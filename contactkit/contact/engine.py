@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..errors import ConvergenceError
 from .effects.base import Cap, Compliance, DisplacementTerm, PressureCap
 from .grid import combined_heights
 from .plan import ContactPlan
@@ -21,6 +20,8 @@ if TYPE_CHECKING:
     Map = NDArray[np.float64]
 
 __all__ = ["Counts", "Engine", "Friction", "Target", "cap_of", "interface_key"]
+
+_MOST_ROUNDS = 60
 
 
 class Target(NamedTuple):
@@ -39,11 +40,13 @@ class Target(NamedTuple):
 class Friction(NamedTuple):
     """What friction did to a contact.
 
-    The normal displacement it causes [m], and the pressure [Pa] without it, (ny, nx) each.
+    The normal displacement it causes [m], and the pressure [Pa] without it, (ny, nx) each;
+    `problem` says whether the two do not agree yet.
     """
 
     displacement: Map
     pressure_without: Map
+    problem: str = ""
 
 
 class Counts:
@@ -137,8 +140,8 @@ class Engine:
         friction: Friction | None = None
         if term is not None:
             without = solution.pressure
-            solution, moved = self._coupled(plan, target, cap, counts, solution, term)
-            friction = Friction(moved, without)
+            solution, moved, problem = self._coupled(plan, target, cap, counts, solution, term)
+            friction = Friction(moved, without, problem)
         counts.clock("contact", begun)
         return solution, friction
 
@@ -150,23 +153,24 @@ class Engine:
         counts: Counts,
         solution: Solution,
         term: DisplacementTerm,
-    ) -> tuple[Solution, Map]:
+    ) -> tuple[Solution, Map, str]:
         """Repeat the contact with the displacement of its own traction until it stands still."""
         extra: Map = np.zeros(self.grid.shape)
-        for _ in range(60):
+        for _ in range(_MOST_ROUNDS):
             moved = term.displacement(plan.scene, self.grid, solution.pressure)
             scale = max(float(np.ptp(solution.displacement)), np.finfo(float).tiny)
             change = float(np.abs(moved - extra).max()) / scale
             extra = moved
-            if change <= plan.accuracy.outer_rtol:
-                return solution, extra
+            if change <= plan.accuracy.outer_rtol or not solution.converged:
+                return solution, extra, ""
             again = target._replace(start=solution.pressure)
             solution = self._once(plan, again, cap, self.heights - extra, counts)
-        raise ConvergenceError(
-            f"the friction coupling still changes by {change:.2g} of the displacement after 60 "
-            f"rounds, tolerance {plan.accuracy.outer_rtol:g}; lower FrictionTraction.coefficient "
-            "or leave FrictionCoupling out"
+        problem = (
+            f"the friction coupling still changes by {change:.2g} of the displacement after "
+            f"{_MOST_ROUNDS} iterations, tolerance {plan.accuracy.outer_rtol:g}; lower "
+            "FrictionTraction.coefficient or leave FrictionCoupling out"
         )
+        return solution, extra, problem
 
     def _once(
         self,

@@ -73,7 +73,7 @@ def pulled_together(
         part = film.observe(contact)
         return _Trial(load, imposed + part.force - load, solved, contact, part)
 
-    found = _smallest(plan, attempt, imposed, largest)
+    found, is_settled = _smallest(plan, attempt, imposed, largest)
     others = _further(attempt, found, largest)
     # At a step of the force the balance says how much of it acts.
     force = found.load - imposed if found.load > imposed else found.film.force
@@ -85,8 +85,10 @@ def pulled_together(
         imbalance=gap,
     )
     solved = found.solved
-    if gap > _MOST_IMBALANCE and not solved.problem:
+    if gap > _MOST_IMBALANCE and is_settled and not solved.problem:
         solved = solved._replace(problem=_step(found, gap))
+    elif not is_settled and not solved.problem:
+        solved = solved._replace(problem=_unsettled(gap))
     return Pulled(solved, found.contact, part)
 
 
@@ -98,7 +100,18 @@ def _step(found: _Trial, gap: float) -> str:
     )
 
 
-def _smallest(plan: ContactPlan, attempt: _Attempt, imposed: float, largest: float) -> _Trial:
+def _unsettled(gap: float) -> str:
+    return (
+        f"the load and the force of the film still differ by {gap:.2g} of the load after "
+        f"{_MOST_ROUNDS} iterations; use a larger Accuracy.rtol, or FilmMeniscus without "
+        "self_consistent"
+    )
+
+
+def _smallest(
+    plan: ContactPlan, attempt: _Attempt, imposed: float, largest: float
+) -> tuple[_Trial, bool]:
+    """The smallest load that balances, and whether the iterations settled on it."""
     tolerance = max(plan.accuracy.outer_rtol, 1e-9)
     first = attempt(imposed, None)
     if first is None:
@@ -111,7 +124,7 @@ def _smallest(plan: ContactPlan, attempt: _Attempt, imposed: float, largest: flo
     for _ in range(_MOST_ROUNDS):
         best = low if high is None or abs(low.excess) < abs(high.excess) else high
         if abs(best.excess) <= tolerance * best.load or top - low.load <= tolerance * top:
-            return best
+            return best, True
         load = low.load + low.excess
         if before is not None:
             load = max(load, _secant(before, low))
@@ -122,7 +135,7 @@ def _smallest(plan: ContactPlan, attempt: _Attempt, imposed: float, largest: flo
             high, top = trial or high, load
         else:
             before, low = low, trial
-    return best
+    return best, False
 
 
 def _secant(before: _Trial, now: _Trial) -> float:

@@ -58,14 +58,15 @@ def solve_capped(plan: ContactPlan, engine: Engine, target: Target, counts: Coun
         if cap is not None:
             hardness = cap.given if cap.given is not None else cap.most
         solution, friction = engine.solve(plan, target, hardness, counts)
-        return Solved(solution, hardness, friction, _unconverged(solution, plan))
+        return Solved(solution, hardness, friction, _problem(plan, solution, friction))
     rounds = _local if cap.is_local else _bracketed
     return rounds(plan, engine, target, counts, cap)
 
 
-def _unconverged(solution: Solution, plan: ContactPlan) -> str:
+def _problem(plan: ContactPlan, solution: Solution, friction: Friction | None) -> str:
+    """What did not converge, and the cure; empty if all did."""
     if solution.converged:
-        return ""
+        return friction.problem if friction is not None else ""
     cure = "raise Accuracy.max_iterations or rtol"
     if solution.is_stalled:
         cure = "round-off keeps it from falling further; raise Accuracy.rtol"
@@ -103,7 +104,7 @@ def _bracketed(
     trial = guess if guess is not None and low < guess < high else high
     for _ in range(_MOST_ROUNDS):
         solution, friction = engine.solve(plan, target, trial, counts)
-        solved = Solved(solution, trial, friction, _unconverged(solution, plan))
+        solved = Solved(solution, trial, friction, _problem(plan, solution, friction))
         asked = _deepest(engine, solution, cap)
         if abs(asked - trial) <= tolerance * trial or solved.problem:
             return solved
@@ -144,10 +145,10 @@ def _local(plan: ContactPlan, engine: Engine, target: Target, counts: Counts, ca
     """A hardness for each pixel: damped fixed-point steps, given up when they do not contract."""
     assert cap.at is not None
     hardness: Any = np.full(plan.grid.shape, cap.most)
-    damping, last = 1.0, np.inf
+    damping, last, least = 1.0, np.inf, np.inf
     for _ in range(_MOST_ROUNDS):
         solution, friction = engine.solve(plan, target, hardness, counts)
-        solved = Solved(solution, hardness, friction, _unconverged(solution, plan))
+        solved = Solved(solution, hardness, friction, _problem(plan, solution, friction))
         bodies = engine.displacements(solution.pressure, solution.displacement)
         asked = np.asarray(cap.at(tuple(np.maximum(u, 0.0) for u in bodies)))
         change = float(np.abs(asked / hardness - 1.0)[solution.pressure > 0.0].max(initial=0.0))
@@ -155,11 +156,13 @@ def _local(plan: ContactPlan, engine: Engine, target: Target, counts: Counts, ca
             return solved
         if target.mean_pressure is not None and asked.mean() < target.mean_pressure:
             raise _too_soft(plan, target.mean_pressure, float(asked.mean()))
+        if change < least:
+            best, least = solved, change
         damping = max(0.5 * damping, 0.05) if change > 0.9 * last else damping
         last = change
         hardness = hardness + damping * (asked - hardness)
         target = target._replace(start=np.minimum(solution.pressure, hardness))
-    return solved._replace(
-        problem=f"the local hardness still changes by {change:.2g} after {_MOST_ROUNDS} rounds; "
+    return best._replace(
+        problem=f"the local hardness still changes by {least:.2g} after {_MOST_ROUNDS} rounds; "
         "use HardnessLimit(displacement='largest')"
     )

@@ -338,6 +338,24 @@ JUMPING = ck.Stack(
 )
 
 
+@pytest.mark.parametrize(
+    ("displacement", "problem"),
+    [("largest", "the hardness is known to"), ("local", "the local hardness still changes by")],
+)
+def test_iterations_of_the_hardness_that_run_out_say_so_and_hand_over_what_they_reached(
+    displacement, problem, monkeypatch
+):
+    monkeypatch.setattr("contactkit.contact.hardness_loop._MOST_ROUNDS", 2)
+    plan = made(ck.HardnessLimit(displacement=displacement), lower=HARD_ON_SOFT, pressure=6e7)
+    with pytest.raises(ck.ConvergenceError, match=problem) as caught:
+        ck.solve(plan)
+    reached = ck.solve(plan, throw=False)
+    assert (reached.status, reached.message) == ("not converged", str(caught.value))
+    np.testing.assert_array_equal(caught.value.result.pressure, reached.pressure)
+    assert reached.residual <= 1e-8
+    assert np.all(reached.pressure <= reached.of(ck.HardnessLimit).hardness)
+
+
 @pytest.mark.parametrize("pressure", np.geomspace(1e5, 2e7, 9))
 def test_where_the_literal_rule_jumps_it_is_said_and_never_cycled_through(pressure):
     """The source's criteria forget the hard top at once: at some loads no hardness agrees."""

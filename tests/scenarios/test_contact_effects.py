@@ -291,6 +291,28 @@ def test_every_solver_finds_the_same_contact(method, periodic):
     )
 
 
+@pytest.mark.parametrize(
+    ("loop", "effects", "problem"),
+    [
+        ("engine", (ck.FrictionTraction(coefficient=0.5), ck.FrictionCoupling()), "friction"),
+        ("film_loop", (ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True),), "film"),
+    ],
+    ids=["friction", "film"],
+)
+def test_outer_iterations_that_run_out_say_so_and_hand_over_what_they_reached(
+    loop, effects, problem, monkeypatch
+):
+    monkeypatch.setattr(f"contactkit.contact.{loop}._MOST_ROUNDS", 1)
+    plan = made(*effects, grid=32, pressing=ck.Pressing(pressure=3e8))
+    with pytest.raises(ck.ConvergenceError, match=problem) as caught:
+        ck.solve(plan)
+    reached = ck.solve(plan, throw=False)
+    assert (reached.status, reached.message) == ("not converged", str(caught.value))
+    np.testing.assert_array_equal(caught.value.result.pressure, reached.pressure)
+    assert reached.residual < 1e-8
+    assert reached.load == pytest.approx(3e8 * reached.plan.grid.area, rel=0.5)
+
+
 def test_a_roughness_is_the_same_surface_every_time_and_another_for_another_seed():
     one, again = solved(grid=32), solved(grid=32)
     np.testing.assert_array_equal(one.heights, again.heights)
