@@ -18,7 +18,7 @@ Examples
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
-  on   tension-limit       the liquid cannot be pulled below a given pressure (tension=1000000.0, ambient_pressure=101325.0, cavity='clipped')
+  on   tension-limit       the liquid cannot be pulled below a given pressure (tension=1000000.0, ambient_pressure=101325.0, cavity='truncated')
   off  shear-limit         wall shear stress bounded by a limiting shear strength
   off  rupture             the film breaks at a gap
   off  van-der-waals-force van der Waals attraction of the solids

@@ -1,4 +1,4 @@
-"""How well to solve; never which physics, never part of a scene."""
+"""Numerical settings of a plan: tolerances, grids, solver. Physics belongs to the scene."""
 
 from __future__ import annotations
 
@@ -29,30 +29,30 @@ def _grid(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 @frozen(kw_only=True)
 class Accuracy:
-    """Numerical settings of a plan: of a separation the first three, of a contact the others.
+    """Numerical settings of a plan; the first three apply to separation, the others to contact.
 
     Parameters
     ----------
     time_rtol : float
-        Error allowed in a step of time, relative to the gap and to the momentum delivered so
-        far [-]. The release time of the reference cases comes out about this well.
+        Tolerance of the local error of a time step, relative to the gap and to the momentum
+        transferred so far [-]. The release times of the reference cases have about this error.
     points : int
-        Points along a curve over gaps (imposed speed or time).
+        Points of a curve over the gap (imposed speed or time).
     max_steps : int
-        Steps of time after which an integration gives up.
+        Maximum number of time steps of an integration.
     grid : int or (int, int), optional
-        Pixels of the window of a contact, (ny, nx) or the same both ways. None: those of a
+        Pixels of the window of a contact, (ny, nx) or one number for both. None: those of the
         measured surface, else 256.
     rtol : float
-        Largest violation of the contact conditions anywhere, relative to the rms height of the
-        surface [-]: overlap, or a gap under pressure. Outer iterations (hardness, friction,
-        film) are held to a hundred times this, relative to what they change.
+        Maximum violation of the contact conditions, relative to the rms height of the surface
+        [-]: overlap, or a gap under pressure. The tolerance of the outer iterations (hardness,
+        friction, film) is 100 `rtol`, relative to the quantity they change.
     method : {"active-set", "quasi-newton", "conjugate-gradient"}
-        Solver of the contact; the last two are there to be compared with.
+        Solver of the contact; the last two are references for comparison.
     max_iterations : int
-        Steps after which the solver of a contact gives up.
+        Maximum number of iterations of the contact solver.
     threads : int
-        Threads of the transforms.
+        Threads of the Fourier transforms.
 
     Examples
     --------
@@ -76,7 +76,7 @@ class Accuracy:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Pixels (ny, nx) of a window that no measured surface sets."""
+        """Pixels (ny, nx) of a window without a measured surface."""
         if isinstance(self.grid, tuple):
             return self.grid
         n = self.grid if self.grid is not None else 256
@@ -84,7 +84,7 @@ class Accuracy:
 
     @property
     def outer_rtol(self) -> float:
-        """Tolerance of the outer iterations of a contact, relative to what they change [-]."""
+        """Tolerance of the outer iterations, relative to the quantity they change [-]."""
         return min(100.0 * self.rtol, 0.1)
 
     draft: ClassVar[Accuracy]

@@ -1,4 +1,4 @@
-"""The errors contactkit raises: each says what is wrong, with which value, and how to cure it."""
+"""Exceptions and warnings: each message names the field, the value, what is expected, the cure."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ __all__ = [
 
 
 class ContactkitError(Exception):
-    """Anything contactkit refuses or cannot do."""
+    """Base class of the exceptions of contactkit."""
 
 
 class DescriptionError(ContactkitError, ValueError):
-    """A number, a name or a file that describes something impossible.
+    """An invalid number, name or file in a description.
 
     Parameters
     ----------
     field : str
-        What is wrong, as ``Owner.field``.
+        The field at fault, as ``Owner.field``.
     value : object
-        What was given.
+        The value given.
     expected : str
-        What would have been right, after "must".
+        The requirement, after "must".
     unit : str, optional
-        The unit the value was read in.
+        Unit in which the value was read.
     hint : str, optional
-        The cure, where one can be guessed.
+        The cure, where one is known.
 
     Examples
     --------
@@ -51,7 +51,7 @@ class DescriptionError(ContactkitError, ValueError):
         super().__init__(f"{field} must {expected}{bracket}, got {value!r}{cure}")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let processes send it: its message is made anew from its parts."""
+        """Pickle the exception by its parts, for transfer between processes."""
         return _description_error, (
             self.field,
             self.value,
@@ -75,11 +75,11 @@ class PlanError(ContactkitError, ValueError):
 
 
 class InfeasibleError(PlanError):
-    """No answer exists: the message names the limit that is passed."""
+    """No solution exists: the message names the limit that is exceeded."""
 
 
 class ConvergenceError(ContactkitError, RuntimeError):
-    """A solve did not reach its tolerance; `result` holds the best that was found."""
+    """A solver did not reach its tolerance; `result` holds the best iterate."""
 
     def __init__(self, message: str, result: Any = None) -> None:
         super().__init__(message)
@@ -87,7 +87,7 @@ class ConvergenceError(ContactkitError, RuntimeError):
 
 
 class NotSimulatedError(ContactkitError, LookupError):
-    """A quantity of an effect that the scene did not call for."""
+    """A quantity of an effect that the scene does not include."""
 
 
 class ValidityWarning(UserWarning):

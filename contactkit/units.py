@@ -1,6 +1,7 @@
-"""Units: written once beside each field, read by messages, files, plots, results and FMUs.
+"""Units of measurement: parsing, conversion to SI, and the metadata of each field.
 
-Everything inside contactkit is in SI units and radians. A unit is written as a product of
+Inside contactkit all values are in SI units and radians. The unit of a field is written once, in
+its metadata, and read by messages, files, plots, results and FMUs. A unit is a product of
 symbols, ``N.s/m``, ``mm2/s`` or ``kg/m^3``; a quantity is a number, a space and a unit.
 """
 
@@ -130,7 +131,7 @@ def parse_unit(text: str) -> Unit:
     Raises
     ------
     DescriptionError
-        If a symbol is not known.
+        If a symbol is unknown.
 
     Examples
     --------
@@ -169,21 +170,21 @@ def _scaled(number: str, factor: float) -> float:
 
 
 def parse_quantity(value: object, unit: str, field: str = "value") -> float:
-    """Number in SI units of `unit`, from a number or a text such as ``"2.5 nm"``.
+    """Convert a number, or a text such as ``"2.5 nm"``, to SI units.
 
     Parameters
     ----------
     value : float or str
-        A number is taken to be in `unit` already; a text carries its own unit.
+        A number is taken to be in `unit`; a text carries its own unit.
     unit : str
-        The SI unit the field is in.
+        SI unit of the field.
     field : str
         Name of the field, for messages.
 
     Raises
     ------
     DescriptionError
-        If the text is not a number and a unit, or its unit does not measure the same thing.
+        If the text is not a number and a unit, or the unit is of another dimension.
 
     Examples
     --------

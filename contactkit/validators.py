@@ -1,4 +1,4 @@
-"""Validators and converters of attrs fields: one message shape for every impossible number."""
+"""Validators and converters of attrs fields, with one form of error message."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 def refuse(
     owner: object, attribute: Attribute[Any], value: object, expected: str, hint: str = ""
 ) -> DescriptionError:
-    """Build the error that names the owner, the field, its unit and the value."""
+    """Return the error that names owner, field, unit and value."""
     unit = attribute.metadata.get("unit", "")
     name = f"{type(owner).__name__}.{attribute.name}"
     return DescriptionError(name, value, expected, unit="" if unit == "-" else unit, hint=hint)
@@ -67,7 +67,7 @@ def fraction(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 def angle(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """Refuse an angle outside 0 to pi; suspect degrees if it looks like them."""
+    """Refuse an angle outside 0 to pi; the hint suggests degrees for a value that may be some."""
     if not (_is_number(value) and 0.0 <= value <= math.pi):
         degrees = _is_number(value) and math.pi < value <= 180.0
         hint = (
@@ -85,7 +85,7 @@ def count(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 def optional(check: Validator) -> Validator:
-    """Allow None, meaning "not given", beside whatever `check` allows."""
+    """Allow None (not given) besides what `check` allows."""
 
     def check_if_given(owner: object, attribute: Attribute[Any], value: Any) -> None:
         if value is not None:
@@ -95,7 +95,7 @@ def optional(check: Validator) -> Validator:
 
 
 def choice(*options: str) -> Validator:
-    """Refuse anything but one of some words."""
+    """Refuse anything but one of the given words."""
 
     def check_choice(owner: object, attribute: Attribute[Any], value: Any) -> None:
         if value not in options:
@@ -105,7 +105,7 @@ def choice(*options: str) -> Validator:
 
 
 def part(*kinds: type) -> Validator:
-    """Refuse anything but an object of some kinds."""
+    """Refuse anything but an instance of the given classes."""
 
     def check_part(owner: object, attribute: Attribute[Any], value: Any) -> None:
         if not isinstance(value, kinds):
@@ -115,10 +115,10 @@ def part(*kinds: type) -> Validator:
 
 
 def as_tuple(value: Any) -> tuple[Any, ...]:
-    """Convert any collection, or a single thing, to a tuple."""
+    """Convert a collection, or a single object, to a tuple."""
     return tuple(value) if isinstance(value, Iterable) else (value,)
 
 
 def as_pair(value: Any) -> Any:
-    """Convert a list, as files give it, to a tuple; leave one number as it is."""
+    """Convert a list (from a file) to a tuple; leave a single number unchanged."""
     return tuple(value) if isinstance(value, list) else value

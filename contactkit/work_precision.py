@@ -1,4 +1,4 @@
-"""What accuracy costs in time: error, counts and seconds of a set of settings."""
+"""Work-precision: error, operation counts and seconds over a set of settings."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ __all__ = ["Outcome", "Point", "Setting", "WorkPrecision", "sweep"]
 
 @frozen
 class Outcome:
-    """What one run gives: the number that is judged, and what it took.
+    """Value computed by one run, and its operation counts.
 
-    `error` is its relative error where that is not the one of a single number, such as the norm
-    of the error of a map.
+    `error` is the relative error where it is not that of a single number, such as the norm of
+    the error of a map.
     """
 
     value: float
@@ -28,12 +28,12 @@ class Outcome:
 
 @frozen
 class Setting:
-    """One way to get the answer: the method (a line of the picture), its setting, and the run."""
+    """One method (a line of the figure) with one setting, and the function that runs it."""
 
     method: str
     label: str
     run: Callable[[], Outcome]
-    is_model: bool = False  # its error is one of physics: it does not fall with the setting
+    is_model: bool = False  # a modelling error, which does not fall with the setting
 
 
 @frozen
@@ -51,7 +51,7 @@ class Point:
 
 @frozen
 class WorkPrecision:
-    """The points of a sweep, against a reference with an error of its own."""
+    """Errors and costs of a sweep; errors are relative to a reference of known accuracy."""
 
     quantity: str
     reference: float
@@ -59,12 +59,12 @@ class WorkPrecision:
     points: tuple[Point, ...]
 
     def cheapest(self, error: float) -> Point:
-        """Return the fastest setting with at most this relative error; never another model.
+        """Return the fastest setting with at most this relative error, models excluded.
 
         Raises
         ------
         InfeasibleError
-            If no setting is that accurate; names the best there is.
+            If no setting is that accurate; the message names the best one.
         """
         good = [p for p in self.points if p.error <= error and not p.is_model]
         if not good:
@@ -77,14 +77,14 @@ class WorkPrecision:
         return min(good, key=lambda p: p.seconds)
 
     def table(self) -> str:
-        """Return the points as text, one to a line."""
+        """Return the points as text, one per line."""
         head = f"{'method':34s} {'setting':16s} {'error':>9s} {'seconds':>9s}  counts"
         rows = [head]
         for p in self.points:
             counts = ", ".join(f"{k} {v}" for k, v in p.counts.items())
             error = f"{p.error:9.1e}" if math.isfinite(p.error) else "   failed"
             if p.error > 1.0:
-                counts += "  WRONG: looks like an answer and is none"
+                counts += "  WRONG: plausible, and not a solution"
             rows.append(
                 f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
             )
@@ -105,19 +105,19 @@ def sweep(
     budget: float = 2.0,
     progress: Callable[[float], None] | None = None,
 ) -> WorkPrecision:
-    """Run every setting and measure it.
+    """Run and time every setting.
 
     Parameters
     ----------
     settings : sequence of Setting
-        What to run. Each runs once untimed, then up to `repeats` times within `budget` [s]; the
-        best time counts. With no repeats the first run counts.
+        Settings to run. Each runs once untimed, then up to `repeats` times within `budget` [s];
+        the best time counts. With no repeats the first run counts.
     reference : float
-        The answer, by another method than those judged, or a closed form.
+        Reference value, from a closed form or a method other than those compared.
     quantity : str
-        What the answer is.
+        Name of the quantity.
     floor : float
-        Relative error of the reference itself; an error below it means nothing.
+        Relative error of the reference itself; errors below it are not significant.
     """
     points = []
     for i, setting in enumerate(settings):

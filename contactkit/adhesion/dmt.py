@@ -1,17 +1,17 @@
-r"""DMT: adhesion around a contact of Hertz' shape, for stiff, small, weakly sticky bodies.
+r"""DMT adhesion: attraction outside a contact of Hertzian shape, for stiff, small bodies.
 
-In the units of `adhesion_scales`, with a contact radius a, a load P (a pull is negative) and an
-approach delta (a gap h is its negative):
+In the units of `parameters`, with contact radius a, load P (tensile if negative) and approach delta
+(a gap h is its negative):
 
 .. math:: P = a^3 - 2, \qquad \delta = a^2
 
-Before touch the surfaces keep their shape and attract by a constant stress across gaps up to
-:math:`h_0 = 2 / (\pi \lambda)`, which is Dugdale's picture and the limit of `maugis_dugdale` for
+Out of contact the surfaces are undeformed and attract with a constant stress across gaps up to
+:math:`h_0 = 2 / (\pi \lambda)` (Dugdale); this is the limit of `maugis_dugdale` for
 :math:`\lambda \to 0`:
 
 .. math:: -P = 2 (1 - h / h_0)
 
-Only ``+ - * / **`` touch the arguments: floats or arrays; nothing is checked.
+Arguments are floats or arrays and are not checked.
 
 References
 ----------
@@ -30,12 +30,12 @@ PULL_OFF_FORCE = 2.0
 
 
 def load(contact_radius: Any) -> Any:
-    """Load on a contact of a radius; its approach is the square of the radius."""
+    """Load on a contact of given radius; the approach is the square of the radius."""
     return contact_radius**3 - PULL_OFF_FORCE
 
 
 def radius_at_load(load: Any) -> Any:
-    """Contact radius under a load of -2 or more.
+    """Contact radius under a load of at least -2.
 
     Examples
     --------
@@ -46,12 +46,12 @@ def radius_at_load(load: Any) -> Any:
 
 
 def reach(transition: Any) -> Any:
-    r"""Largest gap across which the surfaces attract, :math:`2 / (\pi \lambda)`."""
+    r"""Range of the attraction: maximum gap, :math:`2 / (\pi \lambda)`."""
     return 2.0 / (math.pi * transition)
 
 
 def force_before_touch(gap: Any, transition: Any) -> Any:
-    """Attraction of surfaces that do not touch, at a gap within their reach.
+    """Attraction out of contact, at a gap within its range.
 
     Examples
     --------

@@ -1,14 +1,14 @@
-r"""JKR: adhesion inside the contact only, for soft, large, sticky bodies.
+r"""JKR adhesion: attraction inside the contact only, for compliant, large bodies.
 
-In the units of `adhesion_scales`, with a contact radius a, a load P (a pull is negative) and an
-approach delta (a gap is its negative):
+In the units of `parameters`, with contact radius a, load P (tensile if negative) and approach delta
+(a gap is its negative):
 
 .. math:: P = a^3 - \sqrt{6 a^3}, \qquad \delta = a^2 - \tfrac{2}{3} \sqrt{6 a}
 
-The surfaces meet, or they do not attract at all: no force bridges a gap before touch. But once they
-have met, the contact draws out a neck and lives on at gaps up to `LAST_GAP`.
+There is no attraction before contact. Once in contact, the surfaces form a neck and stay in contact
+up to the gap `LAST_GAP`.
 
-Plain floats; nothing is checked.
+Arguments are floats and are not checked.
 
 References
 ----------
@@ -31,15 +31,15 @@ __all__ = [
     "radius_at_load",
 ]
 
-PULL_OFF_FORCE = 1.5  # largest pull: where a dead weight tears the contact off
+PULL_OFF_FORCE = 1.5  # maximum tensile load: pull-off under load control
 PULL_OFF_RADIUS = 1.5 ** (1.0 / 3.0)
-LAST_RADIUS = 6.0 ** (-1.0 / 3.0)  # where it lets go of a stiff puller
+LAST_RADIUS = 6.0 ** (-1.0 / 3.0)  # at pull-off under displacement control
 LAST_FORCE = 5.0 / 6.0
 LAST_GAP = 3.0 * LAST_RADIUS**2
 
 
 def load(contact_radius: float) -> float:
-    """Load on a contact of a radius.
+    """Load on a contact of given radius.
 
     Examples
     --------
@@ -51,12 +51,12 @@ def load(contact_radius: float) -> float:
 
 
 def approach(contact_radius: float) -> float:
-    """Approach of a contact of a radius."""
+    """Approach of a contact of given radius."""
     return contact_radius**2 - 2.0 / 3.0 * math.sqrt(6.0 * contact_radius)
 
 
 def radius_at_load(load: float) -> float:
-    r"""Contact radius under a load of -1.5 or more, on the branch on which it can rest.
+    r"""Contact radius under a load of at least -1.5, on the branch stable under load control.
 
     .. math:: a^{3/2} = \tfrac{1}{2} \left( \sqrt 6 + \sqrt{6 + 4 P} \right)
     """
@@ -65,10 +65,10 @@ def radius_at_load(load: float) -> float:
 
 
 def radius_at_gap(gap: float) -> float:
-    r"""Contact radius at a gap of at most `LAST_GAP`, on the branch a stiff puller follows.
+    r"""Contact radius at a gap of at most `LAST_GAP`, on the displacement-controlled branch.
 
     The largest root of :math:`x^4 - \tfrac{2}{3} \sqrt 6 \, x + h` at :math:`x = \sqrt a`, by
-    Newton's method from above, where the quartic is convex: each step stays above the root.
+    Newton's method from above, where the quartic is convex: the iterates stay above the root.
 
     Examples
     --------
@@ -83,7 +83,7 @@ def radius_at_gap(gap: float) -> float:
         if gradient <= 0.0:
             return LAST_RADIUS
         step = (x**4 - slope * x + gap) / gradient
-        if step <= 1e-16 * x:  # rounding has the better of it
+        if step <= 1e-16 * x:  # converged to round-off
             break
         x -= step
     return float(max(x, last) ** 2)

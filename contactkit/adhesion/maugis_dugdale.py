@@ -1,7 +1,7 @@
-r"""Maugis-Dugdale: adhesion in a ring of constant stress, from DMT to JKR and all between.
+r"""Maugis-Dugdale adhesion: a cohesive zone of constant stress; the transition from DMT to JKR.
 
-Contact up to the radius a; from there to c the surfaces are apart by less than the reach
-:math:`h_0 = w/\sigma_0` and attract with the stress sigma_0. In the units of `adhesion_scales`,
+Contact up to the radius a; from there to c the surfaces are apart by less than the range
+:math:`h_0 = w/\sigma_0` and attract with the stress sigma_0. In the units of `parameters`,
 with :math:`s^2 = c^2 - a^2`, :math:`\varphi = \arctan(s/a)` and the transition parameter lambda:
 
 .. math::
@@ -9,17 +9,17 @@ with :math:`s^2 = c^2 - a^2`, :math:`\varphi = \arctan(s/a)` and the transition 
          + \frac{4 \lambda^2}{3} \left[ s \varphi - \frac{s^2}{a + c} \right] \\
     P &= a^3 - \lambda (a s + c^2 \varphi), \qquad \delta = a^2 - \tfrac{4}{3} \lambda s
 
-The first is Maugis' condition that the ring ends at the reach, sorted so that no terms cancel for
-a narrow ring (JKR), and so that a = 0 is a value like any other (DMT). A load P is negative where
-it pulls; the gap is the negative of the approach delta.
+The first is Maugis' condition that the cohesive zone ends at the range h_0, arranged so that no
+terms cancel for a narrow zone (JKR) and that a = 0 is regular (DMT). A tensile load P is negative;
+the gap is the negative of the approach delta.
 
-For :math:`\lambda < 0.938` the bodies part without letting go at touch: with no contact left, a
-disc of radius c goes on to attract,
+For :math:`\lambda < 0.938` the attraction outlasts the contact: with a = 0, a disc of radius c
+still attracts,
 
 .. math:: -\delta = \frac{2}{\pi \lambda} - \frac{c^2}{2} + \frac{8 \lambda c}{3 \pi}, \qquad
           -P = \frac{\pi}{2} \lambda c^2
 
-Plain floats; nothing is checked.
+Arguments are floats and are not checked.
 
 References
 ----------
@@ -45,13 +45,13 @@ __all__ = [
 ]
 
 PARTS_BEFORE_RELEASE = (9.0 * math.pi / (16.0 * (math.pi - 1.0))) ** (1.0 / 3.0)
-"""Transition parameter, 0.938, below which contact is lost before the attraction is."""
+"""Transition parameter, 0.938, below which the contact is lost before the attraction."""
 
 _TWO_THIRDS, _FOUR_THIRDS = 2.0 / 3.0, 4.0 / 3.0
 
 
 class Cohesion(NamedTuple):
-    """A contact with its ring of attraction; contact radius 0 where the bodies are apart."""
+    """A contact and its cohesive zone; contact radius 0 out of contact."""
 
     contact_radius: float
     cohesive_radius: float
@@ -60,11 +60,11 @@ class Cohesion(NamedTuple):
 
 
 class Limits(NamedTuple):
-    """How far a contact can be pulled.
+    """Limit states of an adhesive contact.
 
-    `pull_off` is the state of the largest pull, at which a dead weight tears it off; `release` the
-    one of the largest gap, at which it lets go of a stiff puller; `touch` the one in which two
-    bodies just touch in a point (that of release where contact ends there).
+    `pull_off` is the state of maximum tensile load (pull-off under load control); `release` that of
+    maximum gap (pull-off under displacement control); `touch` that of contact in a point (equal to
+    `release` where the contact ends there).
     """
 
     pull_off: Cohesion
@@ -83,7 +83,7 @@ def _less_its_arctangent(t: float) -> float:
 
 
 def _energy(a: float, s: float, transition: float) -> tuple[float, float]:
-    """Right-hand side of the condition on the ring, and its slope by s."""
+    """Right-hand side of the condition on the cohesive zone, and its derivative by s."""
     angle, c = math.atan2(s, a), math.hypot(a, s)
     thin = a * a * _less_its_arctangent(s / a) if a > s else a * (s - a * angle)
     bent, flat = s * s * angle + thin, s * angle - s * s / (a + c)
@@ -94,7 +94,7 @@ def _energy(a: float, s: float, transition: float) -> tuple[float, float]:
 
 
 def _loss(a: float, s: float, transition: float) -> float:
-    """Slope of the same by a, over a; it has a limit at a = 0."""
+    """Derivative of `_energy` by a, over a; it has a limit at a = 0."""
     square = a * a + s * s
     bent = s * a / square - math.atan2(s, a)
     flat = s * s / (square * (a + math.sqrt(square)))
@@ -102,13 +102,13 @@ def _loss(a: float, s: float, transition: float) -> float:
 
 
 def _spread(a: float, s: float, transition: float) -> float:
-    """Slope ds/da of the ring, over a."""
+    """Derivative ds/da along the solutions, over a."""
     return -_loss(a, s, transition) / _energy(a, s, transition)[1]
 
 
 def _width(a: float, transition: float) -> float:
-    """Solve the condition on the ring for s, by Newton's method between logarithms."""
-    # Without contact the condition is quadratic; the ring around a contact is narrower in s/a only.
+    """Solve the condition on the cohesive zone for s, by Newton's method in logarithms."""
+    # For a = 0 the condition is quadratic; around a contact the zone is narrower in s/a only.
     b, q = _TWO_THIRDS * (math.pi - 2.0) * transition, 0.25 * math.pi * transition
     s = 2.0 / (b * transition + math.sqrt((b * transition) ** 2 + 4.0 * q))
     for _ in range(60):
@@ -121,7 +121,7 @@ def _width(a: float, transition: float) -> float:
 
 
 def at_radius(contact_radius: float, transition: float) -> Cohesion:
-    """State of a contact of a radius (0 or more), in Maugis' units.
+    """State of a contact of given radius (0 or more), in Maugis' units.
 
     Examples
     --------
@@ -147,7 +147,7 @@ def _apart(c: float, transition: float) -> Cohesion:
 
 
 def limits(transition: float) -> Limits:
-    """Where a contact of a transition parameter is pulled off, by a weight and by a stiff puller.
+    """Limit states for a transition parameter: pull-off under load and displacement control.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def limits(transition: float) -> Limits:
     def approach_slope(a: float) -> float:
         return 2.0 - _FOUR_THIRDS * transition * _spread(a, _width(a, transition), transition)
 
-    # JKR's radius, 1.14, is the largest there is.
+    # The radius of JKR, 1.14, is an upper bound.
     weight = bracketed_root(load_slope, 0.0, 1.5, 1e-13)
     if transition < PARTS_BEFORE_RELEASE:
         touch = at_radius(0.0, transition)
@@ -174,7 +174,7 @@ def limits(transition: float) -> Limits:
 
 
 def at_load(load: float, transition: float, bounds: Limits) -> Cohesion:
-    """State of a contact that rests under a load of at least that of `pull_off`.
+    """Stable state under a load of at least that of `pull_off`.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def at_load(load: float, transition: float, bounds: Limits) -> Cohesion:
     low = bounds.pull_off.contact_radius
     if load <= bounds.pull_off.load:
         return bounds.pull_off
-    # DMT has the smallest contact under a load, JKR the largest.
+    # The contact radius lies between that of DMT and that of JKR.
     high = (0.5 * (math.sqrt(6.0) + math.sqrt(max(6.0 + 4.0 * load, 0.0)))) ** _TWO_THIRDS
     high = 1.001 * max(high, low) + 1e-3
 
@@ -197,9 +197,9 @@ def at_load(load: float, transition: float, bounds: Limits) -> Cohesion:
 
 
 def at_gap(gap: float, transition: float, bounds: Limits) -> Cohesion:
-    """State at a gap of at most that of `release`, on the branch that a stiff puller follows.
+    """State at a gap of at most that of `release`, on the displacement-controlled branch.
 
-    One equation in the contact radius, as the approach gives s.
+    One equation in the contact radius, because the approach determines s.
 
     Examples
     --------
@@ -217,7 +217,7 @@ def at_gap(gap: float, transition: float, bounds: Limits) -> Cohesion:
 
 
 def _in_contact(gap: float, transition: float, touch: Cohesion) -> Cohesion:
-    """State at a gap with a contact: Newton's method in its radius, kept inside a bracket."""
+    """State in contact at a gap: safeguarded Newton's method in the contact radius."""
     per_width = 0.75 / transition
 
     def excess(a: float) -> tuple[float, float]:

@@ -1,9 +1,9 @@
-r"""What measures an adhesive contact of a sphere: Maugis' units, and how sharp its adhesion is.
+r"""Parameters of an adhesive sphere contact: Maugis' units, Tabor and transition parameters.
 
-The kernels `jkr`, `dmt` and `maugis_dugdale` speak in these units, in which a sphere has no
-parameter left but the transition parameter. A load is positive where it presses, so that a pull is
-negative; an approach is positive where the bodies interpenetrate, so that a gap is its negative.
-Plain arithmetic: floats or arrays; nothing is checked.
+`jkr`, `dmt` and `maugis_dugdale` use these units, in which the transition parameter is the only
+parameter of a sphere. A compressive load is positive; an approach is positive where the
+undeformed bodies would overlap, so that a gap is its negative. Arguments are floats or arrays and
+are not checked.
 
 =========  ==============================================  =======
 symbol     quantity                                        unit
@@ -13,7 +13,7 @@ w          work of adhesion                                J/m2
 E*         contact modulus, 1/E* = sum (1 - nu^2)/E        Pa
 K          4 E*/3                                          Pa
 sigma_0    cohesive stress                                 Pa
-z_0        distance at which surfaces are in equilibrium   m
+z_0        equilibrium separation of the surfaces          m
 =========  ==============================================  =======
 
 References
@@ -69,7 +69,7 @@ def scales(radius: Any, work: Any, modulus: Any) -> AdhesionScales:
 
 
 def cohesive_stress(work: Any, equilibrium_distance: Any) -> Any:
-    r"""Largest attraction [Pa] of surfaces whose atoms follow Lennard-Jones.
+    r"""Maximum attraction [Pa] of half-spaces with Lennard-Jones interaction.
 
     .. math:: \sigma_0 = \frac{16}{9 \sqrt 3} \frac{w}{z_0}
 
@@ -82,7 +82,7 @@ def cohesive_stress(work: Any, equilibrium_distance: Any) -> Any:
 
 
 def tabor_parameter(radius: Any, work: Any, modulus: Any, equilibrium_distance: Any) -> Any:
-    r"""Height of the neck over the reach of the attraction [-].
+    r"""Tabor parameter [-]: height of the neck over the range of the attraction.
 
     .. math:: \mu = \left( \frac{R w^2}{E^{*2} z_0^3} \right)^{1/3}
 
@@ -97,7 +97,7 @@ def tabor_parameter(radius: Any, work: Any, modulus: Any, equilibrium_distance: 
 
 
 def transition_parameter(radius: Any, work: Any, modulus: Any, stress: Any) -> Any:
-    r"""Maugis' parameter [-]; 1.157 times Tabor's for the stress of `cohesive_stress`.
+    r"""Maugis' transition parameter [-]; 1.157 times Tabor's for the stress `cohesive_stress`.
 
     .. math:: \lambda = 2 \sigma_0 \left( \frac{R}{\pi w K^2} \right)^{1/3}
 

@@ -1,20 +1,20 @@
-r"""Van der Waals attraction of two bodies by Hamaker's sum over pairs, not retarded.
+r"""Non-retarded van der Waals attraction of two bodies (Hamaker's pairwise summation).
 
-Positive forces attract; energies are zero at infinity, so they are negative. Only ``+ - * / **``
-and the logarithm touch the arguments, so each may be a float or an array; nothing is checked.
+Positive forces attract; energies are zero at infinity, hence negative. Arguments are floats or
+arrays and are not checked.
 
 =========  ============================================  =======
 symbol     quantity                                      unit
 =========  ============================================  =======
 D          shortest distance of the surfaces             m
-A          Hamaker constant of the bodies through what   J
-           lies between them
+A          Hamaker constant of the bodies across the     J
+           medium between them
 kappa      curvature of a body, 1/R; 0 for a flat        1/m
 =========  ============================================  =======
 
-Validity: retardation weakens the force by a tenth at some nanometres and by half at some ten
+Validity: retardation reduces the force by a tenth at a few nanometres and by half at some ten
 (by Gregory's fit :math:`1/(1 + 5.32 D/\lambda)` of the energy between flats, with a wavelength
-near 100 nm: 0.79 at 5 nm, 0.65 at 10 nm); below a cut-off near 0.165 nm matter is no continuum.
+near 100 nm: 0.79 at 5 nm, 0.65 at 10 nm); below a cut-off near 0.165 nm the continuum ends.
 
 References
 ----------
@@ -40,7 +40,7 @@ __all__ = [
 
 
 def pressure_between_flats(gap: Any, hamaker: Any) -> Any:
-    r"""Attraction of two half-spaces per area [Pa].
+    r"""Attraction of two half-spaces per unit area [Pa].
 
     .. math:: p = \frac{A}{6 \pi D^3}
 
@@ -60,12 +60,12 @@ def pressure_between_flats(gap: Any, hamaker: Any) -> Any:
 
 
 def energy_between_flats(gap: Any, hamaker: Any) -> Any:
-    r"""Energy of two half-spaces per area [J/m2], :math:`-A / 12 \pi D^2`."""
+    r"""Energy of two half-spaces per unit area [J/m2], :math:`-A / 12 \pi D^2`."""
     return -hamaker / (12.0 * math.pi * gap**2)
 
 
 def work_of_hamaker(hamaker: Any, cutoff: Any) -> Any:
-    r"""Work of adhesion [J/m2] that a Hamaker constant [J] and a cut-off [m] stand for.
+    r"""Work of adhesion [J/m2] from a Hamaker constant [J] and a cut-off [m].
 
     .. math:: w = \frac{A}{12 \pi D_0^2}
 
@@ -78,17 +78,17 @@ def work_of_hamaker(hamaker: Any, cutoff: Any) -> Any:
 
 
 def hamaker_of_work(work: Any, cutoff: Any) -> Any:
-    r"""Hamaker constant [J] of a work of adhesion [J/m2], :math:`12 \pi D_0^2 w`."""
+    r"""Hamaker constant [J] from a work of adhesion [J/m2], :math:`12 \pi D_0^2 w`."""
     return 12.0 * math.pi * cutoff**2 * work
 
 
 def sphere_force(gap: Any, hamaker: Any, curvature: Any) -> Any:
-    r"""Attraction [N] of two bodies of relative curvature 1/R that are close.
+    r"""Attraction [N] of two close bodies of relative curvature 1/R.
 
     .. math:: F = \frac{A R}{6 D^2}
 
-    Derjaguin's sum of the flats' energy. Too much by the share D/R for a sphere on a flat, by
-    more for two spheres: `hamaker_sphere_force` leaves nothing of the shape out.
+    Derjaguin approximation. Too large by the fraction D/R for a sphere on a flat, by more for two
+    spheres: `hamaker_sphere_force` takes the full shape.
 
     Examples
     --------
@@ -99,14 +99,14 @@ def sphere_force(gap: Any, hamaker: Any, curvature: Any) -> Any:
 
 
 def hamaker_sphere_force(gap: Any, hamaker: Any, curvature_lower: Any, curvature_upper: Any) -> Any:
-    r"""Attraction [N] of two whole spheres, of which one may be a half-space, at any distance.
+    r"""Attraction [N] of two full spheres, of which one may be a half-space, at any distance.
 
     .. math:: F = \frac{32 A}{3} \, \frac{z}{D^2 \, (D \kappa_1 \kappa_2 + 2 \kappa)^2
               (D \kappa_1 + 2)^2 (D \kappa_2 + 2)^2}, \qquad
               \kappa = \kappa_1 + \kappa_2, \quad z = D \kappa_1 \kappa_2 + \kappa
 
-    Hamaker's energy differentiated by hand: its logarithm and fractions, which cancel to the third
-    order far away, leave one product.
+    The analytic derivative of Hamaker's energy: its logarithm and fractions, which cancel to third
+    order at large distance, combine into one product.
 
     Parameters
     ----------
@@ -133,13 +133,13 @@ def hamaker_sphere_force(gap: Any, hamaker: Any, curvature_lower: Any, curvature
 
 
 def energy_between_spheres(gap: float, hamaker: float, lower: float, upper: float) -> float:
-    r"""Energy [J] of two spheres of radii `lower` and `upper` [m], after Hamaker; plain floats.
+    r"""Energy [J] of two spheres of radii `lower` and `upper` [m], after Hamaker.
 
     .. math:: U = -\frac{A}{6} \left[ \frac{2 R_1 R_2}{s} + \frac{2 R_1 R_2}{t}
               + \ln \frac{s}{t} \right], \qquad
               s = D (D + 2 R_1 + 2 R_2), \quad t = (D + 2 R_1)(D + 2 R_2)
 
-    Far away (D > 100 R) the three terms cancel and digits are lost.
+    At large distance (D > 100 R) the three terms cancel and digits are lost.
     """
     s = gap * (gap + 2.0 * (lower + upper))
     t = (gap + 2.0 * lower) * (gap + 2.0 * upper)

@@ -207,7 +207,8 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
             ),
             "ViscousForce() with closure='volume-conserving'": viscous is not None
             and viscous.closure == "volume-conserving",
-            "TensionLimit with cavity='clipped'": tension is None or tension.cavity == "clipped",
+            "TensionLimit with cavity='truncated'": tension is None
+            or tension.cavity == "truncated",
             "Rupture with a gap [m]": rupture is None
             or rupture.gap is not None
             or (rupture.criterion == "limit" and film is not None and film.profile == "exact"),

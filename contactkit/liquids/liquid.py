@@ -1,4 +1,4 @@
-"""Liquids: surface tension, viscosity and density, as constants or as laws of temperature."""
+"""Liquids: surface tension, viscosity and density, constant or as functions of temperature."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..errors import DescriptionError
 from ..units import si
 from ..validators import optional, positive, refuse
 from .temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw, celsius_hint
-from .viscosity import MOST_KINEMATIC_VISCOSITY, VogelViscosity, WaltherViscosity, centistokes_hint
+from .viscosity import MAX_KINEMATIC_VISCOSITY, VogelViscosity, WaltherViscosity, centistokes_hint
 from .water import IapwsSurfaceTension, KellWaterDensity
 
 __all__ = ["LAWS", "Liquid", "LiquidState"]
@@ -25,12 +25,12 @@ LAWS: tuple[type[TemperatureLaw], ...] = (
 )
 """Every law a file can name, by its `kind`; which property it gives follows from its `unit`."""
 
-_MOST_TENSION = 10.0  # [N/m]
-_MOST_MOLAR_MASS = 10.0  # [kg/mol]
+_MAX_SURFACE_TENSION = 10.0  # [N/m]
+_MAX_MOLAR_MASS = 10.0  # [kg/mol]
 
 
 class LiquidState(NamedTuple):
-    """A liquid at one temperature; None is what the liquid does not tell."""
+    """Properties of a liquid at one temperature; None where the liquid does not define one."""
 
     surface_tension: float | None
     """[N/m]"""
@@ -43,7 +43,7 @@ class LiquidState(NamedTuple):
 
 
 def _constant_or_law(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """Refuse anything but a positive number or a law that gives this very property."""
+    """Refuse anything but a positive number or a law of the same unit."""
     if not isinstance(value, TemperatureLaw):
         positive(owner, attribute, value)
     elif value.unit != attribute.metadata["unit"]:
@@ -58,62 +58,62 @@ def _constant_or_law(owner: object, attribute: Attribute[Any], value: Any) -> No
 
 
 def _tension(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """As `_constant_or_law`, and suspect millinewtons; molten metals reach 2.5 N/m."""
+    """Like `_constant_or_law`; the hint suggests mN/m, as molten metals reach only 2.5 N/m."""
     _constant_or_law(owner, attribute, value)
-    if not isinstance(value, TemperatureLaw) and value > _MOST_TENSION:
+    if not isinstance(value, TemperatureLaw) and value > _MAX_SURFACE_TENSION:
         cure = f"was it given in mN/m? write '{value:g} mN/m' in a file, or {value:g}*mN"
-        raise refuse(owner, attribute, value, f"be at most {_MOST_TENSION:g}", cure)
+        raise refuse(owner, attribute, value, f"be at most {_MAX_SURFACE_TENSION:g}", cure)
 
 
 def _kinematic(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """As `_constant_or_law`, and suspect centistokes."""
+    """Like `_constant_or_law`; the hint suggests cSt for a value far too large."""
     _constant_or_law(owner, attribute, value)
-    if not isinstance(value, TemperatureLaw) and value > MOST_KINEMATIC_VISCOSITY:
-        expected = f"be at most {MOST_KINEMATIC_VISCOSITY:g}"
+    if not isinstance(value, TemperatureLaw) and value > MAX_KINEMATIC_VISCOSITY:
+        expected = f"be at most {MAX_KINEMATIC_VISCOSITY:g}"
         raise refuse(owner, attribute, value, expected, centistokes_hint(value))
 
 
 def _molar(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """Refuse what is not positive, and suspect g/mol; the heaviest oils have about 1 kg/mol."""
+    """Refuse anything but a positive number; the hint suggests g/mol above 10 kg/mol."""
     positive(owner, attribute, value)
-    if value > _MOST_MOLAR_MASS:
+    if value > _MAX_MOLAR_MASS:
         cure = f"was it given in g/mol? write '{value:g} g/mol' in a file, or {value:g}e-3"
-        raise refuse(owner, attribute, value, f"be at most {_MOST_MOLAR_MASS:g}", cure)
+        raise refuse(owner, attribute, value, f"be at most {_MAX_MOLAR_MASS:g}", cure)
 
 
 @frozen(kw_only=True)
 class Liquid:
-    """A Newtonian liquid; what no effect needs may be left out.
+    """A Newtonian liquid; properties that no effect needs may be omitted.
 
     Parameters
     ----------
     name : str
-        What it is called.
+        Name of the liquid.
     surface_tension : float or TemperatureLaw, optional
         Surface tension against air [N/m].
     viscosity : float or TemperatureLaw, optional
         Dynamic viscosity [Pa.s].
     kinematic_viscosity : float or TemperatureLaw, optional
-        Kinematic viscosity [m2/s], instead of `viscosity` and only together with a density:
-        forces follow the dynamic viscosity, so a number in cSt alone says nothing about them.
+        Kinematic viscosity [m2/s], instead of `viscosity` and only together with a density,
+        because forces depend on the dynamic viscosity.
     density : float or TemperatureLaw, optional
         Density [kg/m3].
     molar_mass : float, optional
-        Mass of a mole [kg/mol], of a liquid that condenses from its vapour.
+        Molar mass [kg/mol], for a liquid that condenses from its vapour.
     source : str
-        Where the constants come from; laws carry their own source.
+        Source of the constants; laws carry their own source.
 
     Raises
     ------
     DescriptionError
-        If a constant is not positive and finite, or seems to be in mN/m or cSt; if a law gives
-        something else than the field holds; if both viscosities are given; if a kinematic
-        viscosity comes without a density.
+        If a constant is not positive and finite, or seems to be in mN/m or cSt; if the unit of a
+        law is not that of the field; if both viscosities are given; if a kinematic viscosity is
+        given without a density.
 
     Notes
     -----
-    Left out: pressure (viscosity doubles every 30 to 50 MPa in mineral oil), shear thinning,
-    and the ageing of an oil.
+    Neglected: pressure (the viscosity of mineral oil doubles every 30 to 50 MPa), shear thinning,
+    and ageing.
 
     Examples
     --------
@@ -164,17 +164,17 @@ class Liquid:
             raise refuse(self, attribute, value, "come together with a density", cure)
 
     def at(self, temperature: float) -> LiquidState:
-        """State of the liquid at `temperature` [K].
+        """Properties of the liquid at `temperature` [K].
 
         Raises
         ------
         DescriptionError
-            If the temperature is not positive and finite, or a law has no meaning there.
+            If the temperature is not positive and finite, or outside the domain of a law.
 
         Warns
         -----
         ValidityWarning
-            If a law is used outside the range it was fitted for.
+            If a law is used outside its fitted range.
         """
         if not 0.0 < temperature < float("inf"):
             raise DescriptionError(
@@ -193,7 +193,7 @@ class Liquid:
         return LiquidState(surface_tension, viscosity, density, float(temperature))
 
     def molar_volume(self, temperature: float) -> float:
-        """Volume of a mole of the liquid [m3/mol] at `temperature` [K].
+        """Molar volume [m3/mol] at `temperature` [K].
 
         Raises
         ------

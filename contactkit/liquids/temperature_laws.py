@@ -1,8 +1,8 @@
-"""Laws of temperature: how viscosity, surface tension and density of a liquid follow it.
+"""Temperature laws of liquid properties: the base class, and linear laws.
 
-A law is called with a temperature [K] and returns one number in SI units. Outside the range it
-was fitted for it warns and goes on; where it no longer describes a liquid it refuses. Only
-`math` is needed: laws run inside FMUs, in an interpreter without numpy.
+A law is called with a temperature [K] and returns one number in SI units. Outside its fitted range
+it warns; where it no longer describes a liquid it raises an error. Only `math` is needed: laws run
+inside FMUs, in an interpreter without numpy.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ __all__ = [
 ]
 
 SUSPECT_CELSIUS = 150.0
-"""No liquid described here exists below this temperature [K]: degrees Celsius were meant."""
+"""Temperature [K] below which degrees Celsius are suspected."""
 
 
 def celsius_hint(temperature: float) -> str:
-    """Cure for a temperature that looks as if it were in degrees Celsius; empty if it does not."""
+    """Hint for a temperature that may be in degrees Celsius; empty if it is plausible."""
     if not -273.15 <= temperature < SUSPECT_CELSIUS:
         return ""
     return (
@@ -48,22 +48,22 @@ class TemperatureLaw(ABC):
     Parameters
     ----------
     temperature_min, temperature_max : float
-        Range the law was fitted for [K]; outside it a `ValidityWarning` is issued.
+        Fitted range [K]; outside it a `ValidityWarning` is issued.
     source : str
-        Where the numbers come from.
+        Source of the constants.
 
     Raises
     ------
     DescriptionError
-        If the range is empty, or the law has no meaning somewhere in it.
+        If the range is empty, or not within the domain of the law.
     """
 
     kind: ClassVar[str]
     """Name of the law in files."""
     unit: ClassVar[str]
-    """Unit of what the law returns."""
+    """Unit of the property."""
     why: ClassVar[str]
-    """What happens at the ends of `meaningful`."""
+    """Why the law ends at the bounds of `meaningful`, for messages."""
 
     temperature_min: float = field(validator=positive, metadata=si("K"))
     temperature_max: float = field(validator=positive, metadata=si("K"))
@@ -87,25 +87,26 @@ class TemperatureLaw(ABC):
         Raises
         ------
         DescriptionError
-            If the law has no meaning at that temperature.
+            If the temperature is outside the domain of the law.
 
         Warns
         -----
         ValidityWarning
-            If the temperature lies outside the range the law was fitted for.
+            If the temperature is outside the fitted range.
         """
         low, high = self.meaningful
         if not (math.isfinite(temperature) and low < temperature < high):
             raise self._refusal(temperature)
         value = self._value(temperature)
-        # A hair inside its ends a law may still round to nothing, or overflow.
+        # Just inside the bounds a law may still underflow or overflow.
         if not 0.0 < value < math.inf:
             raise self._refusal(temperature)
         if not self.temperature_min <= temperature <= self.temperature_max:
-            # Whole kelvins, so that a drifting temperature does not print a line for every step.
+            # Whole kelvins, so that a drifting temperature does not warn at every step.
             hints = (self.source, celsius_hint(temperature))
             warnings.warn(
-                f"{type(self).__name__} holds {self._range} and was asked at {temperature:.0f} K"
+                f"{type(self).__name__} holds {self._range} "
+                f"and was evaluated at {temperature:.0f} K"
                 + "".join(f"; {hint}" for hint in hints if hint),
                 ValidityWarning,
                 stacklevel=2,
@@ -129,7 +130,7 @@ class TemperatureLaw(ABC):
     @property
     @abstractmethod
     def meaningful(self) -> tuple[float, float]:
-        """Temperatures [K] between which the formula describes a liquid, ends excluded."""
+        """Domain of the formula [K], ends excluded."""
 
     @abstractmethod
     def _value(self, temperature: float) -> float:
@@ -144,12 +145,12 @@ def _between(low: float, high: float) -> str:
 
 @frozen(kw_only=True)
 class LinearLaw(TemperatureLaw):
-    """Straight line through a value at one temperature; its subclasses say of what.
+    """A property linear in temperature, through its value at a reference temperature.
 
     Raises
     ------
     DescriptionError
-        If a constant is out of range, or the line falls to zero within the range of the law.
+        If a constant is out of range, or the property falls to zero within the range of the law.
     """
 
     why: ClassVar[str] = "beyond it the straight line is no longer positive"
@@ -172,23 +173,23 @@ class LinearLaw(TemperatureLaw):
 
 @frozen(kw_only=True)
 class LinearSurfaceTension(LinearLaw):
-    """Surface tension of an oil, falling in proportion to temperature.
+    """Surface tension of an oil, linear in temperature.
 
     Parameters
     ----------
     value : float
         Surface tension at the reference temperature [N/m].
     slope : float
-        Its change with temperature [N/m/K], negative for pure liquids.
+        Change with temperature [N/m/K], negative for pure liquids.
     reference_temperature : float
-        Where `value` was measured [K].
+        Temperature of `value` [K].
     temperature_min, temperature_max, source
         See `TemperatureLaw`.
 
     Notes
     -----
-    The curvature left out (a power 11/9 of the distance to the critical point) stays below
-    2 % within 100 K of the reference for an oil whose critical point lies beyond 700 K.
+    The neglected curvature (a power 11/9 of the distance to the critical point) is below 2 %
+    within 100 K of the reference for an oil with a critical point beyond 700 K.
 
     Examples
     --------
@@ -213,23 +214,23 @@ class LinearSurfaceTension(LinearLaw):
 
 @frozen(kw_only=True)
 class LinearDensity(LinearLaw):
-    """Density of a liquid that expands in proportion to temperature.
+    """Density of a liquid, linear in temperature.
 
     Parameters
     ----------
     value : float
         Density at the reference temperature [kg/m3].
     slope : float
-        Its change with temperature [kg/m3/K]: minus density times thermal expansion.
+        Change with temperature [kg/m3/K]: minus density times thermal expansion.
     reference_temperature : float
-        Where `value` was measured [K]; 15 degC by custom.
+        Temperature of `value` [K]; 15 degC by convention.
     temperature_min, temperature_max, source
         See `TemperatureLaw`.
 
     Notes
     -----
     From -20 to 100 degC the line stays within 0.1 % of the exponential that ASTM D1250 gives for
-    lubricating oils. Compression is left out: some 0.06 % per MPa.
+    lubricating oils. Compressibility is neglected: some 0.06 % per MPa.
 
     Examples
     --------

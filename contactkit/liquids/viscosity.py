@@ -1,4 +1,4 @@
-"""Viscosity as a function of temperature: the laws of Walther and of Vogel."""
+"""Viscosity as a function of temperature: the laws of Walther (ASTM D341) and Vogel."""
 
 from __future__ import annotations
 
@@ -12,21 +12,23 @@ from ..units import cSt, si
 from ..validators import non_negative, positive
 from .temperature_laws import SUSPECT_CELSIUS, TemperatureLaw, celsius_hint
 
-__all__ = ["MOST_KINEMATIC_VISCOSITY", "VogelViscosity", "WaltherViscosity", "centistokes_hint"]
+__all__ = ["MAX_KINEMATIC_VISCOSITY", "VogelViscosity", "WaltherViscosity", "centistokes_hint"]
 
-MOST_KINEMATIC_VISCOSITY = 1.0
-"""A million cSt [m2/s]: whoever gives more has forgotten to convert."""
+MAX_KINEMATIC_VISCOSITY = 1.0
+"""A million cSt [m2/s]: above it a missing conversion is suspected."""
 
-_LEAST_KINEMATIC_VISCOSITY = 0.4 * cSt  # the double logarithm of Walther ends at 0.3 cSt
-_LEAST_DISTANCE = 1.0  # between the two temperatures of Walther [K]: closer, noise is extrapolated
-# By convention a liquid is a glass from 1e12 Pa.s on, some 1e9 m2/s. Nothing flows there, long
-# before the formulas overflow.
+_MIN_KINEMATIC_VISCOSITY = 0.4 * cSt  # the double logarithm of Walther ends at 0.3 cSt
+_MIN_TEMPERATURE_DISTANCE = (
+    1.0  # between the two temperatures of Walther [K]: closer, noise is extrapolated
+)
+# By convention a liquid is a glass from 1e12 Pa.s on, some 1e9 m2/s, long before the formulas
+# overflow.
 _GLASS, _GLASS_KINEMATIC = 1e12, 1e9
 
 
 def centistokes_hint(kinematic_viscosity: float) -> str:
-    """Cure for a kinematic viscosity that looks as if it were in cSt; empty if it does not."""
-    if not kinematic_viscosity > MOST_KINEMATIC_VISCOSITY:
+    """Hint for a kinematic viscosity that may be in cSt; empty if it is plausible."""
+    if not kinematic_viscosity > MAX_KINEMATIC_VISCOSITY:
         return ""
     number = f"{kinematic_viscosity:g}"
     return f"was it given in cSt? write '{number} cSt' in a file, or {number}*cSt"
@@ -43,23 +45,24 @@ class WaltherViscosity(TemperatureLaw):
     temperature_1, temperature_2 : float
         The two temperatures [K], in either order, at least 1 K apart.
     kinematic_viscosity_1, kinematic_viscosity_2 : float
-        Kinematic viscosity there [m2/s], at least 0.4 cSt, the lower one where it is hotter.
+        Kinematic viscosities there [m2/s], at least 0.4 cSt, the lower one at the higher
+        temperature.
     temperature_min, temperature_max : float
-        Range [K]. Default: -30 to 450 degF, for which the charts of the standard were drawn. The
-        oil itself has narrower limits: its cloud point, and where it starts to boil.
+        Range [K]. Default: -30 to 450 degF, the range of the charts of the standard. The oil itself
+        has narrower limits: its cloud point and its boiling range.
     source : str
-        Where the two points come from.
+        Source of the two points.
 
     Raises
     ------
     DescriptionError
-        If the points do not give a viscosity that falls as the oil warms.
+        If the viscosity does not decrease with temperature.
 
     Notes
     -----
-    Below 2 cSt the standard adds exp(-1.47 - 1.84 nu - 0.51 nu^2) to the 0.7, which is left out
-    here: 0.001 cSt at 2 cSt, 0.02 at 1 cSt, 0.08 at 0.5 cSt. Also left out: wax and polymers,
-    which thicken a cold oil beyond the law, and high shear rates and pressures.
+    Below 2 cSt the standard adds exp(-1.47 - 1.84 nu - 0.51 nu^2) to the 0.7, which is omitted
+    here: 0.001 cSt at 2 cSt, 0.02 at 1 cSt, 0.08 at 0.5 cSt. Also neglected: wax and polymers,
+    which raise the viscosity of a cold oil above the law, and high shear rates and pressures.
 
     References
     ----------
@@ -93,7 +96,7 @@ class WaltherViscosity(TemperatureLaw):
     def __attrs_post_init__(self) -> None:
         for point in (1, 2):
             self._check_point(point)
-        if abs(self.temperature_2 - self.temperature_1) < _LEAST_DISTANCE:
+        if abs(self.temperature_2 - self.temperature_1) < _MIN_TEMPERATURE_DISTANCE:
             raise DescriptionError(
                 "WaltherViscosity.temperature_2",
                 self.temperature_2,
@@ -123,7 +126,7 @@ class WaltherViscosity(TemperatureLaw):
                 hint=celsius_hint(temperature),
             )
         viscosity = getattr(self, f"kinematic_viscosity_{point}")
-        if not _LEAST_KINEMATIC_VISCOSITY <= viscosity <= MOST_KINEMATIC_VISCOSITY:
+        if not _MIN_KINEMATIC_VISCOSITY <= viscosity <= MAX_KINEMATIC_VISCOSITY:
             raise DescriptionError(
                 f"WaltherViscosity.kinematic_viscosity_{point}",
                 viscosity,
@@ -134,14 +137,14 @@ class WaltherViscosity(TemperatureLaw):
 
     @property
     def _line(self) -> tuple[float, float, float]:
-        """Point 1 on the chart and the slope there; unlike from A and B, no digits are lost."""
+        """Point 1 on the chart and the slope there, which lose fewer digits than A and B."""
         x1, x2 = math.log10(self.temperature_1), math.log10(self.temperature_2)
         y1, y2 = _chart(self.kinematic_viscosity_1), _chart(self.kinematic_viscosity_2)
         return x1, y1, (y2 - y1) / (x2 - x1)
 
     @property
     def meaningful(self) -> tuple[float, float]:
-        """Temperatures [K] above the glass; towards the hot the law tends to 0.3 cSt."""
+        """Temperatures [K] above the glass; at high temperature the law tends to 0.3 cSt."""
         x, y, slope = self._line
         return float(10.0 ** (x + (_chart(_GLASS_KINEMATIC) - y) / slope)), math.inf
 
@@ -165,9 +168,9 @@ class VogelViscosity(TemperatureLaw):
     Parameters
     ----------
     reference_viscosity : float
-        :math:`\eta_0`, which the law tends to when hot [Pa.s].
+        :math:`\eta_0`, the limit at high temperature [Pa.s].
     activation_temperature : float
-        :math:`B` [K]; it goes with a power of ten, not of e.
+        :math:`B` [K], in a power of ten, not of e.
     divergence_temperature : float
         :math:`C` [K]; zero gives the law of Andrade.
     temperature_min, temperature_max, source
@@ -180,8 +183,8 @@ class VogelViscosity(TemperatureLaw):
 
     Notes
     -----
-    With 2.414e-5 Pa.s, 247.8 K and 140 K it gives water 2 % too thin at 0 degC, 1 % too thin at
-    100 degC, and right within 0.1 % at 20 and 25 degC. Pressure is left out.
+    With 2.414e-5 Pa.s, 247.8 K and 140 K the viscosity of water is 2 % too low at 0 degC, 1 % too
+    low at 100 degC, and within 0.1 % at 20 and 25 degC. Pressure is neglected.
 
     Examples
     --------
@@ -224,5 +227,5 @@ class VogelViscosity(TemperatureLaw):
 
     def _value(self, temperature: float) -> float:
         decades = self.activation_temperature / (temperature - self.divergence_temperature)
-        # One power, because the two factors could overflow where their product does not.
+        # One power, because a factor could overflow where the product does not.
         return float(10.0 ** (math.log10(self.reference_viscosity) + decades))

@@ -1,6 +1,6 @@
-"""Water: its surface tension and its density as functions of temperature.
+"""Water: surface tension (IAPWS R1-76) and density (Kell) as functions of temperature.
 
-Both are reference formulas that bring their constants; a file only names them.
+Both are reference formulas with their constants; a file only names them.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ class IapwsSurfaceTension(TemperatureLaw):
     ----------
     temperature_min, temperature_max : float
         Range [K]. Default: -25 degC to just below the critical point. The release holds from the
-        triple point on and says that it extrapolates well down to -25 degC.
+        triple point on and states that it extrapolates well down to -25 degC.
     source : str
-        Where the law comes from.
+        Source of the law.
 
     Notes
     -----
-    Against air the value is the same within 0.1 mN/m. What is dissolved is left out: surfactants
-    can halve it.
+    Against air the value is the same within 0.1 mN/m. Solutes are neglected: surfactants can halve
+    it.
 
     References
     ----------
@@ -81,12 +81,12 @@ class KellWaterDensity(TemperatureLaw):
     temperature_min, temperature_max : float
         Range [K]. Default: that of the fit, 0 to 150 degC.
     source : str
-        Where the law comes from.
+        Source of the law.
 
     Notes
     -----
-    Left out: compression (0.05 % per MPa), dissolved air, and that Kell used the temperature
-    scale of 1968 (some 0.02 kg/m3 at 100 degC, less below).
+    Neglected: compressibility (0.05 % per MPa), dissolved air, and the difference to the
+    temperature scale of 1968 used by Kell (some 0.02 kg/m3 at 100 degC, less below).
 
     References
     ----------
@@ -109,7 +109,7 @@ class KellWaterDensity(TemperatureLaw):
 
     @property
     def meaningful(self) -> tuple[float, float]:
-        """Temperatures [K] at which water can be kept liquid; the pole at 214 K is colder."""
+        """Temperatures [K] of (supercooled) liquid water; the pole at 214 K lies below them."""
         return _FREEZES_BY_ITSELF, _CRITICAL_TEMPERATURE
 
     def _value(self, temperature: float) -> float:

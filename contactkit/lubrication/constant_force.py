@@ -7,7 +7,7 @@ closures have the same form: :math:`c \, dh = -K u \, du` and :math:`F_m = B u`,
 .. math:: t = \frac{K F}{B^2} \left[ g\!\left(\frac{B u_0}{F}\right)
               - g\!\left(\frac{B u_1}{F}\right) \right], \qquad g(x) = -x - \ln(1 - x)
 
-Plain floats; nothing is checked.
+Arguments are floats and are not checked.
 """
 
 from __future__ import annotations

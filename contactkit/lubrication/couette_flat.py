@@ -1,8 +1,8 @@
-r"""Sliding at a held gap: the drag of a liquid film on two bodies that move past each other.
+r"""Couette film between flats that slide at constant gap: drag, impulse, shear limits, hysteresis.
 
 Both bodies are wetted over a circle of radius x. One slides by L; the film that joins them is the
 lens in which the circles still overlap, and it ends at L = 2x. A force is positive when it resists
-sliding. Arguments are floats or arrays that broadcast; nothing is checked.
+sliding. Arguments are floats or arrays that broadcast; they are not checked.
 
 =========  ==========================================  =======
 symbol     quantity                                    unit
@@ -42,7 +42,7 @@ def lens_area(radius: ArrayLike, travel: ArrayLike) -> Any:
     Returns
     -------
     float or ndarray, shape (...)
-        Area [m2]; 0 from L = 2x on. Right to rounding also where the circles hardly touch.
+        Area [m2]; 0 from L = 2x on. Accurate to round-off also where the circles hardly overlap.
 
     References
     ----------
@@ -73,7 +73,7 @@ def lens_width(radius: ArrayLike, travel: ArrayLike) -> Any:
 
 
 def flat_impulse(radius: ArrayLike, gap: ArrayLike, travel: ArrayLike, viscosity: ArrayLike) -> Any:
-    r"""Impulse [N.s] of the drag between flats over a travel, whatever the path in time.
+    r"""Impulse [N.s] of the drag between flats over a travel, for any motion in time.
 
     .. math:: I = \frac{\eta}{h} \int_0^L A \, dL = \frac{4 \eta x^3}{h}
               \left[q \arccos q + \frac{(1 - c)^2 (2 + c)}{3}\right], \qquad c = \sqrt{1 - q^2}
@@ -90,11 +90,11 @@ def flat_impulse(radius: ArrayLike, gap: ArrayLike, travel: ArrayLike, viscosity
     Returns
     -------
     float or ndarray, shape (...)
-        Impulse [N.s]; over a time it is a mean force.
+        Impulse [N.s]; divided by a time it is a mean force.
 
     Notes
     -----
-    Couette flow: what is left out is of relative size h/x, at the rim of the film.
+    Couette flow; neglected are terms of relative size h/x, at the rim of the film.
 
     References
     ----------
@@ -108,13 +108,13 @@ def flat_impulse(radius: ArrayLike, gap: ArrayLike, travel: ArrayLike, viscosity
     x, h = np.asarray(radius, dtype=np.float64), np.asarray(gap, dtype=np.float64)
     q = np.minimum(np.asarray(travel, dtype=np.float64) / (2.0 * x), 1.0)
     c = np.sqrt((1.0 - q) * (1.0 + q))
-    gone = q * q / (1.0 + c)  # 1 - c
-    share = q * np.arctan2(c, q) + gone * gone * (2.0 + c) / 3.0
-    return 4.0 * np.asarray(viscosity) * x**3 / h * share
+    complement = q * q / (1.0 + c)  # 1 - c
+    bracket = q * np.arctan2(c, q) + complement * complement * (2.0 + c) / 3.0
+    return 4.0 * np.asarray(viscosity) * x**3 / h * bracket
 
 
-def limited_stress(stress: Any, strength: Any, law: str = "clipped") -> Any:
-    r"""Shear stress [Pa] of a liquid whose Newtonian stress would exceed its strength.
+def limited_stress(stress: Any, strength: Any, law: str = "truncated") -> Any:
+    r"""Shear stress [Pa] of a liquid with a limiting shear strength.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def limited_stress(stress: Any, strength: Any, law: str = "clipped") -> Any:
         Newtonian shear stress, viscosity times shear rate [Pa]; 0 or more.
     strength : float or ndarray, shape (...)
         Limiting shear strength, or Eyring stress [Pa].
-    law : {"clipped", "bair-winer", "eyring"}
+    law : {"truncated", "bair-winer", "eyring"}
         :math:`\min(\tau, \tau_L)`; :math:`\tau_L (1 - e^{-\tau/\tau_L})`; or
         :math:`\tau_E \operatorname{asinh}(\tau/\tau_E)`, which has no upper bound.
 
@@ -132,10 +132,10 @@ def limited_stress(stress: Any, strength: Any, law: str = "clipped") -> Any:
 
     Examples
     --------
-    >>> [round(float(limited_stress(3.0, 1.0, law)), 6) for law in ("clipped", "bair-winer")]
+    >>> [round(float(limited_stress(3.0, 1.0, law)), 6) for law in ("truncated", "bair-winer")]
     [1.0, 0.950213]
     """
-    if law == "clipped":
+    if law == "truncated":
         return np.minimum(stress, strength)
     ratio = np.asarray(stress) / strength
     return strength * (-np.expm1(-ratio) if law == "bair-winer" else np.arcsinh(ratio))
@@ -148,7 +148,7 @@ def hysteresis_force(
     receding: ArrayLike,
     shape_factor: ArrayLike = 2.0 / math.pi,
 ) -> Any:
-    r"""Force [N] that moves a meniscus along a body on which its contact line sticks.
+    r"""Force [N] of contact-angle hysteresis on a meniscus that slides along a body.
 
     .. math:: F = k \gamma w (\cos\theta_r - \cos\theta_a)
 
@@ -159,22 +159,22 @@ def hysteresis_force(
     width : float or ndarray, shape (...)
         Width of the wetted spot across the motion [m].
     advancing, receding : float or ndarray, shape (...)
-        Contact angles in front and behind [rad], advancing the larger.
+        Advancing (front) and receding (rear) contact angle [rad], the advancing one larger.
     shape_factor : float or ndarray, shape (...)
-        Factor k on the width [-]: how the angle changes around a round line. 1: at once, front
-        and back (Furmidge 1962); 2/pi: cos(theta) linear along the line (4/pi on the radius,
-        Extrand and Gent 1990); pi/4: cos(theta) linear along the motion; 24/pi^3: theta a cubic
-        (ElSherbini and Jacobi 2006).
+        Factor k on the width [-], by the variation of the angle along a circular contact line.
+        1: a jump between front and rear half (Furmidge 1962); 2/pi: cos(theta) linear along the
+        line (4/pi on the radius, Extrand and Gent 1990); pi/4: cos(theta) linear along the
+        motion; 24/pi^3: theta a cubic (ElSherbini and Jacobi 2006).
 
     Returns
     -------
     float or ndarray, shape (...)
-        Force [N] at which the line moves; does not depend on the speed.
+        Force [N] at which the contact line moves, independent of speed.
 
     Notes
     -----
-    Holds for slow motion, eta v/gamma << 1. The build-up over a travel of about the height of
-    the film, before the line moves, is left out.
+    Holds for small capillary number, eta v/gamma << 1. The build-up of the force over a travel of
+    about the film height, before the line depins, is neglected.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-r"""A sphere that slides along a flat inside a round meniscus: drag by Reynolds' equation.
+r"""Sphere sliding along a flat in a round film: drag from Reynolds' equation.
 
-The film has the height D under the apex and s at its rim, where its pressure is that around it.
-Sliding makes a pressure p = P(r) cos(phi), high in front and low behind, which pulls along with
-the shear. A force is positive when it resists; floats or arrays, nothing is checked.
+The film has the height D under the apex and s at its rim, where the pressure is ambient. Sliding
+generates a pressure p = P(r) cos(phi), high in front and low behind, which adds to the drag of the
+shear. A force is positive when it resists. Arguments are floats or arrays and are not checked.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ def lubrication_factor(gap: ArrayLike, film_height: ArrayLike) -> Any:
         - \tfrac35\Bigl(\frac{x}{q}\Bigr)^2\Bigl[\tfrac45 + \tfrac25\,\frac{q\,y'}{y}\Bigr], \qquad
         y = {}_2F_1(2 + w, 2 - w; 2; -x)
 
-    with q = s/D, x = q - 1 and w = sqrt(5/2). The first logarithm is the shear of the film as
-    thick as it is (Couette); the rest is the pressure.
+    with q = s/D, x = q - 1 and w = sqrt(5/2). The first logarithm is the Couette shear at the
+    local film thickness; the rest is the pressure flow.
 
     Parameters
     ----------
     gap, film_height : float or ndarray, shape (...)
-        Gap D under the apex, height s of the film at its rim [m]; s > D > 0.
+        Gap D under the apex, film height s at the rim [m]; s > D > 0.
 
     Returns
     -------
@@ -46,10 +46,11 @@ def lubrication_factor(gap: ArrayLike, film_height: ArrayLike) -> Any:
     -----
     The equation (r h^3 P')'/r - h^3 P/r^2 = 6 eta v h' with P(rim) = 0 has a closed solution for
     the parabola h = D + r^2/2R. Its hypergeometric function is taken by Pfaff's transformation,
-    as a series in x/q up to q = 2 and, by its connection, in 1/q beyond. Left out: terms of
-    relative size s/R, the shape of the meniscus, and inertia. Where the wetted circles have slid
-    apart there is no closed form: in proportion to the shear, the sum is within 4 % up to L = x
-    and 14 % at L = 1.5 x (finite differences on the lens, s/D = 2, 10 and 100).
+    as a series in x/q up to q = 2 and, by its connection formula, in 1/q beyond. Neglected: terms
+    of relative size s/R, the shape of the meniscus, and inertia. Once the wetted circles have slid
+    past each other there is no closed form; taking the pressure drag in proportion to the shear
+    drag is within 4 % up to L = x and 14 % at L = 1.5 x (finite differences on the lens, s/D = 2,
+    10 and 100).
 
     References
     ----------
@@ -66,8 +67,7 @@ def lubrication_factor(gap: ArrayLike, film_height: ArrayLike) -> Any:
     z = x / q
     log = np.log1p(x)
     slope = -(2.0 - _W) + _log_slope(z, 1.0 / q) / q
-    # Its terms cancel to x^3 in a film hardly thicker than the gap; beside the shear, x, that is
-    # below rounding.
+    # For s close to D its terms cancel to x^3, which is below the round-off of the shear term x.
     pressure = log - z - z * z * (0.8 + 0.4 * slope)
     return log + 0.6 * pressure
 

@@ -1,8 +1,8 @@
-r"""A sphere that slides over a film at a held gap: drag over the lens of the wetted circles.
+r"""Couette film under a sphere that slides at constant gap: drag over the lens of wetted circles.
 
-As in `sliding`, with a film that is as thick as the sphere leaves room, h = D + r^2/2R at r from
-its axis, out to the rim where it is s high. A force is positive when it resists sliding. Nothing
-is checked.
+As in `couette_flat`, with the film thickness h = D + r^2/2R at the distance r from the axis of the
+sphere, out to the rim, where it is s. A force is positive when it resists sliding. Arguments are
+not checked.
 
 =========  ==========================================  =======
 symbol     quantity                                    unit
@@ -54,7 +54,7 @@ def sphere_drag(
     stress: Stress,
     kink: float = 0.0,
 ) -> Any:
-    r"""Drag [N] of the film under a sphere that has slid: shear stress over the lens.
+    r"""Drag [N] of the film under a sphere after a travel: shear stress over the lens.
 
     .. math:: F = \int_{lens} \tau\bigl(h(r)\bigr)\,dA, \qquad h = D + \frac{r^2}{2R}
 
@@ -64,13 +64,13 @@ def sphere_drag(
     Parameters
     ----------
     sphere_radius, gap, film_height : float
-        Radius R of the sphere, gap D under its apex, height s of the film at its rim [m].
+        Radius R of the sphere, gap D under its apex, film height s at the rim [m].
     travel : float or ndarray, shape (...)
         Travel [m].
     stress : callable
-        Shear stress [Pa] at a thickness [m], for arrays.
+        Shear stress [Pa] as a function of the film thickness [m], for arrays.
     kink : float
-        Thickness [m] at which the slope of `stress` jumps; 0: none.
+        Thickness [m] at which the slope of `stress` is discontinuous; 0: none.
 
     Returns
     -------
@@ -79,12 +79,12 @@ def sphere_drag(
 
     Notes
     -----
-    Shear only. A sphere that drags liquid along also makes a pressure, high in front and low
-    behind, which adds 4 % at s/D = 2, 23 % at 10 and 39 % at 100: see `lubrication_factor`.
+    Shear only. The sliding sphere also generates a pressure, high in front and low behind, which
+    adds 4 % at s/D = 2, 23 % at 10 and 39 % at 100: see `lubrication_factor`.
 
     References
     ----------
-    Eqs. (3.45)-(3.56) of Cai and Bhushan (2008b) with the film as thick as it is at each place.
+    Eqs. (3.45)-(3.56) of Cai and Bhushan (2008b), with the local film thickness.
 
     Examples
     --------
@@ -121,31 +121,32 @@ def sphere_impulse(
     viscosity: float,
     travel: ArrayLike = math.inf,
 ) -> Any:
-    r"""Impulse [N.s] of the Newtonian drag of a sphere over a travel, whatever the path in time.
+    r"""Impulse [N.s] of the Newtonian drag of a sphere over a travel, for any motion in time.
 
     .. math:: I = 2\eta \int_0^x \frac{r}{h} \left[\phi L - r \sin\phi
               + 2 x E(m) - x E(\phi | m)\right] dr, \qquad m = \frac{r^2}{x^2}
 
-    with phi the half-angle over which the ring of radius r is covered, and elliptic integrals E:
-    the drag at a place lasts as long as the other circle covers it.
+    with phi the half-angle over which the other wetted circle overlaps the ring of radius r, and
+    elliptic integrals E: the drag at a point lasts as long as the other circle overlaps it.
 
     Parameters
     ----------
     sphere_radius, gap, film_height : float
-        Radius R of the sphere, gap D under its apex, height s of the film at its rim [m].
+        Radius R of the sphere, gap D under its apex, film height s at the rim [m].
     viscosity : float
         Dynamic viscosity [Pa.s].
     travel : float or ndarray, shape (...)
-        Travel L [m]; inf for all of it.
+        Travel L [m]; inf for the total impulse.
 
     Returns
     -------
     ndarray, shape (...)
-        Impulse [N.s]; stays at its value for L = 2x beyond.
+        Impulse [N.s]; constant beyond L = 2x.
 
     Notes
     -----
-    The integral of `sphere_drag` over the travel in the other order, with the same error.
+    The integral of `sphere_drag` over the travel with the order of integration exchanged; same
+    error.
 
     Examples
     --------
@@ -165,7 +166,7 @@ def sphere_impulse(
     def ring(r: Any) -> Any:
         return r / (gap + r * r / (2.0 * sphere_radius))
 
-    # Inside of the rings that are cut: covered all the way, or in turn by all of the other circle.
+    # Rings not cut by the other circle: overlapped all the way, or by all of the other circle.
     r = near * t
     whole = np.where(moved < x, math.pi * moved, 2.0 * x * ellipe((r / x) ** 2))
     total = np.sum(near * weight * ring(r) * whole, axis=-1)
@@ -178,7 +179,7 @@ def sphere_impulse(
 
 
 def _pieces(low: Any, high: Any, cut: float) -> list[tuple[Any, Any]]:
-    """Cut intervals at a place, where it lies inside; a piece may be empty."""
+    """Split intervals at a point, where it lies inside; a piece may be empty."""
     if cut <= 0.0:
         return [(low, high)]
     middle = np.clip(cut, low, high)
@@ -188,8 +189,8 @@ def _pieces(low: Any, high: Any, cut: float) -> list[tuple[Any, Any]]:
 def _half_angle(x: float, moved: Any, r: Any, past: Any, left: Any) -> Any:
     """Half of the angle over which a circle of radius r lies inside the other wetted circle.
 
-    Half-angle formula of the triangle of r, L and x; `past` is r less its smallest value and
-    `left` what is missing to x, which one of the factors is.
+    Half-angle formula of the triangle of r, L and x; `past` is r less its smallest value, and
+    `left` is x - r, which is one of the factors.
     """
     ahead = np.where(moved < x, past, r + (moved - x))  # r + L - x
     behind = np.where(moved < x, r + (x - moved), past)  # r + x - L
@@ -200,7 +201,7 @@ def _half_angle(x: float, moved: Any, r: Any, past: Any, left: Any) -> Any:
 
 
 def _nodes(count: int, reach: float) -> tuple[Floats, Floats, Floats]:
-    """Double-exponential rule on 0 to 1: nodes, weights, and 1 minus the nodes, to rounding."""
+    """Double-exponential rule on 0 to 1: nodes, weights, and 1 minus the nodes, to round-off."""
     u = np.linspace(-reach, reach, count)
     inner = 0.5 * math.pi * np.sinh(u)
     t, rest = 1.0 / (1.0 + np.exp(-2.0 * inner)), 1.0 / (1.0 + np.exp(2.0 * inner))

@@ -1,4 +1,7 @@
-"""Numbers that say whether a model is inside its range. Floats or arrays; nothing is checked."""
+"""Dimensionless numbers for the range of validity of the film models.
+
+Arguments are floats or arrays and are not checked.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2]."""
 
 LONGEST_FLAT_BRIDGE = 1.4645918875615231
-"""Longest stable bridge between flats over the cube root of its volume: pi^(1/3), at 90/90."""
+"""Maximum stable gap of a bridge between flats over the cube root of its volume: pi^(1/3)."""
 
 
 def reynolds_number(density: Any, speed: Any, gap: Any, viscosity: Any) -> Any:
@@ -27,12 +30,12 @@ def reynolds_number(density: Any, speed: Any, gap: Any, viscosity: Any) -> Any:
 
 
 def slenderness(radius: Any, height: Any) -> Any:
-    """Radius of the film over its height [-]; lubrication and the flat arc want it large."""
+    """Radius of the film over its height [-]; large for lubrication theory and the flat arc."""
     return radius / height
 
 
 def bond_number(density: Any, length_1: Any, length_2: Any, surface_tension: Any) -> Any:
-    r"""Gravity against capillarity [-], :math:`\rho g \ell_1 \ell_2/\gamma`."""
+    r"""Bond number [-]: gravity over capillarity, :math:`\rho g \ell_1 \ell_2/\gamma`."""
     return density * GRAVITY * length_1 * length_2 / surface_tension
 
 

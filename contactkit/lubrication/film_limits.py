@@ -1,8 +1,8 @@
-"""What a liquid cannot carry: tension below a given pressure, shear above a given stress.
+"""Viscous force of a film with a cavitation pressure or a limiting shear strength.
 
-Each function takes the state of an opening film and returns the force [N] that is left when the
-pressure or the wall shear of the Newtonian film is bounded. All are smooth to first order where
-the bound begins to act, and none exceeds the Newtonian force. Plain floats; nothing is checked.
+Each function takes the state of an opening film and returns the force [N] when the pressure or
+the wall shear of the Newtonian film is bounded. All are continuously differentiable where the
+bound begins to act, and none exceeds the Newtonian force. Arguments are floats and are not checked.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from ..numerics.roots import bracketed_root
 
 __all__ = [
     "disc_shear_limited",
-    "disc_tension_clipped",
+    "disc_tension_truncated",
     "disc_tension_reynolds",
     "sphere_shear_limited",
-    "sphere_tension_clipped",
+    "sphere_tension_truncated",
 ]
 
 
-def disc_tension_clipped(newtonian_force: float, area: float, tension: float) -> float:
-    r"""Force [N] of a disc of film whose parabolic pressure is cut off at a tension.
+def disc_tension_truncated(newtonian_force: float, area: float, tension: float) -> float:
+    r"""Force [N] of a disc of film whose parabolic pressure is truncated at a tension.
 
     .. math:: F = M \left(1 - \frac{1}{2 s}\right), \qquad M = A \, \Delta p, \quad
               s = 2 F_N / M > 1
@@ -33,16 +33,16 @@ def disc_tension_clipped(newtonian_force: float, area: float, tension: float) ->
     area : float
         Area of the film [m2].
     tension : float
-        Largest drop below ambient pressure that the liquid bears [Pa].
+        Tensile strength of the liquid: maximum pressure drop below ambient [Pa].
 
     Notes
     -----
-    The film is assumed to stay where it is and to heal at once; the cavity has no
-    memory. At most 15 % above `disc_tension_reynolds`, and equal to it at both ends.
+    Quasi-static cavitation (truncated, Gumbel): the film keeps its extent and reforms at once. At
+    most 15 % above `disc_tension_reynolds`, and equal to it in both limits.
 
     Examples
     --------
-    >>> disc_tension_clipped(1.0, 1e-5, 1e6), disc_tension_clipped(1e9, 1e-5, 1e6)
+    >>> disc_tension_truncated(1.0, 1e-5, 1e6), disc_tension_truncated(1e9, 1e-5, 1e6)
     (1.0, 9.999999975)
     """
     cap = area * tension
@@ -54,17 +54,17 @@ def disc_tension_clipped(newtonian_force: float, area: float, tension: float) ->
 
 
 def disc_tension_reynolds(newtonian_force: float, area: float, tension: float) -> float:
-    r"""Force [N] of a disc of film that cavitates where the pressure and its slope meet the limit.
+    r"""Force [N] of a cavitating disc of film with the Swift-Stieber (Reynolds) condition.
 
-    The cavity ends at :math:`r_c`, with :math:`\rho = (r_c/r)^2` from
-    :math:`1/s = 1 - \rho + \rho \ln \rho` (Swift-Stieber condition), and
+    The cavity ends at :math:`r_c`, where the pressure slope vanishes, with
+    :math:`\rho = (r_c/r)^2` from :math:`1/s = 1 - \rho + \rho \ln \rho`, and
 
     .. math:: F/M = \rho + s \left[\tfrac12 (1-\rho)^2 - \rho(1-\rho) - \rho^2 \ln\rho\right]
 
     Notes
     -----
-    Symbols as in `disc_tension_clipped`. A cavity that grows and heals with its own time is left
-    out (Resch and Scheidl 2014).
+    Symbols as in `disc_tension_truncated`. The dynamics of growth and collapse of the cavity are
+    neglected (Resch and Scheidl 2014).
 
     Examples
     --------
@@ -83,7 +83,7 @@ def disc_tension_reynolds(newtonian_force: float, area: float, tension: float) -
         return 1.0 - rho + rho * math.log(rho) - 1.0 / s
 
     x = math.sqrt(2.0 / s)
-    if x < 1e-3:  # a thin rim; the terms below would cancel
+    if x < 1e-3:  # a narrow rim; the terms below would cancel
         return cap * (1.0 - x / 3.0 - x**3 / 360.0)
     rho = bracketed_root(excess, 1e-300, 1.0)
     log = math.log(rho)
@@ -91,7 +91,7 @@ def disc_tension_reynolds(newtonian_force: float, area: float, tension: float) -
 
 
 def disc_shear_limited(newtonian_force: float, radius: float, gap: float, strength: float) -> float:
-    r"""Force [N] of a disc of film whose wall shear stress is bounded by a limiting strength.
+    r"""Force [N] of a disc of film with a limiting shear strength at the walls.
 
     .. math:: F = \frac{2\pi \tau r^3}{3 h} \left(1 - \frac{1}{4 q^3}\right), \qquad
               q = \frac{3 \eta |\dot h| r}{\tau h^2} > 1
@@ -125,15 +125,15 @@ def disc_shear_limited(newtonian_force: float, radius: float, gap: float, streng
     )
 
 
-def sphere_tension_clipped(
+def sphere_tension_truncated(
     newtonian_force: float, radius: float, gap: float, film_height: float, tension: float
 ) -> float:
-    r"""Force [N] of the film under a sphere whose pressure is cut off at a tension.
+    r"""Force [N] of the film under a sphere whose pressure is truncated at a tension.
 
     .. math:: F = 2\pi R \left[(H_c - D)\,\Delta p + K \frac{(H - H_c)^2}{H_c H^2}\right],
               \qquad \frac{1}{H_c^2} = \frac{\Delta p}{K} + \frac{1}{H^2}
 
-    with :math:`K = 3 \eta R \dot D`; the pressure is cut off where the film is thinner than
+    with :math:`K = 3 \eta R \dot D`; the pressure is truncated where the film is thinner than
     :math:`H_c`.
 
     Parameters
@@ -141,16 +141,15 @@ def sphere_tension_clipped(
     newtonian_force : float
         Force without the limit [N].
     radius, gap, film_height : float
-        Radius R of the sphere, gap D under its apex, height H of the film at its rim (may be
-        inf) [m].
+        Radius R of the sphere, gap D under its apex, film height H at the rim (may be inf) [m].
     tension : float
-        Largest drop below ambient pressure that the liquid bears [Pa].
+        Tensile strength of the liquid: maximum pressure drop below ambient [Pa].
 
     Examples
     --------
-    >>> sphere_tension_clipped(1e-9, 1e-3, 1e-6, 2e-6, 1e5)
+    >>> sphere_tension_truncated(1e-9, 1e-3, 1e-6, 2e-6, 1e5)
     1e-09
-    >>> round(sphere_tension_clipped(1e9, 1e-3, 1e-6, 2e-6, 1e5) * 1e6, 6)
+    >>> round(sphere_tension_truncated(1e9, 1e-3, 1e-6, 2e-6, 1e5) * 1e6, 6)
     628.318531
     """
     open_share = 1.0 - gap / film_height
@@ -168,19 +167,18 @@ def sphere_tension_clipped(
 def sphere_shear_limited(
     newtonian_force: float, radius: float, gap: float, film_height: float, strength: float
 ) -> float:
-    r"""Force [N] of the film under a sphere whose wall shear stress is bounded.
+    r"""Force [N] of the film under a sphere with a limiting shear strength at the walls.
 
-    The Newtonian wall shear :math:`3 \eta \dot D r / H(r)^2` is largest at a radius of its own;
-    between the radii where it would exceed the limit, the pressure falls by
-    :math:`2 \tau/H` per length instead, and :math:`F = \int \pi r^2 |p'| dr` keeps its closed form.
+    The Newtonian wall shear :math:`3 \eta \dot D r / H(r)^2` has a maximum at a finite radius;
+    between the radii where it would exceed the limit, the pressure gradient is
+    :math:`2 \tau/H` instead, and :math:`F = \int \pi r^2 |p'| dr` keeps its closed form.
 
     Parameters
     ----------
     newtonian_force : float
         Force without the limit [N], of either sign.
     radius, gap, film_height : float
-        Radius R of the sphere, gap D under its apex, height H of the film at its rim (may be
-        inf) [m].
+        Radius R of the sphere, gap D under its apex, film height H at the rim (may be inf) [m].
     strength : float
         Limiting shear strength [Pa].
 
@@ -215,7 +213,7 @@ def sphere_shear_limited(
     while excess(far) > 0.0 and far < rim:
         far = min(2.0 * far, rim)
     outer = far if excess(far) >= 0.0 else bracketed_root(excess, peak, far)
-    # Summed from its parts; taking the excess off the Newtonian force would cancel.
+    # Summed from its parts; subtracting the excess from the Newtonian force would cancel.
     left = (
         _sphere_force_between(k, radius, gap, 0.0, inner)
         + _plastic_force_between(strength, radius, gap, inner, outer)
@@ -225,7 +223,7 @@ def sphere_shear_limited(
 
 
 def _sphere_force_between(k: float, radius: float, gap: float, inner: float, outer: float) -> float:
-    r"""Newtonian share :math:`2\pi k \int r^3/H^3 dr` between two radii."""
+    r"""Newtonian part :math:`2\pi k \int r^3/H^3 dr` between two radii."""
     thin = 2.0 * radius * gap
     # Antiderivative of (H - D)/H^3 is (H - D)^2/(2 D H^2), and 1 - D/H = r^2/(r^2 + 2 R D).
     a, b = (1.0 if math.isinf(r) else r * r / (r * r + thin) for r in (outer, inner))
@@ -235,7 +233,7 @@ def _sphere_force_between(k: float, radius: float, gap: float, inner: float, out
 def _plastic_force_between(
     strength: float, radius: float, gap: float, inner: float, outer: float
 ) -> float:
-    r"""Share :math:`2\pi\tau \int r^2/H dr` between two radii."""
+    r"""Part at the limiting shear, :math:`2\pi\tau \int r^2/H dr`, between two radii."""
     width = math.sqrt(2.0 * radius * gap)
     # atan(b) - atan(a) as one angle, so that nothing cancels between close radii.
     angle = math.atan2((outer - inner) * width, width * width + outer * inner)

@@ -1,8 +1,8 @@
-"""Squeeze film: the viscous force that resists opening a gap full of liquid.
+"""Squeeze film: viscous force and impulse that resist the opening of a liquid-filled gap.
 
 Reynolds' equation for a Newtonian, incompressible film between rigid, no-slip walls. A force is
-positive when it resists separation, a speed positive when the gap opens. Only ``+ - * / **``
-touch the arguments, so each may be a float or an array, and nothing is checked.
+positive when it resists separation, a speed positive when the gap opens. Arguments are floats or
+arrays and are not checked.
 
 =========  ======================================  =======
 symbol     quantity                                unit
@@ -33,7 +33,7 @@ __all__ = [
     "sphere_force",
     "sphere_impulse_conserved",
     "sphere_impulse_flooded",
-    "sphere_impulse_level",
+    "sphere_impulse_constant_rim",
     "sphere_rim_height",
 ]
 
@@ -53,7 +53,7 @@ def disc_radius(volume: Any, gap: Any) -> Any:
 
 
 def disc_force(radius: Any, gap: Any, speed: Any, viscosity: Any) -> Any:
-    r"""Force [N] that resists opening a disc of liquid between flats at a speed.
+    r"""Viscous force [N] of a disc of liquid between flats that separate at a speed.
 
     .. math:: F = \frac{3\pi}{2} \, \eta \, \frac{r^4 \dot h}{h^3}
 
@@ -73,7 +73,7 @@ def disc_force(radius: Any, gap: Any, speed: Any, viscosity: Any) -> Any:
 
     Notes
     -----
-    Valid for r/h > 5 and Re = rho h' h/eta < 1; what is left out is of relative size h/r and Re.
+    Valid for r/h > 5 and Re = rho h' h/eta < 1; neglected terms are of relative size h/r and Re.
 
     References
     ----------
@@ -88,14 +88,14 @@ def disc_force(radius: Any, gap: Any, speed: Any, viscosity: Any) -> Any:
 
 
 def disc_impulse_flooded(radius: Any, gap_from: Any, gap_to: Any, viscosity: Any) -> Any:
-    r"""Impulse [N.s] that opens a flooded disc from one gap to another, whatever the path in time.
+    r"""Viscous impulse [N.s] of a flooded disc from one gap to another, for any motion in time.
 
     .. math:: \int F \, dt = \frac{3\pi}{4} \, \eta \, r^4
               \left(\frac{1}{h_0^2} - \frac{1}{h_1^2}\right)
 
     Notes
     -----
-    The radius stays that of the faces. The printed Eq. (3.19) is this, with the sign turned and
+    The radius is that of the faces. The printed Eq. (3.19) is this, with the opposite sign and
     divided by a time.
 
     Examples
@@ -108,13 +108,13 @@ def disc_impulse_flooded(radius: Any, gap_from: Any, gap_to: Any, viscosity: Any
 
 
 def disc_impulse_conserved(volume: Any, gap_from: Any, gap_to: Any, viscosity: Any) -> Any:
-    r"""Impulse [N.s] that opens a disc of constant volume from one gap to another.
+    r"""Viscous impulse [N.s] of a disc of constant volume from one gap to another.
 
     .. math:: \int F \, dt = \frac{3 \eta V^2}{8\pi} \left(\frac{1}{h_0^4} - \frac{1}{h_1^4}\right)
 
     Notes
     -----
-    Half of the flooded impulse for a wide opening: the film shrinks as it is drawn out.
+    Half of the flooded impulse for a large final gap, because the wetted radius shrinks.
 
     Examples
     --------
@@ -124,29 +124,29 @@ def disc_impulse_conserved(volume: Any, gap_from: Any, gap_to: Any, viscosity: A
     262.126637
     """
     fall, ratio = _opening(gap_from, gap_to)
-    share = fall * (1.0 + ratio) * (1.0 + ratio * ratio)
-    return 3.0 / (8.0 * math.pi) * viscosity * volume**2 * share / gap_from**4
+    bracket = fall * (1.0 + ratio) * (1.0 + ratio * ratio)
+    return 3.0 / (8.0 * math.pi) * viscosity * volume**2 * bracket / gap_from**4
 
 
 def _opening(gap_from: Any, gap_to: Any) -> tuple[Any, Any]:
     """1 - h0/h1 without cancellation, and h0/h1; `gap_to` may be inf."""
-    gap_to = _smaller(gap_to, 1e30 * gap_from)  # beyond, nothing is left to add
+    gap_to = _smaller(gap_to, 1e30 * gap_from)  # the rest of the integral is negligible
     return (gap_to - gap_from) / gap_to, gap_from / gap_to
 
 
 def sphere_film_height(gap: Any, volume: Any, radius: Any) -> Any:
-    r"""Height [m] of the film at its rim under a sphere, :math:`H = \sqrt{D^2 + V/\pi R}`.
+    r"""Film height [m] at the rim under a sphere, :math:`H = \sqrt{D^2 + V/\pi R}`.
 
     Notes
     -----
-    Parabolic sphere and a film with an upright rim, Eqs. (3.23) and (3.24); the meniscus at the
-    rim changes the volume by a few per cent.
+    Paraboloid and a film with a cylindrical rim, Eqs. (3.23) and (3.24); the curved meniscus
+    changes the volume by a few per cent.
     """
     return (gap * gap + volume / (math.pi * radius)) ** 0.5
 
 
 def sphere_force(radius: Any, gap: Any, film_height: Any, speed: Any, viscosity: Any) -> Any:
-    r"""Force [N] that resists lifting a sphere off a flat through a film that ends at height H.
+    r"""Viscous force [N] on a sphere lifted off a flat through a film of rim height H.
 
     .. math:: F = 6\pi \eta R^2 \left(1 - \frac{D}{H}\right)^2 \frac{\dot D}{D}
 
@@ -166,7 +166,7 @@ def sphere_force(radius: Any, gap: Any, film_height: Any, speed: Any, viscosity:
 
     Notes
     -----
-    Lubrication of a parabola; leaves out terms of relative size D/R ln(R/D).
+    Lubrication theory for a paraboloid; neglects terms of relative size D/R ln(R/D).
 
     References
     ----------
@@ -182,22 +182,22 @@ def sphere_force(radius: Any, gap: Any, film_height: Any, speed: Any, viscosity:
 
 
 def sphere_rim_height(gap: Any, rim_radius: Any, radius: Any) -> Any:
-    r"""Height [m] of a film out to a rim of radius a, :math:`H = D + a^2/2R`; inf in a bath."""
+    r"""Height [m] of a film at a rim of radius a, :math:`H = D + a^2/2R`; inf if fully immersed."""
     return gap + rim_radius * rim_radius / (2.0 * radius)
 
 
 def sphere_impulse_flooded(
     radius: Any, rim_radius: Any, gap_from: Any, gap_to: Any, viscosity: Any
 ) -> Any:
-    r"""Impulse [N.s] that lifts a sphere, the film reaching out to a fixed radius a (inf: a bath).
+    r"""Viscous impulse [N.s] on a sphere in a film of fixed radius a (inf: fully immersed).
 
     .. math:: 6\pi\eta R^2 \left[\ln\frac{D_1 (D_0 + b)}{D_0 (D_1 + b)}
               - \frac{b (D_1 - D_0)}{(D_0 + b)(D_1 + b)}\right], \qquad b = \frac{a^2}{2R}
 
     Notes
     -----
-    In a bath the bracket is :math:`\ln(D_1/D_0)`, which grows without bound as D_0 goes to 0.
-    Rounding grows as D/b where the film is much thicker than the sphere is round (b << D).
+    Fully immersed the bracket is :math:`\ln(D_1/D_0)`, which diverges as D_0 goes to 0. Round-off
+    grows as D/b for b << D.
 
     Examples
     --------
@@ -205,7 +205,7 @@ def sphere_impulse_flooded(
     325.520299
     """
     travel = gap_to - gap_from
-    # Divided by b throughout, so that a bath (b = inf) needs no case of its own.
+    # Divided by b throughout, so that full immersion (b = inf) needs no case of its own.
     per_b = 2.0 * radius / (rim_radius * rim_radius)
     outer = 1.0 + gap_to * per_b
     shrink = travel * per_b / ((1.0 + gap_from * per_b) * outer)
@@ -215,7 +215,7 @@ def sphere_impulse_flooded(
 def sphere_impulse_conserved(
     radius: Any, film_height: Any, gap_from: Any, gap_to: Any, viscosity: Any
 ) -> Any:
-    r"""Impulse [N.s] that lifts a sphere at constant volume; `film_height` is that at the start.
+    r"""Viscous impulse [N.s] on a sphere at constant volume; `film_height` is that at the start.
 
     .. math:: 6\pi\eta R^2 \int_{D_0}^{D_1} \left(1 - \frac{D}{H}\right)^2 \frac{dD}{D},
               \qquad H^2 = H_0^2 - D_0^2 + D^2
@@ -232,7 +232,7 @@ def sphere_impulse_conserved(
     >>> round(sphere_impulse_conserved(100e-9, 2e-9, 1e-9, 39e-9, 0.89e-3) / 1e-7 * 1e9, 7)
     0.1975936
     """
-    # Beyond 1e30 film heights the tail is far below rounding; inf/inf is avoided.
+    # Beyond 1e30 film heights the tail is far below round-off; inf/inf is avoided.
     gap_to = _smaller(gap_to, 1e30 * (gap_from + film_height))
     travel = gap_to - gap_from
     excess = (film_height - gap_from) * (film_height + gap_from)
@@ -248,31 +248,31 @@ def sphere_impulse_conserved(
     return 6.0 * math.pi * viscosity * radius**2 * log1p(argument)
 
 
-def sphere_impulse_level(
+def sphere_impulse_constant_rim(
     radius: float, film_height: float, gap_from: float, gap_to: float, viscosity: float
 ) -> float:
-    r"""Impulse [N.s] that lifts a sphere out of a film whose rim keeps its height s.
+    r"""Viscous impulse [N.s] on a sphere in a film of constant rim height s.
 
     .. math:: 6\pi\eta R^2 \int_{D_0}^{D_1} \left(1 - \frac{D}{s}\right)^2 \frac{dD}{D}
 
     Parameters
     ----------
     radius, film_height, gap_from, gap_to : float
-        Radius R of the sphere, height s of the film at its rim, gaps at start and end [m]; a
-        film in equilibrium with vapour has such a rim. Beyond a gap of s there is no film.
+        Radius R of the sphere, film height s at the rim, gaps at start and end [m]; a film in
+        equilibrium with its vapour has such a rim. Beyond a gap of s there is no film.
     viscosity : float
         Dynamic viscosity [Pa.s].
 
     Notes
     -----
-    By quadrature over ln D, in which every term is positive: the closed form cancels where the
-    film is nearly left.
+    By quadrature over ln D, in which every term is positive: the closed form cancels as D
+    approaches s.
 
     Examples
     --------
     >>> s, a, b = 3e-9, 1e-9, 2e-9
     >>> closed = math.log(b / a) - 2.0 * (b - a) / s + 0.5 * (b * b - a * a) / s**2
-    >>> bracket = sphere_impulse_level(1.0, s, a, b, 1.0) / (6.0 * math.pi)
+    >>> bracket = sphere_impulse_constant_rim(1.0, s, a, b, 1.0) / (6.0 * math.pi)
     >>> round(bracket / closed, 12)
     1.0
     """

@@ -36,14 +36,14 @@ def sphere_newtonian(k):
 # which it begins to act.
 _WORST = math.sqrt(2.0 * SPHERE * LOW / 3.0)  # where the wall shear under a sphere is largest
 LIMITS = {
-    "clipped": (lambda f: film_limits.disc_tension_clipped(f, AREA, BAR), 0.5 * CAP),
+    "truncated": (lambda f: film_limits.disc_tension_truncated(f, AREA, BAR), 0.5 * CAP),
     "reynolds": (lambda f: film_limits.disc_tension_reynolds(f, AREA, BAR), 0.5 * CAP),
     "disc shear": (
         lambda f: film_limits.disc_shear_limited(f, FACE, GAP, BAR),
         0.5 * math.pi * BAR * FACE**3 / GAP,
     ),
     "sphere tension": (
-        lambda f: film_limits.sphere_tension_clipped(f, SPHERE, LOW, HIGH, BAR),
+        lambda f: film_limits.sphere_tension_truncated(f, SPHERE, LOW, HIGH, BAR),
         sphere_newtonian(BAR / (LOW**-2 - HIGH**-2) / SPHERE),
     ),
     "sphere shear": (
@@ -76,8 +76,8 @@ def test_a_cavitating_disc_keeps_the_printed_force(speed, force):
 
 
 @pytest.mark.parametrize("s", [1.5, 2.0, 10.0, 1e6])
-def test_the_clipped_force_is_the_printed_formula(s):
-    assert film_limits.disc_tension_clipped(0.5 * s * CAP, AREA, BAR) == approx(
+def test_the_truncated_force_is_the_printed_formula(s):
+    assert film_limits.disc_tension_truncated(0.5 * s * CAP, AREA, BAR) == approx(
         CAP * (1.0 - 0.5 / s), CLOSED
     )
 
@@ -92,12 +92,12 @@ def integral(density, end, kinks):
 
 
 @pytest.mark.parametrize("s", [0.5, 1.5, 7.0, 1e3])
-def test_the_clipped_force_is_the_integral_of_the_clipped_parabola(s):
+def test_the_truncated_force_is_the_integral_of_the_truncated_parabola(s):
     def pull(r):
         return 2.0 * math.pi * r * BAR * min(1.0, s * (1.0 - (r / FACE) ** 2))
 
     kink = FACE * math.sqrt(max(0.0, 1.0 - 1.0 / s))
-    assert film_limits.disc_tension_clipped(0.5 * s * CAP, AREA, BAR) == approx(
+    assert film_limits.disc_tension_truncated(0.5 * s * CAP, AREA, BAR) == approx(
         integral(pull, FACE, [kink]), QUAD
     )
 
@@ -117,7 +117,7 @@ def test_the_shear_limited_force_of_a_disc_is_the_integral_of_the_bounded_shear(
 
 @pytest.mark.parametrize("beyond", [0.5, 1.01, 3.0, 100.0, 1e4])
 @pytest.mark.parametrize("height", [1.2e-6, 8e-6, 1e-3])
-def test_the_tension_limited_force_of_a_sphere_is_the_integral_of_the_clipped_pressure(
+def test_the_tension_limited_force_of_a_sphere_is_the_integral_of_the_truncated_pressure(
     beyond, height
 ):
     k = beyond * BAR / (LOW**-2 - height**-2)
@@ -130,7 +130,7 @@ def test_the_tension_limited_force_of_a_sphere_is_the_integral_of_the_clipped_pr
 
     cut = 1.0 / math.sqrt(BAR / k + height**-2)
     kink = math.sqrt(2.0 * SPHERE * max(cut - LOW, 0.0))
-    found = film_limits.sphere_tension_clipped(newtonian, SPHERE, LOW, height, BAR)
+    found = film_limits.sphere_tension_truncated(newtonian, SPHERE, LOW, height, BAR)
     assert found == approx(integral(pull, rim, [kink]), QUAD)
 
 
@@ -189,7 +189,7 @@ def test_above_its_onset_a_limit_acts(limit, onset):
 @pytest.mark.parametrize(
     ("name", "bend"),
     [
-        ("clipped", lambda step: 2.0 * step),
+        ("truncated", lambda step: 2.0 * step),
         ("disc shear", lambda step: 5.0 * step),
         ("sphere tension", lambda step: 2.0 * step),
         # It begins on a ring inside the film, whose width grows as the root of the excess.
@@ -214,7 +214,7 @@ def test_a_cavity_begins_without_a_jump_in_slope():
 @pytest.mark.parametrize(
     ("name", "most"),
     [
-        ("clipped", CAP),
+        ("truncated", CAP),
         ("reynolds", CAP),
         ("disc shear", 2.0 * math.pi * BAR * FACE**3 / (3.0 * GAP)),
         ("sphere tension", 2.0 * math.pi * SPHERE * (HIGH - LOW) * BAR),
@@ -257,9 +257,9 @@ def test_a_faster_opening_is_never_resisted_less(limit, onset, force, more):
 
 
 @given(force=forces)
-def test_a_clipped_parabola_carries_at_most_15_percent_more_than_a_cavity(force):
-    clipped, cavity = (LIMITS[name][0](0.5 * force * CAP) for name in ("clipped", "reynolds"))
-    assert cavity * (1.0 - 1e-12) <= clipped <= 1.1501 * cavity
+def test_a_truncated_parabola_carries_at_most_15_percent_more_than_a_cavity(force):
+    truncated, cavity = (LIMITS[name][0](0.5 * force * CAP) for name in ("truncated", "reynolds"))
+    assert cavity * (1.0 - 1e-12) <= truncated <= 1.1501 * cavity
 
 
 @pytest.mark.parametrize("name", ["disc shear", "sphere shear"])
@@ -277,7 +277,7 @@ def test_the_shear_limit_of_a_sphere_keeps_its_digits_however_fast_it_opens():
 
 @pytest.mark.parametrize("tension", [1e-3, 1e12])
 def test_a_bath_around_a_sphere_is_bounded_too(tension):
-    force = film_limits.sphere_tension_clipped(1.0, SPHERE, LOW, math.inf, tension)
+    force = film_limits.sphere_tension_truncated(1.0, SPHERE, LOW, math.inf, tension)
     assert 0.0 < force <= 1.0
     shear = film_limits.sphere_shear_limited(1.0, SPHERE, LOW, math.inf, tension)
     assert 0.0 < shear <= 1.0
@@ -285,5 +285,5 @@ def test_a_bath_around_a_sphere_is_bounded_too(tension):
 
 def test_a_film_that_ends_at_the_apex_is_left_alone():
     """No film, no limit: the kernels divide by the height the film has above the gap."""
-    assert film_limits.sphere_tension_clipped(0.0, SPHERE, LOW, LOW, BAR) == 0.0
+    assert film_limits.sphere_tension_truncated(0.0, SPHERE, LOW, LOW, BAR) == 0.0
     assert film_limits.sphere_shear_limited(0.0, SPHERE, LOW, LOW, BAR) == 0.0

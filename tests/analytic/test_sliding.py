@@ -139,7 +139,7 @@ def test_a_sphere_far_away_is_a_flat():
     np.testing.assert_allclose(drag, sliding.lens_area(x, travel), rtol=1e-11, atol=0.0)
 
 
-def test_a_clipped_stress_under_a_sphere_has_its_closed_form():
+def test_a_truncated_stress_under_a_sphere_has_its_closed_form():
     radius, gap, height, cut = 1e-3, 1e-6, 1e-5, 3e-6  # Newtonian where the film exceeds `cut`
     strength = 1.0 / cut
     drag = sliding_sphere.sphere_drag(
@@ -150,7 +150,7 @@ def test_a_clipped_stress_under_a_sphere_has_its_closed_form():
     assert float(drag) == approx(plastic + newtonian, 1e-13)
 
 
-@pytest.mark.parametrize("law", ["clipped", "bair-winer", "eyring"])
+@pytest.mark.parametrize("law", ["truncated", "bair-winer", "eyring"])
 def test_a_limited_stress_is_newtonian_at_first_and_never_more(law):
     stress = np.geomspace(1e-8, 1e4, 60)
     limited = sliding.limited_stress(stress, 1.0, law)

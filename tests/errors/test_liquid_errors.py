@@ -153,7 +153,7 @@ def test_a_range_may_not_reach_where_the_law_has_no_meaning():
 def test_outside_its_range_a_law_warns_and_goes_on():
     law = WaltherViscosity(**VG46, temperature_min=253.15, source="data sheet")
     message = (
-        r"WaltherViscosity holds from 253\.15 to 505\.37 K and was asked at 243 K; data sheet$"
+        r"WaltherViscosity holds from 253\.15 to 505\.37 K and was evaluated at 243 K; data sheet$"
     )
     with pytest.warns(ValidityWarning, match=message):
         assert law(243.15) > law(253.15)

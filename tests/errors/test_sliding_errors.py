@@ -202,7 +202,7 @@ def test_a_force_along_the_bodies_does_not_open_a_gap():
     refuses(lambda: ck.plan(mixed), "CouetteForce needs a SlidingScene", error=ck.PlanError)
     eyring = ck.ShearLimit(strength=1e6, law="eyring")
     limited = attrs.evolve(mixed, effects=(ck.ViscousForce(), eyring))
-    refuses(lambda: ck.plan(limited), 'needs law="clipped"', error=ck.PlanError)
+    refuses(lambda: ck.plan(limited), 'needs law="truncated"', error=ck.PlanError)
 
 
 def test_what_was_not_simulated_says_what_to_add():

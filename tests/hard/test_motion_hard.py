@@ -416,7 +416,7 @@ def test_a_weak_liquid_at_ten_nanometres_releases_on_time(release_scene, strengt
     assert state.release_time == approx(release, 2e-3 if strength == 1e3 else 5e-5)
 
 
-@pytest.mark.parametrize("cavity", ["clipped", "reynolds"])
+@pytest.mark.parametrize("cavity", ["truncated", "reynolds"])
 def test_both_cavities_release_at_ten_nanometres(release_scene, cavity):
     """Tension bears 0.8 N per bar: the disc of 1 mm tears off 40 N at once at 10 bar."""
     scene = release_scene("D", ck.TensionLimit(tension=1e6, cavity=cavity), stiffness=0.0)

@@ -324,7 +324,7 @@ effects = st.tuples(
         ck.TensionLimit,
         tension=st.just("vapour") | positives,
         ambient_pressure=positives,
-        cavity=st.sampled_from(["clipped", "reynolds"]),
+        cavity=st.sampled_from(["truncated", "reynolds"]),
     ),
     st.builds(ck.ShearLimit, strength=positives),
     st.builds(ck.Rupture, gap=st.none() | lengths),

@@ -100,7 +100,7 @@ face = ck.Flat(radius=1e-3)
 film = ck.Meniscus(liquid=oil, volume=3e-12, contact_angle_lower=0.2, contact_angle_upper=0.2)
 found = []
 for meniscus in (ck.MeniscusForce(), ck.MeniscusForce(profile="as-published")):
-    for cavity in ("clipped", "reynolds"):
+    for cavity in ("truncated", "reynolds"):
         made = ck.plan(ck.SeparationScene(
             interface=ck.Interface(lower=face, upper=face, meniscus=film),
             opening=ck.Opening(initial_gap=1e-6, final_gap=1e-5, force=10.0, mass=1e-3),

@@ -103,8 +103,8 @@ OWNED = {
         },
     },
     ck.TensionLimit(tension=1e4): {
-        "flats": {"lubrication.film_limits.disc_tension_clipped"},
-        "sphere": {"lubrication.film_limits.sphere_tension_clipped"},
+        "flats": {"lubrication.film_limits.disc_tension_truncated"},
+        "sphere": {"lubrication.film_limits.sphere_tension_truncated"},
     },
     ck.TensionLimit(tension=1e4, cavity="reynolds"): {
         "flats": {"lubrication.film_limits.disc_tension_reynolds", "numerics.roots.bracketed_root"},
@@ -380,7 +380,7 @@ HEARTS = [
         (ck.ViscousForce(), ck.TensionLimit(tension=1e4)),
         "flats",
         "force",
-        "lubrication.film_limits.disc_tension_clipped",
+        "lubrication.film_limits.disc_tension_truncated",
     ),
     (
         (ck.ViscousForce(), ck.TensionLimit(tension=1e4, cavity="reynolds")),
@@ -392,7 +392,7 @@ HEARTS = [
         (ck.ViscousForce(), ck.TensionLimit(tension=1e4)),
         "sphere",
         "force",
-        "lubrication.film_limits.sphere_tension_clipped",
+        "lubrication.film_limits.sphere_tension_truncated",
     ),
     (
         (ck.ViscousForce(), ck.ShearLimit(strength=1e3)),

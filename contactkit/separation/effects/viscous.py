@@ -127,7 +127,7 @@ def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> F
             return n * float(
                 squeeze.sphere_impulse_flooded(sphere, film.rim, start, end, viscosity)
             )
-        return n * squeeze.sphere_impulse_level(sphere, level, start, end, viscosity)
+        return n * squeeze.sphere_impulse_constant_rim(sphere, level, start, end, viscosity)
 
     def exponent(gap: float) -> float:
         # d ln c/d ln D of (1 - D/s)^2/D is 1 + 2 D/(s - D); it may not grow without bound.
@@ -175,7 +175,7 @@ class TensionLimit(FilmLimit):
         milliseconds.
     ambient_pressure : float
         Pressure around the film [Pa].
-    cavity : {"clipped", "reynolds"}
+    cavity : {"truncated", "reynolds"}
         Pressure profile cut off at the limit; or, between flats, a cavity whose edge has no
         pressure slope (Swift-Stieber). The second gives up to 15 % less force.
 
@@ -190,8 +190,8 @@ class TensionLimit(FilmLimit):
 
     tension: float | Literal["vapour"] = field(default="vapour", metadata=si("Pa"))
     ambient_pressure: float = field(default=101_325.0, validator=positive, metadata=si("Pa"))
-    cavity: Literal["clipped", "reynolds"] = field(
-        default="clipped", validator=choice("clipped", "reynolds")
+    cavity: Literal["truncated", "reynolds"] = field(
+        default="truncated", validator=choice("truncated", "reynolds")
     )
 
     @tension.validator
@@ -209,12 +209,12 @@ class TensionLimit(FilmLimit):
         """See `Effect.sources`."""
         if self.cavity == "reynolds":
             return ("Swift-Stieber condition at the cavity edge; Resch and Scheidl 2014",)
-        return ("parabolic pressure clipped at the limit; Scheidl and Gradl 2016",)
+        return ("parabolic pressure truncated at the limit; Scheidl and Gradl 2016",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
         if self.cavity == "reynolds" and not scene.interface.is_flat:
-            return ('two flats (or cavity="clipped")',)
+            return ('two flats (or cavity="truncated")',)
         return ()
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
@@ -224,7 +224,7 @@ class TensionLimit(FilmLimit):
         disc = (
             film_limits.disc_tension_reynolds
             if self.cavity == "reynolds"
-            else film_limits.disc_tension_clipped
+            else film_limits.disc_tension_truncated
         )
 
         def between_flats(gap: float, speed: float, force: float) -> float:
@@ -233,7 +233,7 @@ class TensionLimit(FilmLimit):
         def under_sphere(gap: float, speed: float, force: float) -> float:
             if speed <= 0.0:
                 return force
-            return n * film_limits.sphere_tension_clipped(
+            return n * film_limits.sphere_tension_truncated(
                 force / n, film.sphere_radius, gap, height(gap), drop
             )
 
@@ -248,8 +248,8 @@ class ShearLimit(FilmLimit):
     ----------
     strength : float
         Limiting shear strength [Pa]; for oils about 1e6 to 1e8.
-    law : {"clipped", "bair-winer", "eyring"}
-        How the stress nears it. ``"clipped"``: Newtonian up to the strength. The others are for a
+    law : {"truncated", "bair-winer", "eyring"}
+        How the stress nears it. ``"truncated"``: Newtonian up to the strength. The others are for a
         `SlidingScene`: tau_L (1 - exp(-eta g/tau_L)) of Bair and Winer, with the shear rate g, and
         tau_E asinh(eta g/tau_E) of Eyring, for which `strength` is a scale and no bound.
     """
@@ -259,8 +259,8 @@ class ShearLimit(FilmLimit):
     takes_pressure: ClassVar[bool] = True
 
     strength: float = field(validator=positive, metadata=si("Pa"))
-    law: Literal["clipped", "bair-winer", "eyring"] = field(
-        default="clipped", validator=choice("clipped", "bair-winer", "eyring")
+    law: Literal["truncated", "bair-winer", "eyring"] = field(
+        default="truncated", validator=choice("truncated", "bair-winer", "eyring")
     )
 
     @property
@@ -272,8 +272,8 @@ class ShearLimit(FilmLimit):
 
     def lacks(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
-        if self.law != "clipped" and not isinstance(scene, SlidingScene):
-            return ('law="clipped": the others are for a SlidingScene',)
+        if self.law != "truncated" and not isinstance(scene, SlidingScene):
+            return ('law="truncated": the others are for a SlidingScene',)
         return ()
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:

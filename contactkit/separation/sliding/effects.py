@@ -176,7 +176,7 @@ def _sphere_law(
         flow = viscosity * speed
         if limit is None:
             return scale * sphere_drag(*shape, travel, lambda h: flow / h)
-        kink = flow / limit.strength if limit.law == "clipped" else 0.0
+        kink = flow / limit.strength if limit.law == "truncated" else 0.0
         return scale * sphere_drag(
             *shape,
             travel,
