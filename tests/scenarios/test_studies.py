@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import itertools
 import json
@@ -366,7 +367,7 @@ SLOW = """
 import signal, sys, time
 sys.path.insert(0, sys.argv[1])
 import test_studies
-from contactkit import study_run
+from contactkit.studies import run as study_run
 
 # A job in the background of a shell is started deaf to it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -393,15 +394,16 @@ def test_an_interrupted_study_goes_on_where_it_stopped(tmp_path, workers, how):
     script.write_text(SLOW, encoding="utf-8")
     here = str(Path(__file__).parent)
     running = subprocess.Popen(
-        [sys.executable, str(script), here, str(store), str(workers)], stderr=subprocess.DEVNULL
+        [sys.executable, str(script), here, str(store), str(workers)],
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
     )
     try:
         until(lambda: len(list(store.glob("[!.]*.json"))) >= 2 or running.poll() is not None)
         running.send_signal(how)
         running.wait(timeout=30)
     finally:
-        running.kill()
-    settled(store)
+        ended(running)
     found = {path: path.stat().st_mtime_ns for path in store.glob("[!.]*.json")}
     assert 2 <= len(found) < 20
     for path in store.glob("[!.]*"):  # no half file
@@ -432,11 +434,10 @@ def until(true, seconds=60.0):
         time.sleep(0.02)
 
 
-def settled(store):
-    """Wait until nobody writes any more: the workers of a killed study end by themselves."""
-    before = None
-    while before != (before := sorted(p.name for p in store.iterdir())):
-        time.sleep(0.7)
+def ended(study):
+    """See to it that nobody writes any more: what the workers of a killed study are at is lost."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(study.pid, signal.SIGKILL)
 
 
 def test_an_interruption_reaches_the_caller(tmp_path):
