@@ -32,7 +32,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..numerics.roots import bracketed_root
+from ..numerics.roots import bracketed_root, newton_root
 
 __all__ = [
     "PARTS_BEFORE_RELEASE",
@@ -233,12 +233,5 @@ def _in_contact(gap: float, transition: float, touch: Cohesion) -> Cohesion:
     high = 1.1 * low + 0.1
     while excess(high)[0] < 0.0:
         low, high = high, 1.5 * high
-    a = high
-    for _ in range(100):
-        value, slope = excess(a)
-        low, high = (low, a) if value > 0.0 else (a, high)
-        guess = a - value / slope if slope > 0.0 else low
-        if abs(guess - a) <= 4e-16 * a:
-            break
-        a = guess if low < guess < high else 0.5 * (low + high)
+    a = newton_root(excess, low, high, high)
     return _state(a, per_width * (a * a + gap), transition)

@@ -155,7 +155,7 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
         "status": result.status,
         "message": result.message,
         "impulses": dict(result.impulses),
-        "state": list(result.state) if result.state is not None else None,
+        "state": result.state._asdict() if result.state is not None else None,
         "work": result.work._asdict(),
         "errata": [one._asdict() for one in result.errata],
     }
@@ -171,7 +171,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         header["message"],
         columns,
         header["impulses"],
-        MotionState(*state) if state is not None else None,
+        MotionState(**state) if state is not None else None,
         check(made, path_of(made, columns)),
         Work(**header["work"]),
     )

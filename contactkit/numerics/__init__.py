@@ -1,8 +1,12 @@
 """Numerical tools that must run without numpy, and the FFT backends.
 
-cubic_spline    A cubic spline through points, without numpy: for laws that run where numpy is missi
-fft             Real two-dimensional transforms behind one small interface: scipy.fft always, ducc0
-monotone_cubic  Curves through measured or solved points that keep the order of their values, withou
-quadrature      Gauss-Legendre quadrature on the unit interval, without numpy.
-roots           A bracketed root of a function of one float, for kernels that run where scipy does n
+An FMU carries them into hosts where scipy is missing; elsewhere scipy does.
+
+roots           Bracketed roots: false position, Newton, and bisection of a condition.
+quadrature      Gauss-Legendre and Gauss-Lobatto rules on the unit interval.
+step_size       Step-size control: the next length of a step from the error of the last one.
+events          Events inside a step: which is met first, and the step that ends there.
+cubic_spline    A cubic spline through points.
+monotone_cubic  Curves through points that keep the order of their values.
+fft             Real two-dimensional transforms: scipy.fft always, ducc0 where it is installed.
 """

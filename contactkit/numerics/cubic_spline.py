@@ -12,9 +12,9 @@ from itertools import pairwise
 
 from ..errors import DescriptionError
 
-__all__ = ["Piece", "cubic_spline", "spline_pieces"]
+__all__ = ["cubic_spline"]
 
-Piece = tuple[float, float, float, float, float]
+_Piece = tuple[float, float, float, float, float]
 """Start of a piece of a curve, and the coefficients of its cubic."""
 
 
@@ -44,7 +44,16 @@ def cubic_spline(
     >>> [round(x, 12) for x in curve(2.0)]
     [8.0, 12.0]
     """
-    inner, pieces = spline_pieces(nodes, values)
+    if len(nodes) < 4 or len(nodes) != len(values):
+        raise DescriptionError("cubic_spline.nodes", len(nodes), "be four or more, one per value")
+    if any(not a < b for a, b in pairwise(nodes)):
+        raise DescriptionError("cubic_spline.nodes", "out of order", "ascend")
+    slopes = _slopes(nodes, values)
+    inner = tuple(nodes[1:-1])
+    pieces = [
+        _piece(nodes[i], nodes[i + 1], values[i], values[i + 1], slopes[i], slopes[i + 1])
+        for i in range(len(nodes) - 1)
+    ]
 
     def curve(x: float) -> tuple[float, float]:
         x0, a, b, c, d = pieces[bisect_right(inner, x)]
@@ -54,29 +63,7 @@ def cubic_spline(
     return curve
 
 
-def spline_pieces(
-    nodes: Sequence[float], values: Sequence[float]
-) -> tuple[tuple[float, ...], list[Piece]]:
-    """Pieces of `cubic_spline`, and the nodes between them; for those who want more than a slope.
-
-    Examples
-    --------
-    >>> inner, pieces = spline_pieces([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 8.0, 27.0])
-    >>> inner, [round(x, 12) for x in pieces[2]]
-    ((1.0, 2.0), [2.0, 8.0, 12.0, 6.0, 1.0])
-    """
-    if len(nodes) < 4 or len(nodes) != len(values):
-        raise DescriptionError("cubic_spline.nodes", len(nodes), "be four or more, one per value")
-    if any(not a < b for a, b in pairwise(nodes)):
-        raise DescriptionError("cubic_spline.nodes", "out of order", "ascend")
-    slopes = _slopes(nodes, values)
-    return tuple(nodes[1:-1]), [
-        _piece(nodes[i], nodes[i + 1], values[i], values[i + 1], slopes[i], slopes[i + 1])
-        for i in range(len(nodes) - 1)
-    ]
-
-
-def _piece(x0: float, x1: float, y0: float, y1: float, m0: float, m1: float) -> Piece:
+def _piece(x0: float, x1: float, y0: float, y1: float, m0: float, m1: float) -> _Piece:
     """Start and coefficients of the cubic with given values and slopes at two points."""
     h = x1 - x0
     rise = (y1 - y0) / h

@@ -1,4 +1,4 @@
-"""Gauss-Legendre quadrature on the unit interval, without numpy.
+"""Gauss-Legendre and Gauss-Lobatto quadrature on the unit interval, without numpy.
 
 It serves kernels that must also run in a bare interpreter; numpy users may wrap the tuples in
 arrays. Nodes ascend and weights sum to one.
@@ -9,7 +9,14 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
-__all__ = ["gauss_legendre"]
+__all__ = ["LOBATTO_5", "gauss_legendre"]
+
+_INNER = 0.5 * math.sqrt(3.0 / 7.0)
+LOBATTO_5 = (
+    (0.0, 0.5 - _INNER, 0.5, 0.5 + _INNER, 1.0),
+    (1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 1.0 / 20.0),
+)
+"""Nodes and weights of Lobatto's rule of five points, exact to the seventh power."""
 
 
 def _legendre(degree: int, x: float) -> tuple[float, float]:

@@ -1,11 +1,11 @@
-"""A bracketed root of a function of one float, for kernels that run where scipy does not."""
+"""Roots in a bracket, without scipy: for code that runs in FMUs and in kernels of plain floats."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 
-__all__ = ["bracketed_root"]
+__all__ = ["bracketed_root", "first_true", "newton_root"]
 
 
 def bracketed_root(
@@ -45,3 +45,63 @@ def bracketed_root(
         if abs(high - low) <= 0.5 * width:
             width, since = abs(high - low), 0
     return high
+
+
+def first_true(
+    condition: Callable[[float], bool],
+    low: float,
+    high: float,
+    *,
+    rtol: float = 1e-15,
+    atol: float = 0.0,
+) -> float:
+    """Least point at which a condition holds that does at `high`; bisection down to `low`.
+
+    It holds at the point returned, and no longer at one that is less by `atol`, or by `rtol` of
+    it. `high` may be less than `low`: then it is the largest such point.
+
+    Examples
+    --------
+    >>> round(first_true(lambda x: x * x >= 2.0, 0.0, 2.0), 12)
+    1.414213562373
+    """
+    if condition(low):
+        return low
+    while abs(high - low) > max(rtol * max(abs(low), abs(high)), atol):
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        if condition(middle):
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def newton_root(
+    function: Callable[[float], tuple[float, float]],
+    low: float,
+    high: float,
+    start: float,
+    rtol: float = 4e-16,
+) -> float:
+    """Root of a function that rises through zero between `low` and `high`: Newton, bracketed.
+
+    `function` gives the value and the slope; a step that would leave the bracket halves it.
+
+    Examples
+    --------
+    >>> round(newton_root(lambda x: (x * x - 2.0, 2.0 * x), 0.0, 2.0, 1.0), 12)
+    1.414213562373
+    """
+    x = start
+    for _ in range(100):
+        value, slope = function(x)
+        low, high = (low, x) if value > 0.0 else (x, high)
+        guess = x - value / slope if slope > 0.0 else math.nan
+        if not low <= guess <= high:
+            guess = 0.5 * (low + high)
+        x, moved = guess, abs(guess - x)
+        if moved <= rtol * abs(x):
+            break
+    return x

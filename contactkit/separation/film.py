@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
-from collections.abc import Callable, Iterable, Mapping
-from itertools import pairwise
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from attrs import field, frozen
@@ -13,9 +11,11 @@ from attrs import field, frozen
 from .effects.base import ForceLaw, Limiter, SeparationForce
 from .effects.registry import SeparationEffect
 from .effects.viscous import ViscousForce
-from .integrator.radau_smooth import Here
+from .integrator.radau import Forces
 
 __all__ = ["Film", "impulse_name"]
+
+_DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of forces
 
 
 def impulse_name(column: str) -> str:
@@ -27,44 +27,6 @@ def impulse_name(column: str) -> str:
     'meniscus_impulse'
     """
     return column.removesuffix("_force") + "_impulse"
-
-
-def _nothing(gap: float) -> tuple[float, float, float]:
-    return 0.0, 0.0, 0.0
-
-
-def _none(gap: float, speed: float) -> float:
-    return 0.0
-
-
-def _smooth(
-    edges: tuple[float, ...],
-    viscous: ForceLaw | None,
-    series: Callable[[float], tuple[float, float, float] | None],
-) -> Callable[[float], Here | None]:
-    """Join the viscous and one other force between edges; the last answer is kept.
-
-    The end of a step is the start of the next one.
-    """
-    resist, cells = viscous.force if viscous is not None else _none, []
-    for low, high in pairwise(edges):
-        one = low or min(0.5 * high, 1e-6)
-        cells.append((viscous.exponent(one) if viscous is not None else 0.0, low, high))
-    inner = edges[1:-1]
-    last: Here = (math.nan, *(0.0,) * 7)
-
-    def at(gap: float) -> Here | None:
-        nonlocal last
-        found = last
-        if found[0] == gap:
-            return found
-        forces = series(gap)
-        if forces is None:
-            return None
-        last = found = (gap, *forces, resist(gap, 1.0), *cells[bisect_right(inner, gap)])
-        return found
-
-    return at
 
 
 @frozen(eq=False)
@@ -87,8 +49,7 @@ class Film:
     _viscous: ForceLaw | None = field(init=False, repr=False)
     _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
     static_columns: tuple[str, ...] = field(init=False, repr=False)
-    smooth: Callable[[float], Here | None] | None = field(init=False, repr=False)
-    """What acts at a gap [m], if that is a liquid between flats, without its limits; see `Here`."""
+    static_impulses: tuple[str, ...] = field(init=False, repr=False)
 
     @kinks.default
     def _find_kinks(self) -> tuple[float, ...]:
@@ -115,17 +76,14 @@ class Film:
     def _find_columns(self) -> tuple[str, ...]:
         return tuple(kind.column for kind in self.laws if kind is not ViscousForce)
 
-    @smooth.default
-    def _find_smooth(self) -> Callable[[float], Here | None] | None:
-        others = [law for kind, law in self.laws.items() if kind is not ViscousForce]
-        viscous = self._viscous
-        if self.static_columns not in ((), ("meniscus_force",)):
-            return None
-        if viscous is not None and not viscous.is_power:
-            return None
-        series = others[0].series if others else _nothing
-        edges = (0.0, *self.kinks, min(self.end, self.release))
-        return _smooth(edges, viscous, series) if series is not None else None
+    @property
+    def has_viscous(self) -> bool:
+        """Whether a viscous force is among the laws."""
+        return self._viscous is not None
+
+    @static_impulses.default
+    def _find_impulses(self) -> tuple[str, ...]:
+        return tuple(map(impulse_name, self.static_columns))
 
     def left(self, *, broken: bool, detached: bool) -> Film | None:
         """Return what acts once the film is broken, or the solids have let go; None if nothing."""
@@ -153,22 +111,9 @@ class Film:
             for column, force in zip(self.static_columns, self._static, strict=True)
         }
 
-    def static_means(
-        self, gaps: Iterable[float], weights: Iterable[float], totals: Iterable[float]
-    ) -> dict[str, float]:
-        """Weighted sum over gaps of each of the forces that do not depend on speed [N].
-
-        By the name of its impulse. `totals` are their sums at the gaps, so that one force alone
-        is not evaluated again.
-        """
-        pairs = list(zip(gaps, weights, strict=True))
-        names = [impulse_name(column) for column in self.static_columns]
-        if len(names) == 1:
-            return {names[0]: sum(w * f for (_, w), f in zip(pairs, totals, strict=True))}
-        return {
-            name: sum(weight * force(gap, 0.0) for gap, weight in pairs)
-            for name, force in zip(names, self._static, strict=True)
-        }
+    def impulses(self) -> dict[str, float]:
+        """Impulse [N.s] of each force before anything has moved, by its name."""
+        return {impulse_name(kind.column): 0.0 for kind in self.laws}
 
     def viscous_force(
         self, gap: float, speed: float
@@ -184,16 +129,24 @@ class Film:
                 found, acting = left, kind
         return found, acting
 
-    def forces(
-        self, gap: float, speed: float
-    ) -> tuple[float, float, type[SeparationEffect] | None]:
-        """Static force and viscous force after the limits [N], and the limit that acts."""
-        here = self.smooth(gap) if self.smooth is not None else None
-        if here is None:
-            return self.static_force(gap), *self.viscous_force(gap, speed)
-        if self.limits:
-            return here[1], *self.viscous_force(gap, speed)
-        return here[1], here[4] * speed, None  # known already, at the end of a step
+    def forces(self, gap: float, speed: float) -> Forces:
+        """Static and viscous force [N] with their slopes, by differences, and the limit that acts.
+
+        A limit leaves a viscous force at rest alone, so that differences of the speed may be
+        relative: they never straddle the speed at which the limit sets in.
+        """
+        near = gap * (1.0 + _DIFFERENCE)
+        static, static_near = self.static_force(gap), self.static_force(near)
+        static_by_gap = (static_near - static) / (near - gap)
+        damping = self.damping(gap)
+        viscous, limit = self.viscous_force(gap, speed) if self.limits else (damping * speed, None)
+        if limit is None:
+            by_gap = speed * (self.damping(near) - damping) / (near - gap)
+            return Forces(static, static_by_gap, viscous, by_gap, damping)
+        by_gap = (self.viscous_force(near, speed)[0] - viscous) / (near - gap)
+        faster = speed * (1.0 + _DIFFERENCE)
+        by_speed = (self.viscous_force(gap, faster)[0] - viscous) / (faster - speed)
+        return Forces(static, static_by_gap, viscous, by_gap, by_speed, limit)
 
     def force(self, gap: float, speed: float) -> float:
         """Sum of all forces [N]; positive resists opening."""
@@ -202,8 +155,8 @@ class Film:
             total += force(gap, speed)
         return total
 
-    def resistance(self, gap: float) -> float:
-        """Viscous force per speed [N.s/m] of the film without limits, at a gap [m]."""
+    def damping(self, gap: float) -> float:
+        """Damping coefficient of the film without limits, viscous force per speed [N.s/m]."""
         return self._viscous.force(gap, 1.0) if self._viscous is not None else 0.0
 
     def exponent(self, gap: float) -> float:

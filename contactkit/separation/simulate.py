@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, overload
 
 from ..errors import ConvergenceError
 from .effects.registry import ViscousForce
-from .film import impulse_name
-from .motion.advance import advance, rest_once, step_once
-from .motion.state import MotionState, outputs, start
+from .motion.advance import advance, internal_step
+from .motion.state import MotionState, acting_film, outputs, start
 from .plan import Plan
 from .prescribed import at_speed, frozen, newtonian_impulses, simulated, within_time
 from .results import SeparationResult, Work
@@ -123,9 +122,7 @@ def drive(plan: Plan) -> Callable[[float], float]:
 
 def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
     """Advance by one internal step, or to the next event."""
-    end = plan.scene.opening.time_limit
-    one = rest_once if state.held else step_once
-    return one(plan, state, pull, end)
+    return internal_step(plan, state, pull, plan.scene.opening.time_limit)
 
 
 def _share(plan: Plan, state: MotionState) -> float:
@@ -137,7 +134,7 @@ def _share(plan: Plan, state: MotionState) -> float:
 def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:
     """Whether the pull, once risen, can never open the gap from here."""
     state, opening = states[-1], plan.scene.opening
-    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    film = acting_film(plan, state)
     if film is None or len(states) < 2:
         return False
     if opening.rise_time and state.time < 40.0 * opening.rise_time:
@@ -154,10 +151,9 @@ def _motion_result(
     problem: str | None,
 ) -> SeparationResult:
     last = states[-1]
-    named = [impulse_name(column) for column in plan.film.static_columns]
-    impulses = {name: getattr(last, name) for name in named if name in last._fields}
+    impulses = dict(last.impulses)
     if plan.has(ViscousForce):
-        impulses |= newtonian_impulses(plan) | {"viscous_impulse": last.viscous_impulse}
+        impulses = newtonian_impulses(plan) | impulses
     status, message = _outcome(plan, last, pull(last.time), problem)
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     columns = _columns(plan, states, pull)
@@ -185,7 +181,7 @@ def _columns(
     }
     columns |= {name: frozen(curves[name]) for name in simulated(plan)}
     if plan.has(ViscousForce):
-        columns["viscous_impulse"] = frozen([s.viscous_impulse for s in states])
+        columns["viscous_impulse"] = frozen([s.impulses["viscous_impulse"] for s in states])
     return columns
 
 
@@ -215,7 +211,7 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
 
 def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:
     """Each force [N] that does not depend on speed, 0 where it has ended."""
-    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    film = acting_film(plan, state)
     none = dict.fromkeys(plan.film.static_columns, 0.0)
     return none | (film.static_forces(state.gap) if film is not None else {})
 
@@ -223,4 +219,4 @@ def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:
 def _newtonian_force(plan: Plan, state: MotionState) -> float:
     if state.broken or not plan.has(ViscousForce):
         return 0.0
-    return plan.film_with(state.share).laws[ViscousForce].force(state.gap, state.speed)
+    return plan.film_with(state.volume_fraction).laws[ViscousForce].force(state.gap, state.speed)

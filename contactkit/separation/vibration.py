@@ -20,7 +20,7 @@ from scipy.interpolate import CubicSpline
 
 from ..errors import InfeasibleError
 from ..numerics.quadrature import gauss_legendre
-from ..numerics.roots import bracketed_root
+from ..numerics.roots import bracketed_root, first_true
 from ..scene.imposed import Vibration
 from .effects.registry import SeparationEffect, ViscousForce
 from .film import impulse_name
@@ -254,11 +254,8 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
         first = acting(low)
         if first is acting(high):
             continue
-        width = 1e-9 * (high - low)
-        # Late in a long run the times of a fast vibration have no digits for that width.
-        while high - low > width and low < (middle := 0.5 * (low + high)) < high:
-            low, high = (middle, high) if acting(middle) is first else (low, middle)
-        found.append(high)
+        near = 1e-9 * (high - low)
+        found.append(first_true(lambda t, was=first: acting(t) is not was, low, high, atol=near))
     return found
 
 

@@ -7,13 +7,15 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ...errors import ConvergenceError
+from ...numerics.events import first_crossing, step_to_event
+from ...numerics.roots import first_true
+from ...numerics.step_size import StepSize
 from .force_step import forced
 from .impulse_step import Body, Doubled, Point, doubled, given
 from .sides import FilmSide, Pull, Pulling, Reaction
 
 __all__ = ["Goal", "Walk"]
 
-_SAFETY, _SHRINK, _GROW = 0.9, 0.1, 5.0
 _SAME = 1e-9  # gaps closer than this, relatively, are one
 _MOST_REJECTED = 60
 _REST = 0.02  # share of the whole time that is rested at once
@@ -51,10 +53,10 @@ class Walk:
         self._length = 1e-3 * (goal.stop_time - first.time)
         self._held = first.gap <= body.floor and first.speed <= 0.0
         self._share = 0.5 * goal.tolerance
-        self._power = -1.0 / 3.0
+        self._control = StepSize(order=3, grow=5.0, unsolved=0.5)
         if film.has_limits:  # without extrapolation errors add up from step to step
             self._share *= 0.5
-            self._power = -1.0 / 4.0
+            self._control = self._control._replace(order=4)
 
     @property
     def is_done(self) -> bool:
@@ -76,16 +78,15 @@ class Walk:
             if found is not None and error <= 1.0:
                 break
             rejected += 1
-            length *= 0.5 if math.isinf(error) else max(_SHRINK, _SAFETY * error**self._power)
+            length = self._control.shorter(length, error)
             if rejected > _MOST_REJECTED or length < 1e-15 * max(point.time, 1e-12):
                 raise ConvergenceError(
                     f"no step can be taken from {point.time:g} s, gap {point.gap:g} m, that meets "
                     f"the tolerance of {goal.tolerance:g}; loosen it, or use the FMU stiction-mass"
                 )
         self.n_rejected += rejected
-        following = length * min(_GROW, _SAFETY * max(error, 1e-9) ** self._power)
-        cut_short = not rejected and length < self._length
-        self._length = max(following, self._length) if cut_short else following
+        is_cut = not rejected and length < self._length
+        self._length = self._control.following(length, error, self._length if is_cut else 0.0)
         mark = self._mark(point, found.gap)
         if mark is not None:
             found, length = self._locate(found, length, mark)
@@ -99,16 +100,17 @@ class Walk:
         pulling = self.pull.over(point.time, length, point.gap, 0.0)
         self._held = pulling(point.time) <= holding
         if self._held:
-            low, high = 0.0, length
+
+            def exceeds(span: float) -> bool:
+                self.pull.restore(start)
+                pulling = self.pull.over(point.time, span, point.gap, 0.0)
+                return pulling(point.time + span) > holding
+
             if pulling(point.time + length) > holding:
                 self._held = False
-                while high - low > 1e-12 * length:
-                    length = 0.5 * (low + high)
-                    self.pull.restore(start)
-                    pulling = self.pull.over(point.time, length, point.gap, 0.0)
-                    low, high = (
-                        (low, length) if pulling(point.time + length) > holding else (length, high)
-                    )
+                length = first_true(exceeds, 0.0, length, rtol=1e-12)
+                self.pull.restore(start)
+                pulling = self.pull.over(point.time, length, point.gap, 0.0)
             there = self.film.move(point.time, length, point.gap, 0.0)
             time = point.time + length
             self._add(Point(time, point.gap, 0.0, 0.0, point.given, there), pulling, end)
@@ -145,43 +147,28 @@ class Walk:
 
     def _mark(self, point: Point, gap: float) -> float | None:
         """First gap on the way at which something happens."""
-        marks = [point.film.above, point.film.below, self.goal.release_gap, self.body.floor]
-        low, high = sorted((point.gap, gap))
-        inside = [m for m in marks if low * (1.0 + _SAME) < m <= high * (1.0 - _SAME) or m == gap]
-        inside = [m for m in inside if m < math.inf and abs(m / point.gap - 1.0) > _SAME]
-        if gap < point.gap:
-            inside = [m for m in inside if m != self.goal.release_gap]
-        return min(inside, key=lambda m: abs(m - point.gap), default=None)
+        events = [point.film.above, point.film.below, self.body.floor]
+        if gap > point.gap:
+            events.append(self.goal.release_gap)
+        return first_crossing(events, point.gap, gap, _SAME)
 
     def _locate(self, found: Doubled, length: float, mark: float) -> tuple[Doubled, float]:
-        """Step that ends at a gap: secants on its length, kept inside the bracket."""
+        """Step that ends at a gap."""
         point = self.points[-1]
+        travel = math.log(found.gap / point.gap)
         # A stiff film may hardly have moved, and its impulse is in what it did.
-        enough = 1e-3 * self.goal.tolerance * min(1.0, abs(math.log(found.gap / point.gap)))
-        low, high = 0.0, length
-        here, miss = length, math.log(found.gap / mark)
-        guess = length * (1.0 - miss / math.log(found.gap / point.gap))
-        rising = found.gap > point.gap
-        for _ in range(40):
-            if not low < guess < high:
-                guess = 0.5 * (low + high)
-            again = self._try(guess)
-            if again is None:
-                guess, high = 0.5 * (low + guess), guess
-                continue
-            missed = math.log(again.gap / mark)
-            if abs(missed) <= enough or high - low <= 1e-14 * high:
-                return again, guess
-            if (missed > 0.0) == rising:
-                high = guess
-            else:
-                low = guess
-            slope = (missed - miss) / (guess - here)
-            here, miss = guess, missed
-            guess = guess - missed / slope if slope else math.nan
-        raise ConvergenceError(
-            f"no step leads from {point.gap:g} m at {point.time:g} s to the gap of {mark:g} m"
-        )
+        enough = 1e-3 * self.goal.tolerance * min(1.0, abs(travel))
+
+        def beyond(step: Doubled) -> float:
+            return math.copysign(1.0, travel) * math.log(step.gap / mark)
+
+        begin = -abs(math.log(point.gap / mark))
+        found, length = step_to_event(self._try, beyond, begin, found, length, enough)
+        if abs(beyond(found)) > 1e3 * enough:
+            raise ConvergenceError(
+                f"no step leads from {point.gap:g} m at {point.time:g} s to the gap of {mark:g} m"
+            )
+        return found, length
 
     def _accept(self, found: Doubled, length: float, end: float, mark: float | None) -> None:
         point = self.points[-1]

@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ...numerics.quadrature import gauss_legendre
 from .sides import FilmSide, Pull, Pulling, Reaction
 from .stage_root import Known, root
 
@@ -29,13 +30,6 @@ __all__ = ["Body", "Doubled", "Point", "doubled", "given", "single"]
 
 _GAMMA = 1.0 - math.sqrt(0.5)
 _SOLVED = 1e-4  # share of the tolerance that a stage may miss its root by
-_GAUSS = (
-    (0.04691007703066802, 0.11846344252809454),
-    (0.23076534494715845, 0.23931433524968324),
-    (0.5, 0.28444444444444444),
-    (0.7692346550528415, 0.23931433524968324),
-    (0.953089922969332, 0.11846344252809454),
-)
 
 
 class Body(NamedTuple):
@@ -89,7 +83,8 @@ def given(pull: Pulling, start: float, end: float) -> float:
     8.0
     """
     span = end - start
-    return span * sum(weight * pull(start + node * span) for node, weight in _GAUSS)
+    pairs = zip(*gauss_legendre(5), strict=True)
+    return span * sum(weight * pull(start + node * span) for node, weight in pairs)
 
 
 def doubled(

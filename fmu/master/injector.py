@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, ClassVar
 from attrs import field, frozen
 
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
+from ...numerics.step_size import StepSize
 from ..framework.ports import Port
 from .sides import Restorable
 
@@ -31,7 +32,7 @@ __all__ = ["CoSimulation", "DriveSide", "MassSide", "Steps", "cosimulate", "coup
 # a blow on the stop brings about, and of the gap that the drive went on with. Measured.
 _BEND, _JUMP, _DRIFT = 100.0, 600.0, 150.0
 _MOST = 0.05  # share of the pull that it may jump by at any tolerance
-_SAFETY, _SHRINK, _GROW = 0.85, 0.1, 4.0
+_CONTROL = StepSize(order=2, safety=0.85, grow=4.0)
 _STABLE = 0.8  # share of the longest stable step
 _FIRST = 1e-4  # share of the whole time that is tried first
 _MOST_REJECTED = 60
@@ -142,16 +143,15 @@ class Steps:
             self.drive.restore(marks[0])
             self.mass.restore(marks[1])
             self.drive.tell(gap, speed)
-            length *= max(_SHRINK, _SAFETY * error**-0.5)
+            length = _CONTROL.shorter(length, error)
         else:
             raise ConvergenceError(
                 f"no communication step from {self.time:g} s meets the tolerance; loosen it"
             )
         self.drive.forget(marks[0])
         self.mass.forget(marks[1])
-        grown = length * min(_GROW, _SAFETY * max(error, 1e-9) ** -0.5)
-        cut = length < self._length and rejected == self.n_rejected  # by an event, not by its error
-        self._length = max(grown, self._length) if cut else grown
+        is_cut = length < self._length and rejected == self.n_rejected  # by an event
+        self._length = _CONTROL.following(length, error, self._length if is_cut else 0.0)
         self._size = abs(after) if motion == (gap, 0.0) else max(self._size, abs(after))
         self.time = end if length == end - self.time else self.time + length
         self._pull, self.motion = after, motion

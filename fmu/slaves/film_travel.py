@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
+from ...numerics.quadrature import LOBATTO_5, gauss_legendre
+from ...numerics.roots import first_true
 from ...separation.effects.registry import ViscousForce
 from ...separation.plan import Film
 
@@ -25,10 +27,10 @@ _WIDEST = 0.5  # of a panel, in ln h
 _MOST = 200  # panels of a way, but for kinks and ruptures: of a gap ratio of 1e40
 _PANELS = 4  # at least, to look for limits on the way
 _NEAR = 1e-4  # panel over gap at the end of the film
-_GAUSS = ((0.1127016653792583, 5 / 18), (0.5, 8 / 18), (0.8872983346207417, 5 / 18))
-# Lobatto's rule: its ends are those of the panels next to it, and known there.
-_EDGE = 1 / 20
-_LOBATTO = ((0.17267316464601143, 49 / 180), (0.5, 16 / 45), (0.8273268353539886, 49 / 180))
+_NEAR_ONSET = 1e-4  # of a panel, to the onset of a limit: the force is smooth to first order there
+_GAUSS = tuple(zip(*gauss_legendre(3), strict=True))
+# The ends of Lobatto's rule are those of the panels next to it, and known there.
+(_, _EDGE), *_LOBATTO, _ = zip(*LOBATTO_5, strict=True)
 
 
 class Travel(NamedTuple):
@@ -143,12 +145,7 @@ def _pieces(
         if before is after:
             yield start, stop, before is not None
             continue
-        low, high = start, stop
-        for _ in range(14):  # the force is smooth to first order there: little is left out
-            middle = 0.5 * (low + high)
-            if acts(middle) is before:
-                low = middle
-            else:
-                high = middle
-        yield start, high, before is not None
-        yield high, stop, after is not None
+        near = _NEAR_ONSET * abs(stop - start)
+        onset = first_true(lambda gap, was=before: acts(gap) is not was, start, stop, atol=near)
+        yield start, onset, before is not None
+        yield onset, stop, after is not None

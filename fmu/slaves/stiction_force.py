@@ -186,7 +186,7 @@ class StictionForce(PortSlave):
         rest = {"m": 1.0, "v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 2.0 * start}
         self.plan = plan(stiction_mass.scene_of(self.values | rest), Accuracy())
         film = self.plan.film
-        self.memory = _Memory(start, film.resistance(start), film.static_force(start))
+        self.memory = _Memory(start, film.damping(start), film.static_force(start))
         self.values.update(
             J=0.0,
             J_m=0.0,
@@ -283,7 +283,7 @@ class StictionForce(PortSlave):
             return _Memory(gap, 0.0, 0.0, share, True)
         now = self.plan.film_with(share)
         static = done.last if now is film else now.static_force(gap)
-        return _Memory(gap, now.resistance(gap), static, share, False)
+        return _Memory(gap, now.damping(gap), static, share, False)
 
     def _doubt(self, step: float, damping: float) -> None:
         """Compare the force at the end with that on the way, and the step with m/c."""
@@ -309,12 +309,8 @@ class StictionForce(PortSlave):
 
 
 def _slopes(film: Film, gap: float, speed: float, *, limited: bool) -> tuple[float, float]:
-    """Slope of the force over speed [N.s/m] and over the gap [N/m], known or by differences."""
-    here = film.smooth(gap) if film.smooth is not None and not limited else None
-    if here is not None:
-        _, _, slope, _, damping, exponent, _, _ = here
-        return damping, (slope - exponent * damping * speed) / gap
-    near, damping = 1e-5 * gap, film.resistance(gap)
+    """Slope of the force over speed [N.s/m] and over the gap [N/m], by central differences."""
+    near, damping = 1e-5 * gap, film.damping(gap)
     up, down = (film.force(gap + d, speed) for d in (near, -near))
     stiffness = (up - down) / (2.0 * near)
     if limited:

@@ -251,31 +251,17 @@ class StictionMass(PortSlave):
         values, state = self.values, self.state
         values["F"], values["F_m"], values["F_v"], status, limit = outputs(self.plan, state, pull)
         values["state"], values["limit"] = int(status), int(limit)
-        (
-            _,
-            values["h"],
-            values["v"],
-            _,
-            _,
-            _,
-            _,
-            values["J"],
-            values["J_m"],
-            values["W"],
-            _,
-            values["t_break"],
-            values["t_release"],
-            _,
-            values["n_break"],
-            values["n_release"],
-            values["F_peak"],
-            *_,
-        ) = state
+        values["h"], values["v"] = state.gap, state.speed
+        values["J"] = state.impulses["viscous_impulse"]
+        values["J_m"] = state.impulses.get("meniscus_impulse", 0.0)
+        values["W"], values["F_peak"] = state.dissipated_work, state.peak_force
+        values["t_break"], values["t_release"] = state.break_time, state.release_time
+        values["n_break"], values["n_release"] = state.n_breaks, state.n_releases
 
     def hidden_state(self) -> Mapping[str, Any]:
         """See `PortSlave.hidden_state`."""
-        return {"motion": list(self.state)}
+        return {"motion": self.state._asdict()}
 
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
-        self.state = MotionState(*hidden["motion"])
+        self.state = MotionState(**hidden["motion"])

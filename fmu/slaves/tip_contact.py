@@ -347,8 +347,9 @@ class TipContact(PortSlave):
 
     def hidden_state(self) -> Mapping[str, Any]:
         """See `PortSlave.hidden_state`."""
-        return {"tip": list(self.state[1:]), "motion": list(self.state.motion)}
+        tip = self.state._asdict()
+        return {"tip": tip, "motion": tip.pop("motion")._asdict()}
 
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
-        self.state = TipState(MotionState(*hidden["motion"]), *hidden["tip"])
+        self.state = TipState(MotionState(**hidden["motion"]), **hidden["tip"])

@@ -112,7 +112,7 @@ class _Run:
         self.time, self.applied, self._longest = 0.0, 0.0, math.inf
         if self.valve is not None:  # an explicit method must not try to step far into the stop
             self._longest = 2.0 * math.sqrt(mass / self.valve.stop.stiffness)
-        speed = 0.0 if self.mode.held else opening.initial_speed
+        speed = 0.0 if self.mode.in_contact else opening.initial_speed
         self.state = np.array([opening.initial_gap, speed, 0.0, 0.0, 0.0])
         self.pieces: list[Piece] = []
         self.events: list[Event] = []
@@ -127,7 +127,7 @@ class _Run:
             blocked = self.applied <= 0.0 and self.state[2] <= 0.0
             self.mode = self.mode._replace(blocked=blocked)
         while self.time < stop:
-            if self.mode.held and self._balance(self.time, self.state[2]) > 0.0:
+            if self.mode.in_contact and self._balance(self.time, self.state[2]) > 0.0:
                 self._leave()
             self._piece(stop)
             if len(self.pieces) > _MOST_PIECES:
@@ -138,7 +138,7 @@ class _Run:
     @property
     def film(self) -> Film | None:
         """The film, None while it is broken."""
-        return None if self.mode.broken else self.plan.film_with(self.mode.share)
+        return None if self.mode.broken else self.plan.film_with(self.mode.volume_fraction)
 
     def _pull(self, time: float, flux: float, gap: float, speed: float) -> float:
         if isinstance(self.drive, Valve):
@@ -157,13 +157,14 @@ class _Run:
         """Right-hand side of the present mode."""
         film, mass, applied, pull = self.film, self.mass, self.applied, self._pull
         coil = self.valve.coil if self.valve is not None and not self.mode.blocked else None
-        stiffness, origin, held = self.opening.stiffness, self.opening.initial_gap, self.mode.held
+        stiffness, origin = self.opening.stiffness, self.opening.initial_gap
+        in_contact = self.mode.in_contact
 
         def rates(time: float, unknowns: _Floats) -> list[float]:
             place, speed, scaled, _, _ = unknowns.tolist()
             flux, gap = FLUX * scaled, origin * (place if film is None else math.exp(place))
             rise = law.flux_rate(coil, flux, gap, applied) / FLUX if coil is not None else 0.0
-            if held:
+            if in_contact:
                 return [0.0, 0.0, rise, 0.0, 0.0]
             net = pull(time, flux, gap, speed) - stiffness * (gap - origin)
             if film is None:
@@ -180,7 +181,7 @@ class _Run:
         """Integrate to the first event, or to `stop`, and apply the event."""
         film, rates, watched = self.film, self._rates(), self._watched()
         method: dict[str, Any] = {"method": "Radau", "jac": slopes_of(rates)}
-        if film is None and not self.mode.held:
+        if film is None and not self.mode.in_contact:
             method = {"method": "DOP853", "max_step": self._longest}
         solution = solve_ivp(
             rates,
@@ -220,7 +221,7 @@ class _Run:
     def _watched(self) -> list[tuple[_Watch, Callable[[], None]]]:
         """What may end a piece, and what to do then."""
         found: list[tuple[_Watch, Callable[[], None]]] = []
-        if self.mode.held:
+        if self.mode.in_contact:
             found.append((watch(self._leaving, 1), self._leave))
         else:
             for mark, way in self._marks():
@@ -255,7 +256,7 @@ class _Run:
         self.events.append(Event(self.time, what, float(self.state[0]), float(self.state[1])))
 
     def _leave(self) -> None:
-        self.mode = self.mode._replace(held=False, heading=1)
+        self.mode = self.mode._replace(in_contact=False, heading=1)
         self._note("leaves the end cap")
 
     def _depth(self) -> float:
@@ -292,12 +293,12 @@ class _Run:
             self._note("film breaks")
 
     def _fall(self, mark: float) -> None:
-        share = self.plan.scene.interface.meniscus.rewetting
+        fraction = self.plan.scene.interface.meniscus.rewetting
         dry = self.mode.broken and mark <= self.opening.initial_gap
-        if dry and share > 0.0 and self.plan.film_with(share).end > mark:
-            self.mode = self.mode._replace(broken=False, share=share)
+        if dry and fraction > 0.0 and self.plan.film_with(fraction).end > mark:
+            self.mode = self.mode._replace(broken=False, volume_fraction=fraction)
             self._note("film wets again")
         if mark == self.opening.rest_gap:
             self._note("meets the end cap")
-            self.mode = self.mode._replace(held=True)
+            self.mode = self.mode._replace(in_contact=True)
             self.state[1] = 0.0

@@ -65,9 +65,9 @@ COLUMNS: Mapping[str, str] = MappingProxyType(
 class Mode(NamedTuple):
     """What holds throughout a piece."""
 
-    held: bool  # resting on the end cap
+    in_contact: bool  # at rest on the end cap
     broken: bool = False
-    share: float = 1.0  # volume of the film, as a share of the scene's
+    volume_fraction: float = 1.0  # volume of the film over that of the scene
     blocked: bool = False  # the diode keeps the current at zero
     heading: int = 0  # which way a gap that lies on a mark goes; 0: as the forces say
     largest: float = 0.0  # largest approach that rough faces of the stop have had [m]
@@ -206,7 +206,7 @@ def _rows(
             )
         else:
             pull = drive(time)
-        now = MotionState(time, gap, speed, mode.share, mode.broken, mode.held)
+        now = MotionState(time, gap, speed, mode.volume_fraction, mode.broken, mode.in_contact)
         film = outputs(plan, now, pull)
         forces = (pull, film.film, film.static, film.viscous, float(film.status))
         found.append((time, gap, speed, flux, *electric, *forces, impulse, work))
@@ -245,7 +245,7 @@ def _peak(plan: Plan, piece: Piece) -> tuple[float, float]:
     """Largest force [N] of the film in a piece, and when [s]."""
     if piece.mode.broken:
         return 0.0, math.nan
-    film = plan.film_with(piece.mode.share)
+    film = plan.film_with(piece.mode.volume_fraction)
 
     def force(time: float) -> float:
         gap, speed = piece.at(time)[:2].tolist()
@@ -255,7 +255,7 @@ def _peak(plan: Plan, piece: Piece) -> tuple[float, float]:
     forces = [force(float(time)) for time in times]
     best = int(np.argmax(forces))
     low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(times) - 1)])
-    if piece.mode.held or not low < high:
+    if piece.mode.in_contact or not low < high:
         return forces[best], float(times[best])
     sharp = minimize_scalar(
         lambda time: -force(time),

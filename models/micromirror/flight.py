@@ -7,8 +7,9 @@ Plain floats only: this also runs inside an FMU.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple
+
+from ...numerics.roots import first_true
 
 __all__ = ["Flight", "Root", "landing_time"]
 
@@ -70,6 +71,9 @@ def landing_time(flight: Flight, root: Root, left: float) -> float | None:
     def over(time: float) -> float:
         return root.after(time).height + flight.at(time)[0]
 
+    def lands(time: float) -> bool:
+        return over(time) <= 0.0
+
     def sinks(time: float) -> float:
         return -root.after(time).speed - flight.at(time)[1]
 
@@ -79,24 +83,11 @@ def landing_time(flight: Flight, root: Root, left: float) -> float | None:
     for i in range(1, pieces + 1):
         high = left * i / pieces
         if over(high) <= 0.0 and (over(low) > 0.0 or sinking):
-            return _bisect(over, low, high)
+            return first_true(lands, low, high)
         falls = sinks(high) > 0.0
         if sinking and not falls:  # the lowest point lies between
-            bottom = _bisect(sinks, low, high)
+            bottom = first_true(lambda time: sinks(time) <= 0.0, low, high)
             if over(bottom) <= 0.0:
-                return _bisect(over, low, bottom)
+                return first_true(lands, low, bottom)
         low, sinking = high, falls
     return None
-
-
-def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a falling function passes zero; `high` if it is still positive there."""
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
-            break
-        if function(middle) > 0.0:
-            low = middle
-        else:
-            high = middle
-    return high

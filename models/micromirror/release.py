@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from ...errors import InfeasibleError
+from ...numerics.roots import first_true
 from ...separation.plan import Plan
 from .coupling import couple
 from .scene import MicromirrorScene
@@ -121,14 +122,15 @@ def smallest_reset(scene: MicromirrorScene, made: Plan) -> tuple[float, float]:
             found = _try(scene, made, high)
         except InfeasibleError:  # it would reach the electrode
             return math.nan, math.nan
-    while high - low > _FINE:
-        middle = 0.5 * (low + high)
-        time = _try(scene, made, middle)
-        if math.isnan(time):
-            low = middle
-        else:
-            high, found = middle, time
-    return high, found
+    times = {low: math.nan, high: found}
+
+    def releases(voltage: float) -> bool:
+        if voltage not in times:
+            times[voltage] = _try(scene, made, voltage)
+        return not math.isnan(times[voltage])
+
+    least = first_true(releases, low, high, atol=_FINE)
+    return least, times[least]
 
 
 def _try(scene: MicromirrorScene, made: Plan, reset_voltage: float) -> float:

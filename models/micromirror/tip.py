@@ -7,8 +7,8 @@ The root at height z belongs to somebody else (the mirror) and is steadily accel
 step; F is what the tip pulls it down with. The tip has four states of motion in turn:
 
 * landed: at the gap :math:`h_0` that roughness keeps open, until F exceeds the force of the film;
-* held by what acts between tip and site: stepped by `contactkit.motion.step_once`, without c,
-  since the liquid damps more than the metal;
+* held by what acts between tip and site: stepped by `separation.motion.advance`, without c, since
+  the liquid damps more than the metal;
 * free, once the film has broken and the gap is `free_gap`, where solids no longer attract: a
   damped oscillator under a steady acceleration, in closed form;
 * landing again at :math:`h_0`: inelastic, and the film is there again, as it condenses.
@@ -29,8 +29,8 @@ import math
 from typing import NamedTuple
 
 from ...errors import ConvergenceError, DescriptionError
-from ...separation.motion.advance import rest_once, step_once
-from ...separation.motion.state import MotionState, outputs
+from ...separation.motion.advance import internal_step
+from ...separation.motion.state import MotionState, acting_film, outputs
 from ...separation.plan import Plan
 from .flight import Flight, Root, landing_time
 from .tip_impact import Blow, BlowEnd, Contact, TipStop, blow, rest_depth
@@ -84,7 +84,7 @@ class TipState(NamedTuple):
     @property
     def on_site(self) -> bool:
         """Whether the tip rests on its site or strikes it."""
-        return self.motion.held or self.touching
+        return self.motion.in_contact or self.touching
 
 
 def free_gap(plan: Plan) -> float:
@@ -97,7 +97,7 @@ def landed_start(
     plan: Plan, time: float = 0.0, *, stop: TipStop | None = None, height: float = 0.0
 ) -> TipState:
     """State of a tip that rests on its landing site; one that gives by the height of the root."""
-    state = TipState(MotionState(time, plan.scene.opening.initial_gap, 0.0, held=True))
+    state = TipState(MotionState(time, plan.scene.opening.initial_gap, 0.0, in_contact=True))
     if stop is None:
         return state
     depth = rest_depth(contact_of(plan, stop, state, Root(height, time=time)), 0.0, time)
@@ -130,7 +130,7 @@ def film_force(plan: Plan, state: TipState) -> tuple[float, float]:
 def attraction(plan: Plan, state: TipState) -> float:
     """Force of film and solids at touch [N]."""
     motion = state.motion
-    film = plan.film_left(motion.share, broken=motion.broken, detached=motion.detached)
+    film = acting_film(plan, motion)
     return film.static_force(plan.scene.opening.initial_gap) if film is not None else 0.0
 
 
@@ -150,9 +150,6 @@ def pressed(stop: TipStop, state: TipState, depth: float, largest: float) -> Tip
 
 
 _MOST_PIECES = 100_000
-_IMPULSES = tuple(
-    name for name in MotionState._fields if name.endswith("_impulse") and name != "given_impulse"
-)
 
 
 def advance_tip(
@@ -200,7 +197,7 @@ def advance_tip(
         over = root._replace(height=root.height + state.dent)  # over the dent that is left
         if stop is not None and state.touching:
             state = _strike(plan, stop, state, root, end)
-        elif stop is not None and state.motion.held:
+        elif stop is not None and state.motion.in_contact:
             state = _rest(plan, stop, state, root, _one(plan, state, over, end))
         elif state.free:
             there = over.after(state.time - root.time)
@@ -221,28 +218,30 @@ def _one(plan: Plan, state: TipState, root: Root, end: float, gives: bool = Fals
     def pull(time: float) -> float:
         return opening.stiffness * root.height_at(time)
 
-    after = (rest_once if before.held else step_once)(plan, before, pull, end)
+    after = internal_step(plan, before, pull, end)
     elapsed, origin = after.time - before.time, opening.initial_gap
     first = pull(before.time) - opening.stiffness * (before.gap - origin)
     last = pull(after.time) - opening.stiffness * (after.gap - origin)
     impulse = 0.5 * elapsed * (first + last)
     # What the trapezoid misses: the slopes at its ends differ by the spring times this speed.
     bent, twelfth = root.acceleration * elapsed, elapsed * elapsed * opening.stiffness / 12.0
-    if before.held:
+    if before.in_contact:
         impulse -= twelfth * bent
     else:
         mass = opening.mass or 0.0
-        film = sum(getattr(after, name) - getattr(before, name) for name in _IMPULSES)
+        film = sum(
+            impulse - before.impulses.get(name, 0.0) for name, impulse in after.impulses.items()
+        )
         # Where it lands its speed is lost: the momentum says what it was.
-        speed = before.speed + (impulse - film) / mass if after.held else after.speed
+        speed = before.speed + (impulse - film) / mass if after.in_contact else after.speed
         impulse += twelfth * (speed - before.speed - bent)
-        if after.held:
+        if after.in_contact:
             speed = before.speed + (impulse - film) / mass
             strikes = gives and speed < 0.0
             loss = 0.0 if strikes else 0.5 * mass * speed * speed
             state = _landed(state, loss, after.time)
             if strikes:
-                after = after._replace(held=False, speed=speed)
+                after = after._replace(in_contact=False, speed=speed)
                 state = state._replace(touching=True)
     if after.speed > 0.0 and after.gap >= free_gap(plan) * (1.0 - 1e-9):
         state = state._replace(free=True, free_time=after.time)
@@ -298,14 +297,14 @@ def _fly(
 def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
     """Land after a flight: the tip stops, or strikes a site that gives; its film is there again."""
     opening, motion = plan.scene.opening, state.motion
-    share = plan.scene.interface.meniscus.rewetting
-    wets = share > 0.0
+    fraction = plan.scene.interface.meniscus.rewetting
+    wets = fraction > 0.0
     moved = motion._replace(
         gap=opening.initial_gap,
         speed=motion.speed if gives else 0.0,
-        held=not gives,
+        in_contact=not gives,
         broken=not wets,
-        share=share if wets else motion.share,
+        volume_fraction=fraction if wets else motion.volume_fraction,
         armed=True,
         detached=False,
     )
@@ -320,7 +319,7 @@ def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) 
     rtol = plan.accuracy.time_rtol
     found = blow(contact_of(plan, stop, state, root), begin, end, rtol)
     moved = motion._replace(
-        time=found.time, speed=-found.speed, held=found.end is BlowEnd.REST, step=0.0
+        time=found.time, speed=-found.speed, in_contact=found.end is BlowEnd.REST, step=0.0
     )
     return state._replace(
         motion=moved,
@@ -346,6 +345,6 @@ def _rest(plan: Plan, stop: TipStop, before: TipState, root: Root, after: TipSta
         forces.append(contact.stiffness * (root.height_at(time) + depth))
     mean = (forces[0] + 4.0 * forces[1] + forces[2]) / 6.0
     impulse = before.impulse + (after.time - before.time) * mean
-    if not after.motion.held:  # it leaves the dent
+    if not after.motion.in_contact:  # it leaves the dent
         state = state._replace(depth=state.dent)
     return state._replace(impulse=impulse)

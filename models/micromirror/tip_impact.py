@@ -24,12 +24,13 @@ from ...analyses.load_displacement.curve import StopCurve, area_below
 from ...analyses.load_displacement.impact import in_series
 from ...errors import ConvergenceError, InfeasibleError
 from ...numerics.roots import bracketed_root
+from ...numerics.step_size import StepSize
 from .flight import Root
 
 __all__ = ["Blow", "BlowEnd", "Contact", "TipStop", "blow", "rest_depth", "sprung_back"]
 
 _MOST_STEPS = 20_000
-_SAFETY, _SHRINK, _GROW = 0.9, 0.1, 5.0
+_CONTROL = StepSize(order=5, grow=5.0, unsolved=0.1)
 _OUT_PIECES = 30  # halvings of a way out, in which its work is summed
 
 # Dormand and Prince, order 5 with an error of order 4.
@@ -215,8 +216,8 @@ def _accepted(
         far = max(abs(end[0] - state[0]), swift * length)
         share = max(abs(error[1]) / swift, abs(error[0]) / far) / rtol if swift else 0.0
         if share <= 1.0:
-            return length, end, length * min(_GROW, _SAFETY * max(share, 1e-12) ** -0.2)
-        length *= max(_SHRINK, _SAFETY * share**-0.25) if math.isfinite(share) else _SHRINK
+            return length, end, _CONTROL.following(length, share)
+        length = _CONTROL.shorter(length, share)
     raise ConvergenceError(f"no step of a blow of a tip meets {rtol:g} at {time:g} s", state)
 
 

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 import contactkit as ck
 from contactkit.lubrication import squeeze_film as squeeze
-from contactkit.numerics.roots import bracketed_root
-from contactkit.separation.integrator.dense_output import highest, travel_integral
-from contactkit.separation.integrator.radau import NODES, WEIGHTS, Stage, slopes, step
 from contactkit.separation.motion.state import start
 
 # The reference cases are outside the range of their models, and say so.
@@ -35,8 +29,8 @@ READ = {
     "t_rel": lambda state: state.release_time,
     "v_rel": lambda state: state.release_speed,
     "peak": lambda state: state.peak_force,
-    "J": lambda state: state.viscous_impulse,
-    "Jm": lambda state: state.meniscus_impulse,
+    "J": lambda state: state.impulses["viscous_impulse"],
+    "Jm": lambda state: state.impulses["meniscus_impulse"],
     "W": lambda state: state.dissipated_work,
 }
 
@@ -116,7 +110,11 @@ def test_the_impulse_of_the_pull_is_accounted_for(release_cases, release_scene, 
     state = run(release_scene(name, stiffness=0.0)).state
     time, rise = state.release_time, case["tau"]
     given_impulse = case["F0"] * (time + (rise * math.expm1(-time / rise) if rise else 0.0))
-    taken = case["m"] * state.release_speed + state.viscous_impulse + state.meniscus_impulse
+    taken = (
+        case["m"] * state.release_speed
+        + state.impulses["viscous_impulse"]
+        + state.impulses["meniscus_impulse"]
+    )
     assert taken == approx(given_impulse, 1e-7)
 
 
@@ -241,146 +239,3 @@ def test_scipy_finds_the_same_motion(release_cases, release_scene, name):
     result = ck.simulate(made)
     assert result.state.release_time == approx(found.t_events[0][0], 1e-6)
     assert result.state.release_speed == approx(found.y_events[0][0][1], 1e-6)
-
-
-# The step -----------------------------------------------------------------------------------
-
-MASS = 0.02
-
-
-def film_net(_time, gap, speed):
-    """A thick film and a spring: m/c is a tenth of the time in which the gap doubles."""
-    held = squeeze.disc_force(3.175e-3, gap, speed, 0.002)
-    return 40.0 - 5000.0 * (gap - 20e-6) - held
-
-
-def take(net, mass, begin, dt, exponent, rtol, scale):
-    """One step; `scale` is a speed [m/s] that matters to the net force."""
-    return step(net, mass, begin, dt, exponent, rtol, slopes(net, *begin, scale), scale)
-
-
-def take_film(begin, dt, exponent, rtol=1e-14):
-    return take(film_net, MASS, begin, dt, exponent, rtol, 40.0 / 119.7)
-
-
-def fixed_steps(exponent, count, time=2e-4):
-    point = Stage(0.0, 20e-6, 0.0)
-    for _ in range(count):
-        point = take_film(point, time / count, exponent, 1e-15).stages[2]
-    return point
-
-
-@pytest.mark.parametrize("exponent", [-1.0, 0.0, 2.0])
-def test_the_step_has_its_fifth_order(exponent):
-    """Radau IIA with three stages; the coordinate only changes the constant."""
-    exact = fixed_steps(2.0, 400)
-    counts = np.array([6, 9, 13, 19, 28])
-    ends = [fixed_steps(exponent, count) for count in counts]
-    for errors in (
-        [abs(end.gap / exact.gap - 1.0) for end in ends],
-        [abs(end.speed / exact.speed - 1.0) for end in ends],
-    ):
-        assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(5.0, abs=0.4)
-
-
-@pytest.mark.parametrize("exponent", [-1.0, -0.5, 0.0, 1.0, 2.0, 4.0])
-def test_the_coordinate_does_not_change_where_a_step_leads(exponent):
-    exact, other = fixed_steps(2.0, 400), fixed_steps(exponent, 120)
-    assert other.gap == approx(exact.gap, 1e-9)
-    assert other.speed == approx(exact.speed, 1e-9)
-
-
-def test_the_error_a_step_estimates_is_not_below_the_one_it_makes():
-    """The estimate is of fourth order, the step of fifth: it may exceed, not fall short."""
-    for dt in (1e-5, 2e-5, 4e-5):
-        begin = Stage(0.0, 20e-6, 0.0)
-        one = take_film(begin, dt, 2.0)
-        exact = fixed_steps(2.0, 100, dt)
-        assert one.gap_error >= abs(one.stages[2].gap / exact.gap - 1.0)
-        assert one.speed_error >= abs(one.stages[2].speed - exact.speed)
-
-
-@pytest.mark.parametrize("stiffness", [1e3, 1e8, 1e15])
-def test_a_step_over_a_transient_lands_on_the_slow_motion(stiffness):
-    """L-stability: m v' = F - c v with m/c far below the step ends at v = F/c."""
-
-    def net(_time, _gap, speed):
-        return 1.0 - stiffness * speed
-
-    taken = take(net, 1e-3, Stage(0.0, 1.0, 0.0), 1.0, -1.0, 1e-10, 1.0 / stiffness)
-    end = taken.stages[2]
-    assert end.speed == approx(1.0 / stiffness, 1e-5)
-
-
-@given(
-    coefficients=st.tuples(*[st.floats(-1.0, 1.0)] * 4),
-    dt=st.floats(1e-9, 1e3),
-)
-def test_the_weights_integrate_what_the_nodes_can_see(coefficients, dt):
-    """Radau's quadrature is exact to the fourth power."""
-    powers = range(1, 5)
-    seen = sum(
-        w * sum(c * node**p for c, p in zip(coefficients, powers, strict=True))
-        for w, node in zip(WEIGHTS, NODES, strict=True)
-    )
-    exact = sum(c / (p + 1.0) for c, p in zip(coefficients, powers, strict=True))
-    assert dt * seen == pytest.approx(dt * exact, abs=1e-14 * dt)
-
-
-def test_work_along_a_step_is_force_times_travel():
-    begin = Stage(0.0, 20e-6, 0.0)
-    # A polynomial in the gap; in the impulse six nodes span what is no polynomial.
-    for exponent, rtol in ((-1.0, 1e-12), (2.0, 1e-6)):
-        taken = take_film(begin, 1e-4, exponent)
-        travel = taken.stages[2].gap - begin.gap
-        assert travel > 0.4 * begin.gap
-        assert travel_integral(begin, taken, 7.0, [7.0] * 3) == approx(7.0 * travel, rtol)
-
-
-@given(
-    a=st.floats(-1.0, 1.0), b=st.floats(-1.0, 1.0), c=st.floats(-1.0, 1.0), d=st.floats(-1.0, 1.0)
-)
-@example(a=0.0, b=0.4375, c=-0.875, d=0.4375)
-def test_the_highest_value_is_at_least_what_was_seen(a, b, c, d):
-    """But where it springs up as the step begins and stays there, it is that of the end."""
-
-    def cubic(x):
-        return a + x * (b + x * (c + x * d))
-
-    seen = [cubic(x) for x in NODES]
-    value, where = highest(a, seen)
-    springs = seen[0] - a > 0.9 * (max(a, *seen) - min(a, *seen))
-    stays = 2.0 * (seen[2] - a) > seen[0] - a
-    assert value == seen[2] if springs and stays else value >= max(a, *seen)
-    assert 0.0 <= where <= 1.0
-    assert value == pytest.approx(cubic(where), abs=1e-12)
-
-
-# The root finder under all of them ----------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("function", "low", "high", "root"),
-    [
-        (lambda x: x**3 - 2.0, 0.0, 2.0, 2.0 ** (1.0 / 3.0)),
-        (lambda x: math.exp(50.0 * x) - 2.0, -1.0, 1.0, math.log(2.0) / 50.0),
-        (lambda x: math.atan(1e6 * (x - 0.3)), -1.0, 1.0, 0.3),
-        (lambda x: (x - 0.1) ** 9, -1.0, 1.0, 0.1),
-        (lambda x: x - 1e-200, 0.0, 1.0, 1e-200),
-    ],
-)
-def test_a_bracketed_root_is_found_however_bent_the_function(function, low, high, root):
-    calls = []
-
-    def counted(x):
-        calls.append(x)
-        return function(x)
-
-    # The ninth power is below the smallest float within 1e-36 of its root.
-    assert bracketed_root(counted, low, high) == pytest.approx(root, rel=1e-14, abs=0.0)
-    assert all(low <= x <= high for x in calls)
-
-
-def test_a_root_at_an_end_of_its_bracket_is_taken():
-    assert bracketed_root(lambda x: x, 0.0, 1.0) == 0.0
-    assert bracketed_root(lambda x: x - 1.0, 0.0, 1.0) == 1.0

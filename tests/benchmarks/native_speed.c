@@ -70,7 +70,7 @@ int main(int count, char **words) {
         }
     printf("%.1f %.1f %.4f %.4f %.4f %.17g\n", best[0], best[1],
            (double)model->state.motion.steps / (double)steps,
-           (double)model->state.motion.rounds / (double)steps,
+           (double)model->state.motion.iterations / (double)steps,
            (double)evaluations / (double)steps, model->state.motion.gap);
     fmi2FreeInstance(c);
     return 0;

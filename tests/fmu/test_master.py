@@ -14,7 +14,7 @@ from contactkit.fmu.master.couple import Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of
-from contactkit.separation.motion.advance import step_once
+from contactkit.separation.motion.advance import internal_step
 from contactkit.separation.motion.state import start
 from contactkit.separation.plan import plan
 
@@ -35,7 +35,7 @@ def monolithic(case, **changes):
     made = plan(scene_of(values), Accuracy(time_rtol=1e-8))
     state, pull = start(made), ramp(case["F0"], case["tau"])
     while state.release_time < 0.0:
-        state = step_once(made, state, pull, 1e3)
+        state = internal_step(made, state, pull, 1e3)
     return state
 
 

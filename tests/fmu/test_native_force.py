@@ -99,7 +99,7 @@ def test_forces_are_those_of_the_plan_of_any_scene(name, native, open_fmu):
         assert found["F_v"] == pytest.approx(viscous, rel=1e-9)
         assert found["F"] == found["F_m"] + found["F_v"]
         if limit is None:
-            assert found["c"] == pytest.approx(film.resistance(gap), rel=1e-9)
+            assert found["c"] == pytest.approx(film.damping(gap), rel=1e-9)
         dh = 1e-5 * gap
         slope = (film.force(gap + dh, speed) - film.force(gap - dh, speed)) / (2.0 * dh)
         size = abs(slope) + abs(found["F"]) / gap

@@ -106,9 +106,9 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     _, _, viscous, by_gap, by_speed, _ = kernel_forces(
         probe, numbers(name).numbers, tmp_path, gaps, speeds
     )
-    resistance = np.array([film.resistance(gap) for gap in gaps])
+    resistance = np.array([film.damping(gap) for gap in gaps])
     np.testing.assert_allclose(by_speed, resistance, rtol=1e-10)
-    differences = np.array([slope(film.resistance, gap) for gap in gaps]) * speeds
+    differences = np.array([slope(film.damping, gap) for gap in gaps]) * speeds
     wrong = np.abs(by_gap * gaps - differences) - 1e-9 * np.abs(viscous)
     assert np.max(wrong[smooth]) <= 0.0
 
@@ -217,7 +217,7 @@ def test_motion_is_that_of_the_python_model(name, tmp_path):
             forces = outputs(prepared, state, force)
             assert found["h"] == pytest.approx(state.gap, rel=1e-6)
             assert found["F"] == pytest.approx(forces.film, rel=1e-6, abs=1e-6 * abs(force))
-            assert found["J"] == pytest.approx(state.viscous_impulse, rel=1e-7)
+            assert found["J"] == pytest.approx(state.impulses["viscous_impulse"], rel=1e-7)
             assert found["W"] == pytest.approx(state.dissipated_work, rel=1e-7)
             assert found["F_peak"] == pytest.approx(state.peak_force, rel=1e-6)
             assert found["t_release"] == pytest.approx(state.release_time, rel=1e-7)

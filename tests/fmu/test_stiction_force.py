@@ -200,7 +200,7 @@ def test_a_way_through_all_numbers_has_an_end(begin, end):
 
 def test_an_impulse_is_continuous_where_a_limit_sets_in():
     made = film_of(dp_cav=1e6)
-    edge = 0.5 * DISC * 1e6 / made.resistance(5e-6)  # speed at which the limit begins to act
+    edge = 0.5 * DISC * 1e6 / made.damping(5e-6)  # speed at which the limit begins to act
     ends = [5e-6 + edge * (1.0 + x) * 1e-6 for x in (-1e-6, 1e-6)]
     first, last = (travel(made, 5e-6, end, 1e-6).viscous for end in ends)
     assert first == pytest.approx(last, rel=1e-5)

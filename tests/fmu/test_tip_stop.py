@@ -141,7 +141,7 @@ def test_damping_takes_its_share(dry):
 def test_a_stiff_dead_site_is_the_rigid_one(dry):
     """A site 10, 100, 1000 times as hard that gives nothing back: depths fall as factor^-2/5."""
     depths, rigid = [], advance_tip(dry, 0.0, free_start(dry, 1e-9, -0.1), Root(1e-9), 2e-8)
-    assert rigid.motion.held
+    assert rigid.motion.in_contact
     for factor in (10.0, 100.0, 1000.0):
         dead = dead_curve(factor)
         state = advance_tip(dry, 0.0, free_start(dry, 1e-9, -0.1), Root(1e-9), 2e-8, TipStop(dead))
@@ -194,7 +194,7 @@ def test_a_resting_tip_sinks_in_by_what_presses(curve, dry):
         assert state.gap == pytest.approx(4e-10 - (state.depth - state.dent), rel=1e-12)
         later = advance_tip(dry, 0.0, state, Root(height), 1e-7, stop)
         assert later.impulse == pytest.approx(1e-7 * spring, rel=1e-9)
-        assert later.motion.held
+        assert later.motion.in_contact
 
 
 def test_a_step_divides_as_one_likes(curve, dry):

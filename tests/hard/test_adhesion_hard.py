@@ -209,7 +209,7 @@ def test_steps_of_any_length_lead_to_the_same_state():
     assert one.detached
     assert many.detached
     assert many.gap == approx(one.gap, 1e-6)
-    assert many.adhesion_impulse == approx(one.adhesion_impulse, 1e-6)
+    assert many.impulses["adhesion_impulse"] == approx(one.impulses["adhesion_impulse"], 1e-6)
 
 
 def test_flats_attract_by_their_face():

@@ -66,7 +66,7 @@ def test_a_tip_that_never_dries_out_or_wets(scene):
     tip = evolve(scene.tip, interface=evolve(scene.tip.interface, meniscus=meniscus))
     made = tip_law(tip, 0.5)
     state = advance_tip(made, 0.0, free_start(made, 1e-8), Root(1e-8, -0.1), 2e-7)
-    assert state.motion.held
+    assert state.motion.in_contact
     assert state.motion.broken
     assert film_force(made, state)[0] == pytest.approx(adhesion(tip, 0.0).force, rel=1e-9)
 
@@ -76,7 +76,7 @@ def test_a_tip_glued_for_good(scene):
     made = tip_law(scene.tip, 0.9)
     hold = adhesion(scene.tip, 0.9).force
     state = advance_tip(made, 0.0, landed_start(made), Root(0.999 * hold), 1.0)
-    assert state.motion.held
+    assert state.motion.in_contact
     freed = advance_tip(made, 0.0, landed_start(made), Root(1.001 * hold), 1e-6)
     assert freed.free
 

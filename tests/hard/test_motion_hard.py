@@ -8,7 +8,6 @@ import pytest
 
 import contactkit as ck
 from contactkit.lubrication import squeeze_film as squeeze
-from contactkit.separation.integrator.radau import coordinate
 from contactkit.separation.motion.state import Pull, outputs, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -24,7 +23,8 @@ def approx(value, rel):
 
 
 def is_finite(state):
-    return all(math.isfinite(number) for number in state)
+    plain = state._replace(impulses=sum(state.impulses.values()))
+    return all(math.isfinite(number) for number in plain)
 
 
 def walk(made, pull, span, count, state=None):
@@ -174,7 +174,7 @@ def test_a_mass_at_rest_on_asperities_leaves_when_pulled_enough(release_scene):
     made = ck.plan(resting(release_scene))
     holding = made.film.static_force(5e-6)
     state = walk(made, ck.Pull(0.5 * holding), 1.0, 10)
-    assert state.held
+    assert state.in_contact
     assert state.gap == 5e-6
     assert state.speed == 0.0
     assert outputs(made, state, 0.5 * holding).status is ck.FilmStatus.STUCK
@@ -182,9 +182,9 @@ def test_a_mass_at_rest_on_asperities_leaves_when_pulled_enough(release_scene):
     # The pull grows through what holds: it leaves when they are equal.
     pull = ck.Pull(0.5 * holding, rate=holding, time=1.0)
     left = walk(made, pull, 0.5 * (1.0 + 1e-9), 1, state)
-    assert not left.held
+    assert not left.in_contact
     assert left.gap >= 5e-6
-    assert left.meniscus_impulse == approx(1.5 * holding, 1e-6)
+    assert left.impulses["meniscus_impulse"] == approx(1.5 * holding, 1e-6)
 
 
 def test_it_does_not_matter_how_a_rest_is_divided(release_scene):
@@ -203,7 +203,7 @@ def test_a_closing_mass_comes_to_rest_at_its_rest_gap(release_scene, rest, count
         "B", effects=FORCES, rise_time=0.0, rest_gap=rest, force=-40.0, stiffness=0.0
     )
     state = walk(ck.plan(scene), ck.Pull(-40.0), 200.0, count)
-    assert state.held
+    assert state.in_contact
     assert state.gap == rest
     assert state.speed == 0.0
 
@@ -231,7 +231,7 @@ def cycle(release_scene, share):
     opened = walk(made, ck.Pull(40.0), 0.02, 1)
     assert opened.broken
     closed = walk(made, ck.Pull(-40.0, time=opened.time), 1.0, 1, opened)
-    assert closed.held
+    assert closed.in_contact
     assert closed.gap == 5e-6
     return made, closed
 
@@ -240,7 +240,7 @@ def cycle(release_scene, share):
 def test_a_film_that_wets_again_holds_with_its_share(release_scene, share):
     made, closed = cycle(release_scene, share)
     assert not closed.broken
-    assert closed.share == share
+    assert closed.volume_fraction == share
     pull = made.film_with(share).static_force(5e-6)
     assert outputs(made, closed, 0.0).static == pull
     # Half the volume: half the wetted area at the same gap, and a rim shorter by its root.
@@ -266,7 +266,7 @@ def test_a_film_that_does_not_wet_again_stays_lost(release_scene):
     again = walk(made, ck.Pull(40.0, time=closed.time), 0.02, 1, closed)
     free = math.sqrt(2.0 * 95e-6 * 0.02 / 40.0)
     assert again.release_time - closed.time == approx(free, 1e-8)
-    assert again.viscous_impulse == closed.viscous_impulse
+    assert again.impulses["viscous_impulse"] == closed.impulses["viscous_impulse"]
 
 
 # Closing ------------------------------------------------------------------------------------
@@ -311,7 +311,7 @@ def test_no_pull_and_no_meniscus_means_no_motion(release_scene):
     state = walk(ck.plan(scene), ck.Pull(0.0), 1.0, 10)
     assert state.gap == 5e-6
     assert state.speed == 0.0
-    assert state.viscous_impulse == 0.0
+    assert state.impulses["viscous_impulse"] == 0.0
 
 
 @pytest.mark.parametrize("speed", [-10.0, -1e-9, 1e-9, 10.0])
@@ -321,11 +321,11 @@ def test_a_start_with_any_speed_keeps_its_momentum_balance(release_scene, speed)
     )
     state = run(scene).state
     given_impulse = 40.0 * state.release_time + 0.02 * speed
-    kept = 0.02 * state.release_speed + state.viscous_impulse + state.meniscus_impulse
+    kept = 0.02 * state.release_speed + sum(state.impulses.values())
     assert kept == approx(given_impulse, 1e-7)
     made = ck.plan(scene)
     potential = made.film.laws[ck.ViscousForce].impulse(5e-6, 1e-4)
-    assert state.viscous_impulse == approx(potential, 1e-7)
+    assert state.impulses["viscous_impulse"] == approx(potential, 1e-7)
 
 
 # Masses and drives --------------------------------------------------------------------------
@@ -341,7 +341,7 @@ def test_any_mass_is_released_with_its_energy_accounted_for(
     result = run(scene, ck.Accuracy(time_rtol=1e-9))
     assert result.status == "released"
     state = result.state
-    kept = mass * state.release_speed + state.viscous_impulse + state.meniscus_impulse
+    kept = mass * state.release_speed + sum(state.impulses.values())
     assert kept == approx(case["F0"] * state.release_time, 1e-7)
     assert state.peak_force <= case["F0"] * (1.0 + 1e-6)
 
@@ -364,7 +364,7 @@ def test_a_drive_may_rise_at_once_or_in_seconds(release_scene, rise):
     assert result.status == "released"
     time = state.release_time
     given_impulse = 40.0 * (time + rise * math.expm1(-time / rise))
-    kept = 0.02 * state.release_speed + state.viscous_impulse + state.meniscus_impulse
+    kept = 0.02 * state.release_speed + sum(state.impulses.values())
     assert kept == approx(given_impulse, 1e-6)
 
 
@@ -440,7 +440,7 @@ def test_a_limit_on_a_sphere_does_not_stop_the_clock(film_scene):
             mass=1e-3,
         )
         state = run(scene).state
-        kept = 1e-3 * state.release_speed + state.viscous_impulse
+        kept = 1e-3 * state.release_speed + state.impulses["viscous_impulse"]
         assert kept == approx(1.0 * state.release_time, 1e-6)
 
 
@@ -482,12 +482,6 @@ def test_a_thrown_mass_is_caught_by_a_limited_film_in_few_steps(film_scene, limi
     result = ck.simulate(ck.plan(scene, ck.Accuracy(max_steps=3000)), throw=False)
     assert result.status != "not converged"
     assert is_finite(result.state)
-
-
-def test_a_coordinate_too_large_for_a_float_is_no_coordinate():
-    """A trial step may ask for any gap; the answer is a smaller step, not an OverflowError."""
-    for exponent, q in ((0.0, 1e4), (1e-3, 999.999), (0.5, math.nextafter(2.0, 0.0) + 1.0)):
-        assert coordinate(1e-6, exponent, q) is None
 
 
 def test_a_bath_around_a_sphere_may_be_torn_at_once(film_scene):
@@ -534,7 +528,7 @@ def test_a_pull_that_starts_from_nothing_moves_the_stiffest_film(film_scene, vol
     state = run(scene).state
     # The gap has hardly moved: what was given, the film has taken.
     given_impulse = 100.0 * (0.01 + 1e-3 * math.expm1(-10.0))
-    assert state.viscous_impulse == approx(given_impulse, 1e-7)
+    assert state.impulses["viscous_impulse"] == approx(given_impulse, 1e-7)
 
 
 def test_a_film_may_break_at_the_very_gap_of_release(film_scene):
@@ -554,7 +548,7 @@ def test_a_pull_may_begin_to_grow_late(film_scene, time, rate):
     made = ck.plan(film_scene(VISCOUS, liquid={"viscosity": 0.01}, film={"volume": None}, **pull))
     state = ck.advance(made, start(made)._replace(time=time), Pull(0.0, rate, time), 1e-6)
     span = state.time - time  # 1e-6 s, as far as the time can tell
-    assert state.viscous_impulse == approx(0.5 * rate * span**2, 1e-6)
+    assert state.impulses["viscous_impulse"] == approx(0.5 * rate * span**2, 1e-6)
     assert state.n_steps < 200
 
 
@@ -564,5 +558,5 @@ def test_a_mass_that_coasts_comes_to_rest_for_good(film_scene):
     made = ck.plan(film_scene(VISCOUS, film={"volume": None}, **film))
     state = walk(made, Pull(0.0), 1e-3, 20, start(made)._replace(speed=1e-3))
     assert state.speed == 0.0
-    assert state.viscous_impulse == approx(1e-9, 1e-7)
+    assert state.impulses["viscous_impulse"] == approx(1e-9, 1e-7)
     assert state.n_steps < 2000

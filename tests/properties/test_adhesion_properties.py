@@ -16,7 +16,6 @@ from contactkit.files.scenes import structure, unstructure
 from contactkit.separation.columns import COLUMNS
 from contactkit.separation.effects.base import SeparationForce
 from contactkit.separation.effects.registry import SEPARATION_EFFECTS
-from contactkit.separation.film import impulse_name
 from contactkit.separation.simulate import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -200,4 +199,3 @@ def test_every_force_has_a_column_and_an_impulse_of_its_own():
     columns = [kind.column for kind in kinds]
     assert len(set(columns)) == len(columns)
     assert set(columns) <= {column.name for column in COLUMNS}
-    assert {impulse_name(column) for column in columns} <= {*ck.MotionState._fields}

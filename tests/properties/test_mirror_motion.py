@@ -98,7 +98,7 @@ def test_a_flight_is_what_an_integrator_gives(wet, damping):
     state = advance_tip(wet, damping, state, root, 1.001 * found.t[-1])
     assert found.status == 1
     assert state.landing_time == pytest.approx(found.t[-1], rel=1e-9)
-    assert state.motion.held
+    assert state.motion.in_contact
     speed = found.y[1, -1]
     assert state.landing_loss == pytest.approx(0.5 * opening.mass * speed**2, rel=1e-7)
 
@@ -125,7 +125,7 @@ def test_the_division_of_time_does_not_matter(wet):
 
 def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
     state = advance_tip(wet, 0.0, landed_start(wet), Root(-5e-8, 0.01), 1e-6)
-    assert state.motion.held
+    assert state.motion.in_contact
     assert state.impulse == pytest.approx(1.0 * (-5e-8 + 0.5 * 1e-8) * 1e-6, rel=1e-12)
     assert tip_force(wet, 0.0, state, -4e-8, 0.01) == pytest.approx(-4e-8, rel=1e-12)
 

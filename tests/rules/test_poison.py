@@ -142,7 +142,7 @@ SOLIDS = {
         "sphere": {
             "adhesion.maugis_dugdale.*",
             "adhesion.dmt.reach",
-            "numerics.roots.bracketed_root",
+            "numerics.roots.*",
             *ADHESION,
         },
     },
@@ -188,6 +188,7 @@ MOTION = {
     "time": set(),
     "force": {
         "separation.integrator.*",
+        "numerics.events.*",
         "numerics.quadrature.gauss_legendre",
     },
 }

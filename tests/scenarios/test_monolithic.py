@@ -96,7 +96,7 @@ def test_the_time_step_of_contactkit_agrees_with_the_monolithic_solver(
     assert state.release_time == pytest.approx(released(result).time, rel=1e-6)
     assert state.release_speed == pytest.approx(released(result).speed, rel=1e-5)
     assert state.gap == pytest.approx(result.gap[-1], rel=1e-6)
-    assert state.viscous_impulse == pytest.approx(result.viscous_impulse[-1], rel=1e-6)
+    assert state.impulses["viscous_impulse"] == pytest.approx(result.viscous_impulse[-1], rel=1e-6)
     assert state.dissipated_work == pytest.approx(result.dissipated_work[-1], rel=1e-5)
 
 

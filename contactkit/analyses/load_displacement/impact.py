@@ -15,12 +15,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from ...errors import DescriptionError, InfeasibleError
-from ...numerics.roots import bracketed_root
+from ...numerics.roots import bracketed_root, newton_root
 from .curve import StopCurve, StopPoint, area_below
 
 __all__ = ["StopImpact", "impact", "in_series"]
 
-_ROUNDS = 100
 _CLOSE = 1e-13
 
 
@@ -95,22 +94,12 @@ def _shared(
     curve: StopCurve, approach: float, largest: float, stiffness: float, near: float
 ) -> float:
     """Approach of the faces: what they and the spring share rises with it, so Newton, bracketed."""
-    low, high, close = 0.0, approach, _CLOSE * approach
-    faces = near if near < approach else 0.5 * approach
-    for _ in range(_ROUNDS):
+
+    def excess(faces: float) -> tuple[float, float]:
         force, slope = curve.force_at(faces, largest)
-        excess = faces + force / stiffness - approach
-        if excess > 0.0:
-            high = faces
-        else:
-            low = faces
-        step = excess / (1.0 + slope / stiffness)
-        faces -= step
-        if abs(step) <= close or high - low <= close:
-            return min(max(faces, low), high)
-        if not low < faces < high:
-            faces = 0.5 * (low + high)
-    return faces
+        return faces + force / stiffness - approach, 1.0 + slope / stiffness
+
+    return newton_root(excess, 0.0, approach, near if near < approach else 0.5 * approach, _CLOSE)
 
 
 def impact(

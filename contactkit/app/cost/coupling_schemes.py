@@ -17,7 +17,7 @@ from attrs import field, frozen
 
 from ...accuracy import Accuracy
 from ...errors import ContactkitError
-from ...separation.motion.advance import step_once
+from ...separation.motion.advance import internal_step
 from ...separation.motion.state import start
 from ...separation.plan import plan
 from ...units import si
@@ -161,7 +161,7 @@ def _whole(case: Case) -> float:
     made = plan(scene_of(values), Accuracy())
     state = start(made)
     while state.release_time < 0.0:  # how far to go: on from there the mass would swing for long
-        state = step_once(made, state, case.pull, 100.0)
+        state = internal_step(made, state, case.pull, 100.0)
     whole = simulate(made, case.pull, 1.0001 * state.release_time, rtol=1e-11)
     return whole.cycles[0].release_time
 

@@ -16,21 +16,17 @@ taken for that arc, and its error for one that falls with the thickness over the
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
-from ...numerics.cubic_spline import Piece, cubic_spline, spline_pieces
+from ...numerics.cubic_spline import cubic_spline
 from ..arc import flat as arc_flat
 from ..arc.shape import refuse_spreading, wetting
 from .family import Member, family, last_member
 from .sampling import members_along
 
-__all__ = ["FlatLaw", "Series", "flat_end", "flat_law"]
-
-Series = Callable[[float], tuple[float, float, float] | None]
-"""A force at a gap, its slope times the gap, and its second derivative times the gap squared."""
+__all__ = ["FlatLaw", "flat_end", "flat_law"]
 
 _THIN = 1e-8  # gap over radius below which a film is taken for its arc
 _RIGHT_CLOSE = 1e-12  # cosine of two angles that make a cylinder
@@ -39,15 +35,12 @@ _RIGHT_CLOSE = 1e-12  # cosine of two angles that make a cylinder
 class FlatLaw(NamedTuple):
     """Force and volume of bridges between flats at a gap up to `end`, lengths over the law's.
 
-    The force is over surface tension and length, the volume over the cube of length. `series`
-    makes, for a length and a surface tension, what gives a force [N] and its slopes at a gap [m]:
-    the same force, in fewer calls; None for a film that is taken for its arc.
+    The force is over surface tension and length, the volume over the cube of length.
     """
 
     end: float
     force: Callable[[float], float]
     volume: Callable[[float], float]
-    series: Callable[[float, float], Series]
 
 
 @lru_cache(maxsize=64)
@@ -113,10 +106,7 @@ def flat_law(
             return arc_volume(gap) * (1.0 + lacks()[1] * gap / floor)
         return content(measure.depth(gap))[0] * math.pi * gap
 
-    def law_series(length: float, tension: float) -> Series:
-        return _series(spline_pieces(places, forces), measure, floor, length, tension)
-
-    return FlatLaw(last.gap, law_force, law_volume, law_series)
+    return FlatLaw(last.gap, law_force, law_volume)
 
 
 @lru_cache(maxsize=64)
@@ -173,57 +163,10 @@ def _arc_radius(arc: arc_flat.ArcShape, gap: float, pinned: bool) -> float:
 
 def _cylinder(pinned: bool) -> FlatLaw:
     """Law for two right angles, whose bridges are cylinders: F = pi gamma r, up to h = pi r."""
-
-    def series(length: float, tension: float) -> Series:
-        def at(gap: float) -> tuple[float, float, float]:
-            force = tension * (
-                length * (math.pi if pinned else math.sqrt(math.pi / (gap / length)))
-            )
-            return (force, 0.0, 0.0) if pinned else (force, -0.5 * force, 0.75 * force)
-
-        return at
-
     if pinned:
-        return FlatLaw(math.pi, lambda gap: math.pi, lambda gap: math.pi * gap, series)
+        return FlatLaw(math.pi, lambda gap: math.pi, lambda gap: math.pi * gap)
     end = math.pi ** (1.0 / 3.0)
-    return FlatLaw(end, lambda gap: math.sqrt(math.pi / gap), lambda gap: 1.0, series)
-
-
-def _series(
-    curve: tuple[tuple[float, ...], list[Piece]],
-    measure: _Measure,
-    floor: float,
-    length: float,
-    tension: float,
-) -> Series:
-    """Force of the spline and its slopes along the logarithm of the gap, as far as it goes."""
-    (inner, pieces), (end, cosines, pinned) = curve, measure
-    log, sqrt, pi = math.log, math.sqrt, math.pi
-
-    def at(size: float) -> tuple[float, float, float] | None:
-        gap = size / length
-        depth = sqrt(max(log(end / gap), 0.0))
-        if gap < floor or not depth > 0.0:
-            return None
-        x0, a, b, c, d = pieces[bisect_right(inner, depth)]
-        t = depth - x0
-        share = a + t * (b + t * (c + t * d))
-        first, second = b + t * (2.0 * c + 3.0 * t * d), 2.0 * c + 6.0 * t * d
-        along = -0.5 / depth  # slope of the depth
-        first, second = first * along, (second - first / depth) * along * along
-        radius = 1.0 if pinned else sqrt(1.0 / (pi * gap))
-        scale = pi * radius * (radius * cosines / gap + 1.0)
-        ring = pi * radius
-        disc = scale - ring  # as 1/gap pinned, 1/gap^2 free; the ring not at all, as gap^-1/2
-        rise, bend = (
-            (-disc, disc) if pinned else (-2.0 * disc - 0.5 * ring, 4.0 * disc + 0.25 * ring)
-        )
-        factor = tension * length
-        slope = factor * (first * scale + share * rise)
-        curved = factor * (second * scale + 2.0 * first * rise + share * bend)
-        return tension * (length * (share * scale)), slope, curved - slope
-
-    return at
+    return FlatLaw(end, lambda gap: math.sqrt(math.pi / gap), lambda gap: 1.0)
 
 
 def _points(

@@ -50,11 +50,6 @@ class ForceLaw(NamedTuple):
     """Time integral [N.s] of a force that is proportional to speed, between two gaps."""
     release: float = float("inf")
     rejoin: float = 0.0
-    series: Callable[[float], tuple[float, float, float] | None] | None = None
-    """A force of the gap alone at a gap, its slope times the gap, and its second derivative times
-    the gap squared [N]; None where they are not known."""
-    is_power: bool = False
-    """Whether it is proportional to speed and, between kinks, to gap^-exponent, exactly."""
 
 
 @frozen(kw_only=True)

@@ -12,7 +12,7 @@ from ...scene.shapes import Sphere
 from ...validators import choice
 from .base import ForceLaw, SeparationForce
 from .film_shape import film_shape, needs_extent
-from .meniscus_flat import arc_law, exact_law, series_by_differences, surface_tension
+from .meniscus_flat import arc_law, exact_law, surface_tension
 
 if TYPE_CHECKING:
     from ...accuracy import Accuracy
@@ -133,4 +133,4 @@ class MeniscusForce(SeparationForce):
             return n * float(one)
 
         kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
-        return ForceLaw(force, kinks, series=series_by_differences(force, kinks))
+        return ForceLaw(force, kinks)

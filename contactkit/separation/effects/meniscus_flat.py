@@ -16,19 +16,15 @@ if TYPE_CHECKING:
     from ...accuracy import Accuracy
     from ...scene.scenes import SeparationScene
 
-__all__ = ["arc_law", "exact_end", "exact_law", "series_by_differences", "surface_tension"]
+__all__ = ["arc_law", "exact_end", "exact_law", "surface_tension"]
 
 Curve = Callable[[float], float]
-Series = flat_law.Series
-
-_NEAR = 1e-4  # share of the gap for differences: second ones are good to 1e-8 of the force
 
 
 class _Film(NamedTuple):
     """Force over surface tension [m] of one film in both its states, over the gap [m].
 
-    `pinned_volume` [m3] is that of the film which reaches the rim. With the series of both, what
-    `force` gives is there with its slopes, over the whole.
+    `pinned_volume` [m3] is that of the film which reaches the rim.
     """
 
     free: Curve
@@ -36,8 +32,6 @@ class _Film(NamedTuple):
     pinned_volume: Curve
     free_end: float
     pinned_end: float
-    free_series: Series | None = None
-    pinned_series: Series | None = None
 
 
 def surface_tension(scene: SeparationScene) -> float:
@@ -64,21 +58,16 @@ def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
     pinned: Curve = _nothing
     pinned_volume: Curve = _nothing
     free_end = pinned_end = math.inf
-    free_series: Series | None = None
-    pinned_series: Series | None = None
-    whole = film.menisci * surface_tension(scene)
     if math.isfinite(film.volume):
         bridges = flat_law.flat_law(*angles, rtol=rtol)
         size = math.cbrt(film.volume)
         free, free_end = _sized(bridges.force, size, size), bridges.end * size
-        free_series = bridges.series(size, whole)
     if math.isfinite(film.rim):
         held = flat_law.flat_law(*angles, pinned=True, rtol=rtol)
         pinned = _sized(held.force, film.rim, film.rim)
         pinned_volume = _sized(held.volume, film.rim, film.rim**3)
         pinned_end = held.end * film.rim
-        pinned_series = held.series(film.rim, whole)
-    both = _Film(free, pinned, pinned_volume, free_end, pinned_end, free_series, pinned_series)
+    both = _Film(free, pinned, pinned_volume, free_end, pinned_end)
     return _law(both, film, surface_tension(scene))
 
 
@@ -139,31 +128,7 @@ def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
         return n * tension * (both.pinned(gap) if gap < full_gap else both.free(gap))
 
     kinks = (full_gap,) if 0.0 < full_gap < end else ()
-    first, second = both.pinned_series, both.free_series
-    if first is None and second is None:
-        return ForceLaw(force, kinks, end=end, series=series_by_differences(force, (*kinks, last)))
-
-    def series(gap: float) -> tuple[float, float, float] | None:
-        one = first if gap < full_gap else second
-        return one(gap) if one is not None and gap < last else None
-
-    return ForceLaw(force, kinks, end=end, series=series)
-
-
-def series_by_differences(
-    force: Callable[[float, float], float], kinks: tuple[float, ...]
-) -> Series:
-    """Series of an explicit law of the gap; none next to a kink."""
-
-    def series(gap: float) -> tuple[float, float, float] | None:
-        near = _NEAR * gap
-        for kink in kinks:
-            if abs(kink - gap) <= near:
-                return None
-        low, here, high = force(gap - near, 0.0), force(gap, 0.0), force(gap + near, 0.0)
-        return here, 0.5 * (high - low) / _NEAR, ((high - here) - (here - low)) / _NEAR**2
-
-    return series
+    return ForceLaw(force, kinks, end=end)
 
 
 def _full_gap(both: _Film, film: FilmShape) -> float:

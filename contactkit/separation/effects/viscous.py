@@ -108,7 +108,7 @@ def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> Fo
             return n * float(squeeze.disc_impulse_conserved(film.volume, start, end, viscosity))
         return impulse(start, full) + impulse(full, end)
 
-    return ForceLaw(force, kinks, exponent=exponent, impulse=impulse, is_power=True)
+    return ForceLaw(force, kinks, exponent=exponent, impulse=impulse)
 
 
 def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:

@@ -6,9 +6,11 @@ import math
 from collections.abc import Sequence
 
 from ...numerics.quadrature import gauss_legendre
-from .radau import NODES, WEIGHTS, Stage, Step, coordinate
+from .radau import NODES, WEIGHTS, Point, Step, coordinate
 
-__all__ = ["highest", "travel_integral"]
+__all__ = ["peak", "work"]
+
+_SHORT = 1e-2  # change of the coordinate up to which the weights of the method do for the work
 
 
 def _cubic(first: float, stages: Sequence[float]) -> tuple[float, float, float, float]:
@@ -23,17 +25,17 @@ def _cubic(first: float, stages: Sequence[float]) -> tuple[float, float, float, 
 
 
 def _jumps(first: float, stages: Sequence[float]) -> bool:
-    """Whether a stiff film came up to its force at once, in a transient the step strode over."""
+    """Whether a stiff film came up to its force at once, in a transient that was stepped over."""
     values = (first, *stages)
     return stages[0] - first > 0.9 * (max(values) - min(values))
 
 
-def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
+def peak(first: float, stages: Sequence[float]) -> tuple[float, float]:
     """Highest value on a step, and where (0 start, 1 end), from its start and its three stages.
 
     Examples
     --------
-    >>> value, where = highest(0.0, [c * (1.0 - c) for c in NODES])
+    >>> value, where = peak(0.0, [c * (1.0 - c) for c in NODES])
     >>> round(value, 12), round(where, 12)
     (0.25, 0.5)
     """
@@ -57,12 +59,12 @@ def highest(first: float, stages: Sequence[float]) -> tuple[float, float]:
     return value, where
 
 
-def travel_integral(start: Stage, taken: Step, first: float, values: Sequence[float]) -> float:
-    r"""Integral of a force over the travel of a step, :math:`\int F \, dh`.
+def work(start: Point, taken: Step, first: float, values: Sequence[float]) -> float:
+    r"""Integral of a force over the travel of a step, :math:`\int F \, dh` [J].
 
     Parameters
     ----------
-    start : Stage
+    start : Point
         Where the step started.
     taken : Step
         The step.
@@ -71,9 +73,11 @@ def travel_integral(start: Stage, taken: Step, first: float, values: Sequence[fl
 
     Notes
     -----
-    Force and coordinate are taken as cubics in time and the gap follows from the coordinate
-    exactly, so that a step in which the gap multiplies loses nothing.
+    Over a long step force and coordinate are taken as cubics in time and the gap follows from the
+    coordinate exactly, so that a step in which the gap multiplies loses nothing.
     """
+    if abs(taken.coordinates[2]) < _SHORT:
+        return _by_weights(start, taken, values)
     if _jumps(first, values):
         # The jump takes no time: begin where the stages, as a parabola, say it ended.
         (a, b, c), (u, v, w) = NODES, values
@@ -84,10 +88,15 @@ def travel_integral(start: Stage, taken: Step, first: float, values: Sequence[fl
     total = 0.0
     for x, weight in zip(*gauss_legendre(6), strict=True):
         place = coordinate(start.gap, taken.exponent, ((q3 * x + q2) * x + q1) * x)
-        if place is None:  # the cubic overshoots: the quadrature of the method itself
-            dt = taken.stages[2].time - start.time
-            stages = zip(WEIGHTS, values, taken.stages, strict=True)
-            return dt * sum(w * f * stage.speed for w, f, stage in stages)
+        if place is None:  # the cubic overshoots
+            return _by_weights(start, taken, values)
         rate = (3.0 * q3 * x + 2.0 * q2) * x + q1
         total += weight * (((f3 * x + f2) * x + f1) * x + f0) * place[1] * rate
     return total
+
+
+def _by_weights(start: Point, taken: Step, values: Sequence[float]) -> float:
+    """Integral of a force over the travel by the quadrature of the method [J]."""
+    dt = taken.stages[2].time - start.time
+    stages = zip(WEIGHTS, values, taken.stages, strict=True)
+    return dt * sum(w * f * stage.speed for w, f, stage in stages)

@@ -1,31 +1,45 @@
-"""The time step: a mass, pulled, held back by a film and a spring.
+"""The motion of a mass, pulled, that a film, solids and a spring hold back.
 
-`advance` is the only step of time in contactkit. `separation.simulate` loops over it and the
-FMU calls it once per communication step; the state is one plain tuple of numbers.
+`advance` is the only step of time in contactkit: the FMU calls it once per communication step,
+and `separation.simulate` takes its internal steps one by one.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping
 
 from ...errors import ConvergenceError, DescriptionError
+from ...numerics.events import step_to_event
+from ...numerics.roots import first_true
+from ...numerics.step_size import StepSize
+from ..effects.viscous import ViscousForce
 from ..film import impulse_name
-from ..integrator.dense_output import highest, travel_integral
-from ..integrator.radau import WEIGHTS, Step
-from ..integrator.radau_short import Short
+from ..integrator.dense_output import peak, work
+from ..integrator.radau import (
+    NODES,
+    WEIGHTS,
+    Forces,
+    Point,
+    Problem,
+    Step,
+    against_halves,
+    relative_error,
+    step,
+)
 from ..plan import Film, Plan
-from .events import SAME, first_mark, happen
-from .smooth import NO_FORCE, is_spent, smooth_once
-from .state import Drive, MotionState, Pull
-from .step_problem import StepProblem, first_step, step_problem
+from .events import SAME, apply_event, next_event
+from .state import Drive, MotionState, Pull, acting_film
 
-__all__ = ["advance", "rest_once", "step_once"]
+__all__ = ["advance", "internal_step"]
 
-_SAFETY, _SHRINK, _GROW = 0.9, 0.1, 8.0
-_PLACES = {name: place for place, name in enumerate(MotionState._fields)}
-_NOTHING = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
+_CONTROL = StepSize(order=4)  # of the estimate
+_NO_GAP = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
+_NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
+_AT_REST = 1e-30  # fraction of the gap over which the film stops a mass that is as good as at rest
+_EVENT = 1e-13  # relative distance of a gap from an event that is met
+_TOO_LONG = 16.0  # error of a step that is to be cut in half
+_VISCOUS = impulse_name(ViscousForce.column)
 
 
 def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionState:
@@ -57,8 +71,7 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
     for _ in range(plan.accuracy.max_steps + 1):
         if end - state.time <= nothing:
             return state if state.time == end else state._replace(time=end)
-        one = rest_once if state.held else step_once
-        state = one(plan, state, pull, end)
+        state = internal_step(plan, state, pull, end)
     cure = "loosen Accuracy.time_rtol or raise Accuracy.max_steps"
     if state.n_releases and plan.scene.opening.stiffness > 0.0:  # some hundred steps for a swing
         cure = (
@@ -72,210 +85,243 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
     )
 
 
-def rest_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
-    """Rest on the asperities until the pull exceeds what holds the bodies together."""
-    opening = plan.scene.opening
-    holding = opening.stiffness * (state.gap - opening.initial_gap)
-    acting = plan.film_left(state.share, broken=state.broken, detached=state.detached)
-    film = acting.forces(state.gap, 0.0)[0] if acting is not None else 0.0
-    leave, low = end, state.time
-    if pull(low) - holding - film > 0.0:
-        leave = low
-    elif pull(end) - holding - film > 0.0:
-        while leave - low > 1e-15 * abs(leave) and low < (middle := 0.5 * (low + leave)) < leave:
-            if pull(middle) - holding - film > 0.0:
-                leave = middle
-            else:
-                low = middle
-    elapsed, names = leave - state.time, acting.static_columns if acting is not None else ()
-    forces = dict.fromkeys(names, film)
-    if acting is not None and len(names) > 1:
-        forces = acting.static_forces(state.gap)
-    found: list[Any] = list(state)  # a master asks often, and `_replace` takes its time
-    found[_PLACES["time"]], found[_PLACES["step"]] = leave, 0.0
-    found[_PLACES["held"]] = pull(leave) - holding - film <= 0.0
-    for name, force in forces.items():
-        place = _PLACES.get(impulse_name(name))
-        if place is not None:
-            found[place] += elapsed * force
-    return tuple.__new__(MotionState, found)
-
-
-def _grown(state: MotionState, length: float, means: dict[str, float]) -> dict[str, Any]:
-    """Impulses of the state after a time [s] in which forces had these means [N]."""
-    return {
-        name: getattr(state, name) + length * mean
-        for name, mean in means.items()
-        if name in state._fields
-    }
-
-
-def step_once(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
-    """Take one internal step, shortened to the first event inside it."""
-    if type(pull) is Pull:
-        after = smooth_once(plan, state, pull, end)
-        if after is not None:
-            return after
-    if state.gap < _NOTHING:
+def internal_step(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+    """Take one internal step towards the time `end` [s], cut at the first event inside it."""
+    rest_gap = plan.scene.opening.rest_gap
+    if state.in_contact:
+        return _rest(plan, state, pull, end)
+    if state.gap < _NO_GAP:
         raise _no_step(state, plan.accuracy.time_rtol)
-    rest = plan.scene.opening.rest_gap
-    if state.speed < 0.0 and state.gap <= rest * (1.0 + SAME):
-        return state._replace(held=True, gap=rest, speed=0.0)
-    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
-    problem = _posed(plan, film, state, pull, end)
-    if problem is None:
-        return state._replace(speed=0.0)
+    if state.speed < 0.0 and state.gap <= rest_gap * (1.0 + SAME):
+        return state._replace(in_contact=True, gap=rest_gap, speed=0.0)
+    film = acting_film(plan, state)
+    problem = _problem(plan, film, state, pull)
+    if problem.size <= _NO_FORCE:
+        if _is_at_rest(problem):
+            return state._replace(speed=0.0)
+        problem = _expecting(problem, 0.5 * abs(pull(end)))  # the mean of a ramp
+    return _stepped(plan, film, state, problem, end)
+
+
+def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+    """Rest on the asperities until the pull exceeds what holds the bodies together."""
+    opening, film = plan.scene.opening, acting_film(plan, state)
+    forces = film.static_forces(state.gap) if film is not None else {}
+    holding = opening.stiffness * (state.gap - opening.initial_gap) + sum(forces.values())
+    leaves = pull(end) > holding
+    if leaves:
+        end = first_true(lambda time: pull(time) > holding, state.time, end)
+    elapsed = end - state.time
+    grown = {impulse_name(column): elapsed * force for column, force in forces.items()}
+    return state._replace(
+        time=end, in_contact=not leaves, step=0.0, impulses=_added(state.impulses, grown)
+    )
+
+
+def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[str, float]:
+    return {**impulses, **{name: impulses.get(name, 0.0) + more[name] for name in more}}
+
+
+def _problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> Problem:
+    """Pose the step from a state, with a film or, where nothing is left of it, without one."""
+    opening, mass = plan.scene.opening, _mass(plan)
+    gap, speed = state.gap, state.speed
+    forces = film.forces if film is not None else _no_forces
+    first = forces(gap, speed)
+    damping = film.damping(gap) if film is not None else 0.0
+    spring = opening.stiffness * abs(gap - opening.initial_gap)
+    size = abs(pull(state.time)) + abs(first.static) + spring + 1e-300
+    crossing = gap / (state.step or 1e-6)
+    return Problem(
+        mass=mass,
+        pull=pull,
+        stiffness=opening.stiffness,
+        slack_gap=opening.initial_gap,
+        forces=forces,
+        has_limits=film is not None and bool(film.limits),
+        exponent=film.exponent(gap) if film is not None else 0.0,
+        begin=Point(state.time, gap, speed),
+        first=first,
+        rtol=plan.accuracy.time_rtol,
+        size=size,
+        delivered=state.applied_impulse + mass * abs(speed),
+        # Where no force acts yet, a film still has a scale: differences of speed count.
+        scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
+    )
+
+
+def _no_forces(gap: float, speed: float) -> Forces:
+    return Forces(0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def _mass(plan: Plan) -> float:
+    """Moving mass [kg]; without one, so little that its momentum is 1e-14 of the impulse given."""
+    opening = plan.scene.opening
+    if opening.mass is not None:
+        return opening.mass
+    impulse = plan.film.laws[ViscousForce].impulse
+    assert impulse is not None  # a viscous force always has one
+    given = impulse(opening.initial_gap, opening.final_gap)
+    pull = max(abs(opening.force or 0.0), 1e-300)
+    return 1e-14 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
+
+
+def _is_at_rest(problem: Problem) -> bool:
+    """Whether a moving mass on which no force acts is as good as at rest."""
+    reach = problem.first.viscous_by_speed * problem.begin.gap
+    return 0.0 < abs(problem.begin.speed) * problem.mass < _AT_REST * reach
+
+
+def _expecting(problem: Problem, force: float) -> Problem:
+    """Measure errors against a force [N] that is still to come.
+
+    At the foot of a ramp nothing acts yet, and a stiff film would be followed through its
+    transient, which late in a run is shorter than the time can tell.
+    """
+    damping = problem.first.viscous_by_speed
+    speed = force / damping if damping > 0.0 else 0.0
+    return problem._replace(size=problem.size + force, scale=max(problem.scale, speed))
+
+
+def _stepped(
+    plan: Plan, film: Film | None, state: MotionState, problem: Problem, end: float
+) -> MotionState:
+    """State after the longest step that meets the tolerance, or the first event inside it."""
     left = end - state.time
-    length = min(state.step or first_step(problem, left), left)
-    rejected, evaluations = 0, 3
+    length = min(state.step or _first_length(problem, left), left)
+    rejected, evaluations = 0, 1
     while True:
-        short = problem.attempt_short(length)
-        taken = short.step if short is not None else problem.attempt(length)
+        taken = step(problem, length)
         error = math.inf
         if taken is not None:
             evaluations += taken.evaluations
-            error = _judge(plan, film, state, problem, taken, length)
+            error = _error(plan, state, problem, taken, length)
             if error <= 1.0:
                 break
         rejected += 1
-        length *= 0.25 if math.isinf(error) else max(_SHRINK, _SAFETY * error**-0.25)
+        length = _CONTROL.shorter(length, error)
         if length < 1e-15 * max(abs(state.time), 1e-15) or rejected > 60:
             raise _no_step(state, problem.rtol)
-    following = length * min(_GROW, _SAFETY * max(error, 1e-12) ** -0.25)
-    if not rejected and length < state.step:  # cut short by the end of the span only
-        following = max(following, state.step)
-    mark = first_mark(plan, film, state, taken.stages[2].gap)
-    if mark is not None:
-        taken, length = _locate(problem, length, mark, taken)
-        short = None
-    changes: dict[str, Any] = {
-        "given_impulse": state.given_impulse + length * problem.size,
-        "step": following,
-        "n_steps": state.n_steps + 1,
-        "n_rejected": state.n_rejected + rejected,
-        "n_evaluations": state.n_evaluations + evaluations,
-    }
-    if film is not None:
-        changes |= _passed(state, film, problem, taken, length, short)
+    is_cut = not rejected and length < state.step
+    following = _CONTROL.following(length, error, state.step if is_cut else 0.0)
+    event = next_event(plan, film, state, taken.stages[2].gap)
+    if event is not None:
+        taken, length = _step_to_gap(problem, taken, length, event)
     _, gap, speed = taken.stages[2]
-    time = end if length == left else state.time + length
-    state = state._replace(time=time, gap=gap, speed=speed, **changes)
-    return state if mark is None else happen(plan, film, state, mark)
+    grown = _impulses(film, taken, length)
+    highest, when = _peak(state, problem, taken, length)
+    state = state._replace(
+        time=end if length == left else state.time + length,
+        gap=gap,
+        speed=speed,
+        impulses=_added(state.impulses, grown),
+        dissipated_work=state.dissipated_work + _work(problem, taken),
+        applied_impulse=state.applied_impulse + length * problem.size,
+        peak_force=highest,
+        peak_time=when,
+        step=following,
+        n_steps=state.n_steps + 1,
+        n_rejected=state.n_rejected + rejected,
+        n_evaluations=state.n_evaluations + evaluations,
+    )
+    return state if event is None else apply_event(plan, film, state, event)
 
 
-def _posed(
-    plan: Plan, film: Film | None, state: MotionState, pull: Drive, end: float
-) -> StepProblem | None:
-    """Pose the step; None where nothing acts any more and the film has brought it to rest."""
-    problem = step_problem(plan, film, state, pull)
-    if problem.size > NO_FORCE:
-        return problem
-    if is_spent(problem.mass, state.speed, -problem.at_start[2], state.gap):
-        return None
-    return problem.expecting(0.5 * abs(pull(end)))  # the mean of a ramp
+def _first_length(problem: Problem, left: float) -> float:
+    """Time [s] in which inertia alone would open a thousandth of the gap; a first guess."""
+    (time, gap, speed), first = problem.begin, problem.first
+    acceleration = abs(problem.net(problem.pull(time), gap, first)) / problem.mass
+    resting = math.sqrt(2e-3 * gap / acceleration) if acceleration > 0.0 else left
+    moving = 1e-3 * gap / abs(speed) if speed else left
+    return min(resting, moving, left)
 
 
 def _no_step(state: MotionState, rtol: float) -> ConvergenceError:
     """Error for a state from which no step meets the tolerance."""
     cure = f"loosen Accuracy.time_rtol = {rtol:g}"
-    if state.gap < 10.0 * _NOTHING:
+    if state.gap < 10.0 * _NO_GAP:
         cure = "the bodies are pressed together; give Opening.rest_gap [m], where asperities carry"
     where = f"{state.time:g} s, gap {state.gap:g} m, speed {state.speed:g} m/s"
     return ConvergenceError(f"no step of time can be taken from {where}; {cure}", state)
 
 
-def _judge(
-    plan: Plan,
-    film: Film | None,
-    state: MotionState,
-    problem: StepProblem,
-    taken: Step,
-    length: float,
-) -> float:
+def _error(plan: Plan, state: MotionState, problem: Problem, taken: Step, length: float) -> float:
     """Error of a step over its tolerance, with what the estimate inside the step cannot see."""
-    error = problem.error(taken, length)
+    missed = _missed_impulse(problem, length)
+    error = relative_error(problem, taken, length, missed)
     if error > 1.0:
         return error
     end, rest = taken.stages[2], plan.scene.opening.rest_gap
     if end.gap < rest * (1.0 - SAME) and state.gap <= rest * (1.0 + SAME):
-        return 16.0  # a hop that begins and ends at the rest gap: cut it, there is no crossing
-    if film is None or not film.limits:
+        return _TOO_LONG  # a hop that begins and ends at the rest gap: there is none to cut at
+    if all(forces.limit is problem.first.limit for forces in taken.forces):
         return error
-    # Where a limit sets in or lets go, the slope of the force jumps: compare with two half steps.
-    points = (problem.begin, *taken.stages)
-    if len({film.viscous_force(point.gap, point.speed)[1] for point in points}) == 1:
-        return error
-    half = problem.attempt(0.5 * length)
-    if half is None:
-        return 16.0
-    middle = half.stages[2]
-    there = state._replace(time=middle.time, gap=middle.gap, speed=middle.speed)
-    rest_of_it = step_problem(plan, film, there, problem.holding.pull).attempt(0.5 * length)
-    if rest_of_it is None:
-        return 16.0
-    again = rest_of_it.stages[2]
-    gap_error, speed_error = abs(math.log(again.gap / end.gap)), abs(again.speed - end.speed)
-    seen = taken._replace(gap_error=gap_error, speed_error=speed_error)
-    return max(error, problem.error(seen, length))
+    # Where a limit sets in or ceases, the slope of the force jumps: compare with two half steps.
+    errors = against_halves(problem, taken, length)
+    if errors is None:
+        return _TOO_LONG
+    seen = taken._replace(gap_error=errors[0], speed_error=errors[1])
+    return max(error, relative_error(problem, seen, length))
 
 
-def _locate(problem: StepProblem, length: float, mark: float, taken: Step) -> tuple[Step, float]:
-    """Step that ends at a gap: Newton on its length, kept inside the bracket."""
-    low, high = 0.0, length
-    rising = mark > problem.begin.gap
-    for _ in range(60):
-        end = taken.stages[2]
-        miss = end.gap - mark
-        if abs(miss) <= 1e-13 * mark or high - low <= 1e-15 * high:
-            break
-        if (miss > 0.0) == rising:
-            high = length
-        else:
-            low = length
-        guess = length - miss / end.speed if end.speed else math.nan
-        length = guess if low < guess < high else 0.5 * (low + high)
-        again = problem.attempt(length)
-        if again is None:
-            break
-        taken = again
-    return taken, length
+def _missed_impulse(problem: Problem, length: float) -> float:
+    """What the nodes of a step miss of the impulse of the pull [N.s], against Simpson's rule.
+
+    A stiff film hides a ramp of the pull from the estimates of gap and speed. A pull that is
+    linear in time is integrated exactly.
+    """
+    start, pull = problem.begin.time, problem.pull
+    if isinstance(pull, Pull):
+        return 0.0
+    first, middle, last = (pull(start + x * length) for x in (0.0, 0.5, 1.0))
+    nodes = zip(WEIGHTS, NODES, strict=True)
+    seen = sum(weight * pull(start + node * length) for weight, node in nodes)
+    return length * (seen - (first + 4.0 * middle + last) / 6.0)
 
 
-def _passed(
-    state: MotionState,
-    film: Film,
-    problem: StepProblem,
-    taken: Step,
-    length: float,
-    short: Short | None,
-) -> dict[str, Any]:
-    """Impulses, work and peak after a step, by the quadrature of the method itself."""
-    gaps = [stage.gap for stage in taken.stages]
-    static: Sequence[float]
-    forces: Sequence[float]
-    if short is not None:
-        static, forces = short.static, short.viscous
-    else:
-        static = [film.static_force(gap) for gap in gaps]
-        forces = [film.viscous_force(stage.gap, stage.speed)[0] for stage in taken.stages]
-    first = problem.viscous
-    work = short.work if short is not None else None
-    # A stiff film that came up to its force at once, in a transient the step strode over.
-    sprang = forces[0] - first > 0.9 * (max(first, *forces) - min(first, *forces))
-    if work is None or sprang:
-        work = travel_integral(problem.begin, taken, first, forces)
-    viscous = sum(w * f for w, f in zip(WEIGHTS, forces, strict=True))
-    found = {
-        "viscous_impulse": state.viscous_impulse + length * viscous,
-        "dissipated_work": state.dissipated_work + work,
-    }
-    found |= _grown(state, length, film.static_means(gaps, WEIGHTS, static))
-    first += problem.static
-    totals = [a + b for a, b in zip(static, forces, strict=True)]
+def _step_to_gap(problem: Problem, taken: Step, length: float, gap: float) -> tuple[Step, float]:
+    """Step that ends at a gap, and its length."""
+    rising = gap > problem.begin.gap
+
+    def beyond(one: Step) -> float:
+        return (one.stages[2].gap / gap - 1.0) * (1.0 if rising else -1.0)
+
+    begin = -abs(problem.begin.gap / gap - 1.0)
+    return step_to_event(lambda dt: step(problem, dt), beyond, begin, taken, length, _EVENT)
+
+
+def _impulses(film: Film | None, taken: Step, length: float) -> dict[str, float]:
+    """Impulse of each force over a step [N.s], by the quadrature of the method itself."""
+    if film is None:
+        return {}
+    b1, b2, b3 = (length * weight for weight in WEIGHTS)
+    f1, f2, f3 = taken.forces
+    grown = {}
+    if film.has_viscous:
+        grown[_VISCOUS] = b1 * f1.viscous + b2 * f2.viscous + b3 * f3.viscous
+    if len(film.static_impulses) == 1:  # as known at the stages; several are evaluated each
+        (name,) = film.static_impulses
+        grown[name] = b1 * f1.static + b2 * f2.static + b3 * f3.static
+        return grown
+    one, two, three = (film.static_forces(point.gap) for point in taken.stages)
+    for column, force in one.items():
+        grown[impulse_name(column)] = b1 * force + b2 * two[column] + b3 * three[column]
+    return grown
+
+
+def _work(problem: Problem, taken: Step) -> float:
+    """Work that the viscous force dissipates in a step [J]."""
+    viscous = [forces.viscous for forces in taken.forces]
+    return work(problem.begin, taken, problem.first.viscous, viscous)
+
+
+def _peak(state: MotionState, problem: Problem, taken: Step, length: float) -> tuple[float, float]:
+    """Highest force of film and solids so far [N], and its time [s]."""
+    first = problem.first.static + problem.first.viscous
+    totals = [forces.static + forces.viscous for forces in taken.forces]
     top = max(first, *totals)
-    most = top + 0.25 * (top - min(first, *totals))  # that `highest` makes of it
-    if top > 0.99 * state.peak_force and most > state.peak_force:
-        value, where = highest(first, totals)
+    if top + 0.25 * (top - min(first, *totals)) > state.peak_force:  # the most `peak` can find
+        value, where = peak(first, totals)
         if value > state.peak_force:
-            found |= {"peak_force": value, "peak_time": state.time + where * length}
-    return found
+            return value, state.time + where * length
+    return state.peak_force, state.peak_time

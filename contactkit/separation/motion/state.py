@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from ...units import si
 from ..effects.registry import SeparationEffect, ShearLimit, TensionLimit
-from ..plan import Plan
+from ..plan import Film, Plan
 
 __all__ = [
     "LIMITS",
@@ -20,6 +20,7 @@ __all__ = [
     "MotionState",
     "Outputs",
     "Pull",
+    "acting_film",
     "outputs",
     "start",
 ]
@@ -73,14 +74,14 @@ class MotionState(NamedTuple):
     time: float
     gap: float
     speed: float
-    share: float = 1.0  # volume of the film, as a share of the scene's
-    broken: bool = False
-    held: bool = False  # resting on the asperities
+    volume_fraction: float = 1.0  # volume of the film over that of the scene
+    broken: bool = False  # the film has ruptured
+    in_contact: bool = False  # at rest on the asperities
     armed: bool = True  # closed since the last release, so that the next one counts
-    viscous_impulse: float = 0.0
-    meniscus_impulse: float = 0.0
+    detached: bool = False  # the solids have pulled off each other
+    impulses: Mapping[str, float] = {}  # of each force of the scene [N.s], never changed in place
     dissipated_work: float = 0.0
-    given_impulse: float = 0.0  # sum of all |force| dt, the scale of the momentum error
+    applied_impulse: float = 0.0  # sum of all |force| dt, the scale of the momentum error
     break_time: float = -1.0
     release_time: float = -1.0
     release_speed: float = 0.0
@@ -92,10 +93,6 @@ class MotionState(NamedTuple):
     n_steps: int = 0
     n_rejected: int = 0
     n_evaluations: int = 0
-    detached: bool = False  # the solids have let go of each other
-    van_der_waals_impulse: float = 0.0
-    adhesion_impulse: float = 0.0
-    asperity_impulse: float = 0.0
 
 
 class Outputs(NamedTuple):
@@ -117,25 +114,36 @@ _NOTHING = Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
 def start(plan: Plan) -> MotionState:
     """State of a scene at time 0."""
     opening = plan.scene.opening
-    held = opening.rest_gap >= opening.initial_gap and opening.initial_speed <= 0.0
-    return MotionState(0.0, opening.initial_gap, 0.0 if held else opening.initial_speed, held=held)
+    in_contact = opening.rest_gap >= opening.initial_gap and opening.initial_speed <= 0.0
+    return MotionState(
+        0.0,
+        opening.initial_gap,
+        0.0 if in_contact else opening.initial_speed,
+        in_contact=in_contact,
+        impulses=plan.film.impulses(),
+    )
+
+
+def acting_film(plan: Plan, state: MotionState) -> Film | None:
+    """Film and solids that act in a state; None if nothing does."""
+    fraction, broken, detached = state.volume_fraction, state.broken, state.detached
+    return plan.film_left(fraction, broken=broken, detached=detached)
 
 
 def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
     """Forces at a state under a pull [N], and what they mean."""
-    opening = plan.scene.opening
-    film = plan.film_left(state.share, broken=state.broken, detached=state.detached)
+    opening, film = plan.scene.opening, acting_film(plan, state)
     if film is None:
         return _NOTHING
     gap, speed = state.gap, state.speed
-    static, viscous, acting = film.forces(gap, speed)
+    static, (viscous, limit) = film.static_force(gap), film.viscous_force(gap, speed)
     net = pull - opening.stiffness * (gap - opening.initial_gap) - static
     if speed <= 0.0 < pull and net <= 0.0:
         status = FilmStatus.STUCK
-    elif state.held:
+    elif state.in_contact:
         status = FilmStatus.CONTACT
     elif state.broken:
         status = FilmStatus.BROKEN
     else:
         status = FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE
-    return Outputs(static + viscous, static, viscous, status, LIMITS[acting])
+    return Outputs(static + viscous, static, viscous, status, LIMITS[limit])

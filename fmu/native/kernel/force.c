@@ -125,7 +125,7 @@ static void settle(ck_model *model, double time) {
 }
 
 /* Apply what happens at a gap the motion has come to: rupture, parting, re-wetting, joining. */
-static void happen(ck_model *model, double gap, int rising, double time) {
+static void apply_event(ck_model *model, double gap, int rising, double time) {
     ck_memory *memory = &model->state.memory;
     int next = model->scene.film_count - 1;
     ck_acting acting;
@@ -163,7 +163,7 @@ static ck_impulse go(ck_model *model, double time, double step, double target) {
         sum.viscous += part.viscous, sum.fixed += part.fixed;
         gap = next;
         model->state.end = begin == target ? time : time + (gap - begin) * pace;
-        happen(model, gap, rising, model->state.end);
+        apply_event(model, gap, rising, model->state.end);
         if (gap == target || memory->pending) break;
     }
     memory->gap = memory->pending ? gap : target;

@@ -13,8 +13,8 @@ void ck_start(const ck_scene *scene, double time, ck_motion *state) {
     memset(state, 0, sizeof *state);
     state->time = time;
     state->gap = scene->initial_gap;
-    state->held = scene->rest_gap >= scene->initial_gap && scene->initial_speed <= 0.0;
-    state->speed = state->held ? 0.0 : scene->initial_speed;
+    state->in_contact = scene->rest_gap >= scene->initial_gap && scene->initial_speed <= 0.0;
+    state->speed = state->in_contact ? 0.0 : scene->initial_speed;
     state->armed = 1;
     state->break_time = state->release_time = state->peak_time = -1.0;
 }
@@ -49,7 +49,7 @@ int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *ac
     double net = pull - scene->stiffness * (state->gap - scene->initial_gap) - forces->fixed;
     if (!acting->any) return CK_BROKEN;
     if (pull > 0.0 && net <= 0.0 && state->speed <= 0.0) return CK_STUCK;
-    if (state->held) return CK_CONTACT;
+    if (state->in_contact) return CK_CONTACT;
     if (state->broken) return CK_BROKEN;
     return state->gap <= acting->film->full_gap ? CK_FULL : CK_BRIDGE;
 }
@@ -73,7 +73,7 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     }
     elapsed = leave - state->time;
     state->time = leave;
-    state->held = ck_pull_at(pull, leave) - holding - film <= 0.0;
+    state->in_contact = ck_pull_at(pull, leave) - holding - film <= 0.0;
     state->step = 0.0;
     state->fixed_impulse += elapsed * film;
 }
@@ -95,7 +95,7 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->rtol = scene->rtol;
     p->begin.time = state->time, p->begin.gap = state->gap, p->begin.speed = state->speed;
     p->size = fabs(drive) + fabs(first->fixed) + fabs(spring) + 1e-300;
-    p->delivered = state->given_impulse + scene->mass * fabs(state->speed);
+    p->delivered = state->applied_impulse + scene->mass * fabs(state->speed);
     crossing = state->gap / (state->step > 0.0 ? state->step : 1e-6);
     p->scale = first->resistance > 0.0 ? ck_larger(p->size / first->resistance, 1e-15 * crossing)
                                        : crossing;
@@ -154,23 +154,25 @@ static double closed_gap(const ck_scene *scene) {
 }
 
 typedef struct {
-    double low, high, end, found;
+    double begin, end, found;
     int rising;
-} marks;
+} crossings;
 
-static void consider(marks *m, double mark) {
-    if (!((m->low * (1.0 + SAME) < mark && mark < m->high) || mark == m->end)) return;
-    if (m->found < 0.0 || (m->rising ? mark < m->found : mark > m->found)) m->found = mark;
+/* An event that is closer to the start than SAME is behind. */
+static void consider(crossings *c, double event) {
+    int is_ahead = c->rising ? c->begin * (1.0 + SAME) < event && event <= c->end
+                             : c->end <= event && event < c->begin * (1.0 - SAME);
+    if (!is_ahead) return;
+    if (c->found < 0.0 || (c->rising ? event < c->found : event > c->found)) c->found = event;
 }
 
-/* First gap on the way to `gap` at which something happens; -1 if there is none. */
-static double first_mark(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
+/* Gap of the first event on the way to `gap`; -1 if there is none. */
+static double next_event(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
                          double gap) {
-    marks m;
+    crossings m;
     int i, k;
     m.rising = gap > state->gap;
-    m.low = m.rising ? state->gap : gap, m.high = m.rising ? gap : state->gap;
-    m.end = gap, m.found = -1.0;
+    m.begin = state->gap, m.end = gap, m.found = -1.0;
     for (i = 0; i < acting->film->count; i++)
         for (k = 0; acting->acts[i] && k < acting->film->laws[i].kink_count; k++)
             if (acting->film->laws[i].kinks[k] < acting->end)
@@ -188,14 +190,14 @@ static double first_mark(const ck_scene *scene, const ck_acting *acting, const c
 }
 
 /* Step that ends at a gap: Newton on its length, kept inside the bracket. */
-static double locate(const ck_problem *p, double length, double mark, ck_step *taken) {
+static double locate(const ck_problem *p, double length, double event, ck_step *taken) {
     double low = 0.0, high = length;
-    int rising = mark > p->begin.gap, i;
+    int rising = event > p->begin.gap, i;
     for (i = 0; i < 60; i++) {
         const ck_point *end = &taken->stages[2];
-        double miss = end->gap - mark, guess = -1.0;
+        double miss = end->gap - event, guess = -1.0;
         ck_step again;
-        if (fabs(miss) <= 1e-13 * mark || high - low <= 1e-15 * high) break;
+        if (fabs(miss) <= 1e-13 * event || high - low <= 1e-15 * high) break;
         if ((miss > 0.0) == rising) high = length;
         else low = length;
         if (end->speed != 0.0) guess = length - miss / end->speed;
@@ -231,9 +233,9 @@ static void accumulate(const ck_problem *p, const ck_forces *first, const ck_ste
     state->speed = taken->stages[2].speed;
     state->viscous_impulse += length * viscous_mean;
     state->fixed_impulse += length * fixed_mean;
-    state->given_impulse += length * p->size;
+    state->applied_impulse += length * p->size;
     state->steps++;
-    state->rounds += taken->rounds;
+    state->iterations += taken->iterations;
     state->here = taken->forces[2], state->exponent = taken->film_exponent;
     state->known = 1;
 }
@@ -249,25 +251,25 @@ void ck_resolve(const ck_scene *scene, ck_motion *state) {
     state->pending = CK_NONE;
 }
 
-/* Apply what happens at a mark: release, rupture, rest or re-wetting. */
-static void happen(const ck_scene *scene, const ck_acting *acting, ck_motion *state, double mark) {
+/* Apply the event at a gap: release, rupture, rest or re-wetting. */
+static void apply_event(const ck_scene *scene, const ck_acting *acting, ck_motion *state, double event) {
     int rising = state->speed > 0.0, next = scene->film_count - 1;
-    state->gap = mark;
-    if (rising && mark == scene->release_gap) {
+    state->gap = event;
+    if (rising && event == scene->release_gap) {
         state->armed = 0;
         state->release_time = state->time;
         state->release_speed = state->speed;
         state->releases++;
     }
-    if (rising && acting->any && mark == acting->end) state->pending = CK_RUPTURE;
-    if (rising && acting->any && mark == acting->release) state->detached = 1;
+    if (rising && acting->any && event == acting->end) state->pending = CK_RUPTURE;
+    if (rising && acting->any && event == acting->release) state->detached = 1;
     if (rising) return;
-    if (mark <= closed_gap(scene)) state->armed = 1;
-    if (mark <= scene->rejoin) state->detached = 0;
-    if (mark > scene->initial_gap) return;
-    if (state->broken && scene->rewetting > 0.0 && scene->ends[next] > mark)
+    if (event <= closed_gap(scene)) state->armed = 1;
+    if (event <= scene->rejoin) state->detached = 0;
+    if (event > scene->initial_gap) return;
+    if (state->broken && scene->rewetting > 0.0 && scene->ends[next] > event)
         state->pending = CK_REWETTING;
-    if (mark == scene->rest_gap) state->held = 1, state->speed = 0.0;
+    if (event == scene->rest_gap) state->in_contact = 1, state->speed = 0.0;
 }
 
 /* Take one internal step, shortened to the first event inside it. */
@@ -276,11 +278,11 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     ck_problem p;
     ck_forces first;
     ck_step taken;
-    double left = end - state->time, length, error = HUGE_VAL, following, mark, asked;
+    double left = end - state->time, length, error = HUGE_VAL, following, event, asked;
     int rejected = 0;
     if (state->gap < NOTHING) return CK_NO_STEP;
     if (state->speed < 0.0 && state->gap <= scene->rest_gap * (1.0 + SAME)) {
-        state->held = 1, state->gap = scene->rest_gap, state->speed = 0.0, state->known = 0;
+        state->in_contact = 1, state->gap = scene->rest_gap, state->speed = 0.0, state->known = 0;
         return CK_DONE;
     }
     ck_act(scene, state->film, state->broken, state->detached, &acting);
@@ -299,11 +301,11 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     }
     following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
-    mark = first_mark(scene, &acting, state, taken.stages[2].gap);
-    if (mark >= 0.0) length = locate(&p, length, mark, &taken);
+    event = next_event(scene, &acting, state, taken.stages[2].gap);
+    if (event >= 0.0) length = locate(&p, length, event, &taken);
     accumulate(&p, &first, &taken, length, state);
     state->step = following;
-    if (mark >= 0.0) happen(scene, &acting, state, mark), state->known = 0;
+    if (event >= 0.0) apply_event(scene, &acting, state, event), state->known = 0;
     if (state->pending && !scene->pauses) ck_resolve(scene, state);
     return CK_DONE;
 }
@@ -318,7 +320,7 @@ int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, dou
             return CK_DONE;
         }
         if (state->pending) return CK_DONE;
-        if (state->held) {
+        if (state->in_contact) {
             rest_once(scene, state, pull, end);
         } else {
             int trouble = step_once(scene, state, pull, end);

@@ -21,11 +21,11 @@ typedef struct {
 
 typedef struct {
     double time, gap, speed, step;
-    double viscous_impulse, fixed_impulse, work, given_impulse;
+    double viscous_impulse, fixed_impulse, work, applied_impulse;
     double break_time, release_time, release_speed, peak_force, peak_time;
-    int film, broken, held, armed, detached, breaks, releases;
+    int film, broken, in_contact, armed, detached, breaks, releases;
     int pending; /* what happens here, and has not yet where the motion pauses for it */
-    int64_t steps, rounds; /* internal ones, and iterations in them */
+    int64_t steps, iterations; /* internal ones, and iterations in them */
     ck_forces here;        /* forces at this gap and speed, and the exponent of the viscous one */
     double exponent;
     int64_t known; /* whether the last step told them */

@@ -15,7 +15,7 @@ static void cubic(double first, const double stages[3], double found[4]) {
     found[3] = 15.5807820472492238243 * a - 8.91411538058255715765 * b + 10.0 / 3.0 * c;
 }
 
-/* Whether a stiff film came up to its force at once, in a transient the step strode over. */
+/* Whether a stiff film came up to its force at once, in a transient that was stepped over. */
 static int jumps(double first, const double stages[3]) {
     double high = ck_larger(ck_larger(first, stages[0]), ck_larger(stages[1], stages[2]));
     double low = -ck_larger(ck_larger(-first, -stages[0]), ck_larger(-stages[1], -stages[2]));

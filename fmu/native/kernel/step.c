@@ -262,7 +262,7 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
         met = sure * size <= 0.03 * p->rtol && is_small(p, dt, at, residual, p->rtol / sure);
         stalled = iteration > 1 && size < 1e-6 && size >= previous; /* at rounding */
         if (met || (stalled && is_small(p, dt, at, residual, 1e-7))) {
-            taken->rounds = iteration + 1;
+            taken->iterations = iteration + 1;
             return finish(p, dt, s, rates, at, taken);
         }
         if (iteration > 5 && size > previous) return 0;

@@ -29,7 +29,7 @@ typedef struct {
     ck_forces forces[3]; /* at the stages; slopes are those of the last iteration */
     double coordinates[3], exponent, gap_error, speed_error;
     double film_exponent; /* n of the viscous force at the end, which falls as gap^-n */
-    int rounds;           /* of the iteration for the stages */
+    int iterations;       /* of the iteration for the stages */
 } ck_step;
 
 /* As fmax, but of numbers: nan is for others to find. */
