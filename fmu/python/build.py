@@ -58,7 +58,7 @@ try:
 except ImportError:  # a bare interpreter gets the copy in this FMU
     sys.path.append(str(Path(__file__).parent / "vendor"))
 
-from {package}.fmu.integrity import verify
+from {package}.fmu.python.integrity import verify
 from {package}.fmu.{module} import {class_name} as Model
 
 
