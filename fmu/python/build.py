@@ -59,7 +59,7 @@ except ImportError:  # a bare interpreter gets the copy in this FMU
     sys.path.append(str(Path(__file__).parent / "vendor"))
 
 from {package}.fmu.python.integrity import verify
-from {package}.fmu.{module} import {class_name} as Model
+from {package}.fmu.slaves.{module} import {class_name} as Model
 
 
 class {class_name}(Model):
