@@ -55,7 +55,7 @@ def first_true(
     rtol: float = 1e-15,
     atol: float = 0.0,
 ) -> float:
-    """Least point at which a condition holds that does at `high`; bisection down to `low`.
+    """Least point at which a condition holds that does at `high` and not at `low`, by bisection.
 
     It holds at the point returned, and no longer at one that is less by `atol`, or by `rtol` of
     it. `high` may be less than `low`: then it is the largest such point.
@@ -65,8 +65,6 @@ def first_true(
     >>> round(first_true(lambda x: x * x >= 2.0, 0.0, 2.0), 12)
     1.414213562373
     """
-    if condition(low):
-        return low
     while abs(high - low) > max(rtol * max(abs(low), abs(high)), atol):
         middle = 0.5 * (low + high)
         if middle in (low, high):

@@ -108,7 +108,7 @@ class Walk:
 
             if pulling(point.time + length) > holding:
                 self._held = False
-                length = first_true(exceeds, 0.0, length, rtol=1e-12)
+                length = first_true(exceeds, 0.0, length, atol=1e-12 * length)
                 self.pull.restore(start)
                 pulling = self.pull.over(point.time, length, point.gap, 0.0)
             there = self.film.move(point.time, length, point.gap, 0.0)

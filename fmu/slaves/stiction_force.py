@@ -218,18 +218,18 @@ class StictionForce(PortSlave):
                 h_below=values["h0"] if values["h0"] < gap and values["rewet"] > 0.0 else 0.0,
             )
             return
-        static, viscous, acting = film.forces(gap, speed)
-        damping, stiffness = _slopes(film, gap, speed, limited=acting is not None)
+        found = film.forces(gap, speed)
+        damping = found.viscous_by_speed
         whole = gap <= film.full_gap * (1.0 + _SAME)
         values.update(
-            F=static + viscous,
-            F_m=static,
-            F_v=viscous,
+            F=found.static + found.viscous,
+            F_m=found.static,
+            F_v=found.viscous,
             c=damping,
-            k=stiffness,
+            k=found.static_by_gap + found.viscous_by_gap,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
             state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE),
-            limit=int(LIMITS[acting]),
+            limit=int(LIMITS[found.limit]),
         )
         above = below = 0.0
         for mark in (*film.kinks, film.end):  # they ascend
@@ -306,18 +306,6 @@ class StictionForce(PortSlave):
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
         self.memory = _Memory(*hidden["memory"])
-
-
-def _slopes(film: Film, gap: float, speed: float, *, limited: bool) -> tuple[float, float]:
-    """Slope of the force over speed [N.s/m] and over the gap [N/m], by central differences."""
-    near, damping = 1e-5 * gap, film.damping(gap)
-    up, down = (film.force(gap + d, speed) for d in (near, -near))
-    stiffness = (up - down) / (2.0 * near)
-    if limited:
-        near = 1e-5 * abs(speed)
-        up, down = (film.viscous_force(gap, speed + d)[0] for d in (near, -near))
-        damping = (up - down) / (2.0 * near)
-    return damping, stiffness
 
 
 def _warning(step: float, stable: float, error: float) -> str:

@@ -79,15 +79,15 @@ def landing_time(flight: Flight, root: Root, left: float) -> float | None:
 
     # A sixteenth of a swing at a time: between two of them there is at most one lowest point.
     pieces = max(1, math.ceil(left * flight.frequency * 16.0 / (2.0 * math.pi)))
-    low, sinking = 0.0, sinks(0.0) > 0.0
+    low, sinking, near = 0.0, sinks(0.0) > 0.0, 1e-16 * left
     for i in range(1, pieces + 1):
         high = left * i / pieces
         if over(high) <= 0.0 and (over(low) > 0.0 or sinking):
-            return first_true(lands, low, high)
+            return first_true(lands, low, high, atol=near)
         falls = sinks(high) > 0.0
         if sinking and not falls:  # the lowest point lies between
-            bottom = first_true(lambda time: sinks(time) <= 0.0, low, high)
+            bottom = first_true(lambda time: sinks(time) <= 0.0, low, high, atol=near)
             if over(bottom) <= 0.0:
-                return first_true(lands, low, bottom)
+                return first_true(lands, low, bottom, atol=near)
         low, sinking = high, falls
     return None

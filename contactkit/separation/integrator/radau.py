@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 __all__ = [
     "NODES",
@@ -79,7 +79,7 @@ class Forces(NamedTuple):
     viscous: float
     viscous_by_gap: float
     viscous_by_speed: float
-    limit: object = None
+    limit: Any = None
 
 
 class Problem(NamedTuple):

@@ -108,9 +108,13 @@ def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionStat
     opening, film = plan.scene.opening, acting_film(plan, state)
     forces = film.static_forces(state.gap) if film is not None else {}
     holding = opening.stiffness * (state.gap - opening.initial_gap) + sum(forces.values())
-    leaves = pull(end) > holding
-    if leaves:
+    leaves = True
+    if pull(state.time) > holding:
+        end = state.time
+    elif pull(end) > holding:
         end = first_true(lambda time: pull(time) > holding, state.time, end)
+    else:
+        leaves = False
     elapsed = end - state.time
     grown = {impulse_name(column): elapsed * force for column, force in forces.items()}
     return state._replace(
