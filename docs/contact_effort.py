@@ -11,7 +11,7 @@ from validation_tables import grid
 
 import contactkit as ck
 from contactkit.contact.engine import Engine
-from contactkit.contact.solver.press import Press
+from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.roughness.statistics import rms_slope
 
 STEEL = ck.Material(young_modulus=210e9, poisson_ratio=0.3, hardness=7.5e9)
@@ -83,7 +83,9 @@ def fast_table() -> str:
         engine = Engine(made)
         cells = []
         for fast in (True, False):
-            press = Press(made.grid.shape, made.grid.pixel_size, engine.makers[0], True, fast=fast)
+            press = ContactSolver(
+                made.grid.shape, made.grid.pixel_size, engine.makers[0], True, fast=fast
+            )
             found, seconds = best_of(
                 lambda press=press, engine=engine, made=made: press.solve(
                     engine.heights, mean_pressure=made.mean_pressure

@@ -11,7 +11,7 @@ import numpy as np
 from .effects.base import Cap, Compliance, DisplacementTerm, PressureCap
 from .grid import combined_heights
 from .plan import ContactPlan
-from .solver.press import Press, Solution
+from .solver.contact_solver import ContactSolver, Solution
 from .solver.warm_start import Start
 
 if TYPE_CHECKING:
@@ -99,14 +99,14 @@ class Engine:
         elastic = plan.scene.effect(Compliance)  # type: ignore[type-abstract]
         assert elastic is not None
         self.makers = elastic.prepare(plan.scene, plan.grid)
-        self.press = Press(
+        self.solver = ContactSolver(
             plan.grid.shape,
             plan.grid.pixel_size,
             _added(self.makers),
             plan.grid.periodic,
             threads=plan.accuracy.threads,
         )
-        self._bodies: tuple[Press, ...] | None = None
+        self._bodies: tuple[ContactSolver, ...] | None = None
         self._threads = plan.accuracy.threads
         self.setup_seconds = time.perf_counter() - begun
 
@@ -122,7 +122,9 @@ class Engine:
         if self._bodies is None:
             grid = self.grid
             self._bodies = tuple(
-                Press(grid.shape, grid.pixel_size, maker, grid.periodic, threads=self._threads)
+                ContactSolver(
+                    grid.shape, grid.pixel_size, maker, grid.periodic, threads=self._threads
+                )
                 for maker in self.makers
             )
         return tuple(body.displacement(pressure) for body in self._bodies)
@@ -181,11 +183,11 @@ class Engine:
         counts: Counts,
     ) -> Solution:
         accuracy = plan.accuracy
-        solution = self.press.solve(
+        solution = self.solver.solve(
             heights,
             mean_pressure=target.mean_pressure,
-            level=target.level,
-            cap=cap,
+            rigid_approach=target.level,
+            bound=cap,
             rtol=accuracy.rtol,
             start=target.start,
             max_iterations=accuracy.max_iterations,

@@ -10,7 +10,7 @@ from ..errors import InfeasibleError
 from .effects.base import Cap, Contact
 from .engine import Counts, Engine, Friction, Target, cap_of
 from .plan import ContactPlan
-from .solver.press import Solution
+from .solver.contact_solver import Solution
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +37,7 @@ def contact_of(plan: ContactPlan, engine: Engine, solved: Solved) -> Contact:
     displacement = solution.displacement
     if solved.friction is not None:
         displacement = displacement + solved.friction.displacement
-    gap = displacement - engine.heights - solution.level
+    gap = displacement - engine.heights - solution.rigid_approach
     np.maximum(gap, 0.0, out=gap)
     return Contact(
         plan.scene, plan.grid, solution.pressure, displacement, gap, plan.accuracy.threads
@@ -163,6 +163,6 @@ def _local(plan: ContactPlan, engine: Engine, target: Target, counts: Counts, ca
         hardness = hardness + damping * (asked - hardness)
         target = target._replace(start=np.minimum(solution.pressure, hardness))
     return best._replace(
-        problem=f"the local hardness still changes by {least:.2g} after {_MOST_ROUNDS} rounds; "
+        problem=f"the local hardness still changes by {least:.2g} after {_MOST_ROUNDS} iterations; "
         "use HardnessLimit(displacement='largest')"
     )

@@ -161,7 +161,7 @@ def _plastic(engine: Engine, solved: Solved, contact: Contact) -> PlasticPart:
     assert solved.hardness is not None
     at_bound = contact.pressure >= np.asarray(solved.hardness) * (1.0 - 1e-12)
     is_plastic = at_bound & (contact.pressure > 0.0)
-    overlap = engine.heights + solved.solution.level - contact.displacement
+    overlap = engine.heights + solved.solution.rigid_approach - contact.displacement
     overlap = np.where(is_plastic, np.maximum(overlap, 0.0), 0.0)
     area = float(is_plastic.sum()) * contact.grid.pixel_area
     return PlasticPart(is_plastic, area, solved.hardness, overlap)
@@ -212,7 +212,7 @@ def _result(
         contact.gap,
         contact.displacement,
         engine.heights,
-        solution.level,
+        solution.rigid_approach,
         solution.kkt,
         solution.energy,
         work,

@@ -46,11 +46,13 @@ def run(job):
 
 
 def _press(job, maker, fast):
-    from contactkit.contact.solver.press import Press
+    from contactkit.contact.solver.contact_solver import ContactSolver
 
     n = job["n"]
     periodic = job["boundary"] == "periodic"
-    return Press((n, n), (1.0 / n, 1.0 / n), maker, periodic, threads=job["threads"], fast=fast)
+    return ContactSolver(
+        (n, n), (1.0 / n, 1.0 / n), maker, periodic, threads=job["threads"], fast=fast
+    )
 
 
 def _layered_maker(stack, periodic):
@@ -62,13 +64,15 @@ def _layered_maker(stack, periodic):
     return lambda shape, pixel: make(shape, pixel, UNIT * np.array(moduli), poisson, thickness)
 
 
-def _good(press, given, symbol=None, cap=None):
+def _good(press, given, symbol=None, bound=None):
     """A solve to repeat, its answer, and the violation by the independent operator."""
     rtol = START
     while True:
-        solve = partial(press.solve, given.heights, mean_pressure=given.load, cap=cap, rtol=rtol)
+        solve = partial(
+            press.solve, given.heights, mean_pressure=given.load, bound=bound, rtol=rtol
+        )
         found = solve()
-        kkt, _ = violation(found.pressure, given, symbol, np.inf if cap is None else cap)
+        kkt, _ = violation(found.pressure, given, symbol, np.inf if bound is None else bound)
         if kkt <= TARGET or rtol < 1e-3 * START:
             return solve, found, kkt
         rtol *= STEP
@@ -100,7 +104,7 @@ def _single(job, given, fast):
     n = job["n"]
     press = _press(job, symbol_maker(given.periodic), fast)
     plain, elastic, _ = _good(press, given)
-    capped, found, kkt = _good(press, given, cap=CAP)
+    capped, found, kkt = _good(press, given, bound=CAP)
     share = float((found.pressure >= CAP).sum() / (found.pressure > 0.0).sum())
     seconds, reference = _best(capped, plain, job)
     counts = found.n_applications, elastic.n_applications

@@ -27,11 +27,13 @@ def fast(given, threads):
 
 
 def _contactkit(given, threads, fast):
-    from contactkit.contact.solver.press import Press
+    from contactkit.contact.solver.contact_solver import ContactSolver
 
     n = given.heights.shape[0]
     maker = symbol_maker(given.periodic)
-    press = Press((n, n), (1.0 / n, 1.0 / n), maker, given.periodic, threads=threads, fast=fast)
+    press = ContactSolver(
+        (n, n), (1.0 / n, 1.0 / n), maker, given.periodic, threads=threads, fast=fast
+    )
 
     def solve(tolerance):
         found = press.solve(given.heights, mean_pressure=given.load, rtol=tolerance)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactkit.contact.solver.convolution import Convolution
-from contactkit.contact.solver.patch import Patch, patch_symbol
-from contactkit.contact.solver.press import Press
+from contactkit.contact.solver.contact_solver import ContactSolver
+from contactkit.contact.solver.convolution import Convolution, Patch, patch_symbol
 from contactkit.elasticity.influence import symbol
 from contactkit.numerics import fft as fft_backends
 
@@ -82,18 +81,18 @@ def test_a_ball_is_pressed_alike_with_and_without_a_patch(offset):
     y, x = (np.indices((n, n)) + 0.5) / n - 0.5
     wave = 1e-5 * np.cos(40.0 * x) * np.cos(34.0 * y)
     heights = wave - ((x - offset) ** 2 + (y + offset) ** 2) / (2.0 * radius)
-    press = Press((n, n), (1.0 / n, 1.0 / n), half_space, periodic=False, fast=False)
-    with_patch = press.solve(heights, mean_pressure=3e-4)
-    assert press.grids[0].patch.operator is not None
-    press.grids = [grid._replace(patch=None) for grid in press.grids]
-    without = press.solve(heights, mean_pressure=3e-4)
+    solver = ContactSolver((n, n), (1.0 / n, 1.0 / n), half_space, periodic=False, fast=False)
+    with_patch = solver.solve(heights, mean_pressure=3e-4)
+    assert solver.grids[0].patch.operator is not None
+    solver.grids = [grid._replace(patch=None) for grid in solver.grids]
+    without = solver.solve(heights, mean_pressure=3e-4)
     assert with_patch.converged
     assert without.converged
     assert not with_patch.fallback
     assert with_patch.n_outer <= without.n_outer + 1
     most = without.pressure.max()
     np.testing.assert_allclose(with_patch.pressure, without.pressure, atol=1e-6 * most)
-    assert with_patch.level == pytest.approx(without.level, rel=1e-7)
+    assert with_patch.rigid_approach == pytest.approx(without.rigid_approach, rel=1e-7)
 
 
 @pytest.mark.parametrize("threads", [1, 2])

@@ -7,12 +7,12 @@ import importlib.util
 import numpy as np
 import pytest
 
-from contactkit.contact.solver import loops_numpy as active_set_loops
+from contactkit.contact.solver import loops_numpy
+from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.convolution import Convolution
-from contactkit.contact.solver.dense import influence_matrix
-from contactkit.contact.solver.press import Press
-from contactkit.contact.solver.sparse_inverse import NearInverse, lattice_strides
-from contactkit.contact.solver.warm_start import first_pressure
+from contactkit.contact.solver.reduced_system import influence_matrix
+from contactkit.contact.solver.sparse_inverse import SparseInverse, lattice_strides
+from contactkit.contact.solver.warm_start import initial_pressure
 from contactkit.elasticity import layered
 from contactkit.errors import DescriptionError
 
@@ -52,13 +52,13 @@ def test_where_all_pixels_are_near_the_inverse_is_exact():
     """Three by three pixels of a free map: every pixel sees all that come before it."""
     y, x = np.indices((3, 3))
     K = 1.0 / (1.0 + np.hypot(y, 1.3 * x))
-    inverse = NearInverse(K, (3, 3), (1.0, 1.3), False, True, active_set_loops)
+    inverse = SparseInverse(K, (3, 3), (1.0, 1.3), False, True, loops_numpy)
     at = np.array([1, 2, 3, 4, 5, 7])
     G = influence_matrix(K, at, (3, 3))
     inverse.prepare(at)
     got = np.stack([inverse(e) for e in np.eye(6, dtype=np.float32)])
     np.testing.assert_allclose(got @ G, np.eye(6), atol=2e-5)
-    assert not inverse.order.any()
+    assert not inverse.position.any()
 
 
 @pytest.mark.parametrize("contrast", [1.0, 1e3, 1e6])
@@ -67,7 +67,7 @@ def test_the_spectrum_of_inverse_times_operator_is_narrow(contrast):
     n = 32
     K = response((n, n), stack(contrast, 0.5))
     at = np.flatnonzero(rough(n).ravel() > 0.7)
-    inverse = NearInverse(K, (n, n), (1.0, 1.0), True, contrast > 1.0, active_set_loops)
+    inverse = SparseInverse(K, (n, n), (1.0, 1.0), True, contrast > 1.0, loops_numpy)
     inverse.prepare(at)
     G = influence_matrix(K, at, (n, n)) - K.min()
     L = inverse.factor.toarray().astype(np.float64)
@@ -89,8 +89,8 @@ def test_compiled_and_plain_factors_are_the_same(shape, periodic):
     many = np.random.default_rng(0).random(shape) < 0.5
     at = np.flatnonzero(many)
     factors = []
-    for loops in (active_set_loops, compiled(False)):
-        inverse = NearInverse(K, shape, (1.0, 1.0), periodic, True, loops)
+    for loops in (loops_numpy, compiled(False)):
+        inverse = SparseInverse(K, shape, (1.0, 1.0), periodic, True, loops)
         inverse.prepare(at)
         factors.append(inverse.factor.toarray())
     np.testing.assert_array_equal(*factors)
@@ -107,8 +107,8 @@ def test_lattices_are_nested_and_reach_across_the_map():
 def test_a_stiff_plate_of_half_a_pixel_needs_no_fallback(contrast):
     n = 128
     make = stack(contrast, 5.0 / n / contrast ** (1.0 / 3.0))  # bends over some pixels
-    press = Press((n, n), (1.0 / n, 1.0 / n), make, periodic=True, fast=False)
-    s = press.solve(1e-2 * rough(n), mean_pressure=2e-2)
+    solver = ContactSolver((n, n), (1.0 / n, 1.0 / n), make, periodic=True, fast=False)
+    s = solver.solve(1e-2 * rough(n), mean_pressure=2e-2)
     assert s.converged
     assert not s.fallback
     assert s.n_applications <= 150
@@ -116,17 +116,17 @@ def test_a_stiff_plate_of_half_a_pixel_needs_no_fallback(contrast):
 
 def test_extrapolated_pressures_start_nearer():
     n = 128
-    press = Press((n, n), (1.0 / n, 1.0 / n), stack(1.0, 0.1), periodic=True, fast=False)
+    solver = ContactSolver((n, n), (1.0 / n, 1.0 / n), stack(1.0, 0.1), periodic=True, fast=False)
     h = 1e-2 * rough(n)
     loads = [1e-2, 1.15e-2, 1.15**2 * 1e-2]
-    known = [(p, press.solve(h, mean_pressure=p).pressure) for p in loads[::-1]]
-    goal = press.solve(h, mean_pressure=1.15**3 * 1e-2)
+    known = [(p, solver.solve(h, mean_pressure=p).pressure) for p in loads[::-1]]
+    goal = solver.solve(h, mean_pressure=1.15**3 * 1e-2)
     off = [
-        np.abs(first_pressure(known[:k], 1.15**3 * 1e-2, (n, n)) - goal.pressure).mean()
+        np.abs(initial_pressure(known[:k], 1.15**3 * 1e-2, (n, n)) - goal.pressure).mean()
         for k in (1, 2, 3)
     ]
     assert max(off[1:]) < 0.6 * off[0]
-    warm = press.solve(h, mean_pressure=1.15**3 * 1e-2, start=known)
+    warm = solver.solve(h, mean_pressure=1.15**3 * 1e-2, start=known)
     assert warm.n_applications < goal.n_applications
     np.testing.assert_allclose(warm.pressure, goal.pressure, atol=1e-5)
 
@@ -135,11 +135,11 @@ def test_starts_that_cannot_be_are_refused_and_odd_ones_are_taken():
     one = np.ones((2, 2))
     for bad in ([], [(1.0, np.ones(3))], [(1.0, one), (2.0, np.full((2, 2), np.nan))]):
         with pytest.raises(DescriptionError, match="start"):
-            first_pressure(bad, 1.0, (2, 2))
+            initial_pressure(bad, 1.0, (2, 2))
     # No load to extrapolate in: the newest is taken as it is.
     for pairs, load in (([(1.0, one), (1.0, 2 * one)], 2.0), ([(0.0, one), (1.0, one)], 2.0)):
-        np.testing.assert_array_equal(first_pressure(pairs, load, (2, 2)), one)
-    np.testing.assert_array_equal(first_pressure([(1.0, one), (3.0, 2 * one)], None, (2, 2)), one)
+        np.testing.assert_array_equal(initial_pressure(pairs, load, (2, 2)), one)
+    np.testing.assert_array_equal(initial_pressure([(1.0, one), (3.0, 2 * one)], None, (2, 2)), one)
 
 
 def test_a_borrowed_spectrum_leaves_both_convolutions_right():

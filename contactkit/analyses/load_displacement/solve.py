@@ -279,9 +279,9 @@ def _way_out(engine: Engine, node: _Node, accuracy: Accuracy) -> Unloading:
     length, pixel = node.approach - residual, engine.grid.pixel_area
     start, found = node.pressure, [(1.0, 1.0, 1.0)]
     for way in reversed(_WAYS):
-        solution = engine.press.solve(
+        solution = engine.solver.solve(
             left,
-            level=way * length - touch,
+            rigid_approach=way * length - touch,
             rtol=accuracy.rtol,
             start=start,
             max_iterations=accuracy.max_iterations,

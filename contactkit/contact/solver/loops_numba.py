@@ -1,10 +1,10 @@
-"""Passes of the active-set method compiled by numba: the functions of `active_set_loops`.
+"""Loops over pixels of the active-set method compiled by numba: the functions of `loops_numpy`.
 
 Import this module only once numba is wanted; `compiled` gives serial or threaded functions, kept on
-disk after their first use. Infinite caps forbid the assumption that all numbers are finite, so
+disk after their first use. Infinite bounds forbid the assumption that all numbers are finite, so
 that only the order of sums is left to the compiler.
 
-Sign convention and symbols: see `active_set_loops`.
+Sign convention and symbols: see `loops_numpy`.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from typing import Any
 import numba
 import numpy as np
 from numba import prange
+
+from .loops_numpy import FactorRows, Ordering
 
 __all__ = ["compiled"]
 
@@ -36,24 +38,24 @@ def reduce_gap(u: Array, h: Array) -> None:
         u[k] -= h[k]
 
 
-def survey(p: Array, g: Array, cap: Array) -> tuple[float, float, int]:
+def free_sums(p: Array, g: Array, upper: Array) -> tuple[float, float, int]:
     """Sums of p and p g over the pixels between the bounds, and the number of these."""
-    many = 0 if cap.size == 1 else 1
+    many = 0 if upper.size == 1 else 1
     weight, weighted, free = 0.0, 0.0, 0
     for k in prange(p.size):
-        if 0.0 < p[k] < cap[k * many]:
+        if 0.0 < p[k] < upper[k * many]:
             weight += p[k]
             weighted += p[k] * g[k]
             free += 1
     return weight, weighted, free
 
 
-def grade(p: Array, g: Array, cap: Array, level: float) -> tuple[float, float, float]:
+def violation(p: Array, g: Array, upper: Array, approach: float) -> tuple[float, float, float]:
     """Largest violation of a contact condition, bound of the energy error, deepest penetration."""
-    many = 0 if cap.size == 1 else 1
+    many = 0 if upper.size == 1 else 1
     worst, energy, deepest = 0.0, 0.0, 0.0
     for k in prange(p.size):
-        off, bound = g[k] - level, cap[k * many]
+        off, bound = g[k] - approach, upper[k * many]
         if p[k] > 0.0:
             if off > 0.0:
                 energy += p[k] * off
@@ -71,15 +73,15 @@ def grade(p: Array, g: Array, cap: Array, level: float) -> tuple[float, float, f
     return worst, energy, deepest
 
 
-def select(p: Array, g: Array, cap: Array, level: float) -> tuple[Array, int]:
-    """Pixels that may move, and how many of them leave a bound."""
-    many = 0 if cap.size == 1 else 1
+def free_set(p: Array, g: Array, upper: Array, approach: float) -> tuple[Array, int]:
+    """Free pixels, and how many of them leave a bound."""
+    many = 0 if upper.size == 1 else 1
     at = np.empty(p.size, np.int32)
     count, added = 0, 0
     for k in range(p.size):
-        if p[k] <= 0.0 and g[k] >= level:  # nearly all of them
+        if p[k] <= 0.0 and g[k] >= approach:  # nearly all of them
             continue
-        bound = cap[k * many]
+        bound = upper[k * many]
         if p[k] <= 0.0:
             if bound > 0.0:
                 at[count] = k
@@ -88,47 +90,47 @@ def select(p: Array, g: Array, cap: Array, level: float) -> tuple[Array, int]:
         elif p[k] < bound:
             at[count] = k
             count += 1
-        elif g[k] > level:
+        elif g[k] > approach:
             at[count] = k
             count += 1
             added += 1
     return at[:count].astype(np.intp), added
 
 
-def pick(full: Array, at: Array, out: Array) -> None:
-    """Read the moving pixels of a map."""
+def gather(full: Array, at: Array, out: Array) -> None:
+    """Read the free pixels of a map."""
     for a in prange(at.size):
         out[a] = full[at[a]]
 
 
-def put(full: Array, at: Array, values: Array) -> None:
-    """Write the moving pixels of a map."""
+def scatter(full: Array, at: Array, values: Array) -> None:
+    """Write the free pixels of a map."""
     for a in prange(at.size):
         full[at[a]] = values[a]
 
 
 def block_sums(block: Array, values: Array, count: int) -> Array:
-    """Sum over the moving pixels of each block."""
+    """Sum over the free pixels of each block."""
     sums = np.zeros(count)
     for a in range(block.size):
         sums[block[a]] += values[a]
     return sums
 
 
-def less_block_values(values: Array, block: Array, of_block: Array, out: Array) -> None:
-    """Take a value of its block off every moving pixel."""
+def subtract_block_values(values: Array, block: Array, of_block: Array, out: Array) -> None:
+    """Subtract a value of its block from every free pixel."""
     for a in prange(values.size):
         out[a] = values[a] - of_block[block[a]]
 
 
 def add_block_values(values: Array, block: Array, of_block: Array) -> None:
-    """Add a value of its block to every moving pixel, in place."""
+    """Add a value of its block to every free pixel, in place."""
     for a in prange(values.size):
         values[a] += of_block[block[a]]
 
 
-def stencil(f: Array, at: Array, stride: int, weights: tuple[float, ...], z: Array) -> None:
-    """Three by three stencil at the moving pixels of a map with a margin of one pixel."""
+def apply_stencil(f: Array, at: Array, stride: int, weights: tuple[float, ...], z: Array) -> None:
+    """Three by three stencil at the free pixels of a map with a margin of one pixel."""
     centre = np.float32(weights[0])
     y, x, diagonal = np.float32(weights[1]), np.float32(weights[2]), np.float32(weights[3])
     for a in prange(at.size):
@@ -138,10 +140,10 @@ def stencil(f: Array, at: Array, stride: int, weights: tuple[float, ...], z: Arr
         z[a] = centre * f[k] + y * (f[up] + f[down]) + x * (f[k - 1] + f[k + 1]) + diagonal * sides
 
 
-def turn(
+def next_direction(
     d: Array, z: Array, r: Array, q: Array, length: float, before: float, load_fixed: bool
 ) -> float:
-    """Next search direction in place, from the last step and its ``r z``; the new ``r z``."""
+    """Next conjugate direction in place, from the last step and its ``r z``; the new ``r z``."""
     mean = 0.0
     if load_fixed:
         for a in prange(z.size):
@@ -159,8 +161,8 @@ def turn(
     return rz
 
 
-def advance(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
-    """Step to the minimum along d; give back its length and the new squared residual."""
+def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
+    """Step to the minimum along d; its length and the new squared residual."""
     mean = 0.0
     if load_fixed:
         for a in prange(q.size):
@@ -182,18 +184,18 @@ def advance(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[f
     return length, rr
 
 
-def accumulate(change: Array, displacement: Array, length: float) -> None:
+def add_scaled(change: Array, displacement: Array, length: float) -> None:
     """Add a step to the change of the displacement, in place."""
     for k in prange(change.size):
         change[k] += length * displacement[k]
 
 
-def settle(p: Array, at: Array, x: Array, cap: Array) -> int:
-    """Add a correction to the moving pixels and clip to the bounds; number of clipped pixels."""
-    many = 0 if cap.size == 1 else 1
+def add_and_clip(p: Array, at: Array, x: Array, upper: Array) -> int:
+    """Add a correction to the free pixels and clip to the bounds; number of clipped pixels."""
+    many = 0 if upper.size == 1 else 1
     clipped = 0
     for a in prange(at.size):
-        value, bound = p[at[a]] + x[a], cap[at[a] * many]
+        value, bound = p[at[a]] + x[a], upper[at[a] * many]
         if value <= 0.0:
             value = 0.0
             clipped += 1
@@ -204,18 +206,18 @@ def settle(p: Array, at: Array, x: Array, cap: Array) -> int:
     return clipped
 
 
-def rescale(p: Array, at: Array, cap: Array, load: float) -> None:
-    """Scale the moving pixels so that all pressures sum to the load."""
-    many = 0 if cap.size == 1 else 1
-    total, share = 0.0, 0.0
+def scale_to_load(p: Array, at: Array, upper: Array, load: float) -> None:
+    """Scale the free pixels so that all pressures sum to the load."""
+    many = 0 if upper.size == 1 else 1
+    total, carried = 0.0, 0.0
     for k in prange(p.size):
         total += p[k]
     for a in prange(at.size):
-        share += p[at[a]]
-    rest = load - (total - share)
-    if share > 0.0 and rest > 0.0:
+        carried += p[at[a]]
+    rest = load - (total - carried)
+    if carried > 0.0 and rest > 0.0:
         for a in prange(at.size):
-            p[at[a]] = min(p[at[a]] * (rest / share), cap[at[a] * many])
+            p[at[a]] = min(p[at[a]] * (rest / carried), upper[at[a] * many])
 
 
 @numba.njit(inline="always")
@@ -226,84 +228,63 @@ def _around(i: int, size: int) -> int:
     return i - size if i >= size else i
 
 
-def neighbour_masks(
-    order: Array,
-    rank: Array,
-    row: Array,
-    column: Array,
-    level: Array,
-    strides: Array,
-    offsets: Array,
-    allowed: Array,
-    shape: tuple[int, int],
-    periodic: bool,
-) -> Array:
+def neighbour_masks(order: Ordering) -> Array:
     """One bit for every neighbour of each pixel that is there and comes before it."""
+    rank, row, column, lattice = order.rank, order.row, order.column, order.lattice
+    position, strides, offsets = order.position, order.strides, order.offsets
+    allowed, (ny, nx), periodic = order.allowed, order.shape, order.periodic
     masks = np.zeros(rank.size, np.int32)
     for a in prange(rank.size):
-        n, bits = level[a], 0
+        n, bits = lattice[a], 0
         for k in range(offsets.shape[0]):
             if not allowed[n, k]:
                 continue
             y, x = row[a] + strides[n, 0] * offsets[k, 0], column[a] + strides[n, 1] * offsets[k, 1]
             if periodic:  # never farther than once around, and a division costs more than this
-                y, x = _around(y, shape[0]), _around(x, shape[1])
-            elif y < 0 or y >= shape[0] or x < 0 or x >= shape[1]:
+                y, x = _around(y, ny), _around(x, nx)
+            elif y < 0 or y >= ny or x < 0 or x >= nx:
                 continue
-            if 0 < order[y * shape[1] + x] < rank[a]:
+            if 0 < position[y * nx + x] < rank[a]:
                 bits |= 1 << k
         masks[a] = bits
     return masks
 
 
-def factor_rows(
-    order: Array,
-    rank: Array,
-    row: Array,
-    column: Array,
-    level: Array,
-    strides: Array,
-    offsets: Array,
-    allowed: Array,
-    shape: tuple[int, int],
-    periodic: bool,
-    masks: Array,
-    ids: Array,
-    rows: Array,
-    first: Array,
-    columns: Array,
-    values: Array,
-) -> None:
+def factor_rows(order: Ordering, rows: FactorRows) -> None:
     """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
+    rank, row, column, lattice = order.rank, order.row, order.column, order.lattice
+    position, strides, offsets, (ny, nx) = order.position, order.strides, order.offsets, order.shape
+    masks, ids, table, first = rows.masks, rows.ids, rows.table, rows.first
+    columns, values = rows.columns, rows.values
     for a in prange(rank.size):
-        n, at = level[a], first[a]
+        n, at = lattice[a], first[a]
         for k in range(offsets.shape[0]):
             if masks[a] & (1 << k):
-                y = _around(row[a] + strides[n, 0] * offsets[k, 0], shape[0])
-                x = _around(column[a] + strides[n, 1] * offsets[k, 1], shape[1])
-                columns[at] = (order[y * shape[1] + x] - 1) % rank.size
-                values[at] = rows[ids[a], k]
+                y = _around(row[a] + strides[n, 0] * offsets[k, 0], ny)
+                x = _around(column[a] + strides[n, 1] * offsets[k, 1], nx)
+                columns[at] = (position[y * nx + x] - 1) % rank.size
+                values[at] = table[ids[a], k]
                 at += 1
         columns[at] = a
-        values[at] = rows[ids[a], offsets.shape[0]]
+        values[at] = table[ids[a], offsets.shape[0]]
 
 
-SERIAL = (select, block_sums)
+SERIAL = (free_set, block_sums)
 THREADED = (
     scale_spectrum,
     reduce_gap,
-    survey,
-    grade,
-    pick,
-    put,
-    less_block_values,
+    free_sums,
+    violation,
+    gather,
+    scatter,
+    subtract_block_values,
     add_block_values,
-    stencil,
-    turn,
-    advance,
-    accumulate,
-    settle,
-    rescale,
+    apply_stencil,
+    next_direction,
+    step_along,
+    add_scaled,
+    add_and_clip,
+    scale_to_load,
     neighbour_masks,
     factor_rows,
 )
@@ -311,7 +292,7 @@ THREADED = (
 
 @functools.lru_cache(maxsize=2)
 def compiled(threaded: bool) -> SimpleNamespace:
-    """The passes as one namespace, serial or threaded.
+    """The compiled loops as one namespace, serial or threaded.
 
     Parameters
     ----------
@@ -327,4 +308,4 @@ def compiled(threaded: bool) -> SimpleNamespace:
     rest = {
         f.__name__: numba.njit(f, cache=True, fastmath=FAST, parallel=threaded) for f in THREADED
     }
-    return SimpleNamespace(**serial, **rest, __name__="active_set_numba")
+    return SimpleNamespace(**serial, **rest, __name__="loops_numba")

@@ -1,22 +1,23 @@
-"""Passes of the active-set method over maps and over the pixels that may move, on numpy.
+"""Loops over pixels of the active-set method in numpy; `loops_numba` has the same ones compiled.
 
-`active_set_numba` has the same functions compiled. Maps are flat; `at` are flat indices.
+Maps are flat; `at` are flat indices of the free pixels, whose pressure lies between its bounds or
+leaves one of them.
 
 Sign convention: pressure and reduced gap ``g = u - h`` positive into the solid.
 
-======  =============================================================
-symbol  meaning
-======  =============================================================
-p, cap  pressure and its bound, ``(n,)`` and ``(n,)`` or ``(1,)``
-g       reduced gap, ``(n,)``
-r, z    residual and preconditioned residual on the moving pixels
-d, q    search direction and its displacement, on the same
-======  =============================================================
+========  ===========================================================
+symbol    meaning
+========  ===========================================================
+p, upper  pressure and its bound, ``(n,)`` and ``(n,)`` or ``(1,)``
+g         reduced gap, ``(n,)``
+r, z      residual and preconditioned residual on the free pixels
+d, q      search direction and its displacement, on the same
+========  ===========================================================
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,24 +25,24 @@ from numpy.typing import NDArray
 from ...numerics.fft import scale_spectrum
 
 __all__ = [
-    "accumulate",
+    "add_scaled",
     "add_block_values",
-    "advance",
+    "step_along",
     "block_sums",
     "factor_rows",
-    "grade",
-    "less_block_values",
+    "violation",
+    "subtract_block_values",
     "neighbour_masks",
-    "pick",
-    "put",
+    "gather",
+    "scatter",
     "reduce_gap",
-    "rescale",
+    "scale_to_load",
     "scale_spectrum",
-    "select",
-    "settle",
-    "stencil",
-    "survey",
-    "turn",
+    "free_set",
+    "add_and_clip",
+    "apply_stencil",
+    "free_sums",
+    "next_direction",
 ]
 
 Array = NDArray[Any]
@@ -53,75 +54,78 @@ def reduce_gap(u: Array, h: Array) -> None:
     u -= h
 
 
-def survey(p: Array, g: Array, cap: Array) -> tuple[float, float, int]:
+def free_sums(p: Array, g: Array, upper: Array) -> tuple[float, float, int]:
     """Sums of p and p g over the pixels between the bounds, and the number of these."""
-    free = np.flatnonzero((p > 0.0) & (p < cap))
+    free = np.flatnonzero((p > 0.0) & (p < upper))
     weight = p[free]
     return float(weight.sum()), float(weight @ g[free]), free.size
 
 
-def grade(p: Array, g: Array, cap: Array, level: float) -> tuple[float, float, float]:
+def violation(p: Array, g: Array, upper: Array, approach: float) -> tuple[float, float, float]:
     """Largest violation of a contact condition, bound of the energy error, deepest penetration."""
     touching = np.flatnonzero(p > 0.0)
-    inside, weight = g[touching] - level, p[touching]
-    bound = np.broadcast_to(cap, p.shape)[touching]
+    inside, weight = g[touching] - approach, p[touching]
+    bound = np.broadcast_to(upper, p.shape)[touching]
     room = np.where(np.isfinite(bound), bound - weight, weight)
     energy = float(weight @ np.maximum(inside, 0.0)) - float(room @ np.minimum(inside, 0.0))
     inside[(weight >= bound) & (inside < 0.0)] = 0.0
     worst, deepest = float(np.abs(inside).max(initial=0.0)), -float(inside.min(initial=0.0))
-    below = np.flatnonzero(g < level)
+    below = np.flatnonzero(g < approach)
     below = below[p[below] <= 0.0]
-    bound = np.broadcast_to(cap, p.shape)[below]
-    depth = np.where(bound > 0.0, level - g[below], 0.0)
+    bound = np.broadcast_to(upper, p.shape)[below]
+    depth = np.where(bound > 0.0, approach - g[below], 0.0)
     finite = np.isfinite(bound)
     energy += float(bound[finite] @ depth[finite])
     most = float(depth.max(initial=0.0))
     return max(worst, most), energy, max(deepest, most)
 
 
-def select(p: Array, g: Array, cap: Array, level: float) -> tuple[Index, int]:
-    """Pixels that may move, and how many of them leave a bound.
+def free_set(p: Array, g: Array, upper: Array, approach: float) -> tuple[Index, int]:
+    """Free pixels, and how many of them leave a bound.
 
-    Those between the bounds, bare ones that would be penetrated and saturated ones that would gape.
+    Those between the bounds, those out of contact that would be penetrated and those at the upper
+    bound that would gape.
     """
-    free = (p > 0.0) & (p < cap)
+    free = (p > 0.0) & (p < upper)
     inside = int(np.count_nonzero(free))
-    bare = g < level
-    bare &= p <= 0.0
-    free |= bare & (cap > 0.0) if np.any(cap <= 0.0) else bare
-    if np.isfinite(cap).any():
-        free |= (p >= cap) & (g > level) & (p > 0.0)
+    closing = g < approach
+    closing &= p <= 0.0
+    free |= closing & (upper > 0.0) if np.any(upper <= 0.0) else closing
+    if np.isfinite(upper).any():
+        free |= (p >= upper) & (g > approach) & (p > 0.0)
     at = np.flatnonzero(free)
     return at, at.size - inside
 
 
-def pick(full: Array, at: Index, out: Array) -> None:
-    """Read the moving pixels of a map."""
+def gather(full: Array, at: Index, out: Array) -> None:
+    """Read the free pixels of a map."""
     out[...] = full[at]
 
 
-def put(full: Array, at: Index, values: Array) -> None:
-    """Write the moving pixels of a map."""
+def scatter(full: Array, at: Index, values: Array) -> None:
+    """Write the free pixels of a map."""
     full[at] = values
 
 
 def block_sums(block: Index, values: Array, count: int) -> NDArray[np.float64]:
-    """Sum over the moving pixels of each block."""
+    """Sum over the free pixels of each block."""
     return np.asarray(np.bincount(block, values, count), dtype=np.float64)
 
 
-def less_block_values(values: Array, block: Index, of_block: Array, out: Array) -> None:
-    """Take a value of its block off every moving pixel."""
+def subtract_block_values(values: Array, block: Index, of_block: Array, out: Array) -> None:
+    """Subtract a value of its block from every free pixel."""
     np.subtract(values, of_block.astype(values.dtype)[block], out=out)
 
 
 def add_block_values(values: Array, block: Index, of_block: Array) -> None:
-    """Add a value of its block to every moving pixel, in place."""
+    """Add a value of its block to every free pixel, in place."""
     values += of_block.astype(values.dtype)[block]
 
 
-def stencil(padded: Array, at: Index, stride: int, weights: tuple[float, ...], z: Array) -> None:
-    """Three by three stencil at the moving pixels of a map with a margin of one pixel."""
+def apply_stencil(
+    padded: Array, at: Index, stride: int, weights: tuple[float, ...], z: Array
+) -> None:
+    """Three by three stencil at the free pixels of a map with a margin of one pixel."""
     centre, y, x, diagonal = weights
     z[...] = centre * padded[at]
     for weight, first, second in (
@@ -133,10 +137,10 @@ def stencil(padded: Array, at: Index, stride: int, weights: tuple[float, ...], z
         z += weight * (padded[at + first] + padded[at + second])
 
 
-def turn(
+def next_direction(
     d: Array, z: Array, r: Array, q: Array, length: float, before: float, load_fixed: bool
 ) -> float:
-    """Next search direction in place, from the last step and its ``r z``; the new ``r z``."""
+    """Next conjugate direction in place, from the last step and its ``r z``; the new ``r z``."""
     if load_fixed:
         z -= z.mean(dtype=np.float64)
     rz = float(np.dot(r, z))
@@ -146,8 +150,8 @@ def turn(
     return rz
 
 
-def advance(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
-    """Step to the minimum along d; give back its length and the new squared residual."""
+def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
+    """Step to the minimum along d; its length and the new squared residual."""
     if load_fixed:
         q -= q.mean(dtype=np.float64)
     curvature = float(np.dot(d, q))
@@ -159,77 +163,101 @@ def advance(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[f
     return length, float(np.dot(r, r))
 
 
-def accumulate(change: Array, displacement: Array, length: float) -> None:
+def add_scaled(change: Array, displacement: Array, length: float) -> None:
     """Add a step to the change of the displacement, in place; overwrites `displacement`."""
     displacement *= length
     change += displacement
 
 
-def settle(p: Array, at: Index, x: Array, cap: Array) -> int:
-    """Add a correction to the moving pixels and clip to the bounds; number of clipped pixels."""
+def add_and_clip(p: Array, at: Index, x: Array, upper: Array) -> int:
+    """Add a correction to the free pixels and clip to the bounds; number of clipped pixels."""
     value = p[at] + x
-    bound = np.broadcast_to(cap, p.shape)[at]
+    bound = np.broadcast_to(upper, p.shape)[at]
     clipped = int(np.count_nonzero((value <= 0.0) | (value >= bound)))
     p[at] = np.clip(value, 0.0, bound)
     return clipped
 
 
-def rescale(p: Array, at: Index, cap: Array, load: float) -> None:
-    """Scale the moving pixels so that all pressures sum to the load."""
-    moving = p[at]
-    share = float(moving.sum())
-    rest = load - (float(p.sum()) - share)
-    if share > 0.0 and rest > 0.0:
-        p[at] = np.minimum(moving * (rest / share), np.broadcast_to(cap, p.shape)[at])
+def scale_to_load(p: Array, at: Index, upper: Array, load: float) -> None:
+    """Scale the free pixels so that all pressures sum to the load."""
+    free = p[at]
+    carried = float(free.sum())
+    rest = load - (float(p.sum()) - carried)
+    if carried > 0.0 and rest > 0.0:
+        p[at] = np.minimum(free * (rest / carried), np.broadcast_to(upper, p.shape)[at])
 
 
 PART = 2**14  # rows at a time, to bound what the neighbours of all pixels would hold
 
 
-def _neighbours(
-    part: slice,
-    order: Array,
-    rank: Array,
-    row: Array,
-    column: Array,
-    level: Array,
-    strides: Array,
-    offsets: Array,
-    allowed: Array,
-    shape: tuple[int, int],
-    periodic: bool,
-) -> tuple[Array, NDArray[np.bool_]]:
-    """Order of the pixels around some, and which of them come before."""
-    at = level[part]
-    y = row[part, None] + strides[at, :1] * offsets[:, 0]
-    x = column[part, None] + strides[at, 1:] * offsets[:, 1]
-    valid = allowed[at]
-    if not periodic:
-        valid = valid & (y >= 0) & (y < shape[0]) & (x >= 0) & (x < shape[1])
-    there = order[np.mod(y, shape[0]) * shape[1] + np.mod(x, shape[1])]
-    return there, valid & (there > 0) & (there < rank[part, None])
+class Ordering(NamedTuple):
+    """Free pixels in the order of nested lattices, and which neighbours each may have.
+
+    position : (ny nx) of every pixel in the order, from 1; 0 where it is not free
+    rank, row, column, lattice : (m,) of the free pixels; the coarsest lattice is the last
+    strides : (n, 2) of the lattices; offsets : (k, 2) of the neighbours, in strides
+    allowed : (n, k) whether an offset is another pixel; shape, periodic : of the map
+    """
+
+    position: Array
+    rank: Array
+    row: Array
+    column: Array
+    lattice: Array
+    strides: Array
+    offsets: Array
+    allowed: Array
+    shape: tuple[int, int]
+    periodic: bool
 
 
-def neighbour_masks(*around: Any) -> NDArray[np.int32]:
+class FactorRows(NamedTuple):
+    """Rows of a sparse factor: their table, which of it each pixel has, and room for them.
+
+    masks, ids : (m,) neighbours by their bits, and the row of the table; table : (t, k + 1)
+    first, columns, values : compressed sparse rows
+    """
+
+    masks: Array
+    ids: Array
+    table: Array
+    first: Array
+    columns: Array
+    values: Array
+
+
+def _neighbours(part: slice, order: Ordering) -> tuple[Array, NDArray[np.bool_]]:
+    """Position of the pixels around some, and which of them come before."""
+    at = order.lattice[part]
+    (ny, nx), offsets = order.shape, order.offsets
+    y = order.row[part, None] + order.strides[at, :1] * offsets[:, 0]
+    x = order.column[part, None] + order.strides[at, 1:] * offsets[:, 1]
+    valid = order.allowed[at]
+    if not order.periodic:
+        valid = valid & (y >= 0) & (y < ny) & (x >= 0) & (x < nx)
+    there = order.position[np.mod(y, ny) * nx + np.mod(x, nx)]
+    return there, valid & (there > 0) & (there < order.rank[part, None])
+
+
+def neighbour_masks(order: Ordering) -> NDArray[np.int32]:
     """One bit for every neighbour of each pixel that is there and comes before it."""
-    rank, offsets = around[1], around[6]
-    masks = np.zeros(rank.size, np.int32)
-    weights = (1 << np.arange(len(offsets))).astype(np.int32)
-    for start in range(0, rank.size, PART):
+    size = order.rank.size
+    masks = np.zeros(size, np.int32)
+    weights = (1 << np.arange(len(order.offsets))).astype(np.int32)
+    for start in range(0, size, PART):
         part = slice(start, start + PART)
-        masks[part] = _neighbours(part, *around)[1] @ weights
+        masks[part] = _neighbours(part, order)[1] @ weights
     return masks
 
 
-def factor_rows(*everything: Any) -> None:
+def factor_rows(order: Ordering, rows: FactorRows) -> None:
     """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
-    around, (_, ids, rows, first, columns, values) = everything[:-6], everything[-6:]
-    rank = around[1]
+    rank = order.rank
     for start in range(0, rank.size, PART):
         part = slice(start, min(start + PART, rank.size))
-        there, before = _neighbours(part, *around)
+        there, before = _neighbours(part, order)
         there = (np.hstack([there, rank[part, None]]) - 1) % rank.size
         before = np.hstack([before, np.ones((len(before), 1), bool)])
-        here = slice(first[part.start], first[part.stop])
-        columns[here] = there[before]
-        values[here] = rows[ids[part]][before]
+        here = slice(rows.first[part.start], rows.first[part.stop])
+        rows.columns[here] = there[before]
+        rows.values[here] = rows.table[rows.ids[part]][before]

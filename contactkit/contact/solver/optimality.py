@@ -1,15 +1,15 @@
-"""How far a pressure map is from solving the contact problem, whoever computed it.
+"""Optimality (KKT) conditions of the contact problem: residual and duality gap of any pressure.
 
 Sign convention: pressure, heights and displacement positive into the solid; the reduced gap is
-``g = u - h`` and the gap itself is ``g - level``.
+``g = u - h`` and the gap itself is ``g - approach``.
 
-======  ============================================================
-symbol  meaning
-======  ============================================================
-p       pressure of a pixel, ``0 <= p <= cap``
-g       displacement minus height, before the rigid approach is taken
-level   rigid approach: ``g = level`` where the pressure is in between
-======  ============================================================
+========  ============================================================
+symbol    meaning
+========  ============================================================
+p         pressure of a pixel, ``0 <= p <= bound``
+g         displacement minus height: the gap but for the rigid approach
+approach  rigid-body approach, ``g = approach`` on free pixels
+========  ============================================================
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Optimality", "free_level", "height_scale", "optimality"]
+__all__ = ["Optimality", "free_approach", "height_scale", "optimality"]
 
 Floats = NDArray[np.float64]
 
 
 class Optimality(NamedTuple):
-    """What `optimality` finds.
+    """Optimality of a pressure map.
 
-    level : rigid approach [m]
+    approach : rigid-body approach of the zero plane of the heights [m]
     residual : largest violation of a contact condition over the map [m]
-    gap_energy : bound of the energy above the minimum, per pixel area [J/m^2]
+    energy_gap : bound of the energy above the minimum, per pixel area [J/m^2]
     """
 
-    level: float
+    approach: float
     residual: float
-    gap_energy: float
+    energy_gap: float
 
 
 def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> float:
     """Length that relative residuals refer to [m].
 
     The rms of the heights about their mean, or the largest displacement if that is smaller (a ball
-    on a wide map); never below 1e-4 of the rms, where rounding would be asked about. For flat
+    on a wide map); never below 1e-4 of the rms, where round-off would decide. For flat
     heights the largest displacement, but at least `flat`.
 
     Parameters
@@ -62,12 +62,12 @@ def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> fl
     return max(most, flat) if is_flat else max(min(rms, most), 1e-4 * rms)
 
 
-def free_level(pressure: Floats, reduced_gap: Floats, cap: float | Floats) -> float:
-    """Rigid approach that suits a pressure map best [m].
+def free_approach(pressure: Floats, reduced_gap: Floats, bound: float | Floats) -> float:
+    """Rigid-body approach that suits a pressure map best [m].
 
-    The pressure-weighted mean of `reduced_gap` over the pixels between both bounds. If there is
-    none, any value between the largest over the saturated and the smallest over the bare pixels
-    will do, and the middle is taken.
+    The pressure-weighted mean of `reduced_gap` over the free pixels, between both bounds. If there
+    is none, any value between the largest over the pixels at the upper bound and the smallest over
+    those out of contact will do, and the middle is taken.
 
     Parameters
     ----------
@@ -75,34 +75,34 @@ def free_level(pressure: Floats, reduced_gap: Floats, cap: float | Floats) -> fl
         [Pa]
     reduced_gap : ndarray
         Displacement minus height [m].
-    cap : float or ndarray
+    bound : float or ndarray
         Upper bound of the pressure [Pa], ``inf`` for none.
 
     Examples
     --------
-    >>> free_level(np.array([0.0, 1.0, 3.0]), np.array([9.0, 1.0, 2.0]), np.inf)
+    >>> free_approach(np.array([0.0, 1.0, 3.0]), np.array([9.0, 1.0, 2.0]), np.inf)
     1.75
     """
-    free = (pressure > 0.0) & (pressure < cap)
+    free = (pressure > 0.0) & (pressure < bound)
     weight = pressure[free]
     if weight.size:
         return float(weight @ reduced_gap[free] / weight.sum())
-    saturated = (pressure > 0.0) & (pressure >= cap)
-    inside = reduced_gap[saturated]
-    outside = reduced_gap[(pressure <= 0.0) & np.broadcast_to(np.asarray(cap) > 0, pressure.shape)]
-    if inside.size and outside.size:
-        return 0.5 * float(inside.max() + outside.min())
-    if inside.size:
-        return float(inside.max())
-    return float(outside.min()) if outside.size else 0.0
+    at_bound = reduced_gap[(pressure > 0.0) & (pressure >= bound)]
+    can_bear = np.broadcast_to(np.asarray(bound) > 0, pressure.shape)
+    apart = reduced_gap[(pressure <= 0.0) & can_bear]
+    if at_bound.size and apart.size:
+        return 0.5 * float(at_bound.max() + apart.min())
+    if at_bound.size:
+        return float(at_bound.max())
+    return float(apart.min()) if apart.size else 0.0
 
 
 def optimality(
     pressure: Floats,
     displacement: Floats,
     heights: Floats,
-    cap: float | Floats = np.inf,
-    level: float | None = None,
+    bound: float | Floats = np.inf,
+    rigid_approach: float | None = None,
 ) -> Optimality:
     r"""Violation of the contact conditions and a bound of the energy error.
 
@@ -112,10 +112,10 @@ def optimality(
     ----------
     pressure, displacement, heights : ndarray (ny, nx)
         [Pa], [m], [m]; `displacement` must belong to `pressure`.
-    cap : float or ndarray (ny, nx)
+    bound : float or ndarray (ny, nx)
         Upper bound of the pressure [Pa].
-    level : float, optional
-        Rigid approach, if it is prescribed [m]; that of `free_level` otherwise.
+    rigid_approach : float, optional
+        Rigid-body approach, if it is prescribed [m]; that of `free_approach` otherwise.
 
     Returns
     -------
@@ -125,26 +125,25 @@ def optimality(
     Notes
     -----
     With the load prescribed the energy bound is the duality gap of the linearised problem
-    (Frank-Wolfe gap), valid for any feasible pressure. With the level prescribed and no cap it is
-    the complementarity ``sum p |g - level|``, a bound only once no pixel penetrates.
+    (Frank-Wolfe gap), valid for any feasible pressure. With the approach prescribed and no bound it
+    is the complementarity ``sum p |g - approach|``, a bound only once no pixel penetrates.
 
     Examples
     --------
     >>> optimality(np.array([[0.0, 2.0]]), np.array([[0.0, 1.0]]), np.array([[-3.0, 1.0]]))
-    Optimality(level=0.0, residual=0.0, gap_energy=0.0)
+    Optimality(approach=0.0, residual=0.0, energy_gap=0.0)
     """
     g = displacement - heights
-    bound = np.asarray(cap, dtype=np.float64)
-    at = free_level(pressure, g, bound) if level is None else level
-    if level is None and not np.any(np.isfinite(bound)):
-        gap_energy = float(np.sum(pressure * (g - g.min())))
+    upper = np.asarray(bound, dtype=np.float64)
+    approach = free_approach(pressure, g, upper) if rigid_approach is None else rigid_approach
+    if rigid_approach is None and not np.any(np.isfinite(upper)):
+        energy_gap = float(np.sum(pressure * (g - g.min())))
     else:
-        missing = np.where(np.isfinite(bound), bound - pressure, pressure)
-        gap_energy = float(np.sum(pressure * np.maximum(g - at, 0.0)))
-        gap_energy += float(np.sum(missing * np.maximum(at - g, 0.0)))
-    g -= at
+        missing = np.where(np.isfinite(upper), upper - pressure, pressure)
+        energy_gap = float(np.sum(pressure * np.maximum(g - approach, 0.0)))
+        energy_gap += float(np.sum(missing * np.maximum(approach - g, 0.0)))
+    g -= approach
     violation = np.abs(g)
-    bare, saturated = pressure <= 0.0, pressure >= bound
-    violation[bare & (g > 0.0)] = 0.0
-    violation[saturated & (g < 0.0)] = 0.0
-    return Optimality(at, float(violation.max(initial=0.0)), max(gap_energy, 0.0))
+    violation[(pressure <= 0.0) & (g > 0.0)] = 0.0
+    violation[(pressure >= upper) & (g < 0.0)] = 0.0
+    return Optimality(approach, float(violation.max(initial=0.0)), max(energy_gap, 0.0))

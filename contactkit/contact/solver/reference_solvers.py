@@ -1,6 +1,6 @@
 """Two plain contact solvers, to check the fast one by and to fall back on.
 
-Both take a prepared `Press` for its operator and give back the same `Solution`.
+Both take the operator as a function and the dimensionless problem.
 
 Sign convention: pressure, heights and displacement positive into the solid.
 
@@ -8,7 +8,7 @@ Sign convention: pressure, heights and displacement positive into the solid.
 symbol  meaning
 ======  ==================================================================
 g       reduced gap ``G p - h``, the gradient of the energy
-d       search direction on the pixels that may move
+d       search direction on the free pixels
 ======  ==================================================================
 """
 
@@ -36,7 +36,7 @@ PATIENCE = 6  # sweeps within which the residual must have halved
 class Iterate(NamedTuple):
     """Dimensionless pressures (flat) and displacement with how good they are.
 
-    optimality : level, residual and energy bound; relative : residual over the height scale
+    optimality : approach, residual and energy bound; relative : residual over the height scale
     scale : the height scale; history : (step, relative)
     is_stalled : whether round-off ended the steps: more of them would gain nothing
     """
@@ -51,13 +51,13 @@ class Iterate(NamedTuple):
 
     def certificate(self, load: float) -> float:
         """Bound of the energy error over load and height scale."""
-        return self.optimality.gap_energy / (load * self.scale) if load > 0.0 else 0.0
+        return self.optimality.energy_gap / (load * self.scale) if load > 0.0 else 0.0
 
 
 def _graded(p: Floats, u: Floats, problem: Problem) -> Iterate:
     """Optimality of dimensionless pressures and their displacement."""
     h = problem.heights.ravel()
-    found = optimality(p, u, h, problem.cap, problem.level)
+    found = optimality(p, u, h, problem.upper, problem.approach)
     scale = height_scale(h, u, flat=1.0)
     return Iterate(p, u, found, found.residual / scale, scale)
 
@@ -66,9 +66,9 @@ def _violation(one: Iterate) -> float:
     return one.relative
 
 
-def _movable(p: Floats, g: Floats, level: float, cap: Floats) -> NDArray[np.bool_]:
+def _movable(p: Floats, g: Floats, approach: float, upper: Floats) -> NDArray[np.bool_]:
     """Pixels between the bounds, and those at a bound that want to leave it."""
-    return ((p > 0.0) | (g < level)) & ((p < cap) | (g > level)) & (cap > 0.0)
+    return ((p > 0.0) | (g < approach)) & ((p < upper) | (g > approach)) & (upper > 0.0)
 
 
 def conjugate_gradient(
@@ -115,7 +115,7 @@ def conjugate_gradient(
     >>> conjugate_gradient(lambda p: p, wedge, np.ones(2), 1.0).pressure
     array([1., 0.])
     """
-    h, cap = problem.heights.ravel(), problem.cap
+    h, upper = problem.heights.ravel(), problem.upper
     p = fit(start, problem)
     u = apply(p)
     best = _graded(p, u, problem)
@@ -124,8 +124,8 @@ def conjugate_gradient(
     is_stalled = False
 
     def rise(q: Floats, v: Floats) -> float:
-        """Energy of q above that of p, from their difference: the rounding of each is larger."""
-        return float((q - p) @ (0.5 * (u + v) - h - level))
+        """Energy of q above that of p, from their difference: the round-off of each is larger."""
+        return float((q - p) @ (0.5 * (u + v) - h - approach))
 
     for step in range(max_iterations + 1):
         found = _graded(p, u, problem)
@@ -135,9 +135,9 @@ def conjugate_gradient(
             progress(step, found.relative)
         if found.relative <= rtol or is_stalled or step == max_iterations:
             break
-        g, level = u - h, found.optimality.level
-        moving = _movable(p, g, level, cap)
-        r = np.where(moving, level - g, 0.0)
+        g, approach = u - h, found.optimality.approach
+        moving = _movable(p, g, approach, upper)
+        r = np.where(moving, approach - g, 0.0)
         if problem.load is not None:
             r[moving] -= r[moving].mean()
         rr = float(r @ r)
@@ -148,7 +148,7 @@ def conjugate_gradient(
         trial = fit(p + (float(r @ d) / curvature) * d, problem) if curvature > 0.0 else p
         moved = apply(trial)
         if step % GRADIENT_EVERY == GRADIENT_EVERY - 1 or not rise(trial, moved) < 0.0:
-            trial = project(p - (g - (problem.level or 0.0)) / steepest, problem)
+            trial = project(p - (g - (problem.approach or 0.0)) / steepest, problem)
             moved = apply(trial)
             is_stalled = not rise(trial, moved) < 0.0
             strength = 0.0
@@ -160,7 +160,7 @@ def _minimised(
     apply: Callable[[Floats], Floats],
     p: Floats,
     g: Floats,
-    cap: Floats,
+    upper: Floats,
     weight: float,
     gtol: float,
     max_iterations: int,
@@ -181,7 +181,7 @@ def _minimised(
         np.zeros_like(p),
         jac=True,
         method="L-BFGS-B",
-        bounds=scipy.optimize.Bounds(-p, cap - p),
+        bounds=scipy.optimize.Bounds(-p, upper - p),
         options={
             "maxcor": 20,
             "ftol": 0.0,
@@ -190,7 +190,7 @@ def _minimised(
             "maxfun": 2 * max_iterations,
         },
     )
-    return np.clip(p + answer.x, 0.0, cap), int(answer.nit)
+    return np.clip(p + answer.x, 0.0, upper), int(answer.nit)
 
 
 def quasi_newton(
@@ -220,25 +220,25 @@ def quasi_newton(
     array([1., 0.])
     """
     h, load = problem.heights.ravel(), problem.load
-    level = 0.0 if problem.level is None else problem.level
+    approach = 0.0 if problem.approach is None else problem.approach
     weight = steepest / h.size if load is not None else 0.0
-    rounding = 1e-15 * float(np.abs(h).max())
+    round_off = 1e-15 * float(np.abs(h).max())
     p = fit(start, problem)
     best = _graded(p, apply(p), problem)
     history: list[tuple[int, float]] = []
     excess, steps, halved, is_stalled = np.inf, 0, 0, False
     for sweep in range(MOST_SWEEPS):
         missing = float(p.sum()) - load if load is not None else 0.0
-        g = apply(p) - h - level + weight * missing
+        g = apply(p) - h - approach + weight * missing
         gtol = 0.1 * rtol * best.scale
-        p, taken = _minimised(apply, p, g, problem.cap, weight, gtol, max_iterations - steps)
+        p, taken = _minimised(apply, p, g, problem.upper, weight, gtol, max_iterations - steps)
         steps += taken
         is_settled = True
         if load is not None:
             last, excess = excess, float(p.sum()) - load
             shift = weight * excess
-            level -= shift
-            is_settled = abs(shift) <= max(gtol, rounding) or abs(excess) <= 1e-14 * load
+            approach -= shift
+            is_settled = abs(shift) <= max(gtol, round_off) or abs(excess) <= 1e-14 * load
             weight *= 1.0 if is_settled or abs(excess) <= 0.1 * abs(last) else 4.0
         admissible = fit(p, problem)
         found = _graded(admissible, apply(admissible), problem)

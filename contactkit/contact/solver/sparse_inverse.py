@@ -1,12 +1,12 @@
-r"""A sparse factor of the inverse of the operator between the pixels that may move.
+r"""Factorised sparse approximate inverse of the operator between the free pixels.
 
-The pixels are put in order, those on the coarsest of nested lattices first. What a pixel adds to
-its predecessors is hardly seen beyond the nearest of them, whatever the solid: these screen the
-rest. Row by row, the inverse of a small matrix between a pixel and its near predecessors therefore
-gives a good inverse of the whole, for long and short waves, for stiff plates as for half-spaces
-(the Kullback-Leibler minimum among factors of that sparsity, Schaefer, Katzfuss & Owhadi, SIAM J.
-Sci. Comput. 43 (2021) A2019-A2046, eq. 8). As the solid is the same everywhere a row depends only
-on which neighbours are there; every such pattern is solved once and kept.
+The pixels are put in order, those on the coarsest of nested lattices first. Given its nearest
+predecessors, a pixel hardly depends on the others, whatever the solid: the near ones screen them.
+Row by row, the inverse of a small matrix between a pixel and its near predecessors therefore gives
+a good inverse of the whole, for long and short waves, for stiff plates as for half-spaces (the
+Kullback-Leibler minimum among factors of that sparsity, Schaefer, Katzfuss & Owhadi, SIAM J. Sci.
+Comput. 43 (2021) A2019-A2046, eq. 8). As the solid is the same everywhere a row depends only on
+which neighbours are there; every such pattern is solved once and kept.
 
 Sign convention: pressure and displacement positive into the solid.
 
@@ -15,7 +15,7 @@ symbol  meaning
 ======  ==================================================================
 K       displacement of a map under unit pressure on its first pixel
 L       sparse factor, ``L' L`` about the inverse; rows follow the pixels
-order   map of the places of the pixels in the order, from 1; 0 where none is
+order   position of every pixel in the order, from 1; 0 where it is not free
 ======  ==================================================================
 """
 
@@ -27,14 +27,16 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import NDArray
 
-__all__ = ["NearInverse", "lattice_strides", "pattern_rows"]
+from .loops_numpy import FactorRows, Ordering
+
+__all__ = ["SparseInverse", "lattice_strides", "pattern_rows"]
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Shape = tuple[int, int]
 NEAR = 2  # squared distance of the neighbours looked at, in strides: the eight around
 WIDE = 5  # the same where the compliance falls steeply: all up to a knight's move
-MOST_PATTERNS = 200_000  # kept at most; more are forgotten before the next active set
+MOST_PATTERNS = 200_000  # kept at most; beyond, all are dropped before the next active set
 
 
 def lattice_strides(shape: Shape, pixel_size: tuple[float, float]) -> NDArray[np.int32]:
@@ -75,7 +77,7 @@ def pattern_rows(
     Parameters
     ----------
     K : ndarray
-        Response as in `active_set_direct.influence_matrix`, positive.
+        Response as in `reduced_system.influence_matrix`, positive.
     shape : tuple of int
         Pixels of the map.
     stride : ndarray (2,)
@@ -87,7 +89,7 @@ def pattern_rows(
 
     Examples
     --------
-    A pixel alone, and one with a neighbour that takes its share of the displacement:
+    A pixel alone, and one with a neighbour:
 
     >>> K = np.array([[2.0, 1.0, 0.0]])
     >>> there, offsets = np.array([[False], [True]]), np.array([[0, 1]])
@@ -101,7 +103,7 @@ def pattern_rows(
         dy, dx = dy % shape[0], dx % shape[1]
         dy, dx = np.minimum(dy, shape[0] - dy), np.minimum(dx, shape[1] - dx)
     inside = np.hstack([there, np.ones((len(there), 1), bool)])
-    # Neighbours on opposite sides may be farther apart than a free map is wide: never both there.
+    # Opposite neighbours may be farther apart than an isolated map is wide: never both there.
     matrix = K[np.minimum(dy, K.shape[0] - 1), np.minimum(dx, K.shape[1] - 1)]
     G = np.where(inside[:, :, None] & inside[:, None, :], matrix, 0.0)
     diagonal = np.arange(len(place))
@@ -110,13 +112,13 @@ def pattern_rows(
     unit[-1] = 1.0
     rows = np.asarray(np.linalg.solve(G, unit[None])[..., 0])
     own = rows[:, -1:]
-    bad = ~(own > 0.0).ravel()  # rounding of a nearly singular matrix: the pixel alone
+    bad = ~(own > 0.0).ravel()  # round-off of a nearly singular matrix: the pixel alone
     rows[bad] = np.where(diagonal == diagonal[-1], 1.0 / matrix[0, 0], 0.0)
     return rows / np.sqrt(rows[:, -1:])
 
 
-class NearInverse:
-    """Rough inverse of the operator on any set of pixels of one grid.
+class SparseInverse:
+    """Factorised sparse approximate inverse of the operator on any set of pixels of one grid.
 
     Parameters
     ----------
@@ -131,15 +133,15 @@ class NearInverse:
     steep : bool
         Whether the compliance falls faster than that of a half-space: more neighbours count.
     loops : namespace
-        Passes over the pixels.
+        Loops over the pixels.
     memory : ndarray, optional
         Zeros of four bytes each, at least one per pixel, to borrow; left as zeros.
 
     Examples
     --------
-    >>> from contactkit.contact.solver import loops_numpy as active_set_loops
+    >>> from contactkit.contact.solver import loops_numpy
     >>> response = np.array([[2.0, 0.5], [0.5, 0.25]])
-    >>> inverse = NearInverse(response, (2, 2), (1.0, 1.0), False, False, active_set_loops)
+    >>> inverse = SparseInverse(response, (2, 2), (1.0, 1.0), False, False, loops_numpy)
     >>> inverse.prepare(np.array([0, 3]))
     >>> inverse(np.array([2.0, 0.25], np.float32)).round(3)
     array([1., 0.], dtype=float32)
@@ -162,16 +164,16 @@ class NearInverse:
         self.offsets = _offsets(WIDE if steep else NEAR)
         self.borrowed = memory is not None
         held = np.zeros(shape, np.int32) if memory is None else memory
-        self.order = held.view(np.int32).ravel()[: shape[0] * shape[1]]
-        self._level_y, self._level_x = (
+        self.position = held.view(np.int32).ravel()[: shape[0] * shape[1]]
+        self._lattice_y, self._lattice_x = (
             np.array([np.flatnonzero(i % s == 0)[-1] for i in range(n)], np.int8)
             for n, s in zip(shape, self.strides.T, strict=True)
         )
         self.allowed = self._allowed()
         self.last = 0
-        self._forget()
+        self._drop_patterns()
 
-    def _forget(self) -> None:
+    def _drop_patterns(self) -> None:
         self.keys = np.zeros(0, np.int64)
         self.rows = np.zeros((0, len(self.offsets) + 1), np.float32)
 
@@ -186,37 +188,48 @@ class NearInverse:
     @property
     def nbytes(self) -> int:
         """Memory held between the solves, and by the last set of pixels."""
-        order = 0 if self.borrowed else self.order.nbytes
+        order = 0 if self.borrowed else self.position.nbytes
         return int(order + self.rows.nbytes + self.keys.nbytes + self.last)
 
     def prepare(self, at: NDArray[np.intp], load_fixed: bool = False) -> None:
         """Take a set of pixels, by sorted flat indices; a prescribed sum changes nothing here."""
         row, column = np.divmod(at, self.shape[1])
-        level = np.minimum(self._level_y[row], self._level_x[column])
-        rank = (len(self.strides) - 1 - level).astype(np.int32) * np.int32(at.size)
+        lattice = np.minimum(self._lattice_y[row], self._lattice_x[column])
+        rank = (len(self.strides) - 1 - lattice).astype(np.int32) * np.int32(at.size)
         rank += np.arange(1, at.size + 1, dtype=np.int32)
-        self.order[at] = rank
-        around: tuple[Any, ...] = (self.order, rank, row.astype(np.int32), column.astype(np.int32))
-        around += (level, self.strides, self.offsets, self.allowed, self.shape, self.periodic)
-        masks = self.loops.neighbour_masks(*around)
-        ids = self._known(masks.astype(np.int64) | (level.astype(np.int64) << 32))
+        self.position[at] = rank
+        order = Ordering(
+            self.position,
+            rank,
+            row.astype(np.int32),
+            column.astype(np.int32),
+            lattice,
+            self.strides,
+            self.offsets,
+            self.allowed,
+            self.shape,
+            self.periodic,
+        )
+        masks = self.loops.neighbour_masks(order)
+        ids = self._rows_of(masks.astype(np.int64) | (lattice.astype(np.int64) << 32))
         count = np.bitwise_count(masks).astype(np.int32) + 1
         first = np.zeros(at.size + 1, np.int32)
         np.cumsum(count, out=first[1:])
         columns, values = np.empty(first[-1], np.int32), np.empty(first[-1], np.float32)
-        self.loops.factor_rows(*around, masks, ids, self.rows, first, columns, values)
-        self.order[at] = 0
+        rows = FactorRows(masks, ids, self.rows, first, columns, values)
+        self.loops.factor_rows(order, rows)
+        self.position[at] = 0
         self.factor = scipy.sparse.csr_array((values, columns, first), shape=(at.size, at.size))
         self.transposed = self.factor.T
         self.last = columns.nbytes + values.nbytes + first.nbytes
 
-    def _known(self, keys: NDArray[np.int64]) -> NDArray[np.int32]:
+    def _rows_of(self, keys: NDArray[np.int64]) -> NDArray[np.int32]:
         """Rows of the table that belong to the patterns; new ones are solved first."""
         if self.keys.size > MOST_PATTERNS:
-            self._forget()
+            self._drop_patterns()
         at, there = self._look_up(keys)
         if not there.all():
-            self._learn(np.unique(keys[~there]))
+            self._solve_patterns(np.unique(keys[~there]))
             at, _ = self._look_up(keys)
         return at
 
@@ -227,14 +240,18 @@ class NearInverse:
         at = np.minimum(np.searchsorted(self.keys, keys), self.keys.size - 1)
         return at.astype(np.int32), self.keys[at] == keys
 
-    def _learn(self, new: NDArray[np.int64]) -> None:
+    def _solve_patterns(self, new: NDArray[np.int64]) -> None:
         bits = 1 << np.arange(len(self.offsets))
-        for level in np.unique(new >> 32):
-            some = new[new >> 32 == level]
+        for lattice in np.unique(new >> 32):
+            some = new[new >> 32 == lattice]
             for part in np.array_split(some, 1 + some.size // 4096):
                 there = (part[:, None] & bits) > 0
                 rows = pattern_rows(
-                    self.response - self.lift, self.shape, self.strides[level], there, self.offsets
+                    self.response - self.lift,
+                    self.shape,
+                    self.strides[lattice],
+                    there,
+                    self.offsets,
                 )
                 self.keys = np.append(self.keys, part)
                 self.rows = np.vstack([self.rows, rows.astype(np.float32)])
@@ -246,5 +263,5 @@ class NearInverse:
         return np.asarray(self.transposed @ (self.factor @ r))
 
     def clean(self) -> None:
-        """Forget the set of pixels."""
+        """Release the set of pixels."""
         del self.factor, self.transposed

@@ -1,28 +1,198 @@
-"""Preconditioner for many moving pixels: a stencil for the short waves, blocks for the long ones.
+"""Two-level preconditioner for many free pixels: a stencil for short waves, blocks for long ones.
 
-Residuals are split into their means over blocks of pixels and the rest. The stencil undoes the
-operator for the rest as if all pixels moved; the blocks solve a small problem for the means.
+Residuals are split into their means over blocks of pixels and the rest. The stencil, the inverse
+of the operator cut to nearest neighbours, acts on the rest as if all pixels were free; the means
+are balanced by a coarse problem with one unknown for every block (aggregation), which raises all
+free pixels of the block alike. The operator between blocks is that of a coarse grid of the same
+solid, weighted by how much of each block is free; what the coarse grid lacks of a pixel's own
+influence is put on the diagonal. It is solved roughly by a few conjugate gradient steps.
 
 Sign convention: pressure and displacement positive into the solid.
+
+======  ===================================================
+symbol  meaning
+======  ===================================================
+S       symbol of the operator
+c       weights of the stencil: centre, y, x, diagonal
+w       square root of the number of free pixels of a block
+======  ===================================================
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import CoarseBlocks
-from .stencil import Stencil
+from .conjugate_gradient import conjugate_gradient
+from .convolution import Convolution, self_influence
 
-__all__ = ["TwoLevel"]
+__all__ = ["CoarseBlocks", "Stencil", "TwoLevel", "inverse_stencil", "least_eigenvalue"]
 
+Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
+SAFE = 0.1  # least eigenvalue to keep, as a part of the centre weight
+
+
+class Stencil(NamedTuple):
+    """Weights of a symmetric three by three stencil: centre, y, x and diagonal neighbours."""
+
+    centre: float
+    y: float
+    x: float
+    diagonal: float
+
+
+def least_eigenvalue(c: Stencil) -> float:
+    r"""Smallest value of the symbol of a stencil.
+
+    .. math:: t = c_0 + 2 c_y \cos a + 2 c_x \cos b + 4 c_d \cos a \cos b
+
+    is linear in either cosine, so that its minimum is at a corner.
+
+    Examples
+    --------
+    >>> least_eigenvalue(Stencil(4.0, -1.0, -1.0, 0.0))
+    0.0
+    """
+    return min(
+        c.centre + 2.0 * c.y * a + 2.0 * c.x * b + 4.0 * c.diagonal * a * b
+        for a in (-1.0, 1.0)
+        for b in (-1.0, 1.0)
+    )
+
+
+def inverse_stencil(symbol: Floats, width: int) -> Stencil:
+    """Cut the inverse of an operator to nearest neighbours, and keep it positive definite.
+
+    The inverse of a stiff layer, cut sharply, may be indefinite. Its neighbours are then weighed
+    down towards the triangular window, with which any positive symbol stays positive.
+
+    Parameters
+    ----------
+    symbol : ndarray (ny, width // 2 + 1)
+        Half spectrum of the operator; wavenumber 0 may be zero.
+    width : int
+        Columns of the map that the spectrum belongs to.
+
+    Examples
+    --------
+    >>> inverse_stencil(np.full((8, 5), 2.0), 8).centre
+    0.5
+    """
+    ny = symbol.shape[0]
+    floor = 1e-3 * float(np.median(symbol))
+    k = 1.0 / np.maximum(symbol, floor)
+    k[0, 0] = 0.0 if symbol[0, 0] <= floor else k[0, 0]
+    k[:, 1:] *= 2.0
+    if width % 2 == 0:
+        k[:, -1] *= 0.5
+    k /= ny * width
+    a = np.cos(2.0 * np.pi * np.arange(ny) / ny)
+    b = np.cos(2.0 * np.pi * np.arange(symbol.shape[1]) / width)
+    by_row, by_column = k.sum(axis=1), k.sum(axis=0)
+    full = Stencil(float(by_row.sum()), float(a @ by_row), float(b @ by_column), float(a @ k @ b))
+    for window in np.linspace(1.0, 0.5, 26):
+        c = Stencil(full.centre, window * full.y, window * full.x, window**2 * full.diagonal)
+        if least_eigenvalue(c) >= SAFE * c.centre:
+            return c
+    return c
+
+
+class CoarseBlocks:
+    """Blocks of a grid, with the operator between them: the coarse problem.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Pixels of the fine grid.
+    blocks : tuple of int
+        Blocks along both sides.
+    symbol : ndarray
+        Symbol of the grid of the blocks, dimensionless as that of the grid.
+    periodic : bool
+        Whether the map repeats.
+    loops : namespace
+        Loops over the pixels.
+    fast : bool
+        Transforms by ducc0.
+    own : float
+        Self influence of a pixel of the grid.
+
+    Examples
+    --------
+    >>> from contactkit.contact.solver import loops_numpy
+    >>> blocks = CoarseBlocks((4, 4), (2, 2), np.ones((2, 2)), True, loops_numpy)
+    >>> blocks.block_of(np.array([0, 5, 15]))
+    array([0, 0, 3])
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        blocks: tuple[int, int],
+        symbol: Floats,
+        periodic: bool,
+        loops: Any,
+        fast: bool = False,
+        own: float = 1.0,
+    ) -> None:
+        self.shape, self.loops = blocks, loops
+        self.load_fixed = False  # the sum is kept by `_without_mean`, in the weights of the blocks
+        self.count = blocks[0] * blocks[1]
+        self.width = shape[1]
+        self.operator = Convolution(blocks, symbol, periodic, 1, fast, np.float32)
+        self._row = np.arange(shape[0]) * blocks[0] // shape[0] * blocks[1]
+        self._column = np.arange(shape[1]) * blocks[1] // shape[1]
+        self._pixels = shape[0] * shape[1] / (blocks[0] * blocks[1])
+        width = blocks[1] if periodic else 2 * blocks[1]
+        self._own = max(own - self_influence(symbol, width) / self._pixels, 0.05 * own)
+        self.weigh(np.ones(self.count), False)
+
+    def block_of(self, pixels: NDArray[Any]) -> NDArray[np.intp]:
+        """Block of each pixel, by flat indices."""
+        row, column = np.divmod(pixels, self.width)
+        return np.asarray(self._row[row] + self._column[column])
+
+    def weigh(self, count: Floats, load_fixed: bool) -> None:
+        """Set the number of free pixels of each block, and whether their sum is prescribed."""
+        self.per_pixel = np.where(count > 0.0, 1.0 / np.maximum(count, 1.0), 0.0)
+        self._w = np.sqrt(count).astype(np.float32)
+        self._over_w = np.sqrt(self.per_pixel).astype(np.float32)
+        root = np.float32(np.sqrt(count.sum()))
+        self._unit = self._w / root if load_fixed else None
+
+    def _without_mean(self, x: Singles) -> Singles:
+        if self._unit is not None:
+            x -= self._unit * np.vdot(self._unit, x)
+        return x
+
+    def apply(self, d: Singles, q: Singles) -> None:
+        """See `LinearSystem.apply`."""
+        np.multiply(self._w, d, out=self.operator.source.ravel())
+        np.multiply(self.operator.run().ravel(), self._w, out=q)
+        q *= np.float32(1.0 / self._pixels)
+        q += np.float32(self._own) * d
+        self._without_mean(q)
+
+    def precondition(self, r: Singles) -> Singles:
+        """See `LinearSystem.precondition`: none."""
+        return r.copy()
+
+    def take_step(self, length: float) -> None:
+        """See `LinearSystem.take_step`."""
+
+    def solve(self, total: Floats, reduction: float = 0.2, most: int = 25) -> Floats:
+        """Block values that balance the sums of the residual over the blocks, both flat."""
+        r = self._without_mean(total.astype(np.float32) * self._over_w)
+        x = np.zeros_like(r)
+        conjugate_gradient(self, x, r, reduction, most)
+        return np.asarray(x * self._over_w, dtype=np.float64)
 
 
 class TwoLevel:
-    """Rough inverse of the operator on any set of pixels of one grid.
+    """Approximate inverse of the operator on any set of pixels of one grid.
 
     Parameters
     ----------
@@ -35,12 +205,12 @@ class TwoLevel:
     blocks : CoarseBlocks, optional
         For the long waves; small maps do without.
     loops : namespace
-        Passes over the pixels.
+        Loops over the pixels.
 
     Examples
     --------
-    >>> from contactkit.contact.solver import loops_numpy as active_set_loops
-    >>> inverse = TwoLevel((4, 4), False, Stencil(2.0, -0.5, -0.5, 0.0), None, active_set_loops)
+    >>> from contactkit.contact.solver import loops_numpy
+    >>> inverse = TwoLevel((4, 4), False, Stencil(2.0, -0.5, -0.5, 0.0), None, loops_numpy)
     >>> inverse.prepare(np.array([5, 6]), load_fixed=True)
     >>> inverse(np.array([1.0, 0.0], np.float32))
     array([ 2. , -0.5], dtype=float32)
@@ -85,21 +255,21 @@ class TwoLevel:
         if blocks is None:
             return self._short_waves(r)
         total = loops.block_sums(self.block, r, blocks.count)
-        loops.less_block_values(r, self.block, total * blocks.share, self.rest)
+        loops.subtract_block_values(r, self.block, total * blocks.per_pixel, self.rest)
         z = self._short_waves(self.rest)
         long = blocks.solve(total)
-        long -= loops.block_sums(self.block, z, blocks.count) * blocks.share
+        long -= loops.block_sums(self.block, z, blocks.count) * blocks.per_pixel
         loops.add_block_values(z, self.block, long)
         return z
 
     def _short_waves(self, r: Singles) -> Singles:
         margin, loops = self.margin, self.loops
         flat, z = margin.ravel(), np.empty_like(r)
-        loops.put(flat, self.at, r)
+        loops.scatter(flat, self.at, r)
         if self.periodic:
             margin[0], margin[-1] = margin[-2], margin[1]
             margin[:, 0], margin[:, -1] = margin[:, -2], margin[:, 1]
-        loops.stencil(flat, self.at, margin.shape[1], tuple(self.stencil), z)
+        loops.apply_stencil(flat, self.at, margin.shape[1], tuple(self.stencil), z)
         return z
 
     def clean(self) -> None:

@@ -1,4 +1,4 @@
-"""Pressures to start from, extrapolated from those under the loads before.
+"""Warm start of a load curve: pressures extrapolated from those under the previous loads.
 
 Sign convention: pressure positive.
 """
@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 from ...errors import DescriptionError
 
-__all__ = ["Start", "first_pressure"]
+__all__ = ["Start", "initial_pressure"]
 
 Floats = NDArray[np.float64]
 Start = Floats | Sequence[tuple[float, Floats]]
-MOST = 3  # solutions used: a parabola; more of them gain nothing where pixels come and go
+MOST = 3  # solutions used, a parabola: more gain nothing where pixels enter or leave contact
 
 
-def first_pressure(start: Start, mean_pressure: float | None, shape: tuple[int, int]) -> Floats:
-    r"""Pressures under a load from a map, or from solutions under other loads.
+def initial_pressure(start: Start, mean_pressure: float | None, shape: tuple[int, int]) -> Floats:
+    r"""Pressures under a load from one map, or extrapolated from solutions under other loads.
 
     .. math:: p(\bar p) = \sum_i p_i \prod_{j \ne i}
         \frac{\ln \bar p - \ln \bar p_j}{\ln \bar p_i - \ln \bar p_j}
@@ -45,7 +45,7 @@ def first_pressure(start: Start, mean_pressure: float | None, shape: tuple[int, 
     Examples
     --------
     >>> pair = (4.0, np.full((1, 1), 3.0)), (1.0, np.full((1, 1), 1.0))
-    >>> first_pressure(pair, 16.0, (1, 1))
+    >>> initial_pressure(pair, 16.0, (1, 1))
     array([[5.]])
     """
     pairs = [(np.nan, start)] if isinstance(start, np.ndarray) else list(start)[:MOST]

@@ -1,14 +1,16 @@
-"""Contact of a rough rigid body with an elastic solid whose pressure may be capped.
+"""Contact solver: pressure between two bounds by a primal-dual active set on nested grids.
 
-Minimise ``p'Gp/2 - h'p`` over ``0 <= p <= cap`` with the load or the rigid approach prescribed, by
-a primal-dual active set (a semismooth Newton method) on nested grids.
+Minimise ``p'Gp/2 - h'p`` over ``0 <= p <= bound`` with the load or the rigid-body approach
+prescribed. Coarser grids only provide the initial guess of the next finer one (nested iteration);
+on the finest the active-set method runs to the tolerance.
 
 Sign convention: z into the solid; pressure, heights (peaks up, towards the solid) and displacement
-positive into it; the gap is ``displacement - heights - level``.
+positive into it; the gap is ``displacement - heights - rigid_approach``.
 """
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 
@@ -16,32 +18,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import DescriptionError, InfeasibleError
+from .active_set import Outcome, improve
 from .convolution import SymbolMaker
-from .grids import bytes_of, prepare
-from .outer import Outcome, improve
+from .nested_grids import bytes_of, prepare
 from .problem import Problem, Solution, coarser, fit, known_pressure, pose
 from .reference_solvers import Iterate, conjugate_gradient, quasi_newton
 from .transfer import prolong
-from .warm_start import Start, first_pressure
+from .warm_start import Start, initial_pressure
 
-__all__ = ["Press", "Solution"]
+__all__ = ["ContactSolver", "Solution"]
 
 Floats = NDArray[np.float64]
-Progress = Callable[[int, float], None] | None
 PLAIN: dict[str, Callable[..., Iterate]] = {  # what finishes, or does, the work of a method
     "active-set": conjugate_gradient,
     "conjugate-gradient": conjugate_gradient,
     "quasi-newton": quasi_newton,
 }
-COARSE_RTOL = 2e-2  # on coarser grids, whose answer only starts the next
-MOST_CAPPED = 0.3  # share of the contact up to which an earlier solution is the better start
+COARSE_RTOL = 2e-2  # on coarser grids, which only provide the initial guess of the next
+MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution is the better start
 
 
-class Press:
-    """Prepared contact solver: everything that depends on grid and solid, not on the heights.
+class ContactSolver:
+    """Contact solver of one grid and solid, for any heights, load and pressure bound.
 
-    Keep it for load curves and outer loops: only `solve` is paid again, and `start` takes the last
-    pressures.
+    Keep it for load curves and outer iterations: only `solve` is paid again, and `start` takes the
+    previous pressures.
 
     Parameters
     ----------
@@ -51,12 +52,12 @@ class Press:
         ``(dy, dx)`` [m].
     make_symbol : callable
         ``make(shape, pixel_size)`` gives the real symbol [m/Pa] of any grid of the same window:
-        periodic on the half spectrum ``(ny, nx // 2 + 1)``, zero at wavenumber 0; free the
+        periodic on the half spectrum ``(ny, nx // 2 + 1)``, zero at wavenumber 0; otherwise the
         transform of the even influence coefficients on the doubled map, ``(2 ny, nx + 1)``.
     periodic : bool
-        Whether the window repeats; otherwise it lies alone on the solid.
+        Whether the window repeats; otherwise the contact is isolated.
     threads : int
-        Threads of the transforms and of the compiled passes.
+        Threads of the transforms and of the compiled loops.
     fast : bool, optional
         Insist on numba and ducc0, or do without; None takes what is installed.
 
@@ -73,11 +74,11 @@ class Press:
     Notes
     -----
     Some 25 to 40 applications of the operator to 1e-8, whatever the number of pixels, the load or
-    the cap, for a half-space and for layers of moderate contrast; a plate a thousand times stiffer
-    than its ground, or more, may take a hundred or two. With a method of our own make, after the
-    primal-dual active set of [1]_ and the multilevel start of [2]_.
+    the bound, for a half-space and for layers of moderate contrast; a plate a thousand times
+    stiffer than its ground, or more, may take a hundred or two. The method is new; it follows the
+    primal-dual active set of [1]_ and the cascadic multigrid of [2]_.
 
-    A `Press` owns its work arrays: do not share one between threads.
+    A solver owns its work arrays: threads that share one wait for each other.
 
     References
     ----------
@@ -93,10 +94,10 @@ class Press:
     ...     qx = 2 * np.pi * np.fft.rfftfreq(shape[1], pixel_size[1])
     ...     q = np.hypot(qy, qx)
     ...     return np.divide(2.0, 1e9 * q, out=np.zeros_like(q), where=q > 0)
-    >>> press = Press((8, 64), (1e-9, 1e-9), half_space, periodic=True, fast=False)
+    >>> solver = ContactSolver((8, 64), (1e-9, 1e-9), half_space, periodic=True, fast=False)
     >>> wave = 1e-9 * np.cos(2 * np.pi * (np.arange(64) + 0.5) / 64) * np.ones((8, 1))
     >>> flattening = np.pi * 1e9 / 64
-    >>> solution = press.solve(wave, mean_pressure=0.5 * flattening)
+    >>> solution = solver.solve(wave, mean_pressure=0.5 * flattening)
     >>> solution.converged, float(np.mean(solution.pressure > 0.0))
     (True, 0.5)
     """
@@ -122,6 +123,12 @@ class Press:
         self.grids, self.self_influence = prepare(
             self.shape, self.pixel_size, make_symbol, periodic, int(threads), fast
         )
+        self._lock = threading.Lock()
+
+    @property
+    def nbytes(self) -> int:
+        """Memory that the nested grids hold [bytes]."""
+        return bytes_of(self.grids)
 
     def displacement(self, pressure: Floats) -> Floats:
         """Displacement under any pressure map, of zero mean if periodic [m].
@@ -135,43 +142,42 @@ class Press:
         if p.shape != self.shape:
             raise DescriptionError("pressure", p.shape, f"have the shape {self.shape}")
         fine = self.grids[0]
-        fine.pressure[...] = p
-        fine.displace(True)
-        return fine.gap * self.self_influence
+        with self._lock:
+            fine.pressure[...] = p
+            fine.displace(True)
+            return fine.gap * self.self_influence
 
     def solve(
         self,
         heights: Floats,
         *,
         mean_pressure: float | None = None,
-        level: float | None = None,
-        cap: float | Floats | None = None,
+        rigid_approach: float | None = None,
+        bound: float | Floats | None = None,
         rtol: float = 1e-8,
         start: Start | None = None,
         max_iterations: int = 5000,
-        progress: Progress = None,
         method: str = "active-set",
     ) -> Solution:
-        """Pressure under a given load or rigid approach.
+        """Pressure under a given load or rigid-body approach.
 
         Parameters
         ----------
         heights : ndarray (ny, nx)
             Rigid rough body, peaks up [m].
-        mean_pressure, level : float, optional
-            Load over the area of the map [Pa], or rigid approach [m]: exactly one of them.
-        cap : float or ndarray (ny, nx), optional
-            Largest pressure a pixel carries [Pa].
+        mean_pressure, rigid_approach : float, optional
+            Load over the area of the map [Pa], or approach of the zero plane of the heights [m]:
+            exactly one of them.
+        bound : float or ndarray (ny, nx), optional
+            Upper bound of the pressure of a pixel [Pa].
         rtol : float
-            Largest violation of a contact condition to accept, over `kkt.height_scale`.
+            Largest violation of a contact condition to accept, over `optimality.height_scale` [-].
         start : ndarray (ny, nx) or sequence of (float, ndarray), optional
-            Pressures to start from [Pa], instead of the nested grids; or pairs of mean pressure and
-            pressures of earlier solutions, newest first, to be extrapolated. Not taken where most
-            of the contact is at its cap: the nested grids are the better start there.
+            Initial pressures [Pa], instead of those of the nested grids; or pairs of mean pressure
+            and pressures of earlier solutions, newest first, to be extrapolated. Not used where
+            much of the contact is at its bound: the nested grids are the better start there.
         max_iterations : int
-            Steps of the fallback, or of a plain method, at most.
-        progress : callable, optional
-            Called with applications of the full operator so far and the relative residual.
+            Iterations of the fallback, or of a plain method, at most.
         method : {"active-set", "conjugate-gradient", "quasi-newton"}
             The last two are plain and slow: a check of the first.
 
@@ -183,62 +189,62 @@ class Press:
         Raises
         ------
         DescriptionError
-            For heights, loads, caps or starts that describe nothing.
+            For heights, loads, bounds or starts that describe nothing.
         InfeasibleError
-            If the cap cannot carry the load, or no load brings a periodic map to the level.
+            If the bound cannot carry the load, or no load brings a periodic map to the approach.
         """
-        begun = time.perf_counter()
         if np.shape(heights) != self.shape:
             raise DescriptionError("heights", np.shape(heights), f"have the shape {self.shape}")
         if method not in PLAIN:
             raise DescriptionError("method", method, f"be one of {', '.join(PLAIN)}")
         if not (np.isfinite(rtol) and rtol > 0.0):
             raise DescriptionError("rtol", rtol, "be positive and finite")
-        problem = pose(heights, self.self_influence, mean_pressure, level, cap)
-        self._refuse_closed_level(problem)
-        started = self._reset(problem, start, mean_pressure)
-        p = known_pressure(problem)
-        if p is not None:
-            self.grids[0].pressure[...] = p
-        elif not started:
-            self._from_coarse_grids(problem)
-        if method == "active-set":
-            outcome = improve(self.grids[0], problem, rtol, progress)
-            fallback = not outcome.relative <= rtol
-        else:
-            outcome, fallback = Outcome(0.0, np.inf, 0.0, 0, ()), False
-        if fallback or method != "active-set":
-            plain = PLAIN[method]
-            outcome = self._by(plain, problem, outcome, rtol, max_iterations, progress)
-        return self._solution(problem, outcome, rtol, fallback, begun)
+        problem = pose(heights, self.self_influence, mean_pressure, rigid_approach, bound)
+        self._refuse_closed_gap(problem)
+        with self._lock:
+            begun = time.perf_counter()
+            started = self._reset(problem, start, mean_pressure)
+            p = known_pressure(problem)
+            if p is not None:
+                self.grids[0].pressure[...] = p
+            elif not started:
+                self._from_coarse_grids(problem)
+            if method == "active-set":
+                outcome = improve(self.grids[0], problem, rtol)
+                fallback = not outcome.relative <= rtol
+            else:
+                outcome, fallback = Outcome(0.0, np.inf, 0.0, 0, ()), False
+            if fallback or method != "active-set":
+                outcome = self._plainly(PLAIN[method], problem, outcome, rtol, max_iterations)
+            return self._solution(problem, outcome, rtol, fallback, begun)
 
-    def _refuse_closed_level(self, problem: Problem) -> None:
-        """The mean displacement of a periodic map is zero: a level may lie beyond any load."""
+    def _refuse_closed_gap(self, problem: Problem) -> None:
+        """The mean displacement of a periodic map is zero: no load closes its whole gap."""
         if (
             self.periodic
-            and problem.level is not None
-            and problem.level >= 0.0
-            and not np.all(np.isfinite(problem.cap))
+            and problem.approach is not None
+            and problem.approach >= 0.0
+            and not np.all(np.isfinite(problem.upper))
         ):
             raise InfeasibleError(
-                "the level is at or beyond the mean plane of the heights, where the gap of a "
-                "periodic map is closed under any load; prescribe the load instead"
+                "the approach reaches the mean plane of the heights, where the gap of a periodic "
+                "map is closed under any load; prescribe the load instead"
             )
 
     def _reset(self, problem: Problem, start: Start | None, mean_pressure: float | None) -> bool:
-        """Count from zero; whether there is a good start in the source of the finest grid."""
+        """Reset the counters; whether a good initial guess is on the finest grid."""
         for grid in self.grids:
             grid.reset()
         if start is None:
             return False
-        first = first_pressure(start, mean_pressure, self.shape)
+        first = initial_pressure(start, mean_pressure, self.shape)
         p = fit(first.ravel() / problem.pressure, problem)
         self.grids[0].pressure[...] = p.reshape(self.shape)
-        # With few pixels left to take up the change of load, these overshoot.
-        return bool(np.count_nonzero(p >= problem.cap) <= MOST_CAPPED * np.count_nonzero(first))
+        # With few free pixels left to take up the change of load, these overshoot.
+        return bool(np.count_nonzero(p >= problem.upper) <= MOST_AT_BOUND * np.count_nonzero(first))
 
     def _from_coarse_grids(self, problem: Problem) -> None:
-        """Solve roughly on ever finer grids; leave the start in the source of the finest."""
+        """Nested iteration: solve roughly on ever finer grids, for a guess on the finest."""
         problems = [problem]
         for grid in self.grids[1:]:
             problems.append(coarser(problems[-1], grid.pressure.shape))
@@ -247,21 +253,21 @@ class Press:
         for grid, coarse in zip(self.grids[::-1], problems[::-1], strict=True):
             shape = grid.pressure.shape
             p = p if p.shape == shape else prolong(p, shape)
-            bound = coarse.cap.reshape(shape if coarse.cap.size > 1 else (1, 1))
-            np.minimum(p, bound, out=grid.pressure)
+            upper = coarse.upper.reshape(shape if coarse.upper.size > 1 else (1, 1))
+            np.minimum(p, upper, out=grid.pressure)
             if coarse is not problem:
                 improve(grid, coarse, COARSE_RTOL)
                 p = grid.pressure
 
-    def _by(
+    def _plainly(
         self,
         plain: Callable[..., Iterate],
         problem: Problem,
         outcome: Outcome,
         rtol: float,
         most: int,
-        progress: Progress,
     ) -> Outcome:
+        """Finish, or do all the work, by a plain method."""
         fine = self.grids[0]
 
         def apply(p: Floats) -> Floats:
@@ -270,12 +276,12 @@ class Press:
             return fine.gap.ravel().copy()
 
         first = fine.pressure.ravel().copy()
-        done = plain(apply, problem, first, fine.steepest, rtol, most, progress)
+        done = plain(apply, problem, first, fine.steepest, rtol, most)
         fine.pressure[...] = done.pressure.reshape(self.shape)
         fine.gap[...] = done.displacement.reshape(self.shape) - problem.heights
         load = float(done.pressure.sum())
         return outcome._replace(
-            level=done.optimality.level,
+            approach=done.optimality.approach,
             relative=done.relative,
             certificate=done.certificate(load),
             history=outcome.history + done.history,
@@ -301,7 +307,7 @@ class Press:
         return Solution(
             pressure=p * problem.pressure,
             displacement=u * problem.length,
-            level=outcome.level * problem.length - problem.datum,
+            rigid_approach=outcome.approach * problem.length - problem.datum,
             converged=bool(outcome.relative <= rtol),
             kkt=outcome.relative,
             certificate=outcome.certificate,

@@ -1,0 +1,67 @@
+"""Preconditioned conjugate gradients, in place: the iterative linear solver of the active set.
+
+The preconditioner may differ from step to step (flexible conjugate gradients, Polak-Ribiere), as
+one does that solves a coarse problem by iteration itself.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["LinearSystem", "conjugate_gradient"]
+
+Vector = NDArray[np.float32]
+
+
+class LinearSystem(Protocol):
+    """A symmetric positive definite operator A with its preconditioner.
+
+    loops : namespace
+        Loops over the pixels, `loops_numpy` or compiled.
+    load_fixed : bool
+        Whether the sum of the unknowns is kept: the equations then hold up to a constant.
+    """
+
+    loops: Any
+    load_fixed: bool
+
+    def apply(self, d: Vector, q: Vector) -> None:
+        """Fill q with A d."""
+
+    def precondition(self, r: Vector) -> Vector:
+        """About the inverse of A times r, as a new array."""
+
+    def take_step(self, length: float) -> None:
+        """Note that ``length`` times the last d was added to the unknowns."""
+
+
+def conjugate_gradient(
+    system: LinearSystem, x: Vector, r: Vector, reduction: float, most: int
+) -> None:
+    """Reduce the norm of a residual by a factor.
+
+    Parameters
+    ----------
+    system : LinearSystem
+        Operator and preconditioner.
+    x, r : ndarray (n,)
+        First guess and its residual; overwritten by the last ones.
+    reduction : float
+        Of the norm of the residual [-].
+    most : int
+        Iterations at most.
+    """
+    d, q = np.zeros_like(r), np.zeros_like(r)
+    stop = reduction**2 * float(np.dot(r, r))
+    length, rz = 0.0, 0.0
+    for _ in range(most if stop > 0.0 else 0):
+        z = system.precondition(r)
+        rz = system.loops.next_direction(d, z, r, q, length, rz, system.load_fixed)
+        system.apply(d, q)
+        length, rr = system.loops.step_along(x, r, d, q, system.load_fixed)
+        system.take_step(length)
+        if rr <= stop:
+            break

@@ -1,0 +1,249 @@
+"""Nested grids of the contact solver: operators and preconditioners that no height changes.
+
+Sign convention: pressure and displacement positive into the solid.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.fft import fast_transforms_installed
+from . import loops_numpy
+from .convolution import Convolution, Patch, SymbolMaker, self_influence, symbol_of
+from .sparse_inverse import SparseInverse
+from .transfer import block_shape, nested_shapes
+from .two_level import CoarseBlocks, TwoLevel, inverse_stencil
+
+__all__ = ["Grid", "bytes_of", "compiled_loops", "prepare"]
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Shape = tuple[int, int]
+LEAST_THREADED = 200  # pixels along the shorter side from which threads pay
+LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are treated by blocks
+STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
+PLATE = 8.0  # decay from which no stencil and no block will do, as under a stiff plate
+PIXEL_DECAY = 0.84  # decay of a half-space under uniform pressure on each pixel: not periodic
+FEW = 4000  # free pixels up to which the better preconditioner is also the cheaper one
+FEW_STEEP = 0.15  # the same as a fraction of all pixels if the symbol is steep: the other is poor
+
+
+def compiled_loops(fast: bool | None, threads: int) -> Any:
+    """Loops over the pixels: compiled if numba is there and wanted, else those on numpy.
+
+    Raises
+    ------
+    ImportError
+        If `fast` insists on numba and it is not installed.
+
+    Examples
+    --------
+    >>> compiled_loops(False, 1).__name__.endswith("loops_numpy")
+    True
+    """
+    if fast or (fast is None and importlib.util.find_spec("numba") is not None):
+        from .loops_numba import compiled
+
+        return compiled(threads > 1)
+    return loops_numpy
+
+
+class Grid(NamedTuple):
+    """One of the nested grids: its operators, preconditioners and work arrays.
+
+    pressure, gap : maps in double precision
+    exact : operator in double precision from `pressure` to `gap`; none on coarse grids
+    quick : operator in single precision; its source is zero between uses
+    patch : the same around the free pixels of an isolated contact; none if periodic
+    response : displacement under unit pressure on the first pixel; to the middle if periodic
+    change : displacement added since the last exact one, in single precision
+    inverse : sparse approximate inverse of the operator between the free pixels
+    two_level : cheaper one for more than `few` of them; none where it is poor, under stiff plates
+    steepest : largest eigenvalue of the operator
+    loops : loops over the pixels, of numpy or compiled
+    """
+
+    pressure: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    exact: Convolution | None
+    quick: Convolution
+    patch: Patch | None
+    response: NDArray[np.float64]
+    change: Singles
+    inverse: SparseInverse
+    two_level: TwoLevel | None
+    few: int
+    periodic: bool
+    steepest: float
+    loops: Any
+
+    def reset(self) -> None:
+        """Reset the counters."""
+        self.quick.count = 0
+        if self.patch is not None:
+            self.patch.count = 0
+        if self.exact is not None:
+            self.exact.count = 0
+        if self.two_level is not None and self.two_level.blocks is not None:
+            self.two_level.blocks.operator.count = 0
+
+    def applications(self) -> int:
+        """Applications of the operator, on the whole map or on a patch of it, since `reset`."""
+        exact = self.exact.count if self.exact is not None else 0
+        return self.quick.count + exact + (self.patch.count if self.patch is not None else 0)
+
+    def preconditioner(self, n_free: int) -> SparseInverse | TwoLevel:
+        """The preconditioner that is best for its price."""
+        if self.two_level is None or n_free <= self.few:
+            return self.inverse
+        return self.two_level
+
+    def displace(self, exactly: bool) -> None:
+        """Displacement under `pressure`, into `gap`."""
+        if exactly and self.exact is not None:
+            self.exact.run()
+            return
+        # A uniform part displaces nothing if periodic, but would drown the rest in round-off.
+        uniform = float(self.pressure.mean()) if self.periodic else 0.0
+        np.subtract(self.pressure, uniform, out=self.quick.source, casting="same_kind")
+        self.gap[...] = self.quick.run()
+        self.quick.source[...] = 0.0
+
+
+class _Symbols:
+    """Symbols of any grid on the same window, in units of the finest grid's self influence."""
+
+    def __init__(
+        self,
+        shape: Shape,
+        pixel_size: tuple[float, float],
+        make_symbol: SymbolMaker,
+        periodic: bool,
+    ) -> None:
+        self.window = (shape[0] * pixel_size[0], shape[1] * pixel_size[1])
+        self.make, self.periodic = make_symbol, periodic
+        self.unit = 1.0
+        self.unit = self.own(self(shape), shape)
+
+    def pixel(self, shape: Shape) -> tuple[float, float]:
+        return self.window[0] / shape[0], self.window[1] / shape[1]
+
+    def own(self, symbol: Floats, shape: Shape) -> float:
+        return self_influence(symbol, shape[1] if self.periodic else 2 * shape[1])
+
+    def __call__(self, shape: Shape) -> Floats:
+        symbol = symbol_of(self.make, shape, self.pixel(shape), self.periodic)
+        symbol /= self.unit
+        return symbol
+
+
+def _two_level(symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loops: Any) -> TwoLevel:
+    blocks = None
+    if max(shape) >= LEAST_BLOCKED:
+        pixels = 4.0 if _decay(symbol, symbols.periodic) > STEEP else 8.0
+        sides = block_shape(shape, symbols.pixel(shape), pixels)
+        own = symbols.own(symbol, shape)
+        blocks = CoarseBlocks(shape, sides, symbols(sides), symbols.periodic, loops, fast, own)
+    stencil = inverse_stencil(symbol, shape[1] if symbols.periodic else 2 * shape[1])
+    return TwoLevel(shape, symbols.periodic, stencil, blocks, loops)
+
+
+def _decay(symbol: Floats, periodic: bool) -> float:
+    """How much faster the symbol falls over short waves than that of a half-space, 1 / q."""
+    column = symbol[:, 0] if periodic else symbol[::2, 0]
+    top = max(column.size // 2, 1)
+    low = max(top // 8, 1)
+    return float(column[low] / max(column[top], 1e-300)) * low / top
+
+
+def _response(operator: Convolution, periodic: bool) -> Floats:
+    unit = np.zeros(operator.shape)
+    unit[0, 0] = 1.0
+    whole = operator(unit)
+    if not periodic:
+        return whole
+    return whole[: operator.shape[0] // 2 + 1, : operator.shape[1] // 2 + 1].copy()
+
+
+def _grid(
+    symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: bool
+) -> Grid:
+    symbol, periodic = symbols(shape), symbols.periodic
+    threads = threads if min(shape) >= LEAST_THREADED else 1
+    scale = loops.scale_spectrum
+    exact = Convolution(shape, symbol, periodic, threads, fast, np.float64, scale)
+    response = _response(exact, periodic)
+    decay = _decay(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
+    two_level = None if decay > PLATE else _two_level(symbols, shape, symbol, fast, loops)
+    spare = None if two_level is None else two_level.margin
+    pixel = symbols.pixel(shape)
+    return Grid(
+        pressure=exact.source if finest else np.zeros(shape),
+        gap=exact.target if finest else np.zeros(shape),
+        exact=exact if finest else None,
+        quick=Convolution(shape, symbol, periodic, threads, fast, np.float32, scale, exact),
+        patch=None if periodic else Patch(response, threads, fast, scale, exact),
+        response=response,
+        change=np.zeros(shape[0] * shape[1], np.float32),
+        inverse=SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
+        two_level=two_level,
+        few=FEW if decay <= STEEP else int(FEW_STEEP * shape[0] * shape[1]),
+        periodic=periodic,
+        steepest=float(symbol.max()),
+        loops=loops,
+    )
+
+
+def prepare(
+    shape: Shape,
+    pixel_size: tuple[float, float],
+    make_symbol: SymbolMaker,
+    periodic: bool,
+    threads: int,
+    fast: bool | None,
+) -> tuple[list[Grid], float]:
+    """Grids from the finest to the coarsest, and the self influence of a finest pixel [m/Pa].
+
+    Parameters
+    ----------
+    shape, pixel_size : tuple
+        Pixels ``(ny, nx)`` and their sides ``(dy, dx)`` [m].
+    make_symbol : callable
+        ``make(shape, pixel_size)`` as in `convolution.symbol_of` [m/Pa].
+    periodic : bool
+        Whether the map repeats.
+    threads : int
+        Threads of transforms and loops; small grids take one.
+    fast : bool or None
+        Compiled loops and ducc0: insist, refuse, or take what is installed.
+    """
+    symbols = _Symbols(shape, pixel_size, make_symbol, periodic)
+    transforms = fast_transforms_installed() if fast is None else fast
+    one, many = compiled_loops(fast, 1), compiled_loops(fast, threads)
+    grids = [
+        _grid(
+            symbols, s, threads, transforms, many if min(s) >= LEAST_THREADED else one, s == shape
+        )
+        for s in nested_shapes(shape, pixel_size)
+    ]
+    return grids, symbols.unit
+
+
+def bytes_of(grids: list[Grid]) -> int:
+    """Memory that the grids hold."""
+    total = 0
+    for grid in grids:
+        convolutions = [grid.quick]
+        if grid.exact is not None:
+            convolutions.append(grid.exact)
+        else:
+            total += 2 * grid.pressure.nbytes
+        total += sum(c.nbytes for c in convolutions)
+        total += 0 if grid.patch is None else grid.patch.nbytes
+        total += grid.response.nbytes + grid.inverse.nbytes + grid.change.nbytes
+        total += 0 if grid.two_level is None else grid.two_level.nbytes
+    return total
