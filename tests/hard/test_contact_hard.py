@@ -310,7 +310,7 @@ def test_a_load_above_the_hardness_times_the_area_is_refused_before_any_work(mon
     def never(*_args, **_kwargs):
         raise AssertionError("work was done")
 
-    monkeypatch.setattr(engine, "Press", never)
+    monkeypatch.setattr(engine, "ContactSolver", never)
     monkeypatch.setattr(engine, "combined_heights", never)
     monkeypatch.setattr(realise, "realise", never)
     with pytest.raises(ck.InfeasibleError, match=r"load .* N reaches H\*A = .* N.*lower the load"):
