@@ -1,0 +1,132 @@
+"""Kernels replaced by ones that raise, and a pairwise choice of the cases to try them on."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import itertools
+import pkgutil
+import sys
+
+import attrs
+
+# The physics, and the solvers and integrators; the tools of `numerics` are anybody's.
+ROOMS = (
+    "adhesion",
+    "as_published.printed",
+    "capillary",
+    "contact.effects.hardness_rules",
+    "contact.solver",
+    "elasticity",
+    "lubrication",
+    "roughness",
+    "separation.integrator",
+)
+
+
+class PoisonError(Exception):
+    """A kernel was called that no effect of the scene owns."""
+
+
+@functools.cache
+def kernels():
+    """Public functions of the rooms, by room, module and name."""
+    found = {}
+    for room in ROOMS:
+        package = importlib.import_module(f"contactkit.{room}")
+        paths = getattr(package, "__path__", None)
+        inside = pkgutil.walk_packages(paths, f"contactkit.{room}.") if paths else ()
+        for name in [package.__name__, *(info.name for info in inside)]:
+            module = importlib.import_module(name)
+            for public in getattr(module, "__all__", ()):
+                value = getattr(module, public)
+                is_own = getattr(value, "__module__", "") == name
+                if callable(value) and not isinstance(value, type) and is_own:
+                    found[f"{name.removeprefix('contactkit.')}.{public}"] = value
+    return found
+
+
+def matches(name, patterns):
+    """Whether a name is among the patterns, in which `*` stands for the rest of a name."""
+    return any(
+        name.startswith(p.removesuffix("*")) if p.endswith("*") else name == p for p in patterns
+    )
+
+
+def poison(monkeypatch, names):
+    """Replace kernels by ones that raise, wherever they have been imported to."""
+    poisoned = {id(kernels()[name]): _raising(name) for name in names}
+    for module in [m for name, m in sys.modules.items() if name.startswith("contactkit") and m]:
+        for attribute, value in list(vars(module).items()):
+            if id(value) in poisoned:
+                monkeypatch.setattr(module, attribute, poisoned[id(value)])
+
+
+def poison_all_but(monkeypatch, patterns):
+    """Replace every kernel that matches none of the patterns."""
+    poison(monkeypatch, [name for name in kernels() if not matches(name, patterns)])
+
+
+def _raising(name):
+    @functools.wraps(kernels()[name])
+    def raises(*_args, **_kwargs):
+        raise PoisonError(name)
+
+    return raises
+
+
+def survives(monkeypatch, name, run):
+    """Whether a run reaches its end without one kernel: the negative control of the poison."""
+    with monkeypatch.context() as patched:
+        poison(patched, [name])
+        try:
+            run()
+        except PoisonError as error:
+            return str(error) != name
+        return True
+
+
+def unknown(patterns):
+    """Patterns that match no kernel."""
+    return [p for p in sorted(patterns) if not any(matches(name, {p}) for name in kernels())]
+
+
+def product_of(factors):
+    """Every choice of one level per factor, as a dictionary."""
+    for levels in itertools.product(*factors.values()):
+        yield dict(zip(factors, levels, strict=True))
+
+
+def pairwise(cases):
+    """A few of the cases (dictionaries) that hold every pair of levels any of them holds.
+
+    Greedy, in the order of the cases: the next is the first of those with most pairs not yet held.
+    An absent effect is a level too, so that each effect runs at least once without each other one.
+    """
+    pairs = [{frozenset(pair) for pair in itertools.combinations(c.items(), 2)} for c in cases]
+    missing, chosen = set().union(*pairs), []
+    while missing:
+        best = max(range(len(cases)), key=lambda i: len(pairs[i] & missing))
+        missing -= pairs[best]
+        chosen.append(cases[best])
+    return chosen
+
+
+def by_kind(effects):
+    """Factors of a product of effects: each kind absent, or in one of its choices."""
+    grouped = itertools.groupby(effects, type)
+    return {kind.name: [None, *choices] for kind, choices in grouped}
+
+
+def label(value):
+    """Name of a case in the list of tests."""
+    if isinstance(value, str):
+        return value
+    return "+".join("-".join(str(part) for part in (e.name, *_choices(e))) for e in value)
+
+
+def _choices(effect):
+    for attribute in attrs.fields(type(effect)):
+        value = getattr(effect, attribute.name)
+        if value != attribute.default:
+            yield value

@@ -1,0 +1,216 @@
+"""Only the effects a contact calls for: every kernel they do not own raises, and it is solved."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.fft
+from poison import by_kind, label, pairwise, poison_all_but, product_of, survives, unknown
+
+import contactkit as ck
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.contact.solve import solve
+
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
+# What each effect may call. `*` stands for the rest of a name.
+LAYERS = {"elasticity.layered.*", "elasticity.layer_recursion.*", "elasticity.layer_stack.*"}
+FIELDS = {"elasticity.stress.periodic.*", "elasticity.stress.isolated.*", *LAYERS}
+FILM = "capillary.film_islands.*"
+OWNED = {
+    ck.HalfSpace(): set(),  # by the edges of the window, below
+    ck.LayeredHalfSpace(): set(),
+    ck.HardnessLimit(): {"contact.effects.hardness_rules.effective_hardness"},
+    ck.HardnessLimit(rule="literal"): {
+        "contact.effects.hardness_rules.effective_hardness_literal",
+        "contact.effects.hardness_rules.layer_on_substrate",
+    },
+    ck.HardnessLimit(rule="material"): set(),
+    ck.HardnessLimit(rule="constant", hardness=1e9): set(),
+    ck.FrictionTraction(coefficient=0.2): set(),
+    ck.FrictionCoupling(): {
+        "elasticity.stress.planes.normal_displacement_of_traction",
+        *FIELDS,
+    },
+    ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
+        "elasticity.stress.planes.planes",
+        "elasticity.stress.maxima.*",
+        "elasticity.stress.measures.*",
+        "elasticity.layered_fields.*",
+        "elasticity.depths.*",
+        *FIELDS,
+    },
+    ck.FilmMeniscus(film_thickness=1e-9): {FILM},
+    ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True): {FILM},
+    ck.IslandBridges(film_thickness=1e-9): {
+        FILM,
+        "capillary.island_bridges.*",
+        "capillary.exact.*",
+        "capillary.arc.*",
+    },
+}
+
+# What is not an effect's: the compliance by the edges of the window, the heights, the solver.
+EDGES = {
+    "periodic": LAYERS,
+    "isolated": {
+        "elasticity.influence.*",
+        "elasticity.love.*",
+        "elasticity.point_load.*",
+        *LAYERS,
+    },
+}
+SHAPES = {
+    "heights": set(),
+    "paraboloid": {"roughness.elementary.paraboloid"},
+    "sphere": {"roughness.elementary.sphere"},
+    "wave": {"roughness.elementary.wave"},
+    "gaussian": {"roughness.roughness.gaussian_exponential", "roughness.random_fields.*"},
+    "self-affine": {"roughness.roughness.self_affine", "roughness.random_fields.*"},
+}
+SOLVER = {"contact.solver.*"}
+WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07)
+HARD = ck.Material(young_modulus=3e9, poisson_ratio=0.2, hardness=1e8)
+SOFT = ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=5e7)
+LAYERED = ck.Stack(layers=(ck.Layer(material=HARD, thickness=5e-9),), substrate=SOFT)
+SURFACES = {
+    "heights": ck.Heights(
+        heights=1e-9 * np.random.default_rng(0).normal(size=(16, 12)), pixel_size=2e-8
+    ),
+    "paraboloid": ck.Paraboloid(radius=1e-5),
+    "sphere": ck.Sphere(radius=1e-5),
+    "wave": ck.Wave(amplitude=1e-9, wavelength=2e-7),
+    "gaussian": ck.GaussianRoughness(rms=1e-9, correlation_length=1e-7, cutoff=6e-8),
+    "self-affine": ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=2e-7, cutoff=6e-8),
+}
+
+
+def press(effects, edges, shape="heights"):
+    is_layered = any(isinstance(effect, ck.LayeredHalfSpace) for effect in effects)
+    known = shape == "heights"
+    scene = ck.ContactScene(
+        interface=ck.ContactInterface(
+            lower=ck.Body(solid=LAYERED if is_layered else SOFT),
+            upper=ck.Body(surface=SURFACES[shape]),
+            meniscus=ck.Meniscus(liquid=WATER),
+        ),
+        window=ck.Window(width=None if known else 4e-7, periodic=edges == "periodic"),
+        pressing=ck.Pressing(pressure=1e6),
+        effects=effects,
+    )
+    return solve(ck.plan(scene, ck.Accuracy(grid=None if known else 16)))
+
+
+def cases():
+    """Each effect alone on each solid and window, and each pair."""
+    laws = [e for e in OWNED if isinstance(e, ck.HalfSpace | ck.LayeredHalfSpace)]
+    others = by_kind(effect for effect in OWNED if effect not in laws)
+    found = []
+    for case in product_of({"law": laws, "edges": EDGES, **others}):
+        kinds = {type(level) for level in case.values()}
+        if ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds:
+            found.append(case)
+    wanted = pairwise(found)
+    for case in found:
+        chosen = tuple(case[name] for name in others if case[name] is not None)
+        if len(chosen) <= 1 or case in wanted:
+            yield (case["law"], *chosen), case["edges"]
+
+
+CASES = list(cases())
+
+
+def allowed(effects, edges, shape="heights"):
+    owned = set().union(*(OWNED[effect] for effect in effects))
+    return owned | SOLVER | EDGES[edges] | SHAPES[shape]
+
+
+@pytest.mark.parametrize(("effects", "edges"), CASES, ids=label)
+def test_a_contact_runs_with_every_other_kernel_poisoned(monkeypatch, effects, edges):
+    poison_all_but(monkeypatch, allowed(effects, edges))
+    assert press(effects, edges).status == "converged"
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_surface_calls_its_own_recipe_only(monkeypatch, shape):
+    effects = (ck.LayeredHalfSpace(),)
+    poison_all_but(monkeypatch, allowed(effects, "periodic", shape))
+    assert press(effects, "periodic", shape).status == "converged"
+
+
+HEARTS = [
+    ((), "periodic", "elasticity.layered.normal_symbol"),
+    ((), "isolated", "elasticity.influence.symbol"),
+    ((ck.HardnessLimit(),), "periodic", "contact.effects.hardness_rules.effective_hardness"),
+    (
+        (ck.HardnessLimit(rule="literal"),),
+        "periodic",
+        "contact.effects.hardness_rules.effective_hardness_literal",
+    ),
+    (
+        (ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),
+        "periodic",
+        "elasticity.stress.planes.normal_displacement_of_traction",
+    ),
+    ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.planes.planes"),
+    ((ck.FilmMeniscus(film_thickness=1e-9),), "periodic", "capillary.film_islands.meniscus_area"),
+]
+
+
+def test_without_its_own_kernel_no_contact_is_solved(monkeypatch):
+    """The negative control."""
+    layered = ck.LayeredHalfSpace()
+    immune = [
+        heart
+        for effects, edges, heart in HEARTS
+        if survives(monkeypatch, heart, lambda e=effects, p=edges: press((layered, *e), p))
+    ]
+    assert immune == []
+
+
+def _counted(original, calls):
+    def counted(*args, **kwargs):
+        calls.append(original)
+        return original(*args, **kwargs)
+
+    return counted
+
+
+def transforms(monkeypatch, effects, edges="periodic"):
+    """Transforms of scipy that a contact takes; those by another library are never more."""
+    made = []
+    with monkeypatch.context() as patched:
+        for name in ("rfft", "fft", "ifft", "irfft", "rfft2", "irfft2", "rfftn", "irfftn"):
+            patched.setattr(scipy.fft, name, _counted(getattr(scipy.fft, name), made))
+        result = press((ck.LayeredHalfSpace(), *effects), edges)
+    return len(made), result.work.n_ffts
+
+
+@pytest.mark.parametrize("edges", EDGES, ids=label)
+def test_what_a_scene_does_not_call_for_is_not_transformed(monkeypatch, edges):
+    friction, none = ck.FrictionTraction(coefficient=0.2), ck.FrictionTraction(coefficient=0.0)
+    alone = transforms(monkeypatch, (), edges)
+    assert transforms(monkeypatch, (friction,), edges) == alone
+    assert transforms(monkeypatch, (ck.FilmMeniscus(film_thickness=1e-9),), edges) == alone
+    counts = [
+        transforms(monkeypatch, effects, edges)[0]
+        for effects in (
+            (ck.SubsurfaceStress(depths=(1e-8,)),),
+            (ck.SubsurfaceStress(depths=(1e-8,)), none),
+            (ck.SubsurfaceStress(depths=(1e-8,)), friction),
+            (ck.SubsurfaceStress(depths=(1e-8, 2e-8)), friction),
+        )
+    ]
+    assert alone[0] < counts[0] == counts[1] < counts[2] < counts[3]
+
+
+def test_every_effect_and_every_choice_is_poisoned():
+    """A new effect, or a new choice of one, needs its line in the table."""
+    assert {type(effect) for effect in OWNED} == set(CONTACT_EFFECTS)
+    assert {effect for case in CASES for effect in case[0]} == set(OWNED)
+    rules = {effect.rule for effect in OWNED if isinstance(effect, ck.HardnessLimit)}
+    assert rules == {"continuous", "literal", "material", "constant"}
+
+
+def test_the_table_names_kernels_that_exist():
+    assert unknown(set().union(SOLVER, *OWNED.values(), *SHAPES.values(), *EDGES.values())) == []
