@@ -7,6 +7,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 HEAVY = {"numpy", "scipy", "matplotlib", "fmpy", "pythonfmu", "numba", "cattrs", "tomli_w", "tqdm"}
 MOST_MODULES = 70  # of contactkit itself; attrs and the standard library add some 45
 
@@ -21,70 +23,61 @@ def python(code):
     return json.loads(done.stdout)
 
 
-LOADED = (
-    "import json, sys; before = set(sys.modules); {};"
-    "print(json.dumps(sorted(set(sys.modules) - before)))"
-)
+# What one interpreter imports, a step after the other: what a step brings is all up to there.
+STEPS = {
+    "contactkit": "import contactkit as ck",
+    "inside an FMU": """
+import contactkit.separation.plan, contactkit.separation.motion.advance
+import contactkit.separation.effects.registry, contactkit.liquids.liquid
+import contactkit.capillary.arc.flat, contactkit.lubrication.squeeze_film
+import contactkit.lubrication.film_limits, contactkit.separation.integrator.radau""",
+    "separation": "ck.simulate",
+    "contact": """
+ck.solve, ck.press, ck.load_scene, ck.study
+import contactkit.contact.result, contactkit.contact.grid""",
+    "all but plots": """
+ck.save_result
+import contactkit.files.contact_results, contactkit.work_precision, contactkit.cli""",
+}
 
 
-def loaded_by(statement):
-    return python(LOADED.format(statement))
+@pytest.fixture(scope="module")
+def brought():
+    """Modules that are there after each of the steps."""
+    code = "import json, sys; before, after = set(sys.modules), {}\n"
+    for name, step in STEPS.items():
+        code += f"{step}\nafter[{name!r}] = sorted(set(sys.modules) - before)\n"
+    return python(code + "print(json.dumps(after))")
 
 
 def roots(modules):
     return {name.split(".")[0] for name in modules}
 
 
-def test_importing_contactkit_imports_nothing_heavy():
-    assert roots(loaded_by("import contactkit")) & HEAVY == set()
-
-
-def test_importing_contactkit_stays_small():
-    modules = loaded_by("import contactkit")
+def test_importing_contactkit_stays_small(brought):
+    modules = brought["contactkit"]
+    assert roots(modules) & HEAVY == set()
     assert len([m for m in modules if m.startswith("contactkit")]) <= MOST_MODULES
     assert len(modules) <= 2 * MOST_MODULES
 
 
-def test_no_extra_is_brought_along_by_the_library():
-    """Neither by the import nor by a contact that runs without it."""
-    contact = (
-        "import contactkit as ck; ck.solve; ck.press; ck.load_scene; ck.study;"
-        "import contactkit.contact.result, contactkit.contact.grid"
-    )
-    extras = {"numba", "ducc0", "SurfaceTopography", "distributed"}
-    assert roots(loaded_by(contact)) & extras == set()
+def test_what_runs_inside_an_fmu_needs_no_numpy(brought):
+    assert roots(brought["inside an FMU"]) & HEAVY == set()
 
 
-def test_the_control_sees_what_is_heavy():
+def test_the_control_sees_what_is_heavy(brought):
     """`simulate` needs numpy: if this finds none, the tests above prove nothing."""
-    assert "numpy" in roots(loaded_by("import contactkit; contactkit.simulate"))
-    assert "numpy" in roots(loaded_by("import contactkit; contactkit.solve"))
+    assert "numpy" in roots(brought["separation"])
 
 
-INSIDE_AN_FMU = (
-    "contactkit.separation.plan",
-    "contactkit.separation.motion.advance",
-    "contactkit.separation.effects.registry",
-    "contactkit.liquids.liquid",
-    "contactkit.capillary.arc.flat",
-    "contactkit.lubrication.squeeze_film",
-    "contactkit.lubrication.film_limits",
-    "contactkit.separation.integrator.radau",
-)
+def test_no_extra_is_brought_along_by_the_library(brought):
+    """Neither by the import nor by a contact that runs without it."""
+    extras = {"numba", "ducc0", "SurfaceTopography", "distributed"}
+    assert roots(brought["contact"]) & extras == set()
 
 
-def test_what_runs_inside_an_fmu_needs_no_numpy():
-    assert roots(loaded_by(f"import {', '.join(INSIDE_AN_FMU)}")) & HEAVY == set()
-
-
-def test_only_plot_brings_matplotlib():
-    without = loaded_by(
-        "import contactkit; contactkit.simulate; contactkit.load_scene; contactkit.save_result;"
-        "contactkit.solve; contactkit.press; contactkit.study;"
-        "import contactkit.files.contact_results;"
-        "import contactkit.work_precision, contactkit.cli"
-    )
-    assert "matplotlib" not in roots(without)
+def test_only_plot_brings_matplotlib(brought):
+    assert "matplotlib" not in roots(brought["all but plots"])
 
 
 WITHOUT_NUMPY = """
