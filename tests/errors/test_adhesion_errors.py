@@ -7,6 +7,7 @@ import re
 
 import attrs
 import pytest
+from refusals import says
 
 import contactkit as ck
 from contactkit.app.scenes import mass_values
@@ -29,10 +30,6 @@ def scene(*effects, upper=None, opening=OPENING, liquid=WATER, **film):
         opening=opening,
         effects=effects,
     )
-
-
-def says(*parts):
-    return "(?s)" + ".*".join(re.escape(part) for part in parts)
 
 
 @pytest.mark.parametrize("model", ["jkr", "dmt", "maugis-dugdale"])

@@ -1,0 +1,67 @@
+"""What a refusal says, and every impossible number of a class that is not refused as it should."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import attrs
+import pytest
+
+from contactkit.errors import DescriptionError
+
+# What no field takes for a number.
+NEVER = (math.nan, math.inf, -math.inf, True, "1 um", (1.0,))
+POSITIVE, NON_NEGATIVE = "be positive and finite", "be zero or positive, and finite"
+FINITE, BETWEEN = "be a finite number", "lie between 0 and 1"
+WHOLE, ANGLE = "be a whole number of at least 1", "lie between 0 and pi"
+
+
+def says(*parts):
+    """Match one message with all `parts` in this order."""
+    return "(?s)" + ".*".join(map(re.escape, parts))
+
+
+def refuses(call, *parts, error=DescriptionError):
+    """Check that `call` raises one sentence with all `parts` in this order."""
+    with pytest.raises(error, match=says(*parts)):
+        call()
+
+
+def told(noun, field, value):
+    """Return what an object says when it is to be rebuilt with a value: nothing if it takes it."""
+    try:
+        attrs.evolve(noun, **{field: value})
+    except DescriptionError as error:
+        return str(error)
+    return ""
+
+
+def misfits(rows):
+    """Return the impossible values that are taken, or refused in other words, by field.
+
+    A row is an object, one of its fields, the unit, what the message expects, and values that are
+    impossible beside those of `NEVER`.
+    """
+    found = {}
+    for noun, field, unit, expected, values in rows:
+        name, bracket = f"{type(noun).__name__}.{field}", f" [{unit}]" if unit else ""
+        for value in (*values, *NEVER):
+            message = f"{name} must {expected}{bracket}, got {value!r}"
+            if message not in told(noun, field, value):
+                found.setdefault(name, []).append((value, told(noun, field, value)))
+    return found
+
+
+def numbers_of(kinds):
+    """Fields of classes that carry a unit, by class and name."""
+    return {(kind.__name__, a.name) for kind in kinds for a in attrs.fields(kind) if _has_unit(a)}
+
+
+def _has_unit(field):
+    return "unit" in field.metadata
+
+
+def named(rows):
+    """The same of the rows of a table."""
+    return {(type(row[0]).__name__, row[1]) for row in rows}
