@@ -254,8 +254,11 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
         first = acting(low)
         if first is acting(high):
             continue
-        near = 1e-9 * (high - low)
-        found.append(first_true(lambda t, was=first: acting(t) is not was, low, high, atol=near))
+
+        def changed(time: float, was: type[SeparationEffect] | None = first) -> bool:
+            return acting(time) is not was
+
+        found.append(first_true(changed, low, high, atol=1e-9 * (high - low)))
     return found
 
 

@@ -30,7 +30,8 @@ _NEAR = 1e-4  # panel over gap at the end of the film
 _NEAR_ONSET = 1e-4  # of a panel, to the onset of a limit: the force is smooth to first order there
 _GAUSS = tuple(zip(*gauss_legendre(3), strict=True))
 # The ends of Lobatto's rule are those of the panels next to it, and known there.
-(_, _EDGE), *_LOBATTO, _ = zip(*LOBATTO_5, strict=True)
+_LOBATTO = tuple(zip(*LOBATTO_5, strict=True))[1:-1]
+_EDGE = LOBATTO_5[1][0]
 
 
 class Travel(NamedTuple):
@@ -146,6 +147,10 @@ def _pieces(
             yield start, stop, before is not None
             continue
         near = _NEAR_ONSET * abs(stop - start)
-        onset = first_true(lambda gap, was=before: acts(gap) is not was, start, stop, atol=near)
+
+        def changed(gap: float, was: type | None = before) -> bool:
+            return acts(gap) is not was
+
+        onset = first_true(changed, start, stop, atol=near)
         yield start, onset, before is not None
         yield onset, stop, after is not None
