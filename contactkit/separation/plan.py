@@ -35,25 +35,27 @@ class Plan:
     _films: dict[float, Film] = field(factory=dict, repr=False)
     _left: dict[tuple[float, bool, bool], Film | None] = field(factory=dict, repr=False)
 
-    def film_with(self, share: float) -> Film:
-        """Return the film with a share of the volume the scene gives."""
-        if share == 1.0 or self.scene.interface.meniscus.volume is None:
+    def film_with(self, volume_fraction: float) -> Film:
+        """Return the film with a fraction of the volume the scene gives."""
+        if volume_fraction == 1.0 or self.scene.interface.meniscus.volume is None:
             return self.film
-        if share not in self._films:
+        if volume_fraction not in self._films:
             meniscus = self.scene.interface.meniscus
             assert meniscus.volume is not None
-            less = evolve(meniscus, volume=share * meniscus.volume)
+            less = evolve(meniscus, volume=volume_fraction * meniscus.volume)
             interface = evolve(self.scene.interface, meniscus=less)
-            self._films[share] = _prepare(evolve(self.scene, interface=interface), self.accuracy)
-        return self._films[share]
+            self._films[volume_fraction] = _prepare(
+                evolve(self.scene, interface=interface), self.accuracy
+            )
+        return self._films[volume_fraction]
 
-    def film_left(self, share: float, *, broken: bool, detached: bool) -> Film | None:
+    def film_left(self, volume_fraction: float, *, broken: bool, detached: bool) -> Film | None:
         """Return what acts in a state: all, or what a broken film and parted solids leave."""
         if not broken and not detached:
-            return self.film_with(share)
-        key = share, broken, detached
+            return self.film_with(volume_fraction)
+        key = volume_fraction, broken, detached
         if key not in self._left:
-            self._left[key] = self.film_with(share).left(broken=broken, detached=detached)
+            self._left[key] = self.film_with(volume_fraction).left(broken=broken, detached=detached)
         return self._left[key]
 
     def has(self, kind: type[SeparationEffect]) -> bool:

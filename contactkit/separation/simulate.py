@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["advance", "simulate"]
 
 Progress = Callable[[float], None]
-"""Called now and then with the share of the run that is done, 0 to 1."""
+"""Called now and then with the fraction of the run that is done, 0 to 1."""
 
 
 @overload
@@ -55,7 +55,7 @@ def simulate(
         Raise where an integration does not reach its tolerance; otherwise return what was
         reached, with status ``not converged``.
     progress : callable, optional
-        Called with the share that is done.
+        Called with the fraction that is done.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) ->
             problem = str(error)
             break
         if progress is not None and len(states) % 64 == 0:
-            progress(_share(plan, states[-1]))
+            progress(_progress(plan, states[-1]))
     result = _motion_result(plan, states, pull, begun, problem)
     if problem is not None and throw:
         raise ConvergenceError(problem, result)
@@ -125,10 +125,10 @@ def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) ->
     return internal_step(plan, state, pull, plan.scene.opening.time_limit)
 
 
-def _share(plan: Plan, state: MotionState) -> float:
+def _progress(plan: Plan, state: MotionState) -> float:
     opening = plan.scene.opening
-    share = math.log(max(state.gap / opening.initial_gap, 1.0))
-    return min(share / math.log(opening.final_gap / opening.initial_gap), 1.0)
+    opened = math.log(max(state.gap / opening.initial_gap, 1.0))
+    return min(opened / math.log(opening.final_gap / opening.initial_gap), 1.0)
 
 
 def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:

@@ -160,7 +160,7 @@ class _Memory(NamedTuple):
     gap: float
     damping: float
     static: float
-    share: float = 1.0
+    volume_fraction: float = 1.0
     broken: bool = False
 
 
@@ -268,22 +268,22 @@ class StictionForce(PortSlave):
 
     def _film(self) -> Film | None:
         memory = self.memory
-        return self.plan.film_left(memory.share, broken=memory.broken, detached=False)
+        return self.plan.film_left(memory.volume_fraction, broken=memory.broken, detached=False)
 
     def _remember(self, film: Film | None, time: float, step: float, done: Travel) -> _Memory:
         values = self.values
-        gap, broken, share = values["h"], self.memory.broken, self.memory.share
+        gap, broken, fraction = values["h"], self.memory.broken, self.memory.volume_fraction
         if film is not None and gap >= film.end * (1.0 - _SAME):
             broken = True
             values["t_break"], values["n_break"] = time + done.broken * step, values["n_break"] + 1
         elif broken and gap <= values["h0"] * (1.0 + _SAME) and values["rewet"] > 0.0:
-            share = values["rewet"]
-            broken = self.plan.film_with(share).end <= gap
+            fraction = values["rewet"]
+            broken = self.plan.film_with(fraction).end <= gap
         if broken:
-            return _Memory(gap, 0.0, 0.0, share, True)
-        now = self.plan.film_with(share)
+            return _Memory(gap, 0.0, 0.0, fraction, True)
+        now = self.plan.film_with(fraction)
         static = done.last if now is film else now.static_force(gap)
-        return _Memory(gap, now.damping(gap), static, share, False)
+        return _Memory(gap, now.damping(gap), static, fraction, False)
 
     def _doubt(self, step: float, damping: float) -> None:
         """Compare the force at the end with that on the way, and the step with m/c."""
