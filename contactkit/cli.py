@@ -207,7 +207,7 @@ def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
 
 def _drive_start(what: str) -> Mapping[str, Any]:
     """Start values of the drive of a scene; none of one that is named itself."""
-    from .app.injector.run import drive_values
+    from .app.run.injector.cosimulation import drive_start
     from .errors import PlanError
     from .fmu.python.build import FMUS
 
@@ -216,7 +216,7 @@ def _drive_start(what: str) -> Mapping[str, Any]:
     valve = None if what in FMUS else getattr(getattr(_load(what), "scene", None), "valve", None)
     if valve is None:
         raise PlanError(f"{what} has no valve, of which a valve-drive could be made")
-    return drive_values(valve)
+    return drive_start(valve)
 
 
 def _check_build(parsed: argparse.Namespace) -> None:
@@ -247,7 +247,7 @@ def _check_build(parsed: argparse.Namespace) -> None:
 
 
 def _system(parsed: argparse.Namespace) -> None:
-    from .app.fmu_system import write_system
+    from .app.system import write_system
 
     out = parsed.out or Path(f"{Path(parsed.scene).stem}.ssp")
     path = write_system(parsed.scene, out, native=parsed.native)
@@ -256,7 +256,7 @@ def _system(parsed: argparse.Namespace) -> None:
 
 
 def _crosscheck(parsed: argparse.Namespace) -> None:
-    from .app.fmu_crosscheck import write_crosscheck
+    from .app.crosscheck import write_crosscheck
 
     paths = write_crosscheck(parsed.out, fmus=not parsed.no_fmu)
     print("written: " + ", ".join(str(path) for path in paths))

@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.app.bridges.errors import BandError, flat_errors, sphere_errors
+from contactkit.app.run.bridges import BandError, flat_errors, sphere_errors
 from contactkit.as_published.lookup import TABLE_4_1
 from contactkit.capillary.arc import sphere as arc_sphere
 

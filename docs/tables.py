@@ -30,7 +30,6 @@ from validation_tables import (
 )
 
 import contactkit as ck
-from contactkit.app.injector.run import Study
 from contactkit.contact.effects.base import (
     Compliance,
     DisplacementTerm,
@@ -49,6 +48,7 @@ from contactkit.fmu.slaves.valve_drive import ValveDrive
 from contactkit.liquids.liquid import LAWS
 from contactkit.models.end_stop.faces import StopFaces
 from contactkit.models.injector.coil import Coil
+from contactkit.models.injector.scene import Study
 from contactkit.models.injector.valve import DriveProfile, Spring, Stop
 from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform

@@ -17,8 +17,8 @@ import fmpy
 from fmpy.fmi2 import FMU2Slave
 
 import contactkit as ck
-from contactkit.app.scenes import mass_values
 from contactkit.fmu.python.build import build
+from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.plot import separation as plot
 
 STOP, STEPS, RISE, PULL = 1.2e-3, 600, 0.2e-3, 40.0  # [s], [-], [s], [N]

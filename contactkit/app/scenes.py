@@ -1,45 +1,55 @@
-"""Opening a scene by file or by name, and running it: plain separations and devices alike."""
+"""Opening a scene by file or by name, and what the command line does with each kind."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
-from attrs import frozen
+from attrs import field, frozen
 
+from ..accuracy import Accuracy
 from ..errors import DescriptionError, PlanError
-from ..files.scenes import nearest, read_tables, scene_kind, structure, without_humidity
+from ..files.scenes import (
+    nearest,
+    read_contact,
+    read_tables,
+    scene_kind,
+    structure,
+    without_humidity,
+)
 from ..models.end_stop.faces import beside
+from ..models.injector.scene import InjectorScene
 from ..models.library import bundled_scene
+from ..models.liquid_bridges.scene import Bridges
+from ..models.micromirror.scene import MicromirrorScene, tip_values
 from ..scene.contact_scene import ContactScene
 from ..scene.scenes import SeparationScene, SlidingScene
-from ..separation.plan import Plan, plan
 from .report import Report
 
-if TYPE_CHECKING:
-    from ..separation.results import SeparationResult
-
-__all__ = ["Report", "Runnable", "open_scene"]
+__all__ = [
+    "OpenedBridges",
+    "OpenedContact",
+    "OpenedInjector",
+    "OpenedMicromirror",
+    "OpenedScene",
+    "OpenedSeparation",
+    "OpenedSliding",
+    "open_scene",
+]
 
 Progress = Callable[[float], None]
 
-DEVICES = {
-    "fuel-injector": "injector.run",
-    "micromirror": "micromirror.run",
-    "bridges": "bridges.run",
-}
-"""Modules of this package that run a scene with a ``device`` key."""
 
-
-class Runnable(Protocol):
-    """What the command line asks of a scene."""
+class OpenedScene(Protocol):
+    """What the command line does with a scene."""
 
     @property
     def name(self) -> str:
         """Title of the scene."""
+
+    def plan_text(self) -> str:
+        """Say what will be simulated, what will not, and by which sources."""
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """Simulate, and write curves and figures to a folder."""
@@ -47,14 +57,11 @@ class Runnable(Protocol):
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """Show what accuracy costs in time."""
 
-    def plan_text(self) -> str:
-        """Say what will be simulated, what will not, and by which sources."""
-
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
         """Name of the FMU that holds this scene, and the start values to bake in."""
 
 
-def open_scene(name: str) -> Runnable:
+def open_scene(name: str) -> OpenedScene:
     """Open a scene file, or a scene of this package by its name, such as ``fuel-injector``.
 
     Raises
@@ -67,179 +74,251 @@ def open_scene(name: str) -> Runnable:
         path = bundled_scene(name)
     tables = read_tables(path)
     device = tables.pop("device", None)
-    if device is None:
-        tables = dict(without_humidity(tables, path.name))
-    if device is None and scene_kind(tables) is ContactScene:
-        from .contact import open_contact
+    if device is not None:
+        return _open_device(device, beside(tables, path.parent), path.name)
+    tables = dict(without_humidity(tables, path.name))
+    kind = scene_kind(tables)
+    if kind is ContactScene:
+        return OpenedContact(*read_contact(tables, path.name))
+    if kind is SlidingScene:
+        return OpenedSliding(structure(tables, SlidingScene, path.name))
+    return OpenedSeparation(structure(tables, SeparationScene, path.name))
 
-        return open_contact(tables, path.name)
-    if device is None and scene_kind(tables) is SlidingScene:
-        from .sliding import PlainSliding
 
-        return PlainSliding(structure(tables, SlidingScene, path.name))
-    if device is None:
-        return PlainScene(structure(tables, SeparationScene, path.name))
-    if device not in DEVICES:
-        hint = nearest(device, sorted(DEVICES))
-        raise DescriptionError(f"{path.name}, device", device, "be a known device", hint=hint)
-    module = import_module(f".{DEVICES[device]}", __package__)
-    opened: Runnable = module.open_device(beside(tables, path.parent), path.name)
-    return opened
+def _open_device(device: object, tables: Mapping[str, Any], origin: str) -> OpenedScene:
+    """Open the tables of a file with a ``device`` key."""
+    if device == "fuel-injector":
+        return OpenedInjector(structure(tables, InjectorScene, origin))
+    if device == "micromirror":
+        return OpenedMicromirror(structure(tables, MicromirrorScene, origin))
+    if device == "bridges":
+        return OpenedBridges(structure(tables, Bridges, origin))
+    hint = nearest(device, ["bridges", "fuel-injector", "micromirror"])
+    raise DescriptionError(f"{origin}, device", device, "be a known device", hint=hint)
+
+
+def _with_sources(made: Any) -> str:
+    """Text of a plan, and its sources."""
+    return f"{made}\nsources:\n" + "\n".join(f"  {line}" for line in made.cite().splitlines())
 
 
 @frozen
-class PlainScene:
-    """A separation scene as the command line runs it."""
+class OpenedSeparation:
+    """A separation scene on the command line."""
 
     scene: SeparationScene
 
     @property
     def name(self) -> str:
-        """Title of the scene."""
+        """See `OpenedScene.name`."""
         return self.scene.name or "separation"
 
     def plan_text(self) -> str:
-        """See `Runnable.plan_text`."""
-        made = plan(self.scene)
-        return f"{made}\nsources:\n" + "\n".join(f"  {line}" for line in made.cite().splitlines())
+        """See `OpenedScene.plan_text`."""
+        from ..separation.plan import plan
+
+        return _with_sources(plan(self.scene))
 
     def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `Runnable.run`."""
-        import warnings
+        """See `OpenedScene.run`."""
+        from .run.separation import run_separation
 
-        from ..errors import ValidityWarning
-        from ..separation.simulate import simulate
-
-        made = plan(self.scene)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
-            result = simulate(made, progress=progress)
-        scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
-        files = _write(result, out) if out is not None else ()
-        return Report(scalars, _text(made, result), files)
+        return run_separation(self.scene, out, progress)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `Runnable.cost`."""
-        from .cost.separation import cost_report, separation_sweep
+        """See `OpenedScene.cost`."""
+        from .cost.report import cost_report
+        from .cost.separation import separation_sweep
 
         return cost_report(separation_sweep(self.scene, progress), out, error, self.name)
 
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
-        """See `Runnable.fmu_start`."""
+        """See `OpenedScene.fmu_start`."""
+        from ..fmu.slaves.stiction_mass import mass_values
+
         return "stiction-mass", mass_values(self.scene)
 
 
-def _text(made: Plan, result: SeparationResult) -> str:
-    width = max(len(name) for name in result.scalars())
-    numbers = [f"  {n:{width}s}  {v:.6g} {u}" for n, (v, u) in result.scalars().items()]
-    validity = [f"  {number}" for number in result.validity]
-    errata = [f"  {line}" for one in result.errata for line in str(one).splitlines()]
-    if errata:
-        errata = ["errata of what is taken as printed, at the start:", *errata]
-    work = result.work
-    cost = f"{work.n_steps} steps, {work.n_evaluations} force evaluations, {work.seconds:.3f} s"
-    lines = [str(made), result.message, *numbers, "validity:", *validity, *errata, cost]
-    return "\n".join(lines)
+@frozen
+class OpenedContact:
+    """A contact scene on the command line, with the tables ``accuracy`` and ``study`` of its file.
 
-
-def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
-    from ..files.results import save_csv, save_result
-    from ..plot import separation as plot
-    from ..separation.results import COLUMNS
-
-    headings = {c.name: f"{c.name} [{c.unit}]" for c in COLUMNS}
-    files = [
-        save_result(result, out / "result"),
-        save_csv(out / "result", result.columns, headings),
-    ]
-    if {"viscous_force", *result.plan.film.static_columns} & result.columns.keys():
-        made, ax = plot.figure()
-        plot.forces(result, ax)
-        plot.title(ax, result.plan.scene.name)
-        files.append(plot.save(made, out / "forces"))
-    if "mean_pull" in result.columns:
-        made, ax = plot.figure()
-        plot.cycles(result, ax)
-        plot.title(ax, result.plan.scene.name)
-        files.append(plot.save(made, out / "cycles"))
-    if result.state is not None:
-        made, ax = plot.figure()
-        plot.motion(result, ax)
-        plot.title(ax, result.plan.scene.name)
-        files.append(plot.save(made, out / "motion"))
-    return tuple(files)
-
-
-def mass_values(scene: SeparationScene) -> dict[str, Any]:
-    """Parameters of the FMU ``stiction-mass`` for a scene.
-
-    Raises
-    ------
-    PlanError
-        If the FMU cannot represent the scene; says what stands against it.
+    `vary` holds the values of the study by the path of what is varied.
     """
-    from ..separation.effects.base import SeparationForce
-    from ..separation.effects.registry import (
-        MeniscusForce,
-        Rupture,
-        ShearLimit,
-        TensionLimit,
-        ViscousForce,
-    )
 
-    interface, opening, meniscus = scene.interface, scene.opening, scene.interface.meniscus
-    liquid = meniscus.liquid.at(scene.temperature)
-    viscous, film = scene.effect(ViscousForce), scene.effect(MeniscusForce)
-    tension, shear, rupture = (
-        scene.effect(TensionLimit),
-        scene.effect(ShearLimit),
-        scene.effect(Rupture),
-    )
-    against = [
-        reason
-        for reason, holds in {
-            "two flats": interface.is_flat,
-            "a face with a radius [m]": math.isfinite(interface.rim_radius),
-            "opening.mass [kg]": opening.mass is not None,
-            "an opening without vibration": opening.vibration is None,
-            "no force of the solids": not any(
-                isinstance(e, SeparationForce) and not e.needs_film for e in scene.effects
-            ),
-            "ViscousForce() with closure='volume-conserving'": viscous is not None
-            and viscous.closure == "volume-conserving",
-            "TensionLimit with cavity='truncated'": tension is None
-            or tension.cavity == "truncated",
-            "Rupture with a gap [m]": rupture is None
-            or rupture.gap is not None
-            or (rupture.criterion == "limit" and film is not None and film.profile == "exact"),
-            "MeniscusForce(profile='as-published') with pulled='lower'": film is None
-            or film.profile != "as-published"
-            or film.pulled == "lower",
-        }.items()
-        if not holds
-    ]
-    if against:
-        cure = "change the scene, or add --native, which takes any scene with a mass"
-        raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {cure}")
-    laws = {"exact": "EXACT", "arc": "ARC", "as-published": "PUBLISHED"}
-    law = "NONE" if film is None else laws[film.profile]
-    return {
-        "m": opening.mass,
-        "h0": opening.initial_gap,
-        "v0": opening.initial_speed,
-        "k_s": opening.stiffness,
-        "h_rel": opening.final_gap,
-        "h_min": opening.rest_gap,
-        "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
-        "rewet": meniscus.rewetting,
-        "R": interface.rim_radius,
-        "eta": liquid.viscosity,
-        "gamma": liquid.surface_tension or 0.0,
-        "theta1": meniscus.contact_angle_lower,
-        "theta2": meniscus.contact_angle_upper,
-        "V": meniscus.volume or 0.0,
-        "N": meniscus.count,
-        "meniscus_law": law,
-        "dp_cav": tension.pressure_drop if tension is not None else 0.0,
-        "tau_lim": shear.strength if shear is not None else 0.0,
-    }
+    scene: ContactScene
+    accuracy: Accuracy = field(factory=Accuracy)
+    vary: Mapping[str, list[Any]] = field(factory=dict)
+
+    @property
+    def name(self) -> str:
+        """See `OpenedScene.name`."""
+        return self.scene.name or "contact"
+
+    def plan_text(self) -> str:
+        """See `OpenedScene.plan_text`."""
+        from ..planning import plan
+
+        return _with_sources(plan(self.scene, self.accuracy))
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `OpenedScene.run`."""
+        from .run.contact import run_contact
+
+        return run_contact(self.scene, self.accuracy, self.vary, out, progress)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `OpenedScene.cost`."""
+        from .cost.contact import contact_cost
+
+        return contact_cost(self.scene, self.accuracy, out, progress, error)
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `OpenedScene.fmu_start`."""
+        from ..analyses.load_displacement.solve import stop_curve
+
+        try:
+            return "contact-stop", {"curve": stop_curve(self.scene, accuracy=self.accuracy)}
+        except PlanError as error:
+            raise PlanError(
+                "of a contact scene the FMU contact-stop is built, whose tables are its stop "
+                f"curve, force and areas over the approach; {error}"
+            ) from error
+
+
+@frozen
+class OpenedSliding:
+    """A sliding scene on the command line."""
+
+    scene: SlidingScene
+
+    @property
+    def name(self) -> str:
+        """See `OpenedScene.name`."""
+        return self.scene.name or "sliding"
+
+    def plan_text(self) -> str:
+        """See `OpenedScene.plan_text`."""
+        from ..separation.sliding.plan import plan_sliding
+
+        return _with_sources(plan_sliding(self.scene))
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `OpenedScene.run`."""
+        from .run.sliding import run_sliding
+
+        return run_sliding(self.scene, out, progress)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `OpenedScene.cost`."""
+        raise PlanError("cost has nothing to weigh: a sliding is closed form or one quadrature")
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `OpenedScene.fmu_start`."""
+        raise PlanError("no FMU holds a sliding scene; an FMU needs a scene with an opening")
+
+
+@frozen
+class OpenedBridges:
+    """A comparison of closures of liquid bridges on the command line."""
+
+    scene: Bridges
+
+    @property
+    def name(self) -> str:
+        """See `OpenedScene.name`."""
+        return self.scene.name
+
+    def plan_text(self) -> str:
+        """See `OpenedScene.plan_text`."""
+        lines = [f"{self.name}: exact, arc, and as published (Eqs. (3.11), (3.12), zero neck)"]
+        lines += [f"  {case.label}" for case in self.scene.bridges]
+        lines.append("reference: Legendre's integrals; Orr, Scriven and Rivas 1975")
+        return "\n".join(lines)
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `OpenedScene.run`."""
+        from .run.bridges import run_bridges
+
+        return run_bridges(self.scene, out, progress)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `OpenedScene.cost`."""
+        from .cost.bridges import bridge_cost
+
+        return bridge_cost(self.scene, out, error, progress)
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `OpenedScene.fmu_start`."""
+        raise PlanError("bridges are compared, not moved: they have no FMU; a separation has one")
+
+
+@frozen
+class OpenedInjector:
+    """The fuel injector on the command line."""
+
+    scene: InjectorScene
+
+    @property
+    def name(self) -> str:
+        """See `OpenedScene.name`."""
+        return self.scene.name
+
+    def plan_text(self) -> str:
+        """See `OpenedScene.plan_text`."""
+        from .run.injector.report import plan_text
+
+        return plan_text(self.scene)
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `OpenedScene.run`."""
+        from .run.injector.report import run_injector
+
+        return run_injector(self.scene, out, progress)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `OpenedScene.cost`."""
+        from .cost.injector import injector_cost
+
+        return injector_cost(self.scene, out, progress, error)
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `OpenedScene.fmu_start`."""
+        from ..fmu.slaves.stiction_mass import mass_values
+
+        return "stiction-mass", mass_values(self.scene.separation(self.scene.temperature))
+
+
+@frozen
+class OpenedMicromirror:
+    """The digital micromirror on the command line."""
+
+    scene: MicromirrorScene
+
+    @property
+    def name(self) -> str:
+        """See `OpenedScene.name`."""
+        return self.scene.name
+
+    def plan_text(self) -> str:
+        """See `OpenedScene.plan_text`."""
+        from .run.micromirror.report import plan_text
+
+        return plan_text(self.scene)
+
+    def run(self, out: Path | None, progress: Progress) -> Report:
+        """See `OpenedScene.run`."""
+        from .run.micromirror.report import run_micromirror
+
+        return run_micromirror(self.scene, out, progress)
+
+    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
+        """See `OpenedScene.cost`."""
+        from .cost.micromirror import mirror_sweep
+        from .cost.report import cost_report
+
+        return cost_report(mirror_sweep(self.scene, progress), out, error, self.name)
+
+    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+        """See `OpenedScene.fmu_start`."""
+        return "tip-contact", tip_values(self.scene, self.scene.study.humidity)

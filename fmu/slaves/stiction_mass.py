@@ -13,11 +13,12 @@ from enum import IntEnum
 from typing import Any, ClassVar, Literal
 
 from ...accuracy import Accuracy
-from ...errors import DescriptionError
+from ...errors import DescriptionError, PlanError
 from ...liquids.liquid import Liquid
 from ...scene.interface import Interface, Meniscus, Opening
 from ...scene.scenes import SeparationScene
 from ...scene.shapes import Flat
+from ...separation.effects.base import SeparationForce
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -32,7 +33,7 @@ from ...separation.plan import Plan, plan
 from ..framework.ports import Port
 from ..framework.slave import PortSlave
 
-__all__ = ["MeniscusLaw", "StictionMass"]
+__all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
 
 
 class MeniscusLaw(IntEnum):
@@ -207,6 +208,72 @@ def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
     if values["h_break"] > 0.0:
         effects.append(Rupture(gap=values["h_break"]))
     return tuple(effects)
+
+
+def mass_values(scene: SeparationScene) -> dict[str, Any]:
+    """Parameters of the FMU ``stiction-mass`` for a scene.
+
+    Raises
+    ------
+    PlanError
+        If the FMU cannot represent the scene; says what stands against it.
+    """
+    interface, opening, meniscus = scene.interface, scene.opening, scene.interface.meniscus
+    liquid = meniscus.liquid.at(scene.temperature)
+    viscous, film = scene.effect(ViscousForce), scene.effect(MeniscusForce)
+    tension, shear, rupture = (
+        scene.effect(TensionLimit),
+        scene.effect(ShearLimit),
+        scene.effect(Rupture),
+    )
+    against = [
+        reason
+        for reason, holds in {
+            "two flats": interface.is_flat,
+            "a face with a radius [m]": math.isfinite(interface.rim_radius),
+            "opening.mass [kg]": opening.mass is not None,
+            "an opening without vibration": opening.vibration is None,
+            "no force of the solids": not any(
+                isinstance(e, SeparationForce) and not e.needs_film for e in scene.effects
+            ),
+            "ViscousForce() with closure='volume-conserving'": viscous is not None
+            and viscous.closure == "volume-conserving",
+            "TensionLimit with cavity='truncated'": tension is None
+            or tension.cavity == "truncated",
+            "Rupture with a gap [m]": rupture is None
+            or rupture.gap is not None
+            or (rupture.criterion == "limit" and film is not None and film.profile == "exact"),
+            "MeniscusForce(profile='as-published') with pulled='lower'": film is None
+            or film.profile != "as-published"
+            or film.pulled == "lower",
+        }.items()
+        if not holds
+    ]
+    if against:
+        cure = "change the scene, or add --native, which takes any scene with a mass"
+        raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {cure}")
+    laws = {"exact": "EXACT", "arc": "ARC", "as-published": "PUBLISHED"}
+    law = "NONE" if film is None else laws[film.profile]
+    return {
+        "m": opening.mass,
+        "h0": opening.initial_gap,
+        "v0": opening.initial_speed,
+        "k_s": opening.stiffness,
+        "h_rel": opening.final_gap,
+        "h_min": opening.rest_gap,
+        "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
+        "rewet": meniscus.rewetting,
+        "R": interface.rim_radius,
+        "eta": liquid.viscosity,
+        "gamma": liquid.surface_tension or 0.0,
+        "theta1": meniscus.contact_angle_lower,
+        "theta2": meniscus.contact_angle_upper,
+        "V": meniscus.volume or 0.0,
+        "N": meniscus.count,
+        "meniscus_law": law,
+        "dp_cav": tension.pressure_drop if tension is not None else 0.0,
+        "tau_lim": shear.strength if shear is not None else 0.0,
+    }
 
 
 class StictionMass(PortSlave):

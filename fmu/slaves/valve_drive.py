@@ -25,7 +25,7 @@ from ...models.injector import valve as law
 from ..framework.ports import Port, Value
 from ..framework.slave import PortSlave
 
-__all__ = ["ValveDrive", "check_drive"]
+__all__ = ["ValveDrive", "check_drive", "drive_values"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
@@ -376,6 +376,32 @@ def check_drive(values: Mapping[str, Value]) -> None:
             unit="m",
             hint="else the armature meets the poles before the spool meets the stop",
         )
+
+
+def drive_values(valve: law.Valve) -> dict[str, Any]:
+    """Parameters of the FMU ``valve-drive`` for a valve."""
+    coil, spring, stop, profile = valve.coil, valve.spring, valve.stop, valve.profile
+    return {
+        "R_coil": coil.resistance,
+        "N_turns": coil.turns,
+        "A_pole": coil.pole_area,
+        "g_air": coil.air_gap,
+        "g_iron": coil.iron_gap,
+        "B_sat": coil.saturation or 0.0,
+        "k_spring": spring.stiffness,
+        "F_preload": spring.preload,
+        "h_stop": stop.gap,
+        "k_stop": stop.stiffness,
+        "d_stop": stop.damping,
+        "t_delay": profile.start_delay,
+        "T_period": profile.period,
+        "t_on": profile.on_time,
+        "U_boost": profile.boost_voltage,
+        "t_boost": profile.boost_time,
+        "U_hold": profile.hold_voltage,
+        "U_off": profile.off_voltage,
+        "n_cycles": profile.cycles,
+    }
 
 
 def _valve(values: dict[str, float]) -> law.Valve:

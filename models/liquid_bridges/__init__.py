@@ -1,1 +1,4 @@
-"""The scene of the comparison of liquid bridges."""
+"""Liquid bridges whose closures are compared.
+
+scene  The file of a comparison of closures of liquid bridges.
+"""

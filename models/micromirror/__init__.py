@@ -5,8 +5,7 @@ electrostatics     Torque of a flat electrode on a tilting plate: closed forms t
 flight             A free spring tip about a root that is steadily accelerated: its swing, and where
 landing            How hard a spring tip lands on its site, and whether its apex bounces.
 mirror             A torsional micromirror: hinge, electrodes, spring tips that land, and its voltag
-monolithic         Mirror, tips and films solved as one system, by another method than their couplin
-monolithic_impact  Mirror and tips as one system where the sites give: blows as pieces of their own.
+monolithic         Monolithic model of mirror, tips and films.
 release            Whether a micromirror lets go: by the spring alone, or by the smallest reset puls
 scene              What the file of a micromirror says: one tip and its film, the mirror, what it is
 tip                One spring tip between a moving root and its landing site: a mass, a spring, a fi

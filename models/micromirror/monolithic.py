@@ -1,4 +1,4 @@
-r"""Mirror, tips and films solved as one system, by another method than their coupling.
+r"""Monolithic model of mirror, tips and films, by another method than their co-simulation.
 
 The tilt, its rate, and gap and speed of a tip on each side are the unknowns of one set of
 equations, those at the heads of `contactkit.models.micromirror.mirror` and
@@ -8,6 +8,9 @@ integrates from one event to the next, by Radau (implicit, order 5) where a film
 film that breaks, a tip that lands.
 Laws are shared with the coupling; unknowns, stepping, search for events and the communication
 step are not, so that an agreement says something about both.
+
+On rough landing sites an impact is integrated as a piece of its own, with the law of
+`contactkit.models.micromirror.tip_impact`.
 
 Validity: as the laws themselves; the numerical error is about `rtol`.
 """
@@ -28,17 +31,21 @@ from ...errors import ConvergenceError
 from ...separation.plan import Film, Plan
 from ..ode_events import watch
 from .coupling import FREE, HELD, LANDED
+from .flight import Root
 from .mirror import Mirror, acceleration, electrode_volts, root_height, switching_times
 from .tip import TipStop, free_gap
+from .tip_impact import Contact, rest_depth, sprung_back
 
-__all__ = ["SIDES", "Happening", "Whole", "WholeRun", "simulate_whole"]
+__all__ = ["SIDES", "Event", "MonolithicMotion", "simulate_monolithic"]
 
 SIDES = (1.0, -1.0)
+STRIKES = 1.5
+"""State of a tip beside `LANDED`, `HELD` and `FREE`: in an impact on its site."""
 _MOST_PIECES = 10_000
 _Floats = NDArray[np.float64]
 
 
-class Happening(NamedTuple):
+class Event(NamedTuple):
     """An event: time [s], side (+1 or -1), and ``leaves``, ``breaks``, ``is free`` or ``lands``."""
 
     time: float
@@ -46,7 +53,7 @@ class Happening(NamedTuple):
     what: str
 
 
-class Whole(NamedTuple):
+class MonolithicMotion(NamedTuple):
     """What a monolithic run gives: tilt [rad] and rate [rad/s] and gaps [m] at times, and events.
 
     `unknowns` has the rows tilt, rate, gap and speed of the tip of side +, and of side -.
@@ -54,7 +61,7 @@ class Whole(NamedTuple):
 
     time: _Floats
     unknowns: _Floats
-    events: tuple[Happening, ...]
+    events: tuple[Event, ...]
     n_steps: int
     n_evaluations: int
 
@@ -63,53 +70,8 @@ class Whole(NamedTuple):
         return next((e.time for e in self.events if (e.what, e.side) == (what, side)), math.nan)
 
 
-def simulate_whole(
-    mirror: Mirror,
-    plan: Plan,
-    start: tuple[float, float],
-    stop_time: float,
-    *,
-    rtol: float = 1e-9,
-    times: _Floats | None = None,
-    stop: TipStop | None = None,
-) -> Whole:
-    """Integrate mirror and tips from time 0, the side + landed and the side - free.
-
-    Parameters
-    ----------
-    mirror : Mirror
-    plan : Plan
-        Film of one tip; mass and stiffness of its `Opening` are those of the tip.
-    start : (float, float)
-        Tilt [rad] and rate [rad/s] at the start.
-    stop_time : float
-        Where to end [s].
-    rtol : float
-        Tolerance of the solver, relative to each unknown.
-    times : ndarray, optional
-        Where to give the unknowns [s]. None: at the steps of the solver.
-    stop : TipStop, optional
-        What the apex of a tip meets; without one it lands for good on a rigid site.
-
-    Raises
-    ------
-    ConvergenceError
-        If the solver gives up.
-    """
-    if stop is None:
-        run = WholeRun(mirror, plan, start, rtol)
-    else:
-        from .monolithic_impact import StopRun
-
-        run = StopRun(mirror, plan, start, rtol, stop)
-    marks = [0.0, *switching_times(mirror.waveform, 0.0, stop_time), stop_time]
-    for low, high in pairwise(marks):
-        run.to(low, high)
-    return run.result(times)
-
-
-class WholeRun:
-    """A simulation on its way; `state` is tilt, rate, gap +, speed +, gap -, speed - in SI."""
+class _Integration:
+    """Integration by events; `state` is tilt, rate, gap +, speed +, gap -, speed - in SI."""
 
     def __init__(self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float) -> None:
         opening = plan.scene.opening
@@ -122,7 +84,7 @@ class WholeRun:
         self.volts = (0.0, 0.0)
         self.time = 0.0
         self.pieces: list[tuple[_Floats, Callable[[_Floats], _Floats]]] = []
-        self.events: list[Happening] = []
+        self.events: list[Event] = []
         self.n_steps = self.n_evaluations = 0
 
     def to(self, start: float, stop: float) -> None:
@@ -252,7 +214,7 @@ class WholeRun:
                 self._leave(side)
 
     def _note(self, side: int, what: str) -> None:
-        self.events.append(Happening(self.time, SIDES[side], what))
+        self.events.append(Event(self.time, SIDES[side], what))
 
     def _leave(self, side: int) -> None:
         self.modes[side] = HELD
@@ -275,7 +237,7 @@ class WholeRun:
         self.state[2 + 2 * side : 4 + 2 * side] = self.origin, 0.0
         self._note(side, "lands")
 
-    def result(self, times: _Floats | None) -> Whole:
+    def result(self, times: _Floats | None) -> MonolithicMotion:
         """Read the unknowns off the pieces."""
         if times is None:
             time = np.concatenate([t for t, _ in self.pieces])
@@ -287,7 +249,145 @@ class WholeRun:
             table = np.empty((6, len(time)))
             for i in np.unique(which):
                 table[:, which == i] = self.pieces[i][1](time[which == i])
-        return Whole(time, table, tuple(self.events), self.n_steps, self.n_evaluations)
+        return MonolithicMotion(time, table, tuple(self.events), self.n_steps, self.n_evaluations)
+
+
+class _IntegrationWithImpacts(_Integration):
+    """The same with impacts on rough sites; gaps count from the residual indentation, see `tip`."""
+
+    def __init__(
+        self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float, stop: TipStop
+    ) -> None:
+        super().__init__(mirror, plan, start, rtol)
+        self.stop = stop
+        self.indentations, self.largest = [0.0, 0.0], [0.0, 0.0]
+        self.sinking = [False, False]
+        self.peak = 0.0
+
+    def _root(self, side: int, state: Any) -> tuple[float, float]:
+        """Height [m] and speed [m/s] of the root of a side."""
+        tips, tilt, rate = self.mirror.tips, state[0], state[1]
+        speed = -SIDES[side] * tips.arm * math.cos(tilt) * rate
+        return root_height(tips, tilt, SIDES[side]), speed
+
+    def _contact(self, side: int, state: Any) -> Contact:
+        film = self._film(side)
+        held = film.static_force(self.origin) if film is not None else 0.0
+        height, _ = self._root(side, state)
+        return Contact(self.stop, held, self.stiffness, self.mass, Root(height))
+
+    def _depth(self, side: int, state: Any) -> float:
+        """Approach of a tip on its site [m], or the residual indentation under one off it."""
+        if self.modes[side] == LANDED:
+            return rest_depth(self._contact(side, state), self.largest[side], 0.0)
+        if self.modes[side] == STRIKES:
+            return float(self.indentations[side] + self.origin - state[2 + 2 * side])
+        return self.indentations[side]
+
+    def _tip_force(self, side: int, state: Any) -> tuple[float, float]:
+        height, moving = self._root(side, state)
+        mode, gap, speed = self.modes[side], state[2 + 2 * side], state[3 + 2 * side]
+        if mode in (LANDED, STRIKES):
+            return self.stiffness * (height + self._depth(side, state)), moving
+        force = self.stiffness * (self.origin + height + self.indentations[side] - gap)
+        return force + (self.damping * (moving - speed) if mode == FREE else 0.0), moving
+
+    def _site_force(self, side: int, depth: float, speed: float) -> float:
+        """Force of the site on a tip [N] that comes at a speed [m/s]."""
+        if depth <= 0.0:
+            return 0.0
+        force = self.stop.curve.force_at(depth, self.largest[side])[0]
+        return force * max(1.0 + self.stop.damping * speed, 0.0)
+
+    def _tip_rates(self, side: int, state: Any, force: float) -> list[float]:
+        if self.modes[side] != STRIKES:
+            return super()._tip_rates(side, state, force)
+        speed, held = state[3 + 2 * side], self._contact(side, state).attraction
+        pushed = self._site_force(side, self._depth(side, state), -speed)
+        return [speed, (force - held + pushed) / self.mass]
+
+    # events -----------------------------------------------------------------------------------
+
+    def _watched(self, side: int) -> list[tuple[Any, Callable[[], None]]]:
+        place = 2 + 2 * side
+        if self.modes[side] == STRIKES:
+            out = (
+                self.origin + self.indentations[side] - self.stop.curve.residual(self.largest[side])
+            )
+            if self.sinking[side]:
+                return [(watch(lambda _, y: float(y[place + 1]), 1), partial(self._turn, side))]
+            return [
+                (watch(lambda _, y: float(y[place + 1]), -1), partial(self._sink, side)),
+                (watch(lambda _, y: float(y[place] - out), 1), partial(self._bounce, side)),
+            ]
+        found = super()._watched(side)
+        if self.modes[side] == LANDED:
+            way = 1 if self.sinking[side] else -1
+            lowest = watch(lambda _, y: self._root(side, y)[1], way)
+            found.append((lowest, partial(self._reverse, side)))
+        return found
+
+    def _excess(self, side: int, _time: float, unknowns: _Floats) -> float:
+        state = self._in_si(unknowns)
+        contact = self._contact(side, state)
+        lifted = contact.root.height + self.stop.curve.residual(self.largest[side])
+        return self.stiffness * lifted - contact.attraction
+
+    def _leave_if_pulled(self) -> None:
+        for side, mode in enumerate(self.modes):
+            if mode == LANDED:
+                self._press(side)
+        super()._leave_if_pulled()
+
+    def _reverse(self, side: int) -> None:
+        """The root turns: it was lowest, or is about to press deeper."""
+        self.sinking[side] = not self.sinking[side]
+        self._press(side)
+
+    def _press(self, side: int) -> None:
+        """Remember how deep a resting tip has sunk."""
+        self._indent(side, self._depth(side, self.state))
+
+    def _sink(self, side: int) -> None:
+        """A tip on its way out is pressed back before it is out."""
+        self.sinking[side] = True
+
+    def _indent(self, side: int, depth: float) -> None:
+        self.peak = max(self.peak, self._site_force(side, depth, 0.0))
+        self.largest[side] = max(self.largest[side], depth)
+        self.indentations[side] = self.stop.curve.residual(self.largest[side])
+
+    def _land(self, side: int) -> None:
+        self.modes[side], self.broken[side] = STRIKES, False
+        self.state[2 + 2 * side] = self.origin
+        self.sinking[side] = True
+        self._note(side, "lands")
+        if self.state[3 + 2 * side] >= 0.0:
+            self._settle(side)
+
+    def _settle(self, side: int) -> None:
+        self.modes[side] = LANDED
+        self.sinking[side] = self._root(side, self.state)[1] < 0.0
+        self.state[2 + 2 * side : 4 + 2 * side] = self.origin, 0.0
+        self._note(side, "rests")
+
+    def _turn(self, side: int) -> None:
+        """At the deepest point: remember it, and rest if there is not the energy to come out."""
+        depth, contact = self._depth(side, self.state), self._contact(side, self.state)
+        self.sinking[side] = False
+        self._indent(side, depth)
+        out = self.indentations[side]
+        self.state[2 + 2 * side : 4 + 2 * side] = self.origin + out - depth, 0.0
+        back = sprung_back(self.stop.curve, depth, self.largest[side])
+        pressed = contact.attraction - self.stiffness * (contact.root.height + 0.5 * (depth + out))
+        if back <= pressed * (depth - out):
+            self._settle(side)
+
+    def _bounce(self, side: int) -> None:
+        self.modes[side] = HELD
+        self.state[2 + 2 * side] = self.origin
+        self.indentations[side] = self.stop.curve.residual(self.largest[side])
+        self._note(side, "bounces")
 
 
 def _at(
@@ -302,3 +402,46 @@ def _at(
         if mode == HELD:
             table[2 + 2 * side] = origin * np.exp(table[2 + 2 * side])
     return table
+
+
+def simulate_monolithic(
+    mirror: Mirror,
+    plan: Plan,
+    start: tuple[float, float],
+    stop_time: float,
+    *,
+    rtol: float = 1e-9,
+    times: _Floats | None = None,
+    stop: TipStop | None = None,
+) -> MonolithicMotion:
+    """Integrate mirror and tips from time 0, the side + landed and the side - free.
+
+    Parameters
+    ----------
+    mirror : Mirror
+    plan : Plan
+        Film of one tip; mass and stiffness of its `Opening` are those of the tip.
+    start : (float, float)
+        Tilt [rad] and rate [rad/s] at the start.
+    stop_time : float
+        Where to end [s].
+    rtol : float
+        Tolerance of the solver, relative to each unknown.
+    times : ndarray, optional
+        Where to give the unknowns [s]. None: at the steps of the solver.
+    stop : TipStop, optional
+        Rough site of a tip; without one it lands for good on a rigid site.
+
+    Raises
+    ------
+    ConvergenceError
+        If the solver gives up.
+    """
+    if stop is None:
+        run = _Integration(mirror, plan, start, rtol)
+    else:
+        run = _IntegrationWithImpacts(mirror, plan, start, rtol, stop)
+    marks = [0.0, *switching_times(mirror.waveform, 0.0, stop_time), stop_time]
+    for low, high in pairwise(marks):
+        run.to(low, high)
+    return run.result(times)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
@@ -51,7 +52,7 @@ def mass(folder):
 def pairs(folder):
     """Drive and mass of the injector: both in Python, the film in C, both in C."""
     scene = open_scene("fuel-injector")
-    drive, mass = scene.build(folder)
+    drive, mass = build_fmus(scene.scene, folder)
     made = {"python": (drive, mass)}
     if shutil.which("cc") is not None:
         film, start = native_scene(scene)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
+from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.master.injector import cosimulate
@@ -25,7 +26,7 @@ def device():
 
 @pytest.fixture(scope="module")
 def pair(device, tmp_path_factory):
-    return device.build(tmp_path_factory.mktemp("pair"))
+    return build_fmus(device.scene, tmp_path_factory.mktemp("pair"))
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from refusals import says
 
 import contactkit as ck
-from contactkit.app.scenes import mass_values
+from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.separation.simulate import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*thinnest gap:contactkit.errors.ValidityWarning")

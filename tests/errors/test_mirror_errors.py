@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 
-from contactkit.app.scenes import open_scene
+from contactkit.app.scenes import OpenedMicromirror, open_scene
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, Mirror, SpringTips, Waveform
@@ -102,10 +102,9 @@ def test_a_misspelt_key_names_the_right_one(tmp_path):
 
 
 def test_cost_needs_a_pulse_that_releases(scene):
-    from contactkit.app.micromirror.run import Micromirror
 
     wave = evolve(scene.mirror.waveform, reset_voltage=-24.0)
     weak = evolve(scene, mirror=evolve(scene.mirror, waveform=wave))
     weak = evolve(weak, study=evolve(weak.study, patience=1e-6))
     with pytest.raises(PlanError, match="cost needs a pulse that releases; 24 V do not"):
-        Micromirror(weak).cost(None, lambda share: None, 1e-6)
+        OpenedMicromirror(weak).cost(None, lambda share: None, 1e-6)

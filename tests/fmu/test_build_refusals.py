@@ -11,8 +11,8 @@ pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
 import contactkit as ck
-from contactkit.app.fmu_crosscheck import write_crosscheck
-from contactkit.app.fmu_system import write_system
+from contactkit.app.crosscheck import write_crosscheck
+from contactkit.app.system import write_system
 from contactkit.cli import main
 from contactkit.fmu.contents.packing import write_archive
 from contactkit.fmu.framework.instance import Instance

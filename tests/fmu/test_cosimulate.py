@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.app.injector.run import open_device
+from contactkit.app.run.injector.cosimulation import build_fmus
+from contactkit.app.scenes import open_scene
 from contactkit.errors import ContactkitError, ConvergenceError, DescriptionError, InfeasibleError
-from contactkit.files.scenes import read_tables
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.master.couple import Mass, couple
 from contactkit.fmu.master.injector import cosimulate
@@ -34,14 +34,12 @@ MODEL = Path(__file__).parents[2] / "models" / "injector" / "fuel_injector.toml"
 
 @pytest.fixture(scope="module")
 def device():
-    tables = read_tables(MODEL)
-    tables.pop("device")
-    return open_device(tables, MODEL.name)
+    return open_scene(str(MODEL))
 
 
 @pytest.fixture(scope="module")
 def pair(device, tmp_path_factory):
-    return device.build(tmp_path_factory.mktemp("pair"))
+    return build_fmus(device.scene, tmp_path_factory.mktemp("pair"))
 
 
 @pytest.fixture(scope="module")

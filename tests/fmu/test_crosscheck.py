@@ -15,7 +15,7 @@ fmpy = pytest.importorskip("fmpy")
 from fmpy.util import read_ref_opt_file  # noqa: E402
 
 from contactkit import cli  # noqa: E402
-from contactkit.app.fmu_crosscheck import CASES, write_crosscheck  # noqa: E402
+from contactkit.app.crosscheck import CASES, write_crosscheck  # noqa: E402
 from contactkit.errors import DescriptionError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.native.build import build_native  # noqa: E402

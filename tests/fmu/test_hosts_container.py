@@ -27,7 +27,7 @@ from hosts_ecos import compiled_quickly, run  # noqa: E402
 from hosts_fmus import native_fmu  # noqa: E402
 from native_scenes import HAS_CC  # noqa: E402
 
-from contactkit.app.fmu_system import write_system  # noqa: E402
+from contactkit.app.system import write_system  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.master.injector import cosimulate  # noqa: E402
 from contactkit.fmu.python import build as building  # noqa: E402

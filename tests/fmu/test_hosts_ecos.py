@@ -15,7 +15,7 @@ from hosts_ecos import compiled_quickly, ecos, run, why_not
 from hosts_fmus import HERE, Shelf, reference
 from native_scenes import HAS_CC
 
-from contactkit.app.fmu_system import write_system
+from contactkit.app.system import write_system
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.master.injector import cosimulate
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from contactkit.app.cost import separation as cost
-from contactkit.app.cost.coupling import coupling_settings
-from contactkit.app.injector.run import drive_values
-from contactkit.app.scenes import mass_values, open_scene
+from contactkit.app.cost.injector import coupling_settings
+from contactkit.app.cost.separation import monolithic_release
+from contactkit.app.scenes import open_scene
 from contactkit.fmu.master.couple import Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_force import PORTS
+from contactkit.fmu.slaves.stiction_mass import mass_values
+from contactkit.fmu.slaves.valve_drive import drive_values
 
 
 @pytest.fixture(scope="module")
@@ -29,13 +30,13 @@ def test_every_way_of_coupling_is_there(settings):
         "film by force, Gauss-Seidel",
         "film by force, implicit",
         "film by impulse, fixed step",
-        "film by impulse, steps by error",
+        "film by impulse, adaptive steps",
     }
 
 
 def test_forces_are_wrong_where_impulses_are_right(settings):
-    right = settings["film by impulse, steps by error", "tolerance 1e-04"]().value
-    assert settings["film by impulse, steps by error", "tolerance 1e-03"]().value == pytest.approx(
+    right = settings["film by impulse, adaptive steps", "tolerance 1e-04"]().value
+    assert settings["film by impulse, adaptive steps", "tolerance 1e-03"]().value == pytest.approx(
         right, rel=1e-3
     )
     for name in ("Jacobi", "Gauss-Seidel"):
@@ -51,7 +52,7 @@ def test_a_drive_fmu_may_pull(tmp_path):
     scene = open_scene("fuel-injector").scene
     own = scene.separation(scene.temperature)
     values, profile = mass_values(own), scene.valve.profile
-    whole = cost._whole_release(own, scene.valve, scene.first_pulse_end, 1e-5).value
+    whole = monolithic_release(own, scene.valve, scene.first_pulse_end, 1e-5).value
     names = {port.name for port in PORTS if port.causality == "parameter"}
     found = couple(
         building.build("stiction-force", tmp_path),

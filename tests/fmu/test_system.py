@@ -20,8 +20,8 @@ fmpy = pytest.importorskip("fmpy")
 etree = pytest.importorskip("lxml.etree")
 
 from contactkit import cli  # noqa: E402  # the packages must be there
-from contactkit.app.fmu_system import write_system  # noqa: E402
 from contactkit.app.scenes import open_scene  # noqa: E402
+from contactkit.app.system import write_system  # noqa: E402
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.master.injector import cosimulate  # noqa: E402

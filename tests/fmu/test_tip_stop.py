@@ -10,18 +10,18 @@ import pytest
 from attrs import evolve
 
 from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
-from contactkit.app.end_stop import landing_numbers
-from contactkit.app.micromirror.run import Micromirror
+from contactkit.app.run.micromirror.cosimulation import couple_fmus
+from contactkit.app.run.micromirror.landing_sites import landing_numbers
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, InfeasibleError
 from contactkit.files.scenes import unstructure
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.tip_contact import TipStatus
 from contactkit.models.end_stop.faces import StopFaces, beside
-from contactkit.models.end_stop.solve import solved
+from contactkit.models.end_stop.solve import curve_of_scene, solved
 from contactkit.models.micromirror.coupling import couple
 from contactkit.models.micromirror.flight import Root
-from contactkit.models.micromirror.monolithic import simulate_whole
+from contactkit.models.micromirror.monolithic import simulate_monolithic
 from contactkit.models.micromirror.scene import tip_values
 from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
 from contactkit.models.micromirror.tip_film import tip_law
@@ -226,7 +226,7 @@ def test_what_springs_back_is_what_the_curve_says(curve):
 @pytest.fixture(scope="module")
 def soft(scene, curve, tmp_path_factory):
     """One flip onto sites that give, dry; the curve is that of the test, not solved again."""
-    solved.__globals__["_curve"].cache_clear()
+    curve_of_scene.cache_clear()
     wave = evolve(scene.mirror.waveform, start_delay=0.0, flips=1, period=4.5e-6)
     tips = evolve(scene.mirror.tips, faces=StopFaces(contact=hertz_scene()), landing_damping=1.0)
     mirror = evolve(scene.mirror, waveform=wave, tips=tips)
@@ -250,13 +250,13 @@ def hertz_scene():
 
 
 def test_a_pair_of_fmus_bounces_as_one_system_does(soft, tmp_path):
-    device, end = Micromirror(soft), 3.72e-6
+    end = 3.72e-6
     plan = tip_law(soft.tip, 0.0, 1e-7)
-    whole = simulate_whole(soft.mirror, plan, soft.start, end, rtol=1e-7, stop=soft.stop)
+    whole = simulate_monolithic(soft.mirror, plan, soft.start, end, rtol=1e-7, stop=soft.stop)
     lands = [e.time for e in whole.events if (e.what, e.side) == ("lands", -1.0)]
     assert [e.what for e in whole.events if e.side < 0.0][:3] == ["lands", "bounces", "lands"]
     path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_values(soft, 0.0))
-    run = device.couple_fmus(path, soft.mirror, end, 20e-9)
+    run = couple_fmus(soft, path, soft.mirror, end, 20e-9)
     tips = soft.tips(plan)
     couple(soft.mirror, tips, soft.opening.stiffness, soft.start, end, 20e-9)
     plus, minus = run.sites

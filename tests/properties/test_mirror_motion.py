@@ -14,7 +14,7 @@ from contactkit.models.micromirror.coupling import couple
 from contactkit.models.micromirror.electrostatics import capacitance
 from contactkit.models.micromirror.flight import Flight, Root, landing_time
 from contactkit.models.micromirror.mirror import acceleration, electrode_volts, root_height
-from contactkit.models.micromirror.monolithic import simulate_whole
+from contactkit.models.micromirror.monolithic import simulate_monolithic
 from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
 from contactkit.models.micromirror.tip_film import separation_energy, tip_law
 
@@ -185,7 +185,7 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
 def test_the_coupling_converges_to_one_system(scene, wet):
     """Third order in the communication step, on the way to one method's answer by another's."""
     mirror = scene.first_flip(PULSE)
-    whole = simulate_whole(mirror, wet, scene.start, 8.4e-7, rtol=1e-10)
+    whole = simulate_monolithic(mirror, wet, scene.start, 8.4e-7, rtol=1e-10)
     freed, errors = whole.first("is free"), []
     assert whole.first("leaves") < whole.first("breaks") < freed
     for step in (40e-9, 20e-9, 10e-9):

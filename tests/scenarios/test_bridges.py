@@ -6,7 +6,7 @@ import math
 import pytest
 
 import contactkit as ck
-from contactkit.app.bridges.errors import flat_errors, sphere_errors
+from contactkit.app.run.bridges import flat_errors, sphere_errors
 from contactkit.app.scenes import open_scene
 from contactkit.cli import main
 

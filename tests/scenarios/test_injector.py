@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from contactkit.app.injector.report import cycles, dry_delay, report, run_error
-from contactkit.app.injector.run import mass_values
+from contactkit.app.run.injector.cosimulation import cosimulate_cases
+from contactkit.app.run.injector.cycles import cycles, dry_delay, run_error
+from contactkit.app.run.injector.report import report
 from contactkit.app.scenes import open_scene
+from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.separation.motion.state import LimitKind
 from contactkit.units import celsius
 
@@ -36,7 +38,7 @@ def short(device):
 
 @pytest.fixture(scope="module")
 def runs(short):
-    return short.runs(None, lambda share: None)
+    return cosimulate_cases(short.scene, None, lambda share: None)
 
 
 def test_with_the_tension_limit_every_cycle_is_released_in_about_half_a_millisecond(short, runs):

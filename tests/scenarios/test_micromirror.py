@@ -10,9 +10,9 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.micromirror.report import flip_times, report, run_errors
-from contactkit.app.micromirror.run import Micromirror
-from contactkit.app.scenes import open_scene
+from contactkit.app.run.micromirror.cosimulation import cosimulate_flips
+from contactkit.app.run.micromirror.report import flip_times, report, run_errors
+from contactkit.app.scenes import OpenedMicromirror, open_scene
 from contactkit.models.micromirror.release import landing, release, release_curve, smallest_reset
 from contactkit.models.micromirror.tip_film import adhesion, tip_law
 
@@ -28,12 +28,12 @@ def short(device):
     scene = device.scene
     wave = evolve(scene.mirror.waveform, period=60e-6, start_delay=0.5e-6)
     study = evolve(scene.study, humidities=(0.0, 0.9), communication_step=40e-9)
-    return Micromirror(evolve(scene, mirror=evolve(scene.mirror, waveform=wave), study=study))
+    return OpenedMicromirror(evolve(scene, mirror=evolve(scene.mirror, waveform=wave), study=study))
 
 
 @pytest.fixture(scope="module")
 def run(short):
-    return short.cosimulate(None, lambda share: None)
+    return cosimulate_flips(short.scene, None, lambda share: None)
 
 
 def test_what_is_stored_and_what_presses(device):

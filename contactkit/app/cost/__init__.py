@@ -1,11 +1,11 @@
-"""Work-precision: error against time for every kind of scene.
+"""Work and precision of every kind of scene: error against time.
 
-bridges           What each closure of a liquid bridge costs, and what it gets wrong: exact, arc, as
-contact           What accuracy costs in a contact: over tolerance and grid, by solver, and by effec
-coupling          What each way of coupling the film of the injector to its spool costs, and where i
-coupling_figure   The picture of all ways of coupling: error against steps and seconds, and where ea
-coupling_schemes  Every way of coupling a mass to a film, on three films: harmless, stiff, and very
-effects           What each effect of a contact adds to its cost.
-micromirror       What accuracy costs in time, for the lift-off of a micromirror.
-separation        What accuracy costs in time, for the scenes of the command line.
+report       Table, numbers, advice, picture and CSV file.
+separation   A separation under an imposed force: error of the release time.
+contact      A contact, over tolerance and grid, by solver and by effect.
+effects      What each effect of a contact adds to its cost.
+bridges      The closures of a liquid bridge: exact, circular approximation, as published.
+injector     The fuel injector: solvers, couplings, steps and closures.
+coupling     Coupling schemes of a mass and a film, on three films.
+micromirror  The lift-off of a micromirror.
 """

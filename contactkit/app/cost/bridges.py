@@ -20,15 +20,14 @@ from ...capillary.arc import sphere as arc_sphere
 from ...capillary.exact import stability as bridge_limit
 from ...capillary.exact.bridge import bridge
 from ...errors import InfeasibleError
+from ...models.liquid_bridges.scene import BridgeCase, Bridges
 from ...reference import elliptic_bridge
 from ...work_precision import Outcome, Point, Setting, WorkPrecision, sweep
-from ..bridges.errors import relative_errors
 from ..report import Report
+from ..run.bridges import relative_errors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from ..bridges.run import BridgeCase, Bridges
 
     Array = NDArray[np.float64]
 
@@ -155,9 +154,9 @@ def rupture_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecisio
     )
 
 
-def bridge_cost(device: Bridges, out: Path | None, error: float, progress: Progress) -> Report:
+def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progress) -> Report:
     """Measure the closures of all bridges: a table, numbers, and a picture and a CSV file."""
-    curves = [_curve(case, device.gaps, device.reach) for case in device.bridges]
+    curves = [_curve(case, scene.gaps, scene.reach) for case in scene.bridges]
     progress(0.3)
     forces = force_points(curves, lambda share: progress(0.3 + 0.5 * share))
     ruptures = rupture_points(curves, lambda share: progress(0.8 + 0.2 * share))
@@ -170,7 +169,7 @@ def bridge_cost(device: Bridges, out: Path | None, error: float, progress: Progr
             key = f"{found.quantity} / {p.method} / {p.label}"
             scalars |= {f"{key} / error": (p.error, "-"), f"{key} / seconds": (p.seconds, "s")}
         lines.append(_advice(found, error))
-    files = _write((forces, ruptures), device, out) if out is not None else ()
+    files = _write((forces, ruptures), scene, out) if out is not None else ()
     return Report(scalars, "\n".join(lines), files)
 
 
@@ -203,15 +202,15 @@ def _advice(found: WorkPrecision, error: float) -> str:
     )
 
 
-def _write(found: Sequence[WorkPrecision], device: Bridges, out: Path) -> tuple[Path, ...]:
+def _write(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Path, ...]:
     from ...files.scenes import write_whole
     from ...plot import separation as plot
 
     made, axes = plot.figure(1, 2, size=(10.5, 5.0))
-    names = [case.label for case in device.bridges]
+    names = [case.label for case in scene.bridges]
     for one, ax in zip(found, axes, strict=True):
         plot.closures(one, ax, names)
-    plot.title(axes[0], f"{device.name}: force, up to {device.reach:g} of the limit")
+    plot.title(axes[0], f"{scene.name}: force, up to {scene.reach:g} of the limit")
     plot.title(axes[1], "rupture distance")
     plot.shared_legend(made, axes[0])
     table = out / "cost.csv"

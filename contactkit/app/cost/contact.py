@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...contact.result import ContactResult
-    from ..contact import PlainContact
 
 __all__ = ["contact_cost", "grid_sweep", "solver_sweep"]
 
@@ -47,10 +46,9 @@ _SHARES = (0.25, 0.375, 0.5, 0.7, 0.85, 1.0, 1.4)  # of the grid asked for
 
 
 def contact_cost(
-    contact: PlainContact, out: Path | None, progress: Progress, error: float
+    scene: ContactScene, accuracy: Accuracy, out: Path | None, progress: Progress, error: float
 ) -> Report:
     """Measure solvers, grids and effects of a scene: a table, numbers, and a picture."""
-    scene, accuracy = contact.scene, contact.accuracy
     solvers = solver_sweep(scene, accuracy, lambda done: progress(0.5 * done))
     grids = grid_sweep(scene, accuracy, lambda done: progress(0.5 + 0.3 * done))
     effects = effect_costs(scene, accuracy, lambda done: progress(0.8 + 0.2 * done))
@@ -74,7 +72,7 @@ def contact_cost(
             scalars[f"{key} / seconds"] = (point.seconds, "s")
             scalars |= {f"{key} / {k}": (v, "-") for k, v in point.counts.items()}
     scalars |= {f"effects up to {e.name} / seconds": (e.seconds, "s") for e in effects}
-    files = _write(solvers, grids, effects, out, contact.name) if out is not None else ()
+    files = _write(solvers, grids, effects, out, scene.name or "contact") if out is not None else ()
     return Report(scalars, "\n".join(text), files)
 
 

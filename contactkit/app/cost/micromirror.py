@@ -13,13 +13,13 @@ from attrs import evolve
 from ...errors import ConvergenceError, PlanError
 from ...models.micromirror.coupling import couple
 from ...models.micromirror.mirror import Mirror
-from ...models.micromirror.monolithic import simulate_whole
+from ...models.micromirror.monolithic import simulate_monolithic
 from ...models.micromirror.scene import MicromirrorScene
 from ...models.micromirror.tip_film import tip_law
 from ...separation.effects.registry import MeniscusForce
 from ...separation.plan import Plan
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
-from ..micromirror.run import Micromirror
+from ..run.micromirror.cosimulation import build_tips, couple_fmus
 
 __all__ = ["mirror_sweep"]
 
@@ -27,7 +27,7 @@ _STEPS = (100e-9, 50e-9, 20e-9, 10e-9, 5e-9, 2e-9)  # [s]
 _TOLERANCES = (1e-4, 1e-6, 1e-8)
 
 
-def mirror_sweep(device: Micromirror, progress: Callable[[float], None]) -> WorkPrecision:
+def mirror_sweep(scene: MicromirrorScene, progress: Callable[[float], None]) -> WorkPrecision:
     """Error of the time at which the tips are free, by solver, communication step and profile.
 
     Raises
@@ -35,12 +35,11 @@ def mirror_sweep(device: Micromirror, progress: Callable[[float], None]) -> Work
     PlanError
         If the reset pulse of the scene does not release.
     """
-    scene = device.scene
     pulse = abs(scene.mirror.waveform.reset_voltage)
     mirror = scene.first_flip(pulse if scene.mirror.waveform.reset_time > 0.0 else None)
     law = tip_law(scene.tip, scene.study.humidity, 1e-9)
     first = mirror.waveform.reset_time + mirror.waveform.release_time
-    exact = simulate_whole(mirror, law, scene.start, first, rtol=1e-10, stop=scene.stop).first(
+    exact = simulate_monolithic(mirror, law, scene.start, first, rtol=1e-10, stop=scene.stop).first(
         "is free"
     )
     if math.isnan(exact):
@@ -49,12 +48,12 @@ def mirror_sweep(device: Micromirror, progress: Callable[[float], None]) -> Work
             f"{scene.study.humidity:g}: raise Waveform.reset_voltage"
         )
     end = 1.02 * exact
-    near = simulate_whole(mirror, law, scene.start, end, rtol=1e-8, stop=scene.stop).first(
+    near = simulate_monolithic(mirror, law, scene.start, end, rtol=1e-8, stop=scene.stop).first(
         "is free"
     )
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        fmu = device.build(Path(folder))
-        settings = _settings(device, mirror, law, fmu, end)
+        fmu = build_tips(scene, Path(folder))
+        settings = _settings(scene, mirror, law, fmu, end)
         return sweep(
             settings,
             exact,
@@ -66,13 +65,12 @@ def mirror_sweep(device: Micromirror, progress: Callable[[float], None]) -> Work
 
 
 def _settings(
-    device: Micromirror, mirror: Mirror, law: Plan, fmu: Path, end: float
+    scene: MicromirrorScene, mirror: Mirror, law: Plan, fmu: Path, end: float
 ) -> list[Setting]:
-    """One system over tolerances, coupled tips over steps, and the arc as a model."""
-    scene = device.scene
+    """Monolithic model over tolerances, coupled tips over steps, and the arc as a model."""
     settings = [
         Setting(
-            "one system, scipy", f"rtol {rtol:.0e}", partial(_whole, scene, mirror, law, end, rtol)
+            "monolithic, scipy", f"rtol {rtol:.0e}", partial(_whole, scene, mirror, law, end, rtol)
         )
         for rtol in _TOLERANCES
     ]
@@ -96,7 +94,7 @@ def _settings(
         Setting(
             "FMU pair tip-contact",
             f"step {step * 1e9:g} ns",
-            partial(_fmus, device, mirror, fmu, end, step),
+            partial(_fmus, scene, mirror, fmu, end, step),
         )
         for step in _STEPS
     ]
@@ -104,7 +102,7 @@ def _settings(
 
 
 def _whole(scene: MicromirrorScene, mirror: Mirror, law: Plan, end: float, rtol: float) -> Outcome:
-    whole = simulate_whole(mirror, law, scene.start, end, rtol=rtol, stop=scene.stop)
+    whole = simulate_monolithic(mirror, law, scene.start, end, rtol=rtol, stop=scene.stop)
     counts = {"steps": whole.n_steps, "evaluations": whole.n_evaluations}
     return Outcome(_freed(whole.first("is free")), counts)
 
@@ -115,8 +113,8 @@ def _local(scene: MicromirrorScene, mirror: Mirror, law: Plan, end: float, step:
     return Outcome(_freed(tips[0].state.free_time), {"steps": motion.n_steps})
 
 
-def _fmus(device: Micromirror, mirror: Mirror, fmu: Path, end: float, step: float) -> Outcome:
-    done = device.couple_fmus(fmu, mirror, end, step)
+def _fmus(scene: MicromirrorScene, mirror: Mirror, fmu: Path, end: float, step: float) -> Outcome:
+    done = couple_fmus(scene, fmu, mirror, end, step)
     return Outcome(_freed(done.free_time), {"steps": done.motion.n_steps})
 
 

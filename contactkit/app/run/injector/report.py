@@ -1,102 +1,31 @@
-"""What the injector's co-simulations come to: a table, signals in files, figures."""
+"""Report of the fuel injector's co-simulations: table, signals in files, figures."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
-from attrs import evolve
+from ....files.results import save_csv, save_npz
+from ....files.scenes import unstructure
+from ....models.injector.scene import InjectorScene
+from ....separation.effects.registry import TensionLimit
+from ....separation.motion.state import FilmStatus
+from ....separation.plan import plan
+from ....separation.validity import check
+from ....units import bar, celsius
+from ...report import Report
+from .cosimulation import InjectorRun, cosimulate_cases
+from .cycles import Cycle, cycles, dry_delay, run_error, stem
+from .end_stop import end_stop_numbers
 
-from ...files.results import save_csv, save_npz
-from ...files.scenes import unstructure
-from ...models.injector.monolithic import simulate
-from ...models.injector.valve import energising_times
-from ...separation.effects.registry import TensionLimit, ViscousForce
-from ...separation.motion.state import FilmStatus, LimitKind
-from ...separation.plan import plan
-from ...separation.validity import check
-from ...units import bar, celsius
-from ..end_stop import valve_numbers
-from ..scenes import Report
-from .run import InjectorScene, Run
+__all__ = ["plan_text", "report", "run_injector"]
 
-__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "report", "run_error", "stem"]
-
-
-class Cycle(NamedTuple):
-    """One firing cycle of a co-simulation; times [s] from energising, nan if never released."""
-
-    delay: float
-    peak_force: float
-    viscous_impulse: float
-    meniscus_impulse: float
-    limited_share: float
+Progress = Callable[[float], None]
 
 
-def cycles(run: Run, scene: InjectorScene) -> list[Cycle]:
-    """Read each firing cycle off the signals of a co-simulation."""
-    signals, profile = run.coupled, scene.valve.profile
-    time = signals.time
-    releases = np.unique(signals["t_release"])
-    found = []
-    for start in energising_times(profile):
-        after = [float(t) for t in releases if start <= t < start + profile.period]
-        delay = after[0] - start if after else math.nan
-        until = after[0] if after else start + profile.on_time
-        inside = (time >= start) & (time <= until)
-        acts = signals["limit"][inside] == LimitKind.TENSION
-        viscous, meniscus = (
-            float(np.interp(until, time, signals[n]) - np.interp(start, time, signals[n]))
-            for n in ("J", "J_m")
-        )
-        found.append(
-            Cycle(delay, float(signals["F"][inside].max()), viscous, meniscus, float(acts.mean()))
-        )
-    return found
-
-
-def stem(temperature: float) -> str:
-    """Temperature [K] as part of a file name: ``minus20degC``, ``80degC``."""
-    degrees = temperature - celsius(0.0)
-    return f"{'minus' if degrees < 0.0 else ''}{abs(degrees):.0f}degC"
-
-
-def dry_delay(scene: InjectorScene) -> float:
-    """Release delay [s] of a spool without a film: what magnet, spring and mass alone take."""
-    film = scene.separation(scene.temperature)
-    meniscus = film.interface.meniscus
-    thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
-    interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
-    dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))
-    return float(simulate(dry, scene.valve, scene.first_pulse_end).cycles[0].release_time)
-
-
-def delays_over_temperature(
-    scene: InjectorScene, *, limited: bool, tension: float | None = None, n: int = 9
-) -> tuple[list[float], list[float]]:
-    """Temperatures [K] over the range of the study, and the release delay [s] at each."""
-    span = scene.study.temperatures
-    temperatures = sorted({*np.linspace(min(span), max(span), n).tolist(), *span})
-    delays = []
-    for temperature in temperatures:
-        made = plan(scene.separation(temperature, limited=limited, tension=tension))
-        first = simulate(made, scene.valve, scene.first_pulse_end, rtol=1e-6).cycles[0]
-        delays.append(float(first.release_time))
-    return temperatures, delays
-
-
-def run_error(run: Run, found: Sequence[Cycle]) -> float:
-    """Coupling error of a run and its cycles against the monolithic solve, see `coupling_error`."""
-    from ...fmu.master.injector import coupling_error
-
-    coupled = [cycle.delay for cycle in found]
-    return coupling_error(coupled, [cycle.release_time for cycle in run.whole.cycles])
-
-
-def _held_by(run: Run, found: Sequence[Cycle], dry: float) -> str:
+def _held_by(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
     """Which force held the spool, in words."""
     first = found[0]
     total = first.viscous_impulse + first.meniscus_impulse
@@ -111,18 +40,41 @@ def _held_by(run: Run, found: Sequence[Cycle], dry: float) -> str:
     return text
 
 
-def _tension(run: Run) -> float:
+def _tension(run: InjectorRun) -> float:
     """Tension [Pa] the oil bears in a run; inf without a limit."""
     limit = run.plan.scene.effect(TensionLimit)
     return math.inf if limit is None else limit.pressure_drop
 
 
-def _limit_text(run: Run) -> str:
+def _limit_text(run: InjectorRun) -> str:
     tension = _tension(run)
     return "none" if math.isinf(tension) else f"{tension / bar:g} bar"
 
 
-def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Report:
+def plan_text(scene: InjectorScene) -> str:
+    """Say what will be simulated, what will not, and by which sources."""
+    made = plan(scene.separation(scene.temperature))
+    opening, meniscus = scene.opening, scene.interface.meniscus
+    degrees = ", ".join(f"{t - celsius(0.0):g} degC" for t in scene.study.temperatures)
+    head = [
+        f"{scene.name}: pulled by a valve over {scene.valve.profile.cycles} cycles, gap "
+        f"{opening.initial_gap:g} m to {opening.final_gap:g} m, faces of radius "
+        f"{scene.interface.rim_radius:g} m",
+        f"  at   {degrees}: {meniscus.liquid.name}",
+        f"  by   FMUs valve-drive and stiction-mass, communication step "
+        f"{scene.study.communication_step:g} s",
+        f"  on   {'valve':19s} coil, return spring, opposite stop",
+    ]
+    sources = ["sources:", *(f"  {line}" for line in made.cite().splitlines())]
+    return "\n".join([*head, *str(made).splitlines()[1:], *sources])
+
+
+def run_injector(scene: InjectorScene, out: Path | None, progress: Progress) -> Report:
+    """Co-simulate the injector at all temperatures, and write signals and figures to a folder."""
+    return report(scene, cosimulate_cases(scene, out, progress), out)
+
+
+def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) -> Report:
     """Turn the runs into a table and, with a folder, into signals and figures."""
     dry = dry_delay(scene)
     lines = [
@@ -165,18 +117,18 @@ def report(scene: InjectorScene, runs: Sequence[Run], out: Path | None) -> Repor
             f"seconds_{key}": (run.seconds, "s"),
         }
     keys = [f"{stem(run.temperature)}_{_limited(run)}" for run in runs]
-    told, numbers = valve_numbers(scene, runs, keys)
+    told, numbers = end_stop_numbers(scene, runs, keys)
     scalars |= numbers
     lines += [*spread, *told, *_validity(runs)]
     files = _write(scene, runs, out, dry) if out is not None else ()
     return Report(scalars, "\n".join(lines), files)
 
 
-def _limited(run: Run) -> str:
+def _limited(run: InjectorRun) -> str:
     return "limited" if run.limited else "unlimited"
 
 
-def _spread(run: Run, delays: Sequence[float]) -> str:
+def _spread(run: InjectorRun, delays: Sequence[float]) -> str:
     """Say how many cycles of a run were released, and how far they agree."""
     good = [d for d in delays if not math.isnan(d)]
     text = (
@@ -188,7 +140,7 @@ def _spread(run: Run, delays: Sequence[float]) -> str:
     return text
 
 
-def _validity(runs: Sequence[Run]) -> list[str]:
+def _validity(runs: Sequence[InjectorRun]) -> list[str]:
     """Say for each temperature how far the models were inside their ranges."""
     lines = [""]
     for run in runs:
@@ -206,7 +158,9 @@ def _validity(runs: Sequence[Run]) -> list[str]:
     return lines
 
 
-def _write(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> tuple[Path, ...]:
+def _write(
+    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
+) -> tuple[Path, ...]:
     from .figures import draw
 
     files = []

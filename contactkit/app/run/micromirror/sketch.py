@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...models.micromirror.mirror import root_height
-from ...models.micromirror.scene import MicromirrorScene
-from ...plot import separation as plot
-from ...separation.plan import Plan
+from ....models.micromirror.mirror import root_height
+from ....models.micromirror.scene import MicromirrorScene
+from ....plot import separation as plot
+from ....separation.plan import Plan
 
 __all__ = ["sketch"]
 
@@ -115,7 +115,7 @@ def _tip(ax: Any, scene: MicromirrorScene, made: Plan) -> None:
 
 def _meniscus(ax: Any, made: Plan) -> float:
     """Fill the meniscus; the radius [m] of its upper contact circle."""
-    from ...capillary.exact.bridge import bridge
+    from ....capillary.exact.bridge import bridge
 
     interface, meniscus = made.scene.interface, made.scene.interface.meniscus
     assert meniscus.volume is not None

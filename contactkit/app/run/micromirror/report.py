@@ -1,4 +1,4 @@
-"""What a run of the micromirror comes to: adhesion, release, the flips, in words and numbers."""
+"""Report of a run of the micromirror: adhesion, release, flips; signals and figures."""
 
 from __future__ import annotations
 
@@ -9,26 +9,52 @@ from typing import Any
 
 import numpy as np
 
-from ...files.results import save_csv, save_npz
-from ...files.scenes import unstructure
-from ...models.micromirror.coupling import FREE, HELD, SIGNALS
-from ...models.micromirror.electrostatics import pull_in
-from ...models.micromirror.release import Landing, Release, landing, release_curve
-from ...models.micromirror.scene import MicromirrorScene
-from ...separation.effects.registry import MeniscusForce
-from ...separation.validity import check
-from ..end_stop import landing_numbers
-from ..report import Report
-from .run import MirrorRun
+from ....files.results import save_csv, save_npz
+from ....files.scenes import unstructure
+from ....models.micromirror.coupling import FREE, HELD, SIGNALS
+from ....models.micromirror.electrostatics import pull_in
+from ....models.micromirror.release import Landing, Release, landing, release_curve
+from ....models.micromirror.scene import MicromirrorScene
+from ....models.micromirror.tip_film import tip_law
+from ....separation.effects.registry import MeniscusForce
+from ....separation.validity import check
+from ...report import Report
+from .cosimulation import MirrorRun, cosimulate_flips
+from .landing_sites import landing_numbers
 
-__all__ = ["flip_times", "report", "run_errors"]
+__all__ = ["flip_times", "plan_text", "report", "run_errors", "run_micromirror"]
+
+Progress = Callable[[float], None]
 
 UNITS = ("s", "rad", "rad/s", "V", "V", "m", "m", "N", "N", "N", "N", "-", "-")
 
 
-def report(
-    scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: Callable[[float], None]
-) -> Report:
+def plan_text(scene: MicromirrorScene) -> str:
+    """Say what will be simulated, what will not, and by which sources."""
+    study = scene.study
+    made = tip_law(scene.tip, study.humidity)
+    wave, meniscus = scene.mirror.waveform, made.scene.interface.meniscus
+    volume = f"{meniscus.volume:.3g} m3 under each tip" if meniscus.volume else "none"
+    head = [
+        f"{scene.name}: {wave.flips} flips between landing sites at "
+        f"{scene.mirror.tips.landing_tilt:.4g} rad",
+        f"  at   {100.0 * study.humidity:g} % relative humidity, condensed: {volume}; release "
+        f"is looked for at {len(study.humidities)} humidities",
+        f"  by   two FMUs tip-contact and the mirror's equation of motion, communication step "
+        f"{study.communication_step:g} s",
+        f"  on   {'mirror':19s} hinge, electrodes, spring tips, voltages",
+    ]
+    sources = ["sources:", *(f"  {line}" for line in made.cite().splitlines())]
+    return "\n".join([*head, *str(made).splitlines()[1:], *sources])
+
+
+def run_micromirror(scene: MicromirrorScene, out: Path | None, progress: Progress) -> Report:
+    """Co-simulate the flips, look for release, and write signals and figures to a folder."""
+    run = cosimulate_flips(scene, out, lambda done: progress(0.6 * done))
+    return report(scene, run, out, lambda done: progress(0.6 + 0.4 * done))
+
+
+def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: Progress) -> Report:
     """Turn the runs into text and numbers and, with a folder, into signals and figures."""
     found = release_curve(scene, progress)
     landed = landing(scene)
@@ -152,10 +178,10 @@ def flip_times(run: MirrorRun, side: str) -> list[float]:
 def run_errors(scene: MicromirrorScene, run: MirrorRun) -> tuple[float, float]:
     """Time [s] at which the side + is first free, and error of the tilt over the landing tilt [-].
 
-    The tilt is compared with that of one system up to the first touch of the other side.
+    The tilt is compared with that of the monolithic model up to the first touch of the other side.
     """
-    free = run.whole.first("is free")
-    both = run.coupled["tilt"][: len(run.whole.time)] - run.whole.unknowns[0]
+    free = run.monolithic.first("is free")
+    both = run.coupled["tilt"][: len(run.monolithic.time)] - run.monolithic.unknowns[0]
     return free, float(np.abs(both).max()) / scene.mirror.tips.landing_tilt
 
 
@@ -170,8 +196,9 @@ def _flips(scene: MicromirrorScene, run: MirrorRun, free: float, error: float) -
         f"{abs(wave.reset_voltage):g} V begins at {begun * 1e6:g} us, {told}; {len(lands)} "
         f"landings and bounces of tips; at the end {final:+.2f} deg",
         f"two FMUs tip-contact: {coupled.n_steps} steps of at most "
-        f"{scene.study.communication_step * 1e9:g} ns in {run.seconds:.2f} s; tilt off one system "
-        f"by {error:.1e} of the landing tilt up to the first touch of the other side",
+        f"{scene.study.communication_step * 1e9:g} ns in {run.seconds:.2f} s; tilt off the "
+        f"monolithic model by {error:.1e} of the landing tilt up to the first touch of the "
+        "other side",
     ]
 
 

@@ -13,12 +13,11 @@ from ...capillary.arc import flat as arc_flat
 from ...capillary.arc import sphere as arc_sphere
 from ...capillary.exact.bridge import bridge
 from ...capillary.exact.stability import stability_limit
+from ...models.liquid_bridges.scene import BridgeCase, Bridges
 from ..report import Report
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from .run import BridgeCase, Bridges
 
     Array = NDArray[np.float64]
 
@@ -26,10 +25,10 @@ __all__ = [
     "FLAT_BANDS",
     "SPHERE_BANDS",
     "BandError",
-    "error_report",
     "flat_errors",
     "flat_forces",
     "relative_errors",
+    "run_bridges",
     "sphere_errors",
     "sphere_forces",
 ]
@@ -130,10 +129,10 @@ def _errors(case: BridgeCase) -> tuple[BandError, ...]:
     return sphere_errors(*angles, case.filling)
 
 
-def error_report(device: Bridges, out: Path | None, progress: Progress) -> Report:
+def run_bridges(scene: Bridges, out: Path | None, progress: Progress) -> Report:
     """Errors of the closures by bands: a table, numbers, and a CSV file."""
     lines, rows = [], []
-    for i, case in enumerate(device.bridges):
+    for i, case in enumerate(scene.bridges):
         lines.append(f"{case.label}: largest error [%] in a band of the way to the exact limit")
         found = _errors(case)
         for name in found[0].errors:
@@ -144,7 +143,7 @@ def error_report(device: Bridges, out: Path | None, progress: Progress) -> Repor
         rows += [
             (case.label, b.low, b.high, name, e) for b in found for name, e in b.errors.items()
         ]
-        progress((i + 1) / len(device.bridges))
+        progress((i + 1) / len(scene.bridges))
     scalars: dict[str, tuple[float, str]] = {
         f"{label} / {name} / {low:g}-{high:g}": (error, "-")
         for label, low, high, name, error in rows

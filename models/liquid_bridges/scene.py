@@ -1,27 +1,19 @@
-"""Liquid bridges by their closures: how far the arc and the printed equations are off.
+"""The file of a comparison of closures of liquid bridges: contact angles, and the filling.
 
-``contactkit run bridges`` prints the errors over the way to rupture, ``contactkit cost bridges``
-draws them against time. A bridge is its contact angles and, under a sphere, its filling.
+Every bridge is scaled to unit volume, so no liquid is named.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any
 
 from attrs import field, frozen
 
-from ...errors import DescriptionError, PlanError
-from ...files.scenes import structure
+from ...errors import DescriptionError
 from ...units import si
 from ...validators import angle, as_tuple, count, fraction, optional, positive
-from ..report import Report
 
-__all__ = ["BridgeCase", "Bridges", "open_device"]
-
-Progress = Callable[[float], None]
+__all__ = ["BridgeCase", "Bridges"]
 
 
 @frozen(kw_only=True)
@@ -77,7 +69,7 @@ class BridgeCase:
 
 @frozen(kw_only=True)
 class Bridges:
-    """Bridges to be judged, as the command line runs them.
+    """Bridges whose closures are compared.
 
     Parameters
     ----------
@@ -93,31 +85,3 @@ class Bridges:
     bridges: tuple[BridgeCase, ...] = field(converter=as_tuple)
     gaps: int = field(default=200, validator=count, metadata=si("-"))
     reach: float = field(default=0.95, validator=fraction, metadata=si("-"))
-
-    def plan_text(self) -> str:
-        """See `Runnable.plan_text`."""
-        lines = [f"{self.name}: exact, arc, and as published (Eqs. (3.11), (3.12), zero neck)"]
-        lines += [f"  {case.label}" for case in self.bridges]
-        lines.append("reference: Legendre's integrals; Orr, Scriven and Rivas 1975")
-        return "\n".join(lines)
-
-    def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `Runnable.run`."""
-        from .errors import error_report
-
-        return error_report(self, out, progress)
-
-    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `Runnable.cost`."""
-        from ..cost.bridges import bridge_cost
-
-        return bridge_cost(self, out, error, progress)
-
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
-        """See `Runnable.fmu_start`."""
-        raise PlanError("bridges are compared, not moved: they have no FMU; a separation has one")
-
-
-def open_device(tables: Mapping[str, Any], origin: str) -> Bridges:
-    """Read the bridges of a scene file."""
-    return structure(dict(tables), Bridges, origin)

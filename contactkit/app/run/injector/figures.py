@@ -1,4 +1,4 @@
-"""The injector's figures, drawn for a valve engineer: gaps in um, times in ms, forces in N."""
+"""Figures of the fuel injector: gaps in um, times in ms, forces in N."""
 
 from __future__ import annotations
 
@@ -8,19 +8,22 @@ from itertools import cycle
 from pathlib import Path
 from typing import Any
 
-from ...models.injector.valve import energising_times
-from ...plot import separation as plot
-from ...separation.motion.state import LimitKind
-from ...units import bar, celsius
-from .report import cycles, delays_over_temperature, stem
-from .run import InjectorScene, Run
+from ....models.injector.scene import InjectorScene
+from ....models.injector.valve import energising_times
+from ....plot import separation as plot
+from ....separation.motion.state import LimitKind
+from ....units import bar, celsius
+from .cosimulation import InjectorRun
+from .cycles import cycles, delays_over_temperature, stem
 
 __all__ = ["draw"]
 
 _OIL = ("#264653", "#2a9d8f", "#e9a23b", "#e76f51", "#8a1c1c")
 
 
-def draw(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> tuple[Path, ...]:
+def draw(
+    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
+) -> tuple[Path, ...]:
     """Draw every figure into a folder."""
     limited = [run for run in runs if run.limited]
     files = [_balance(scene, run, out) for run in limited]
@@ -31,7 +34,7 @@ def draw(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> tu
     return tuple(files)
 
 
-def _shade(ax: Any, run: Run, time: Any, **more: Any) -> None:
+def _shade(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
     """Shade where the tension limit acts."""
     acts = run.coupled["limit"] == LimitKind.TENSION
     across = ax.get_xaxis_transform()
@@ -48,7 +51,7 @@ def _shade(ax: Any, run: Run, time: Any, **more: Any) -> None:
     )
 
 
-def _gap(ax: Any, scene: InjectorScene, run: Run, time: Any) -> None:
+def _gap(ax: Any, scene: InjectorScene, run: InjectorRun, time: Any) -> None:
     """Draw the gap, and where the spool meets the asperities and the stop."""
     ax.plot(time, run.coupled["h"] * 1e6, color=plot.COLORS["gap"])
     for gap, text in ((scene.opening.rest_gap, "at rest"), (scene.valve.stop.gap, "stop")):
@@ -65,7 +68,7 @@ def _gap(ax: Any, scene: InjectorScene, run: Run, time: Any) -> None:
     ax.set_ylabel("gap at the end cap [um]")
 
 
-def _forces(ax: Any, run: Run, time: Any) -> None:
+def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
     """Draw what opens as positive and what holds as negative."""
     signals = run.coupled
     for name, label, color, sign in (
@@ -82,7 +85,7 @@ def _forces(ax: Any, run: Run, time: Any) -> None:
     ax.set_ylabel("force on the spool [N]")
 
 
-def _balance(scene: InjectorScene, run: Run, out: Path) -> Path:
+def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
     made, (gap, speed, force) = plot.figure(3, 1, (9.0, 8.0), sharex=True)
     time = run.coupled.time * 1e3
     _gap(gap, scene, run, time)
@@ -98,7 +101,7 @@ def _balance(scene: InjectorScene, run: Run, out: Path) -> Path:
     return plot.save(made, out / f"force-balance_{stem(run.temperature)}")
 
 
-def _mark_events(ax: Any, run: Run, start: float, span: float) -> None:
+def _mark_events(ax: Any, run: InjectorRun, start: float, span: float) -> None:
     """Mark the first rupture and the first release within `span` [ms] of energising."""
     for name, label, color in (
         ("t_break", "film breaks", plot.COLORS["viscous"]),
@@ -109,7 +112,7 @@ def _mark_events(ax: Any, run: Run, start: float, span: float) -> None:
             ax.axvline((when - start) * 1e3, color=color, lw=0.9, ls="--", label=label)
 
 
-def _zoom(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
+def _zoom(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
     """First release at each temperature, gap above forces, from just before energising."""
     made, axes = plot.figure(2, len(runs), (4.2 * len(runs), 6.5), sharey="row", squeeze=False)
     start = energising_times(scene.valve.profile)[0]
@@ -134,7 +137,7 @@ def _zoom(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
     return plot.save(made, out / "release-zoom")
 
 
-def _delays(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) -> Path:
+def _delays(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float) -> Path:
     """Release delay over temperature, for several tensions the oil may bear."""
     made, ax = plot.figure(size=(9.0, 5.0))
     pulse = scene.valve.profile.on_time * 1e3
@@ -168,7 +171,7 @@ def _delays(scene: InjectorScene, runs: Sequence[Run], out: Path, dry: float) ->
     return plot.save(made, out / "delay-against-temperature")
 
 
-def _limit(scene: InjectorScene, runs: Sequence[Run], out: Path) -> Path:
+def _limit(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
     """First pulse at each temperature, with and without the tension limit."""
     profile = scene.valve.profile
     temperatures = list(dict.fromkeys(run.temperature for run in runs))

@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from attrs import frozen
 
@@ -22,10 +22,10 @@ from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..fmu.contents.packing import write_archive
 from ..fmu.contents.ssp import Component, Connection, Experiment, structure_xml
 from ..fmu.framework.ports import Port, Value, find_port
+from ..fmu.slaves.stiction_mass import mass_values
+from ..models.injector.scene import InjectorScene
 from ..units import parse_quantity
-
-if TYPE_CHECKING:
-    from .injector.run import FuelInjector, InjectorScene
+from .run.injector.cosimulation import drive_start
 
 __all__ = ["write_system"]
 
@@ -45,12 +45,12 @@ class _Film:
     values: Mapping[str, Any]
 
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
-        """See `models.scenes.Runnable.fmu_start`."""
+        """See `OpenedScene.fmu_start`."""
         return "stiction-mass", self.values
 
 
 def write_system(
-    scene: str | FuelInjector | InjectorScene,
+    scene: str | InjectorScene,
     out: str | os.PathLike[str],
     *,
     native: bool = False,
@@ -63,8 +63,8 @@ def write_system(
 
     Parameters
     ----------
-    scene : str, FuelInjector or InjectorScene
-        A scene with a valve: a file, the name of one in models, or the opened scene.
+    scene : str or InjectorScene
+        A scene with a valve: a file, the name of one that comes with contactkit, or the scene.
     out : path
         The file to write, ``*.ssp``.
     native : bool
@@ -94,33 +94,33 @@ def write_system(
     target = Path(out)
     if target.suffix != ".ssp":
         raise DescriptionError("out", str(out), "end in .ssp")
-    device = _device(scene)
+    injector = _injector(scene)
     given = _by_element(start or {})
-    drive, mass = _starts(device, given)
-    experiment = _experiment(device, drive, mass, step)
+    drive, mass = _starts(injector, given)
+    experiment = _experiment(injector, drive, mass, step)
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         fmus = _fmus(Path(folder), drive, mass, native, platforms, compiler)
-    title = re.sub(r"\W+", "_", device.name, flags=re.ASCII).strip("_") or "system"
+    title = re.sub(r"\W+", "_", injector.name, flags=re.ASCII).strip("_") or "system"
     files = {one.source: one.fmu for one in fmus}
     files["SystemStructure.ssd"] = structure_xml(
-        title, fmus, _CONNECTIONS, experiment, description=device.name
+        title, fmus, _CONNECTIONS, experiment, description=injector.name
     )
     return write_archive(files, target)
 
 
-def _device(scene: Any) -> FuelInjector:
-    from .injector.run import FuelInjector, InjectorScene
+def _injector(scene: str | InjectorScene) -> InjectorScene:
+    """Scene of a fuel injector, opened if it is a name."""
     from .scenes import open_scene
 
-    device = open_scene(scene) if isinstance(scene, str) else scene
-    device = FuelInjector(device) if isinstance(device, InjectorScene) else device
-    if not isinstance(device, FuelInjector):
-        name = getattr(device, "name", scene)
+    found = open_scene(scene) if isinstance(scene, str) else scene
+    found = getattr(found, "scene", found)
+    if not isinstance(found, InjectorScene):
+        name = getattr(found, "name", scene)
         raise PlanError(
             f"{name} has no valve, which a system needs to pull its film; "
             "contactkit fmu build writes the FMU of a film alone"
         )
-    return device
+    return found
 
 
 def _by_element(start: Mapping[str, Value | str]) -> dict[str, dict[str, Value | str]]:
@@ -137,14 +137,12 @@ def _by_element(start: Mapping[str, Value | str]) -> dict[str, dict[str, Value |
 
 
 def _starts(
-    device: FuelInjector, given: Mapping[str, Mapping[str, Value | str]]
+    scene: InjectorScene, given: Mapping[str, Mapping[str, Value | str]]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Start values of drive and mass; the drive sees the gap at which the mass begins."""
-    from .injector.run import drive_values
-
-    mass = {**device.fmu_start()[1], **given[_MASS]}
-    gap = mass.get("h0", device.scene.opening.initial_gap)
-    drive = {**drive_values(device.scene.valve), "h": gap, **given[_DRIVE]}
+    mass = {**mass_values(scene.separation(scene.temperature)), **given[_MASS]}
+    gap = mass.get("h0", scene.opening.initial_gap)
+    drive = {**drive_start(scene.valve), "h": gap, **given[_DRIVE]}
     return drive, mass
 
 
@@ -192,13 +190,13 @@ def _number(ports: Sequence[Port], given: Mapping[str, Any], name: str) -> float
 
 
 def _experiment(
-    device: FuelInjector, drive: Mapping[str, Any], mass: Mapping[str, Any], step: float | None
+    scene: InjectorScene, drive: Mapping[str, Any], mass: Mapping[str, Any], step: float | None
 ) -> Experiment:
-    """All cycles at a step, unless with that a blow on the stop would feed on itself."""
+    """All cycles at a step, unless with that an impact on the end stop would feed on itself."""
     from ..fmu.slaves.stiction_mass import PORTS
     from ..fmu.slaves.valve_drive import ValveDrive
 
-    length = device.scene.study.communication_step if step is None else step
+    length = scene.study.communication_step if step is None else step
     if not (math.isfinite(length) and length >= 1e-9):
         raise DescriptionError(
             "step",

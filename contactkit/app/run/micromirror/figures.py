@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ...models.micromirror.coupling import FREE, couple
-from ...models.micromirror.release import Release, landing
-from ...models.micromirror.scene import MicromirrorScene
-from ...models.micromirror.tip_film import pressure_law, tip_law
-from ...plot import separation as plot
-from ...separation.effects.registry import MeniscusForce
-from .run import MirrorRun
+from ....models.micromirror.coupling import FREE, couple
+from ....models.micromirror.release import Release, landing
+from ....models.micromirror.scene import MicromirrorScene
+from ....models.micromirror.tip_film import pressure_law, tip_law
+from ....plot import separation as plot
+from ....separation.effects.registry import MeniscusForce
+from .cosimulation import MirrorRun
 from .sketch import sketch
 
 __all__ = ["draw"]
@@ -67,10 +67,10 @@ def _first_flip(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
         gap.plot(time, signals[f"gap_{side}"] * 1e9, color=color, label=label)
         force.plot(time, signals[f"force_{side}"] * 1e9, color=color, label=label)
     tilt.plot(time, np.degrees(signals["tilt"]), color="k", label="FMUs")
-    n = len(run.whole.time)
+    n = len(run.monolithic.time)
     tilt.plot(
         time[:n:12],
-        np.degrees(run.whole.unknowns[0, ::12]),
+        np.degrees(run.monolithic.unknowns[0, ::12]),
         "o",
         ms=3.5,
         mfc="none",

@@ -1,0 +1,45 @@
+"""Report of a work-precision study: table, numbers, advice, picture and CSV file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ...errors import InfeasibleError
+from ...work_precision import WorkPrecision
+from ..report import Report
+
+__all__ = ["cost_report"]
+
+
+def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str) -> Report:
+    """Turn a sweep into a table, numbers, and with a folder a picture and a CSV file."""
+    try:
+        best = found.cheapest(error)
+        advice = (
+            f"cheapest with an error of at most {error:g}: {best.method}, {best.label}, "
+            f"{best.seconds:.4f} s"
+        )
+    except InfeasibleError as problem:
+        advice = str(problem)
+    scalars: dict[str, tuple[Any, str]] = {found.quantity: (found.reference, "s")}
+    for point in found.points:
+        key = f"{point.method} / {point.label}"
+        scalars |= {f"{key} / error": (point.error, "-"), f"{key} / seconds": (point.seconds, "s")}
+        scalars |= {f"{key} / {count}": (value, "-") for count, value in point.counts.items()}
+    files = _write(found, out, name) if out is not None else ()
+    return Report(scalars, f"{found.table()}\n{advice}", files)
+
+
+def _write(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
+    from ...files.scenes import write_whole
+    from ...plot import separation as plot
+
+    made, ax = plot.figure(size=(8.0, 5.2))
+    plot.work_precision(found, ax, "osD^vP*X<>hdp")
+    plot.title(ax, f"{name}: what accuracy costs")
+    table = out / "cost.csv"
+    with write_whole(table) as temporary:
+        rows = [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in found.points]
+        temporary.write_text("\n".join(["method,setting,error [-],seconds [s]", *rows, ""]))
+    return plot.save(made, out / "cost"), table

@@ -1,0 +1,180 @@
+"""Running a contact scene from the command line: its numbers, files and figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import evolve
+
+from ...accuracy import Accuracy
+from ...contact.effects.film import FilmMeniscus
+from ...contact.effects.stress import SubsurfaceStress
+from ...planning import plan
+from ...scene.contact_scene import ContactScene
+from .report import Report
+
+if TYPE_CHECKING:
+    from ...contact.plan import ContactPlan
+    from ...contact.result import ContactResult
+    from ...studies.study import Study
+
+__all__ = ["run_contact"]
+
+Progress = Callable[[float], None]
+
+_TOLD = (
+    "max_pressure",
+    "contact_fraction",
+    "plastic_fraction",
+    "max_displacement",
+    "relative_meniscus_force",
+)
+
+
+def run_contact(
+    scene: ContactScene,
+    accuracy: Accuracy,
+    vary: Mapping[str, list[Any]],
+    out: Path | None,
+    progress: Progress,
+) -> Report:
+    """Solve a contact and the studies of its file, and write maps and figures to a folder."""
+    from ...contact.solve import solve
+
+    result = solve(plan(scene, accuracy))
+    share = 0.5 if vary else 1.0
+    progress(share)
+    studies = _studies(scene, accuracy, vary, lambda done: progress(share + (1.0 - share) * done))
+    scalars: dict[str, tuple[Any, str]] = dict(result.scalars())
+    files = _write(result, studies, out) if out is not None else ()
+    return Report(scalars, _text(result, studies), files)
+
+
+def _studies(
+    scene: ContactScene, accuracy: Accuracy, vary: Mapping[str, list[Any]], progress: Progress
+) -> tuple[tuple[str, Study], ...]:
+    """The sweep of the file, as it is and, where a film is listed, with its pull added."""
+    from ...studies.study import study
+
+    if not vary:
+        return ()
+    light = _without(scene, SubsurfaceStress)
+    film = light.effect(FilmMeniscus)
+    variants = [("dry" if film is None else "wet, film reported only", light)]
+    if film is not None:
+        pulled = evolve(film, self_consistent=not film.self_consistent)
+        effects = tuple(pulled if e is film else e for e in light.effects)
+        variants.append(("wet, film pulls too", evolve(light, effects=effects)))
+        if film.self_consistent:
+            variants = [(variants[1][0], variants[0][1]), (variants[0][0], variants[1][1])]
+    done: list[tuple[str, Study]] = []
+    for label, variant in variants:
+
+        def shared(share: float, before: int = len(done)) -> None:
+            progress((before + share) / len(variants))
+
+        done.append((label, study(variant, vary, accuracy, progress=shared)))
+    return tuple(done)
+
+
+def _without(scene: ContactScene, kind: type) -> ContactScene:
+    return evolve(scene, effects=tuple(e for e in scene.effects if not isinstance(e, kind)))
+
+
+def _text(result: ContactResult, studies: tuple[tuple[str, Study], ...]) -> str:
+    """Say the numbers, each with its unit, and the tables of the sweeps."""
+    lines = [str(result.plan), "", result.message]
+    for name, (value, unit) in result.scalars().items():
+        shown = f"{value:.6g}" + ("" if unit == "-" else f" {unit}")
+        lines.append(f"  {name.replace('_', ' '):34s} {shown}")
+    lines.append(f"  approach and displacement from {result.approach_datum}")
+    work = result.work
+    lines.append(
+        f"  {work.n_solves} solves, {work.n_operator_applications} operator applications, "
+        f"{work.seconds:.2f} s"
+    )
+    for label, made in studies:
+        names = [n for n in _TOLD if n in made.units]
+        lines += ["", f"load curve, {label}:", made.table(*names)]
+    return "\n".join(lines)
+
+
+def _write(
+    result: ContactResult, studies: tuple[tuple[str, Study], ...], out: Path
+) -> tuple[Path, ...]:
+    from ...files.results import save_result
+
+    files = [save_result(result, out / "result")]
+    for label, made in studies:
+        name = "load-curve" if len(studies) == 1 else f"load-curve-{_slug(label)}"
+        files.append(made.save_csv(out / name))
+    files += _figures(result, studies, out)
+    return tuple(files)
+
+
+def _slug(label: str) -> str:
+    return "-".join(label.replace(",", "").split())
+
+
+def _figures(
+    result: ContactResult, studies: tuple[tuple[str, Study], ...], out: Path
+) -> list[Path]:
+    from ...plot import contact as contact_plot
+    from ...plot import separation as plot
+
+    title = result.plan.scene.name
+    made, axes = plot.figure(1, 2, size=(11.0, 5.2))
+    contact_plot.pressure(result, axes[0])
+    contact_plot.contact_spots(result, axes[1])
+    plot.title(axes[0], f"{title}, {result.mean_pressure / 1e6:.3g} MPa")
+    files = [plot.save(made, out / "contact")]
+    if result.plan.has(SubsurfaceStress):
+        made, ax = plot.figure(size=(8.0, 5.5))
+        contact_plot.von_mises_section(result, ax)
+        plot.title(ax, f"{title}: under the largest pressure")
+        files.append(plot.save(made, out / "stress"))
+    files.append(_stacks(result.plan, out))
+    if studies:
+        files.append(_load_curves(studies, title, out))
+    return files
+
+
+def _stacks(made_plan: ContactPlan, out: Path) -> Path:
+    from ...plot import contact as contact_plot
+    from ...plot import separation as plot
+
+    interface = made_plan.scene.interface
+    bodies = [("upper body", interface.upper.stack), ("lower body", interface.lower.stack)]
+    shown = [(label, stack) for label, stack in bodies if stack is not None]
+    heights = [len(stack.materials) for _, stack in shown]
+    made, axes = plot.figure(
+        len(shown),
+        1,
+        size=(6.0, 0.9 * sum(heights) + 0.6 * len(shown)),
+        squeeze=False,
+        height_ratios=heights,
+    )
+    for ax, (label, stack) in zip(axes[:, 0], shown, strict=True):
+        contact_plot.stack_section(stack, ax, f"{label} (not to scale)")
+    return plot.save(made, out / "stack")
+
+
+def _load_curves(studies: tuple[tuple[str, Study], ...], title: str, out: Path) -> Path:
+    from ...plot import contact as contact_plot
+    from ...plot import separation as plot
+
+    curves = [(label, {name: made.column(name) for name in made.units}) for label, made in studies]
+    panels = contact_plot.panels_of(curves)
+    columns = min(3, len(panels))
+    rows = -(-len(panels) // columns)
+    made, axes = plot.figure(rows, columns, size=(4.0 * columns, 3.4 * rows), squeeze=False)
+    flat = list(axes.flat)
+    contact_plot.load_curve(curves, flat)
+    for ax in flat[len(panels) :]:
+        ax.set_visible(False)
+    plot.title(flat[0], f"{title}: load curve")
+    if len(studies) > 1:
+        plot.shared_legend(made, flat[0])
+    return plot.save(made, out / "load-curve")

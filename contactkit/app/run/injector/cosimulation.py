@@ -1,0 +1,118 @@
+"""Co-simulation of the fuel injector by two FMUs, each run beside its monolithic solution."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ....errors import PlanError
+from ....fmu.slaves.stiction_mass import mass_values
+from ....fmu.slaves.valve_drive import drive_values
+from ....models.injector.scene import InjectorScene, end_stop_curve
+from ....models.injector.valve import Valve
+from ....separation.effects.registry import TensionLimit
+from ....separation.plan import Plan, plan
+from ....units import celsius
+
+if TYPE_CHECKING:
+    from ....fmu.master.injector import CoSimulation
+    from ....models.injector.monolithic_result import MonolithicResult
+
+__all__ = ["InjectorRun", "build_fmus", "cosimulate_cases", "drive_start"]
+
+Progress = Callable[[float], None]
+
+
+class InjectorRun(NamedTuple):
+    """One co-simulation at a temperature [K], with or without the tension limit, and its check."""
+
+    temperature: float
+    limited: bool
+    plan: Plan
+    coupled: CoSimulation
+    monolithic: MonolithicResult
+    seconds: float
+
+    @property
+    def label(self) -> str:
+        """Temperature in degrees Celsius."""
+        return f"{self.temperature - celsius(0.0):+.0f} degC"
+
+
+def cosimulate_cases(
+    scene: InjectorScene, out: Path | None, progress: Progress
+) -> list[InjectorRun]:
+    """Co-simulate each temperature with and without the tension limit.
+
+    The FMUs are left in the folder `out` if one is given.
+    """
+    has_limit = scene.separation(scene.temperature).effect(TensionLimit) is not None
+    limited = (True, False) if has_limit else (True,)
+    cases = [(t, limit) for t in scene.study.temperatures for limit in limited]
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        pair = build_fmus(scene, out if out is not None else Path(folder))
+        return [
+            _cosimulate(
+                scene, pair, temperature, limit, partial(_fraction, progress, i, len(cases))
+            )
+            for i, (temperature, limit) in enumerate(cases)
+        ]
+
+
+def build_fmus(scene: InjectorScene, folder: Path) -> tuple[Path, Path]:
+    """Build drive and mass with the values of the scene as start values, and validate them.
+
+    Raises
+    ------
+    PlanError
+        If an FMU is not valid.
+    """
+    from ....fmu.python.build import build, validate
+
+    start = mass_values(scene.separation(scene.temperature))
+    drive = build("valve-drive", folder / "valve-drive.fmu", start=drive_start(scene.valve))
+    mass = build("stiction-mass", folder / "stiction-mass.fmu", start=start)
+    problems = validate(drive) + validate(mass)
+    if problems:
+        raise PlanError("FMU not valid: " + "; ".join(problems))
+    return drive, mass
+
+
+def drive_start(valve: Valve) -> dict[str, Any]:
+    """Start values of the FMU ``valve-drive``, with the curve of rough end-stop faces."""
+    curve = end_stop_curve(valve)
+    return drive_values(valve) | ({} if curve is None else {"curve": curve})
+
+
+def _cosimulate(
+    scene: InjectorScene,
+    pair: tuple[Path, Path],
+    temperature: float,
+    limited: bool,
+    progress: Progress,
+) -> InjectorRun:
+    from ....fmu.master.injector import cosimulate
+    from ....models.injector.monolithic import simulate
+
+    film = scene.separation(temperature, limited=limited)
+    begun = perf_counter()
+    coupled = cosimulate(
+        *pair,
+        scene.stop_time,
+        scene.study.communication_step,
+        mass_start=mass_values(film),
+        progress=progress,
+    )
+    seconds = perf_counter() - begun
+    made = plan(film)
+    check = simulate(made, scene.valve, scene.stop_time, faces=end_stop_curve(scene.valve))
+    return InjectorRun(temperature, limited, made, coupled, check, seconds)
+
+
+def _fraction(progress: Progress, i: int, n: int, done: float) -> None:
+    """Report the fraction done of the i-th of n runs as one of all of them."""
+    progress((i + done) / n)

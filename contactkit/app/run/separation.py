@@ -1,0 +1,74 @@
+"""Running a separation scene from the command line: its numbers, files and figures."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...errors import ValidityWarning
+from ...scene.scenes import SeparationScene
+from ...separation.plan import Plan, plan
+from ..report import Report
+
+if TYPE_CHECKING:
+    from ...separation.results import SeparationResult
+
+__all__ = ["run_separation"]
+
+
+def run_separation(
+    scene: SeparationScene, out: Path | None, progress: Callable[[float], None]
+) -> Report:
+    """Simulate a separation, and write its curves and figures to a folder if one is given."""
+    from ...separation.simulate import simulate
+
+    made = plan(scene)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
+        result = simulate(made, progress=progress)
+    scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
+    files = _write(result, out) if out is not None else ()
+    return Report(scalars, _text(made, result), files)
+
+
+def _text(made: Plan, result: SeparationResult) -> str:
+    width = max(len(name) for name in result.scalars())
+    numbers = [f"  {n:{width}s}  {v:.6g} {u}" for n, (v, u) in result.scalars().items()]
+    validity = [f"  {number}" for number in result.validity]
+    errata = [f"  {line}" for one in result.errata for line in str(one).splitlines()]
+    if errata:
+        errata = ["errata of what is taken as printed, at the start:", *errata]
+    work = result.work
+    cost = f"{work.n_steps} steps, {work.n_evaluations} force evaluations, {work.seconds:.3f} s"
+    lines = [str(made), result.message, *numbers, "validity:", *validity, *errata, cost]
+    return "\n".join(lines)
+
+
+def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
+    from ...files.results import save_csv, save_result
+    from ...plot import separation as plot
+    from ...separation.results import COLUMNS
+
+    headings = {c.name: f"{c.name} [{c.unit}]" for c in COLUMNS}
+    files = [
+        save_result(result, out / "result"),
+        save_csv(out / "result", result.columns, headings),
+    ]
+    if {"viscous_force", *result.plan.film.static_columns} & result.columns.keys():
+        made, ax = plot.figure()
+        plot.forces(result, ax)
+        plot.title(ax, result.plan.scene.name)
+        files.append(plot.save(made, out / "forces"))
+    if "mean_pull" in result.columns:
+        made, ax = plot.figure()
+        plot.cycles(result, ax)
+        plot.title(ax, result.plan.scene.name)
+        files.append(plot.save(made, out / "cycles"))
+    if result.state is not None:
+        made, ax = plot.figure()
+        plot.motion(result, ax)
+        plot.title(ax, result.plan.scene.name)
+        files.append(plot.save(made, out / "motion"))
+    return tuple(files)
