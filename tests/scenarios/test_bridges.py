@@ -90,7 +90,7 @@ def test_run_prints_the_bands(few, tmp_path, capsys):
 
 def test_the_bridges_that_come_with_contactkit(capsys):
     device = open_scene("bridges")
-    assert len(device.bridges) == 6
+    assert len(device.scene.bridges) == 6
     assert "reference: Legendre's integrals" in device.plan_text()
     with pytest.raises(ck.PlanError, match="have no FMU"):
         device.fmu_start()

@@ -13,7 +13,7 @@ from ...contact.effects.film import FilmMeniscus
 from ...contact.effects.stress import SubsurfaceStress
 from ...planning import plan
 from ...scene.contact_scene import ContactScene
-from .report import Report
+from ..report import Report
 
 if TYPE_CHECKING:
     from ...contact.plan import ContactPlan

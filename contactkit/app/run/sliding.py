@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ...errors import ValidityWarning
 from ...scene.scenes import SlidingScene
 from ...separation.sliding.plan import plan_sliding
-from .report import Report
+from ..report import Report
 
 if TYPE_CHECKING:
     from ...separation.sliding.result import SlidingResult
