@@ -4,6 +4,7 @@ access        Reading and writing the variables of a slave, and telling the host
 description   The model description (FMI 2.0) of a table of ports, complete where pythonfmu's is not
 description3  The model description (FMI 3.0) of a table of ports, and the description of a build.
 instance      One FMU in fmpy, driven by the names of its variables.
+places        Parameters of an FMU as fields of the scene behind it, one table for both directions.
 ports         Ports: what the variables of an FMU are called, mean, and may be.
 slave         `PortSlave`: an FMI 2.0 co-simulation slave whose variables are a table of ports.
 state         The state of a slave as plain data: taken, written as bytes, checked when it comes bac

@@ -16,14 +16,12 @@ from ...errors import DescriptionError
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import (
     AdhesiveContact,
-    Rupture,
-    ShearLimit,
-    TensionLimit,
     ViscousForce,
 )
 from ...separation.effects.viscous import keeps_radius
 from ..framework.ports import Port, Value
 from ..slaves.stiction_force import PORTS as FORCE_PORTS
+from ..slaves.stiction_mass import PLACES, with_numbers
 from ..slaves.stiction_mass import PORTS as MASS_PORTS
 from .data import IDENTIFIERS
 from .film import free_liquid
@@ -36,6 +34,17 @@ MODELS: Mapping[Model, tuple[Port, ...]] = {
     "stiction-force": FORCE_PORTS,
 }
 """Models that have a native form, and the variables of their Python FMUs."""
+
+_OF_MASS = {
+    name: name
+    for name in ("h0", "h_break", "dp_cav", "tau_lim", "m", "v0", "k_s", "h_rel", "h_min")
+}
+_OF_FILM = {name: name for name in ("h0", "h_break", "dp_cav", "tau_lim")} | {
+    "h": "h0",
+    "v": "v0",
+    "m_ref": "m",
+}
+"""Parameters of ``stiction-mass`` by variables of each model that a scene gives start values."""
 
 _LABELS = {
     "F_m": "force of the meniscus and the solids, positive resists opening",
@@ -96,30 +105,14 @@ def _start_is_held(scene: SeparationScene) -> bool:
 
 
 def start_of(scene: SeparationScene, model: Model = "stiction-mass") -> dict[str, Value]:
-    """Start values that a scene gives the variables."""
-    opening = scene.opening
-    viscosity, surface_tension = free_liquid(scene)
-    tension, shear = scene.effect(TensionLimit), scene.effect(ShearLimit)
-    rupture = scene.effect(Rupture)
-    if opening.mass is None:
+    """Start values that a scene gives the variables, by the places of the Python FMU."""
+    if scene.opening.mass is None:
         raise DescriptionError("m", None, "be given", unit="kg")
-    film: dict[str, Value] = {
-        "h0": opening.initial_gap,
-        "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
-        "eta": viscosity,
-        "gamma": surface_tension,
-        "dp_cav": tension.pressure_drop if tension is not None else 0.0,
-        "tau_lim": shear.strength if shear is not None else 0.0,
-    }
-    if model == "stiction-force":
-        return film | {"h": opening.initial_gap, "v": opening.initial_speed, "m_ref": opening.mass}
-    return film | {
-        "m": opening.mass,
-        "v0": opening.initial_speed,
-        "k_s": opening.stiffness,
-        "h_rel": opening.final_gap,
-        "h_min": opening.rest_gap,
-    }
+    named = _OF_MASS if model == "stiction-mass" else _OF_FILM
+    settled = with_numbers(scene)
+    values: dict[str, Value] = {name: PLACES[of].read(settled) for name, of in named.items()}
+    viscosity, surface_tension = free_liquid(scene)
+    return values | {"eta": viscosity, "gamma": surface_tension}
 
 
 def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value | str]) -> None:

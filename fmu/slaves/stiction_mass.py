@@ -10,7 +10,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from enum import IntEnum
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
+
+from attrs import evolve
 
 from ...accuracy import Accuracy
 from ...errors import DescriptionError, PlanError
@@ -22,7 +24,6 @@ from ...separation.effects.base import SeparationForce
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
-    SeparationEffect,
     ShearLimit,
     TensionLimit,
     ViscousForce,
@@ -30,6 +31,7 @@ from ...separation.effects.registry import (
 from ...separation.motion.advance import advance
 from ...separation.motion.state import FilmStatus, LimitKind, MotionState, Pull, outputs, start
 from ...separation.plan import Plan, plan
+from ..framework.places import Place, read, write
 from ..framework.ports import Port
 from ..framework.slave import PortSlave
 
@@ -45,15 +47,9 @@ class MeniscusLaw(IntEnum):
     PUBLISHED = 4
 
 
-_PROFILES: Mapping[MeniscusLaw, Literal["exact", "arc", "as-published"]] = {
-    MeniscusLaw.EXACT: "exact",
-    MeniscusLaw.ARC: "arc",
-    MeniscusLaw.PUBLISHED: "as-published",
-}
-
-_FILM = ("h0", "R", "V", "N")
-_MENISCUS = (*_FILM, "gamma", "theta1", "theta2", "meniscus_law")
-_VISCOUS = (*_FILM, "v0", "eta", "dp_cav", "tau_lim")
+_SHAPE = ("h0", "R", "V", "N")
+_MENISCUS = (*_SHAPE, "gamma", "theta1", "theta2", "meniscus_law")
+_VISCOUS = (*_SHAPE, "v0", "eta", "dp_cav", "tau_lim")
 _ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
@@ -155,6 +151,49 @@ PORTS = (
 )
 
 
+PLACES: Mapping[str, Place] = {
+    "m": Place("opening.mass"),
+    "h0": Place("opening.initial_gap"),
+    "v0": Place("opening.initial_speed"),
+    "k_s": Place("opening.stiffness"),
+    "h_rel": Place("opening.final_gap"),
+    "h_min": Place("opening.rest_gap"),
+    "rewet": Place("interface.meniscus.rewetting"),
+    "R": Place(("interface.lower.radius", "interface.upper.radius")),
+    "eta": Place("interface.meniscus.liquid.viscosity"),
+    "gamma": Place("interface.meniscus.liquid.surface_tension", nothing=0.0),
+    "theta1": Place("interface.meniscus.contact_angle_lower"),
+    "theta2": Place("interface.meniscus.contact_angle_upper"),
+    "V": Place("interface.meniscus.volume", nothing=0.0),
+    "N": Place("interface.meniscus.count"),
+    "meniscus_law": Place(
+        "profile",
+        MeniscusForce,
+        nothing=MeniscusLaw.NONE,
+        words={
+            MeniscusLaw.EXACT: "exact",
+            MeniscusLaw.ARC: "arc",
+            MeniscusLaw.PUBLISHED: "as-published",
+        },
+    ),
+    "dp_cav": Place("tension", TensionLimit, nothing=0.0),
+    "tau_lim": Place("strength", ShearLimit, nothing=0.0),
+    "h_break": Place("gap", Rupture, nothing=0.0),
+}
+"""Where each parameter of the film and the mass stands in a scene."""
+
+_FILM = SeparationScene(
+    interface=Interface(
+        lower=Flat(radius=1.0),
+        upper=Flat(radius=1.0),
+        meniscus=Meniscus(liquid=Liquid(name="liquid of the FMU", viscosity=1.0)),
+    ),
+    opening=Opening(initial_gap=1.0, final_gap=2.0, force=0.0, mass=1.0),  # the pull is an input
+    effects=(ViscousForce(),),
+)
+"""Scene whose fields the parameters fill in."""
+
+
 def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     """Scene that the parameters of the FMU describe.
 
@@ -171,43 +210,8 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
         raise DescriptionError(
             "h_min", values["h_min"], f"not exceed h0 = {values['h0']!r} m", unit="m"
         )
-    face = Flat(radius=values["R"])
-    liquid = Liquid(
-        name="liquid of the FMU", viscosity=values["eta"], surface_tension=values["gamma"] or None
-    )
-    meniscus = Meniscus(
-        liquid=liquid,
-        volume=values["V"] or None,
-        contact_angle_lower=values["theta1"],
-        contact_angle_upper=values["theta2"],
-        count=values["N"],
-        rewetting=values["rewet"],
-    )
-    opening = Opening(
-        initial_gap=values["h0"],
-        final_gap=values["h_rel"],
-        force=0.0,  # the pull is an input
-        mass=values["m"],
-        stiffness=values["k_s"],
-        initial_speed=values["v0"],
-        rest_gap=values["h_min"],
-    )
-    interface = Interface(lower=face, upper=face, meniscus=meniscus)
-    return SeparationScene(interface=interface, opening=opening, effects=_effects(values))
-
-
-def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
-    effects: list[SeparationEffect] = [ViscousForce()]
-    law = MeniscusLaw(values["meniscus_law"])
-    if law is not MeniscusLaw.NONE and values["gamma"] > 0.0:
-        effects.append(MeniscusForce(profile=_PROFILES[law]))
-    if values["dp_cav"] > 0.0:
-        effects.append(TensionLimit(tension=values["dp_cav"]))
-    if values["tau_lim"] > 0.0:
-        effects.append(ShearLimit(strength=values["tau_lim"]))
-    if values["h_break"] > 0.0:
-        effects.append(Rupture(gap=values["h_break"]))
-    return tuple(effects)
+    law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
+    return write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -218,14 +222,9 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     PlanError
         If the FMU cannot represent the scene; says what stands against it.
     """
-    interface, opening, meniscus = scene.interface, scene.opening, scene.interface.meniscus
-    liquid = meniscus.liquid.at(scene.temperature)
+    interface, opening = scene.interface, scene.opening
     viscous, film = scene.effect(ViscousForce), scene.effect(MeniscusForce)
-    tension, shear, rupture = (
-        scene.effect(TensionLimit),
-        scene.effect(ShearLimit),
-        scene.effect(Rupture),
-    )
+    tension, rupture = scene.effect(TensionLimit), scene.effect(Rupture)
     against = [
         reason
         for reason, holds in {
@@ -252,28 +251,22 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     if against:
         cure = "change the scene, or add --native, which takes any scene with a mass"
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {cure}")
-    laws = {"exact": "EXACT", "arc": "ARC", "as-published": "PUBLISHED"}
-    law = "NONE" if film is None else laws[film.profile]
-    return {
-        "m": opening.mass,
-        "h0": opening.initial_gap,
-        "v0": opening.initial_speed,
-        "k_s": opening.stiffness,
-        "h_rel": opening.final_gap,
-        "h_min": opening.rest_gap,
-        "h_break": (rupture.gap or 0.0) if rupture is not None else 0.0,
-        "rewet": meniscus.rewetting,
-        "R": interface.rim_radius,
-        "eta": liquid.viscosity,
-        "gamma": liquid.surface_tension or 0.0,
-        "theta1": meniscus.contact_angle_lower,
-        "theta2": meniscus.contact_angle_upper,
-        "V": meniscus.volume or 0.0,
-        "N": meniscus.count,
-        "meniscus_law": law,
-        "dp_cav": tension.pressure_drop if tension is not None else 0.0,
-        "tau_lim": shear.strength if shear is not None else 0.0,
-    }
+    return read(PLACES, with_numbers(scene))
+
+
+def with_numbers(scene: SeparationScene) -> SeparationScene:
+    """Scene with a liquid of constant properties, and the tension limit as a pressure [Pa]."""
+    meniscus = scene.interface.meniscus
+    state = meniscus.liquid.at(scene.temperature)
+    liquid = Liquid(
+        name=meniscus.liquid.name, viscosity=state.viscosity, surface_tension=state.surface_tension
+    )
+    effects = tuple(
+        evolve(effect, tension=effect.pressure_drop) if isinstance(effect, TensionLimit) else effect
+        for effect in scene.effects
+    )
+    interface = evolve(scene.interface, meniscus=evolve(meniscus, liquid=liquid))
+    return evolve(scene, interface=interface, effects=effects)
 
 
 class StictionMass(PortSlave):

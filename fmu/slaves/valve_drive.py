@@ -22,6 +22,7 @@ from pythonfmu.enums import Fmi2Status
 from ...analyses.load_displacement.curve import StopCurve
 from ...errors import DescriptionError
 from ...models.injector import valve as law
+from ..framework.places import Place, read, write
 from ..framework.ports import Port, Value
 from ..framework.slave import PortSlave
 
@@ -296,7 +297,7 @@ class ValveDrive(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         check_drive(self.values)
-        self.valve = _valve(self.values)
+        self.valve = write(PLACES, _VALVE, self.values)
         faces = self.data.get("curve")
         self.faces = StopCurve.from_data(faces) if faces is not None else None
         self.largest = 0.0
@@ -378,52 +379,40 @@ def check_drive(values: Mapping[str, Value]) -> None:
         )
 
 
+PLACES: Mapping[str, Place] = {
+    "R_coil": Place("coil.resistance"),
+    "N_turns": Place("coil.turns"),
+    "A_pole": Place("coil.pole_area"),
+    "g_air": Place("coil.air_gap"),
+    "g_iron": Place("coil.iron_gap"),
+    "B_sat": Place("coil.saturation", nothing=0.0),
+    "k_spring": Place("spring.stiffness"),
+    "F_preload": Place("spring.preload"),
+    "h_stop": Place("stop.gap"),
+    "k_stop": Place("stop.stiffness"),
+    "d_stop": Place("stop.damping"),
+    "t_delay": Place("profile.start_delay"),
+    "T_period": Place("profile.period"),
+    "t_on": Place("profile.on_time"),
+    "U_boost": Place("profile.boost_voltage"),
+    "t_boost": Place("profile.boost_time"),
+    "U_hold": Place("profile.hold_voltage"),
+    "U_off": Place("profile.off_voltage"),
+    "n_cycles": Place("profile.cycles"),
+}
+"""Where each parameter stands in a `Valve`."""
+
+_VALVE = law.Valve(
+    coil=law.Coil(resistance=1.0, turns=1, pole_area=1.0, air_gap=2.0, iron_gap=1.0),
+    spring=law.Spring(stiffness=1.0, preload=1.0),
+    stop=law.Stop(gap=1.0, stiffness=1.0),
+    profile=law.DriveProfile(
+        period=1.0, on_time=1.0, boost_voltage=1.0, boost_time=1.0, hold_voltage=1.0
+    ),
+)
+"""Valve whose fields the parameters fill in."""
+
+
 def drive_values(valve: law.Valve) -> dict[str, Any]:
-    """Parameters of the FMU ``valve-drive`` for a valve."""
-    coil, spring, stop, profile = valve.coil, valve.spring, valve.stop, valve.profile
-    return {
-        "R_coil": coil.resistance,
-        "N_turns": coil.turns,
-        "A_pole": coil.pole_area,
-        "g_air": coil.air_gap,
-        "g_iron": coil.iron_gap,
-        "B_sat": coil.saturation or 0.0,
-        "k_spring": spring.stiffness,
-        "F_preload": spring.preload,
-        "h_stop": stop.gap,
-        "k_stop": stop.stiffness,
-        "d_stop": stop.damping,
-        "t_delay": profile.start_delay,
-        "T_period": profile.period,
-        "t_on": profile.on_time,
-        "U_boost": profile.boost_voltage,
-        "t_boost": profile.boost_time,
-        "U_hold": profile.hold_voltage,
-        "U_off": profile.off_voltage,
-        "n_cycles": profile.cycles,
-    }
-
-
-def _valve(values: dict[str, float]) -> law.Valve:
-    return law.Valve(
-        coil=law.Coil(
-            resistance=values["R_coil"],
-            turns=int(values["N_turns"]),
-            pole_area=values["A_pole"],
-            air_gap=values["g_air"],
-            iron_gap=values["g_iron"],
-            saturation=values["B_sat"] or None,
-        ),
-        spring=law.Spring(stiffness=values["k_spring"], preload=values["F_preload"]),
-        stop=law.Stop(gap=values["h_stop"], stiffness=values["k_stop"], damping=values["d_stop"]),
-        profile=law.DriveProfile(
-            start_delay=values["t_delay"],
-            period=values["T_period"],
-            on_time=values["t_on"],
-            boost_voltage=values["U_boost"],
-            boost_time=values["t_boost"],
-            hold_voltage=values["U_hold"],
-            off_voltage=values["U_off"],
-            cycles=int(values["n_cycles"]),
-        ),
-    )
+    """Start values of the FMU for a valve; the curve of rough end-stop faces is not among them."""
+    return read(PLACES, valve)

@@ -1,0 +1,92 @@
+"""Parameters of an FMU as fields of the scene behind it: one table for both directions.
+
+A `Place` says where in the scene a parameter stands. `read` gives the start values of a scene,
+`write` puts the values of a host into a scene; both follow the same table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import IntEnum
+from functools import reduce
+from typing import Any, TypeVar
+
+from attrs import evolve, field, frozen
+
+__all__ = ["Place", "read", "write"]
+
+_T = TypeVar("_T")
+
+
+def _as_tuple(paths: str | tuple[str, ...]) -> tuple[str, ...]:
+    return (paths,) if isinstance(paths, str) else paths
+
+
+@frozen
+class Place:
+    """Where a parameter stands in a scene, or in another object made of attrs classes.
+
+    Parameters
+    ----------
+    paths : str or tuple of str
+        Dotted names of fields. Of several, each gets the value; the smallest one there is read.
+    effect : type, optional
+        Effect of the scene that has the field, instead of the scene itself.
+    nothing : optional
+        Value that stands for None, or for an effect that is not there.
+    words : mapping, optional
+        Text in the scene by member of an enumeration.
+    """
+
+    paths: tuple[str, ...] = field(converter=_as_tuple)
+    effect: type | None = None
+    nothing: Any = None
+    words: Mapping[IntEnum, str] = field(factory=dict)
+
+    def read(self, scene: Any) -> Any:
+        """Value of the parameter for a scene; that of an enumeration is the name of its member."""
+        owner = scene if self.effect is None else scene.effect(self.effect)
+        found = [] if owner is None else [reduce(getattr, p.split("."), owner) for p in self.paths]
+        value = min((one for one in found if one is not None), default=self.nothing)
+        member = next((one for one, text in self.words.items() if text == value), value)
+        return member.name if isinstance(member, IntEnum) else member
+
+    def value_in_scene(self, value: Any) -> Any:
+        """Value of the field for one of the parameter."""
+        if self.nothing is not None and value == self.nothing:
+            return None
+        return self.words.get(value, value)
+
+
+def read(places: Mapping[str, Place], scene: Any) -> dict[str, Any]:
+    """Values of the parameters for a scene."""
+    return {name: place.read(scene) for name, place in places.items()}
+
+
+def write(places: Mapping[str, Place], scene: _T, values: Mapping[str, Any]) -> _T:
+    """Scene with the values of the parameters in their places, all at once.
+
+    Effects that come in addition follow those of the scene in the order of the table.
+    """
+    tree: dict[str, Any] = {}
+    for name, place in places.items():
+        if place.effect is None:
+            for path in place.paths:
+                *owners, last = path.split(".")
+                owner = reduce(lambda at, part: at.setdefault(part, {}), owners, tree)
+                owner[last] = place.value_in_scene(values[name])
+    made: Any = _evolved(scene, tree)
+    added = []
+    for name, place in places.items():
+        value = place.value_in_scene(values[name])
+        if place.effect is not None and value is not None:
+            added.append(place.effect(**{place.paths[0]: value}))
+    return evolve(made, effects=(*made.effects, *added)) if added else made
+
+
+def _evolved(owner: Any, tree: Mapping[str, Any]) -> Any:
+    changes = {
+        name: _evolved(getattr(owner, name), value) if isinstance(value, dict) else value
+        for name, value in tree.items()
+    }
+    return evolve(owner, **changes)
