@@ -22,7 +22,7 @@ from ..models.end_stop.faces import beside
 from ..models.injector.scene import InjectorScene
 from ..models.library import bundled_scene
 from ..models.liquid_bridges.scene import Bridges
-from ..models.micromirror.scene import MicromirrorScene, tip_values
+from ..models.micromirror.scene import MicromirrorScene
 from ..scene.contact_scene import ContactScene
 from ..scene.scenes import SeparationScene, SlidingScene
 from .report import Report
@@ -321,4 +321,6 @@ class OpenedMicromirror:
 
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
         """See `OpenedScene.fmu_start`."""
-        return "tip-contact", tip_values(self.scene, self.scene.study.humidity)
+        from .run.micromirror.cosimulation import tip_start
+
+        return "tip-contact", tip_start(self.scene, self.scene.study.humidity)

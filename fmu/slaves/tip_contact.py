@@ -23,9 +23,11 @@ from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any, ClassVar
 
+from attrs import evolve
+
 from ...accuracy import Accuracy
 from ...analyses.load_displacement.curve import StopCurve
-from ...errors import DescriptionError
+from ...errors import DescriptionError, PlanError
 from ...liquids.liquid import Liquid
 from ...models.micromirror.flight import Root
 from ...models.micromirror.tip import (
@@ -43,14 +45,15 @@ from ...scene.scenes import SeparationScene
 from ...scene.shapes import Flat, Sphere
 from ...separation.effects.registry import (
     MeniscusForce,
-    SeparationEffect,
     VanDerWaalsForce,
     ViscousForce,
 )
 from ...separation.motion.state import MotionState
 from ...separation.plan import Plan, plan
+from ..framework.places import Place, read, write
 from ..framework.ports import Port
 from ..framework.slave import PortSlave
+from .stiction_mass import with_numbers
 
 __all__ = ["TipContact", "TipLaw", "TipStatus"]
 
@@ -198,6 +201,34 @@ PORTS = (
 )
 
 
+PLACES: Mapping[str, Place] = {
+    "m": Place("opening.mass"),
+    "k": Place("opening.stiffness"),
+    "h0": Place(("opening.initial_gap", "opening.rest_gap")),
+    "h_free": Place("opening.final_gap"),
+    "R": Place("interface.upper.radius"),
+    "V": Place("interface.meniscus.volume", nothing=0.0),
+    "gamma": Place("interface.meniscus.liquid.surface_tension"),
+    "eta": Place("interface.meniscus.liquid.viscosity", nothing=0.0),
+    "theta1": Place("interface.meniscus.contact_angle_lower"),
+    "theta2": Place("interface.meniscus.contact_angle_upper"),
+    "profile": Place("profile", MeniscusForce, words={TipLaw.EXACT: "exact", TipLaw.ARC: "arc"}),
+    "A_H": Place("hamaker_constant", VanDerWaalsForce, nothing=0.0),
+}
+"""Where each parameter of a tip stands in its scene."""
+
+_TIP = SeparationScene(
+    interface=Interface(
+        lower=Flat(),
+        upper=Sphere(radius=1.0),
+        meniscus=Meniscus(liquid=Liquid(name="liquid of the FMU", surface_tension=1.0)),
+    ),
+    opening=Opening(initial_gap=1.0, final_gap=2.0, force=0.0, mass=1.0),  # what pulls is the root
+    effects=(),
+)
+"""Scene whose fields the parameters fill in."""
+
+
 def tip_scene(values: Mapping[str, Any]) -> SeparationScene:
     """Scene of one tip that the parameters of the FMU describe.
 
@@ -209,42 +240,52 @@ def tip_scene(values: Mapping[str, Any]) -> SeparationScene:
     if values["h_free"] <= values["h0"]:
         expected = f"exceed h0 = {values['h0']!r} m"
         raise DescriptionError("h_free", values["h_free"], expected, unit="m")
-    liquid = Liquid(
-        name="liquid of the FMU",
-        viscosity=values["eta"] or None,
-        surface_tension=values["gamma"],
-    )
-    meniscus = Meniscus(
-        liquid=liquid,
-        volume=values["V"] or None,
-        contact_angle_lower=values["theta1"],
-        contact_angle_upper=values["theta2"],
-    )
-    opening = Opening(
-        initial_gap=values["h0"],
-        final_gap=values["h_free"],
-        rest_gap=values["h0"],
-        force=0.0,  # what pulls is the root
-        mass=values["m"],
-        stiffness=values["k"],
-    )
-    interface = Interface(lower=Flat(), upper=Sphere(radius=values["R"]), meniscus=meniscus)
-    return SeparationScene(interface=interface, opening=opening, effects=_effects(values))
-
-
-def _effects(values: Mapping[str, Any]) -> tuple[SeparationEffect, ...]:
-    effects: list[SeparationEffect] = []
-    if values["V"] > 0.0:
-        effects.append(MeniscusForce(profile=TipLaw(values["profile"]).name.lower()))  # type: ignore[arg-type]
-        if values["eta"] > 0.0:
-            effects.append(ViscousForce())
-    if values["A_H"] > 0.0:
-        effects.append(VanDerWaalsForce(hamaker_constant=values["A_H"]))
-    if not effects:
+    is_wet = values["V"] > 0.0
+    places = PLACES if is_wet else {n: p for n, p in PLACES.items() if p.effect != MeniscusForce}
+    scene = write(places, _TIP, {**values, "profile": TipLaw(values["profile"])})
+    if is_wet and values["eta"] > 0.0:
+        meniscus, *others = scene.effects
+        scene = evolve(scene, effects=(meniscus, ViscousForce(), *others))
+    if not scene.effects:
         raise DescriptionError(
             "V", 0.0, "be positive, or A_H [J]", unit="m3", hint="else nothing holds a tip"
         )
-    return tuple(effects)
+    return scene
+
+
+def tip_values(tip: SeparationScene) -> dict[str, Any]:
+    """Start values of the FMU for a scene of one tip.
+
+    Raises
+    ------
+    PlanError
+        If the FMU cannot represent the scene; says what stands against it.
+    """
+    interface, meniscus = tip.interface, tip.interface.meniscus
+    film, solids = tip.effect(MeniscusForce), tip.effect(VanDerWaalsForce)
+    viscous = tip.effect(ViscousForce)
+    known = MeniscusForce | VanDerWaalsForce | ViscousForce
+    needs = {
+        "an endless flat below and a sphere above": isinstance(interface.upper, Sphere)
+        and isinstance(interface.lower, Flat)
+        and interface.lower.radius is None,
+        "meniscus-force, viscous-force and van-der-waals-force only": all(
+            isinstance(e, known) for e in tip.effects
+        ),
+        "MeniscusForce with profile 'exact' or 'arc'": film is None
+        or film.profile in ("exact", "arc"),
+        "ViscousForce() with closure='volume-conserving'": viscous is None
+        or viscous.closure == "volume-conserving",
+        "VanDerWaalsForce with its own cutoff and closure": solids is None
+        or solids == VanDerWaalsForce(hamaker_constant=solids.hamaker_constant),
+        "Meniscus.count = 1 and rewetting = 1": meniscus.count == 1 and meniscus.rewetting == 1.0,
+    }
+    if against := [reason for reason, holds in needs.items() if not holds]:
+        raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
+    values = read(PLACES, with_numbers(tip))
+    if film is None:
+        del values["profile"]
+    return values if viscous is not None else values | {"eta": 0.0}
 
 
 class TipContact(PortSlave):

@@ -6,15 +6,11 @@ from typing import Any
 
 from attrs import evolve, field, frozen
 
-from ...errors import DescriptionError, PlanError
+from ...errors import DescriptionError
 from ...scene.interface import Interface, Opening
 from ...scene.scenes import SeparationScene
-from ...scene.shapes import Flat, Sphere
 from ...separation.effects.registry import (
-    MeniscusForce,
     SeparationEffect,
-    VanDerWaalsForce,
-    ViscousForce,
 )
 from ...separation.plan import Plan
 from ...units import celsius, si
@@ -23,10 +19,10 @@ from .coupling import LocalTip
 from .flight import Root
 from .mirror import Mirror, electrode_volts, landed_tilt, root_height
 from .tip import TipStop, contact_of, free_start, landed_start
-from .tip_film import tip_law, tip_scene
+from .tip_film import tip_law
 from .tip_impact import rest_depth
 
-__all__ = ["MicromirrorScene", "MirrorStudy", "tip_values"]
+__all__ = ["MicromirrorScene", "MirrorStudy"]
 
 _ROUNDS = 8  # each brings the tilt at rest nearer by the ratio of tip and site, some 1 %
 
@@ -165,54 +161,3 @@ class MicromirrorScene:
         wait = self.study.patience
         changed = evolve(wave, start_delay=0.0, flips=1, release_time=wait, period=1.0, **reset)
         return evolve(self.mirror, waveform=changed)
-
-
-def tip_values(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
-    """Parameters of the FMU ``tip-contact`` for a scene at a relative humidity [-].
-
-    Raises
-    ------
-    PlanError
-        If the FMU cannot represent the scene; says what stands against it.
-    """
-    tip, tips, stop = tip_scene(scene.tip, humidity), scene.mirror.tips, scene.stop
-    interface, opening, meniscus = tip.interface, tip.opening, tip.interface.meniscus
-    liquid = meniscus.liquid.at(tip.temperature)
-    film, solids = tip.effect(MeniscusForce), tip.effect(VanDerWaalsForce)
-    viscous = tip.effect(ViscousForce)
-    profiles = {"arc": "ARC", "exact": "EXACT"}
-    known = MeniscusForce | VanDerWaalsForce | ViscousForce
-    needs = {
-        "an endless flat below and a sphere above": isinstance(interface.upper, Sphere)
-        and isinstance(interface.lower, Flat)
-        and interface.lower.radius is None,
-        "meniscus-force, viscous-force and van-der-waals-force only": all(
-            isinstance(e, known) for e in tip.effects
-        ),
-        "MeniscusForce with profile 'exact' or 'arc'": film is None or film.profile in profiles,
-        "ViscousForce() with closure='volume-conserving'": viscous is None
-        or viscous.closure == "volume-conserving",
-        "VanDerWaalsForce with its own cutoff and closure": solids is None
-        or solids == VanDerWaalsForce(hamaker_constant=solids.hamaker_constant),
-        "Meniscus.count = 1 and rewetting = 1": meniscus.count == 1 and meniscus.rewetting == 1.0,
-    }
-    if against := [reason for reason, holds in needs.items() if not holds]:
-        raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
-    assert isinstance(interface.upper, Sphere)
-    return {
-        "N": tips.per_side,
-        "m": opening.mass,
-        "k": opening.stiffness,
-        "c": tips.damping,
-        "h0": opening.initial_gap,
-        "h_free": opening.final_gap,
-        "R": interface.upper.radius,
-        "A_H": solids.hamaker_constant if solids is not None else 0.0,
-        "V": meniscus.volume or 0.0,
-        "gamma": liquid.surface_tension,
-        "eta": (liquid.viscosity or 0.0) if viscous is not None else 0.0,
-        "theta1": meniscus.contact_angle_lower,
-        "theta2": meniscus.contact_angle_upper,
-        "profile": profiles[film.profile] if film is not None else "EXACT",
-        **({"curve": stop.curve, "d_stop": stop.damping} if stop is not None else {}),
-    }

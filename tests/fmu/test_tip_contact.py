@@ -9,12 +9,12 @@ import sys
 import fmpy
 import pytest
 
+from contactkit.app.run.micromirror.cosimulation import tip_start
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.tip_contact import TipContact, TipLaw, TipStatus, tip_scene
 from contactkit.models.micromirror.flight import Root
-from contactkit.models.micromirror.scene import tip_values
 from contactkit.models.micromirror.tip import advance_tip, landed_start
 from contactkit.models.micromirror.tip_film import adhesion, tip_law
 from contactkit.models.micromirror.tip_film import tip_scene as scene_of_tip
@@ -31,7 +31,7 @@ def scene():
 @pytest.fixture(scope="module")
 def tip_fmu(tmp_path_factory, scene):
     path = tmp_path_factory.mktemp("fmu") / "tip-contact.fmu"
-    return building.build("tip-contact", path, start=tip_values(scene, 0.5))
+    return building.build("tip-contact", path, start=tip_start(scene, 0.5))
 
 
 @pytest.fixture
@@ -57,7 +57,7 @@ def test_it_is_valid_and_tells_what_follows_at_once(tip_fmu):
 
 def test_its_parameters_are_those_of_the_micromirror(scene):
     """All but the volume, which follows from the humidity."""
-    values, given = TipContact.start_values(), tip_values(scene, 0.5)
+    values, given = TipContact.start_values(), tip_start(scene, 0.5)
     for name in ("m", "k", "c", "h0", "h_free", "R", "A_H", "N"):
         assert values[name] == pytest.approx(given[name], rel=1e-12), name
     for name in ("gamma", "eta", "theta1", "theta2"):
@@ -67,7 +67,7 @@ def test_its_parameters_are_those_of_the_micromirror(scene):
 
 
 def test_the_scene_comes_back_from_its_parameters(scene):
-    values = TipContact.start_values() | tip_values(scene, 0.5)
+    values = TipContact.start_values() | tip_start(scene, 0.5)
     values["profile"] = TipLaw[values["profile"]]
     made, theirs = tip_scene(values), scene_of_tip(scene.tip, 0.5)
     assert {type(e) for e in made.effects} == {type(e) for e in theirs.effects}
@@ -127,7 +127,7 @@ def test_tips_start_free_over_their_site_and_land(host):
 def test_a_tip_is_held_with_the_adhesion_of_its_humidity(host, scene):
     """The force of the spring where it leaves is that of film and solids."""
     for humidity in (0.0, 0.3, 0.9):
-        values = tip_values(scene, humidity)
+        values = tip_start(scene, humidity)
         start = {name: value for name, value in values.items() if name not in ("profile", "N")}
         host.reset().start(**start)
         hold, largest = 2.0 * adhesion(scene.tip, humidity).force, 0.0
@@ -182,14 +182,14 @@ def test_a_scene_it_cannot_hold_is_refused(scene):
 
     limited = evolve(scene, effects=(*scene.effects, ck.TensionLimit()))
     with pytest.raises(PlanError, match="tip-contact needs meniscus-force, viscous-force and van"):
-        tip_values(limited, 0.5)
+        tip_start(limited, 0.5)
     printed = tuple(
         evolve(e, profile="as-published") if isinstance(e, ck.MeniscusForce) else e
         for e in scene.effects
         if not isinstance(e, ck.ViscousForce)
     )
     with pytest.raises(PlanError, match="profile 'exact' or 'arc'"):
-        tip_values(evolve(scene, effects=printed), 0.5)
+        tip_start(evolve(scene, effects=printed), 0.5)
 
 
 def test_a_start_value_must_be_possible(tmp_path):

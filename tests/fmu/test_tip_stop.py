@@ -10,7 +10,7 @@ import pytest
 from attrs import evolve
 
 from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
-from contactkit.app.run.micromirror.cosimulation import couple_fmus
+from contactkit.app.run.micromirror.cosimulation import couple_fmus, tip_start
 from contactkit.app.run.micromirror.landing_sites import landing_numbers
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, InfeasibleError
@@ -22,7 +22,6 @@ from contactkit.models.end_stop.solve import curve_of_scene, solved
 from contactkit.models.micromirror.coupling import couple
 from contactkit.models.micromirror.flight import Root
 from contactkit.models.micromirror.monolithic import simulate_monolithic
-from contactkit.models.micromirror.scene import tip_values
 from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
 from contactkit.models.micromirror.tip_film import tip_law
 from contactkit.models.micromirror.tip_impact import TipStop, sprung_back
@@ -255,7 +254,7 @@ def test_a_pair_of_fmus_bounces_as_one_system_does(soft, tmp_path):
     whole = simulate_monolithic(soft.mirror, plan, soft.start, end, rtol=1e-7, stop=soft.stop)
     lands = [e.time for e in whole.events if (e.what, e.side) == ("lands", -1.0)]
     assert [e.what for e in whole.events if e.side < 0.0][:3] == ["lands", "bounces", "lands"]
-    path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_values(soft, 0.0))
+    path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_start(soft, 0.0))
     run = couple_fmus(soft, path, soft.mirror, end, 20e-9)
     tips = soft.tips(plan)
     couple(soft.mirror, tips, soft.opening.stiffness, soft.start, end, 20e-9)
@@ -280,7 +279,7 @@ def test_it_starts_at_rest(soft):
 
 
 def test_the_fmu_restores_a_blow_and_says_what_it_had(soft, open_fmu, tmp_path):
-    path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_values(soft, 0.0))
+    path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_start(soft, 0.0))
     assert building.validate(path) == []
     host = open_fmu(path)
     host.start(z=1e-9)
@@ -306,7 +305,7 @@ def test_the_fmu_restores_a_blow_and_says_what_it_had(soft, open_fmu, tmp_path):
 
 
 def test_on_a_rigid_site_there_is_nothing_to_damp(scene, open_fmu, tmp_path):
-    path = building.build("tip-contact", tmp_path / "r.fmu", start=tip_values(scene, 0.0))
+    path = building.build("tip-contact", tmp_path / "r.fmu", start=tip_start(scene, 0.0))
     host = open_fmu(path)
     host.slave.setupExperiment(startTime=0.0)
     host.set(d_stop=1.0)

@@ -6,20 +6,21 @@ import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ....errors import PlanError
+from ....fmu.slaves.tip_contact import tip_values
 from ....models.micromirror.coupling import FmuTip, Motion, couple
 from ....models.micromirror.mirror import Mirror, root_height
-from ....models.micromirror.scene import MicromirrorScene, tip_values
-from ....models.micromirror.tip_film import tip_law
+from ....models.micromirror.scene import MicromirrorScene
+from ....models.micromirror.tip_film import tip_law, tip_scene
 from ....separation.plan import Plan
 
 if TYPE_CHECKING:
     from ....fmu.framework.instance import Instance
     from ....models.micromirror.monolithic import MonolithicMotion
 
-__all__ = ["FmuRun", "MirrorRun", "build_tips", "cosimulate_flips", "couple_fmus"]
+__all__ = ["FmuRun", "MirrorRun", "build_tips", "cosimulate_flips", "couple_fmus", "tip_start"]
 
 Progress = Callable[[float], None]
 
@@ -55,11 +56,25 @@ def build_tips(scene: MicromirrorScene, folder: Path) -> Path:
     """
     from ....fmu.python.build import build, validate
 
-    start = tip_values(scene, scene.study.humidity)
+    start = tip_start(scene, scene.study.humidity)
     made = build("tip-contact", folder / "tip-contact.fmu", start=start)
     if problems := validate(made):
         raise PlanError("FMU not valid: " + "; ".join(problems))
     return made
+
+
+def tip_start(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
+    """Start values of the FMU ``tip-contact`` of a side, at a relative humidity [-].
+
+    Raises
+    ------
+    PlanError
+        If the FMU cannot represent the scene; says what stands against it.
+    """
+    tips, stop = scene.mirror.tips, scene.stop
+    values = tip_values(tip_scene(scene.tip, humidity))
+    values |= {"N": tips.per_side, "c": tips.damping}
+    return values if stop is None else values | {"curve": stop.curve, "d_stop": stop.damping}
 
 
 def cosimulate_flips(scene: MicromirrorScene, out: Path | None, progress: Progress) -> MirrorRun:
