@@ -59,7 +59,7 @@ def division_table() -> str:
                 f"{height}",
                 f"{printed.best_count}",
                 f"{exact.best_count}",
-                f"{exact.largest_stable_count}",
+                f"{exact.max_stable_count}",
                 *(f"{area:.4f}" for area in areas),
             )
         )

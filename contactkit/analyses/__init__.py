@@ -1,7 +1,8 @@
-"""Analyses that solve many scenes: humidity curves, pull-off curves, divided menisci.
+"""Analyses that take many solutions: humidity, adhesion and load-displacement curves, division.
 
-adhesion_curve  The contact side of adhesion: radius and approach of a sphere over the load that pre
-division        One meniscus divided into many: how the forces change, and which number is best.
-division_laws   What N equal menisci between two flats pull, by the law chosen: exact, arc, or as pr
-humidity_curve  Meniscus force against relative humidity: of a sphere, of asperities, of a solved co
+humidity_curve     Meniscus force against relative humidity.
+adhesion_curve     Contact radius and approach of an adhesive sphere against load.
+division           Division of a meniscus into many: forces and optimal number.
+division_laws      Force laws of N equal menisci between flats, for the division.
+load_displacement  Load-displacement curve of a rough contact: loading, unloading, impact.
 """

@@ -1,4 +1,4 @@
-"""The contact side of adhesion: radius and approach of a sphere over the load that presses it."""
+"""Contact radius and approach of an adhesive sphere as functions of the load."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ __all__ = ["AdhesionCurve", "adhesion_curve"]
 
 @frozen(eq=False)
 class AdhesionCurve:
-    """Contact of one sphere over its load; all arrays of one shape, read-only.
+    """Adhesive contact of one sphere over its load; all arrays of one shape, read-only.
 
     Attributes
     ----------
     load : ndarray, shape (n,)
-        Load [N], negative where it pulls.
+        Load [N], negative if tensile.
     approach : ndarray, shape (n,)
-        How far the sphere has sunk below first touch [m], negative where a neck is drawn out.
+        Approach from first contact [m], negative where a neck is formed.
     contact_radius, cohesive_radius : ndarray, shape (n,)
-        Radii of the contact and of the attraction around it [m]; the same where the model gives
-        that no edge of its own (JKR, DMT).
+        Radii of the contact and of the cohesive zone [m]; equal in models without a cohesive zone
+        (JKR, DMT).
     numbers : AdhesionNumbers
-        Pull-off force, Tabor's and Maugis' parameter and where the contact lets go.
+        Pull-off force, Tabor and Maugis parameters, and the gap at pull-off.
     """
 
     load: Curve = field(repr=False)
@@ -47,7 +47,7 @@ class AdhesionCurve:
 
 
 def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> AdhesionCurve:
-    r"""Contact radius and approach of a sphere that adheres, over its load.
+    r"""Contact radius and approach of an adhesive sphere over its load.
 
     Parameters
     ----------
@@ -59,14 +59,14 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
     Raises
     ------
     PlanError
-        If the scene has no `AdhesiveContact`, or that lacks something.
+        If the scene has no `AdhesiveContact`, or its data are incomplete.
     InfeasibleError
-        If a load pulls harder than the contact holds.
+        If a tensile load exceeds the pull-off force.
 
     Notes
     -----
-    Of the states a load allows it is the stable one. Hertz' is the limit of no adhesion; the sphere
-    is a paraboloid, which costs the radius a share of order (a/R)^2.
+    Of the states at a load it is the stable one. Hertz is the limit without adhesion; the sphere is
+    a paraboloid, with a relative error of the radius of order (a/R)^2.
 
     Examples
     --------
@@ -95,8 +95,8 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
     numbers = effect.numbers(scene)
     if given.size and given.min() < -numbers.pull_off_force * (1.0 + 1e-12):
         raise InfeasibleError(
-            f"a load of {given.min():.4g} N tears the contact off: it holds "
-            f"{numbers.pull_off_force:.4g} N at most; pull less"
+            f"a load of {given.min():.4g} N exceeds the pull-off force of "
+            f"{numbers.pull_off_force:.4g} N; give a smaller tensile load"
         )
     states = states_at_loads(numbers, [float(load) for load in given])
     columns = np.array(states, dtype=np.float64).reshape(-1, 4).T.copy()

@@ -1,4 +1,4 @@
-"""One meniscus divided into many: how the forces change, and which number is best."""
+"""Division of a meniscus into many equal ones: forces over their number, and the optimum."""
 
 from __future__ import annotations
 
@@ -24,33 +24,32 @@ if TYPE_CHECKING:
 
 __all__ = ["CriticalMeniscus", "DivisionResult", "critical_meniscus", "divide_meniscus"]
 
-_AT_ONCE = 200  # numbers of menisci looked at together
+_AT_ONCE = 200  # numbers of menisci evaluated together
 
 
 @frozen(eq=False)
 class DivisionResult:
-    """What the division of one film into N equal menisci does to the forces.
+    """Forces of one film divided into N equal menisci.
 
-    Curves are over `counts`, read-only. The criterion of the best number is the least sum of the
-    forces that the scene calls for: the meniscus force at the start and the mean viscous force
-    over the opening.
+    Curves are over `counts`, read-only. The best number minimises the sum of the forces in the
+    scene: the meniscus force at the start and the mean viscous force over the opening.
 
     Attributes
     ----------
     law : str
         ``exact``, ``arc`` or ``as-published``: one law for both forces.
     counts : ndarray of int (n,)
-        Numbers of menisci that were asked for and are stable.
+        Requested numbers of menisci that are stable.
     unstable : tuple of int
-        Those asked for of which no bridge spans the gap.
-    largest_stable_count : int
-        Largest number of menisci that span the gap.
+        Requested numbers of menisci that do not span the gap.
+    max_stable_count : int
+        Maximum number of menisci that span the gap.
     best_count : int
-        Number, of all up to that, with the least total force.
+        Number of menisci, up to that, with the minimum total force.
     best_force : float
-        That force [N].
+        Minimum total force [N].
     limit_gap : ndarray (n,)
-        Gap at which the menisci break [m].
+        Rupture gap of the menisci [m].
     contact_radius : ndarray (n,)
         Larger contact radius of one meniscus [m].
     """
@@ -59,7 +58,7 @@ class DivisionResult:
     law: Name
     counts: NDArray[np.int64]
     unstable: tuple[int, ...]
-    largest_stable_count: int
+    max_stable_count: int
     best_count: int
     best_force: float
     limit_gap: Floats = field(repr=False)
@@ -78,27 +77,27 @@ class DivisionResult:
 
     @property
     def total_force(self) -> Floats:
-        """Sum of the forces that the scene calls for [N]."""
+        """Sum of the forces in the scene [N]."""
         return self._forces.total(self._volumes, self.counts.astype(float))
 
     @property
-    def cover(self) -> Floats:
-        """Sum of the contact circles over the area of the face [-]; needs `Flat.radius`."""
+    def coverage(self) -> Floats:
+        """Area coverage: contact circles over the area of the face [-]; needs `Flat.radius`."""
         rim = self.scene.interface.rim_radius
         if math.isinf(rim):
-            raise NotSimulatedError("the cover needs the radius [m] of a Flat face")
-        return np.asarray(menisci.cover(self.counts, self.contact_radius, math.pi * rim**2))
+            raise NotSimulatedError("the coverage needs the radius [m] of a Flat face")
+        return np.asarray(menisci.coverage(self.counts, self.contact_radius, math.pi * rim**2))
 
     @property
     def overlaps(self) -> NDArray[np.bool_]:
-        """Whether the menisci cannot lie side by side on the face, however they are placed."""
-        most = np.where(self.counts > 1, menisci.DENSEST_COVER, 1.0)
-        # A face that one film fills to the rim is full, not too small.
-        return np.asarray(self.cover > most * (1.0 + 1e-9))
+        """Whether the menisci overlap on the face in any arrangement."""
+        max_count = np.where(self.counts > 1, menisci.MAX_COVERAGE, 1.0)
+        # One film that fills the face to the rim does not overlap.
+        return np.asarray(self.coverage > max_count * (1.0 + 1e-9))
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Where the equations of the law come from."""
+        """Sources of the equations of the law."""
         return (SOURCES[self.law],)
 
     @property
@@ -110,7 +109,7 @@ class DivisionResult:
     def __str__(self) -> str:
         return (
             f"division by the {self.law} law: best {self.best_count} menisci, {self.best_force:.4g}"
-            f" N in total; at most {self.largest_stable_count} are stable"
+            f" N in total; at most {self.max_stable_count} are stable"
         )
 
 
@@ -122,34 +121,34 @@ def divide_meniscus(
     Parameters
     ----------
     scene : SeparationScene
-        Two flats, a meniscus with a volume (its own `count` does not matter here), the initial
-        gap, and either the time or the speed of the opening. Its effects, `MeniscusForce` and
-        `ViscousForce`, say which forces are compared; the viscous force acts up to the break of
-        the menisci or the final gap, whichever comes first.
+        Two flats, a meniscus with a volume (its own `count` is ignored), the initial gap, and
+        either the time or the speed of the opening. The effects `MeniscusForce` and `ViscousForce`
+        select the forces; the viscous force acts up to rupture of the menisci or the final gap,
+        whichever is smaller.
     counts : sequence of int, optional
-        Numbers of menisci of the curves. None: up to 61 from 1 to the largest stable number,
-        spaced as a geometric series.
+        Numbers of menisci of the curves. None: up to 61 from 1 to the maximum stable number, in
+        geometric progression.
     law : {"exact", "arc", "as-published"}, optional
-        Law of both forces and of the break. None: the profile of the scene's `MeniscusForce`.
+        Law of both forces and of rupture. None: the profile of the scene's `MeniscusForce`.
 
     Returns
     -------
     DivisionResult
-        Curves, the largest stable number, the best one, and the law they follow.
+        Curves, the maximum stable number, the optimum, and the law.
 
     Raises
     ------
     PlanError
-        If the scene is not one of a film between flats, or lacks something.
+        If the scene is not one of a film between flats, or is incomplete.
     InfeasibleError
         If not even one meniscus spans the gap.
 
     Notes
     -----
-    Both forces are those of free contact lines; a film that fills the faces is pinned at the rim,
-    which `overlaps` shows. At fixed time the viscous force falls as 1/N, at fixed speed as
-    1/N too but for the shorter way to the break; the meniscus force of a hydrophilic film rises,
-    slower than the root of N of Eq. (3.33).
+    Both forces are for free contact lines; a film that fills the faces is pinned at the rim, which
+    `overlaps` shows. The viscous force falls as 1/N at fixed time, and nearly so at fixed speed,
+    where the distance to rupture shrinks; the meniscus force of a hydrophilic film rises more
+    slowly than the root of N of Eq. (3.33).
 
     Examples
     --------
@@ -168,22 +167,22 @@ def divide_meniscus(
     """  # noqa: E501
     volume = _volume(scene)
     made = law_of(scene, law, volume)
-    most = menisci.largest_stable_count(made.gap, float(made.limit(np.asarray(volume))))
-    if most < 1:
+    max_count = menisci.max_stable_count(made.gap, float(made.limit(np.asarray(volume))))
+    if max_count < 1:
         raise InfeasibleError(
             f"no meniscus spans the initial gap of {made.gap:g} m: this volume reaches "
             f"{float(made.limit(np.asarray(volume))):g} m at most"
         )
-    asked = _asked(counts, most)
-    stable = np.array([n for n in asked if n <= most], dtype=np.int64)
-    best, force = _best(made, volume, most)
+    requested = _requested(counts, max_count)
+    stable = np.array([n for n in requested if n <= max_count], dtype=np.int64)
+    best, force = _best(made, volume, max_count)
     volumes = volume / stable
     found = DivisionResult(
         scene,
         made.name,
         stable,
-        tuple(n for n in asked if n > most),
-        most,
+        tuple(n for n in requested if n > max_count),
+        max_count,
         best,
         force,
         made.limit(volumes),
@@ -202,18 +201,18 @@ def _volume(scene: SeparationScene) -> float:
     return volume
 
 
-def _asked(counts: Sequence[int] | None, most: int) -> list[int]:
+def _requested(counts: Sequence[int] | None, max_count: int) -> list[int]:
     if counts is None:
-        return sorted({round(x) for x in np.geomspace(1.0, most, 61)})
+        return sorted({round(x) for x in np.geomspace(1.0, max_count, 61)})
     for n in counts:
         if isinstance(n, bool) or int(n) != n or n < 1:
             raise DescriptionError("divide_meniscus(counts)", n, "hold whole numbers of at least 1")
     return [int(n) for n in counts]
 
 
-def _best(law: DivisionLaw, volume: float, most: int) -> tuple[int, float]:
-    """Whole number with the least total force: a coarse look at all, finer ones near the least."""
-    low, high = 1, most
+def _best(law: DivisionLaw, volume: float, max_count: int) -> tuple[int, float]:
+    """Number with the minimum total force, by a coarse search refined near the minimum."""
+    low, high = 1, max_count
     while True:
         count = high - low + 1
         if count <= _AT_ONCE:
@@ -229,7 +228,7 @@ def _best(law: DivisionLaw, volume: float, most: int) -> tuple[int, float]:
 
 @frozen
 class CriticalMeniscus:
-    """Meniscus whose two forces are equal: above its area the viscous one is the larger.
+    """Meniscus of equal meniscus and viscous force; above its area the viscous force dominates.
 
     `area` is volume over gap [m2], `force` either force [N], `law` the one they follow.
     """
@@ -241,17 +240,17 @@ class CriticalMeniscus:
 
 
 def critical_meniscus(scene: SeparationScene, *, law: Name | None = None) -> CriticalMeniscus:
-    """Size at which meniscus force and mean viscous force of one film between flats are equal.
+    """Size at which meniscus and mean viscous force of one film between flats are equal.
 
     Parameters
     ----------
     scene, law
-        As in `divide_meniscus`; gap, time and liquid are taken from the scene, its volume is not.
+        As in `divide_meniscus`; the volume of the scene is ignored.
 
     Raises
     ------
     InfeasibleError
-        If the meniscus repels, or the viscous force is the larger one for every stable bridge.
+        If the meniscus repels, or the viscous force dominates for every stable bridge.
 
     Examples
     --------
@@ -281,7 +280,7 @@ def critical_meniscus(scene: SeparationScene, *, law: Name | None = None) -> Cri
     high = max(low, math.log(gap**3)) + 1.0
     film = scene.interface.meniscus
     if math.cos(film.contact_angle_lower) + math.cos(film.contact_angle_upper) < -1e-12:
-        # Attractive near its break only, which is not a size to compare at.
+        # Attractive only near rupture, which is not a size to compare at.
         raise InfeasibleError("the meniscus repels: there is no size at which it balances the film")
     if excess(low) > 0.0:
         raise InfeasibleError(

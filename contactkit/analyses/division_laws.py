@@ -1,4 +1,4 @@
-"""What N equal menisci between two flats pull, by the law chosen: exact, arc, or as printed."""
+"""Force laws of N equal menisci between two flats: exact, circular approximation, as printed."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ __all__ = ["DivisionLaw", "law_of"]
 Name = Literal["exact", "arc", "as-published"]
 
 SOURCES = {
-    "exact": "exact bridge (Young-Laplace), broken at its stability limit; Stefan's film",
-    "arc": "arc of Eqs. (3.38)-(3.41), broken at the exact stability limit; Stefan's film",
-    "as-published": "Eqs. (3.33) and (3.34) as printed, broken where the neck of the arc closes",
+    "exact": "exact bridge (Young-Laplace), rupture at its stability limit; Stefan's film",
+    "arc": "arc of Eqs. (3.38)-(3.41), rupture at the exact stability limit; Stefan's film",
+    "as-published": "Eqs. (3.33) and (3.34) as printed, rupture where the neck of the arc closes",
 }
 
 
 class DivisionLaw(NamedTuple):
-    """Forces of N menisci that share a volume, at the gap and in the time of a scene.
+    """Forces of N equal menisci of given total volume, at the gap and in the time of a scene.
 
-    `meniscus` and `viscous` take the volume of one meniscus [m3] and its number and give the force
-    of all [N]; None where the scene does not call for it. `radius` gives the larger contact
-    radius of one [m], `limit` the gap at which it breaks [m].
+    `meniscus` and `viscous` are functions of the volume of one meniscus [m3] and their number for
+    the total force [N]; None if the scene does not include the effect. `radius` is the larger
+    contact radius of one [m], `limit` its rupture gap [m].
     """
 
     name: Name
@@ -47,12 +47,12 @@ class DivisionLaw(NamedTuple):
     limit: Callable[[Floats], Floats]
 
     def total(self, volume: Floats, number: Floats) -> Floats:
-        """Sum of the forces that the scene calls for [N]."""
+        """Sum of the forces in the scene [N]."""
         found = [force(volume, number) for force in (self.meniscus, self.viscous) if force]
         return np.asarray(sum(found[1:], found[0]))
 
     def demand(self, kind: type) -> Callable[[Floats, Floats], Floats]:
-        """Return a force, or say which effect the scene does not call for."""
+        """Return a force, or raise an error that names the missing effect."""
         force = self.meniscus if kind is MeniscusForce else self.viscous
         if force is None:
             name = f"{kind.__name__}()"
@@ -60,19 +60,19 @@ class DivisionLaw(NamedTuple):
         return force
 
 
-def law_of(scene: SeparationScene, name: Name | None, least_volume: float) -> DivisionLaw:
-    """Law of a scene; `least_volume` [m3] is any volume, from which the limits are scaled."""
+def law_of(scene: SeparationScene, name: Name | None, min_volume: float) -> DivisionLaw:
+    """Law of a scene; `min_volume` [m3] is any volume, from which the limits are scaled."""
     effect = scene.effect(MeniscusForce)
     name = name or _own_law(scene)
     _check(scene, name)
-    gap, limit = scene.opening.initial_gap, _limits(scene, name, least_volume)
+    gap, limit = scene.opening.initial_gap, _limits(scene, name, min_volume)
     meniscus, radius = _meniscus(scene, name)
     viscous = _viscous(scene, name, limit) if scene.effect(ViscousForce) is not None else None
     return DivisionLaw(name, gap, meniscus if effect is not None else None, viscous, radius, limit)
 
 
 def _own_law(scene: SeparationScene) -> Name:
-    """Law that the effects of a scene choose."""
+    """Law selected by the effects of a scene."""
     if both := mixed(scene):
         raise PlanError(both)
     meniscus, viscous = scene.effect(MeniscusForce), scene.effect(ViscousForce)
@@ -83,7 +83,7 @@ def _own_law(scene: SeparationScene) -> Name:
 
 
 def _check(scene: SeparationScene, name: str) -> None:
-    """Refuse what the division of a film between flats has no answer to."""
+    """Refuse scenes other than a film between two flats with the necessary data."""
     interface, opening = scene.interface, scene.opening
     known = (MeniscusForce, ViscousForce)
     others = [type(e).__name__ for e in scene.effects if not isinstance(e, known)]
@@ -127,7 +127,7 @@ def _angles(scene: SeparationScene) -> tuple[float, float]:
 
 
 def _limits(scene: SeparationScene, name: str, volume: float) -> Callable[[Floats], Floats]:
-    """Break gap [m] by volume: it scales as the cube root."""
+    """Rupture gap [m] as a function of the volume: it scales as the cube root."""
     if name == "as-published":
         from ..capillary.arc import flat as arc_flat
 
@@ -144,7 +144,7 @@ def _meniscus(
 ) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats], Floats]]:
     gap, angles = scene.opening.initial_gap, _angles(scene)
     tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # `_check` has asked
+    assert tension is not None  # checked by `_check`
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
         pulled = effect.pulled if effect is not None else "lower"
@@ -173,7 +173,7 @@ def _meniscus(
 def _viscous(
     scene: SeparationScene, name: str, limit: Callable[[Floats], Floats]
 ) -> Callable[[Floats, Floats], Floats]:
-    """Mean viscous force over the opening, up to the break or the final gap."""
+    """Mean viscous force over the opening, up to rupture or the final gap."""
     opening, effect = scene.opening, scene.effect(ViscousForce)
     assert effect is not None
     viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
@@ -183,7 +183,7 @@ def _viscous(
 
     def force(volume: Floats, number: Floats) -> Floats:
         end = np.minimum(limit(volume), opening.final_gap)
-        if constant:  # the radius at the start is kept, as printed
+        if constant:  # at constant radius, as printed
             radius = squeeze.disc_radius(volume, start)
             impulse = squeeze.disc_impulse_flooded(radius, start, end, viscosity)
         else:

@@ -1,4 +1,4 @@
-"""Meniscus force against relative humidity: of a sphere, of asperities, of a solved contact."""
+"""Meniscus force against relative humidity: sphere, asperities, or a solved rough contact."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _T = TypeVar("_T")
 
 
 class _Point(NamedTuple):
-    """What condenses at one humidity: force [N], menisci, volume of all [m3], circles [m2]."""
+    """Menisci at one humidity: force [N], number, total volume [m3], total area [m2]."""
 
     force: float
     n_menisci: float
@@ -47,15 +47,15 @@ class HumidityCurve:
     Attributes
     ----------
     law : str
-        What the force is made of; different laws are not to be compared without saying so.
+        Force law; do not compare different laws unawares.
     relative_humidity : ndarray
         As given [-].
     kelvin_radius, meniscus_height : ndarray
-        Radius of curvature of the menisci, and the height of a thin one, ``r_K (cos + cos)`` [m].
+        Kelvin radius, and the height of a thin meniscus, ``r_K (cos + cos)`` [m].
     pressure : ndarray
         Laplace pressure [Pa].
     force : ndarray
-        Pull of all menisci [N]; 0 where the gap is too wide for any.
+        Force of all menisci [N]; 0 where the gap is too large.
     n_menisci : ndarray
         Number of menisci [-].
     """
@@ -78,14 +78,14 @@ class HumidityCurve:
         return _known(self._volume, "volume", self.law)
 
     @property
-    def cover(self) -> Floats:
-        """Sum of the contact circles over the nominal area [-]; above 0.9 neighbours overlap."""
-        area = _known(self._area, "cover", self.law)
-        return np.asarray(_known(self._circles, "cover", self.law) / area)
+    def coverage(self) -> Floats:
+        """Area coverage: contact circles over nominal area [-]; above 0.9 neighbours overlap."""
+        area = _known(self._area, "coverage", self.law)
+        return np.asarray(_known(self._circles, "coverage", self.law) / area)
 
     @property
-    def largest_share(self) -> Floats:
-        """Largest island over the window [-]: from about 0.25 on the menisci have joined."""
+    def largest_fraction(self) -> Floats:
+        """Area fraction of the largest island [-]: from about 0.25 on the menisci have merged."""
         return _known(self._largest, "islands", self.law)
 
 
@@ -103,7 +103,7 @@ def humidity_curve(
     law: Law = "islands",
     accuracy: Accuracy | None = None,
 ) -> HumidityCurve:
-    r"""Meniscus force of what condenses between two bodies, against the relative humidity.
+    r"""Force of capillary condensation between two bodies against the relative humidity.
 
     Parameters
     ----------
@@ -111,29 +111,29 @@ def humidity_curve(
         A scene with a sphere, whose bridge is exact; one with `AsperityMenisci` among its effects,
         whose law it follows; or a solved contact with a meniscus in its interface. The liquid
         needs surface tension, density and molar mass; volume and pressure of the scene's own
-        meniscus do not matter.
+        meniscus are ignored.
     relative_humidity : sequence of float
         Above 0 and below 1 [-].
     gap : float, optional
-        Gap of a scene [m]. None: that at the start of its opening.
+        Gap of a scene [m]. None: its initial gap.
     law : {"islands", "cross-cut"}
         For a solved contact: an exact bridge on each island (`IslandBridges`, as listed in its
-        scene), or Laplace pressure times area, Eq. (2.43). Every gap that is thinner than the
-        height of a meniscus is wet.
+        scene), or Laplace pressure times area, Eq. (2.43). Every gap smaller than the meniscus
+        height is wetted.
     accuracy : Accuracy, optional
-        Of the curves that `AsperityMenisci` makes.
+        Accuracy of the force curves of `AsperityMenisci`.
 
     Raises
     ------
     InfeasibleError
         At a humidity of 0, or of 1 and above; between smooth flats.
     PlanError
-        If the liquid or the scene lacks something.
+        If the data of the liquid or the scene are incomplete.
 
     Notes
     -----
-    The bodies do not yield to the force. Adsorbed films, which join in above about 90 %, and what
-    is dissolved are left out.
+    The capillary force does not deform the bodies. Adsorbed films, which matter above about 90 %,
+    and solutes are neglected.
 
     Examples
     --------
@@ -208,8 +208,8 @@ def _scene(
         return f"{rough.law}, {rough.profile} bridges", points, area
     if scene.interface.is_flat:
         raise InfeasibleError(
-            "between smooth flats no meniscus of a fixed pressure is stable: it dries up, or fills "
-            "the gap to the rim; give a sphere, or AsperityMenisci(...) among the effects"
+            "between smooth flats no meniscus of a fixed pressure is stable: it evaporates, or "
+            "fills the gap to the rim; give a sphere, or AsperityMenisci(...) among the effects"
         )
     return "exact bridge on a sphere", _sphere(scene, pressure, gap), None
 
@@ -229,7 +229,7 @@ def _asperities(
     law = rough.prepare(scene, accuracy)
     force = law.force(gap, 0.0) if gap <= law.end else 0.0
     area = math.pi * scene.interface.rim_radius**2
-    return _Point(force, sums.n_wet, None, sums.cover * area)
+    return _Point(force, sums.n_wet, None, sums.coverage * area)
 
 
 def _sphere(scene: SeparationScene, pressure: Floats, gap: float) -> list[_Point]:
@@ -247,7 +247,7 @@ def _sphere(scene: SeparationScene, pressure: Floats, gap: float) -> list[_Point
         raise InfeasibleError(
             f"at the highest humidity the Kelvin radius is {largest:.3g} m, and no ring of liquid "
             f"is stable around a sphere of {interface.sphere_radius:.3g} m: it would grow without "
-            "end; lower the humidity, or give the meniscus a volume"
+            "bound; lower the humidity, or give the meniscus a volume"
         ) from error
     n, points = meniscus.count, []
     for i, force in enumerate(state.force.tolist()):
@@ -274,7 +274,7 @@ def _contact(
     parts = [effect.at_pressure(contact, p) for p in pressure.tolist()]
     area = plan.grid.area
     points = [
-        _Point(p.force, p.n_menisci, float(p.volume.sum()), p.cover * area, p.largest_share)
+        _Point(p.force, p.n_menisci, float(p.volume.sum()), p.coverage * area, p.largest_fraction)
         for p in parts
     ]
     name = f"exact bridge on each island, {effect.curvature} curvature"
@@ -282,7 +282,7 @@ def _contact(
 
 
 def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float) -> _Point:
-    """Laplace pressure on every gap that is thinner than a meniscus is high, Eq. (2.43)."""
+    """Laplace pressure on every gap smaller than the meniscus height, Eq. (2.43)."""
     from ..capillary.film_islands import film_force, meniscus_area
 
     meniscus = contact.scene.interface.meniscus

@@ -1,8 +1,9 @@
 """The equations of the source by number, as printed and corrected.
 
-arguments              What a printed formula is given and gives: arguments by name with their units
-capillary_and_viscous  The printed equations, one row for each: how it reads, what it needs, what pu
-corrected              The right value beside each printed capillary equation: exact bridges, one fo
-lookup                 The source's equations by their numbers: as printed, what is wrong, and the r
-sliding                The printed equations of tangential separation, as rows of `PUBLISHED`, with
+lookup                 An equation by its number: printed value, erratum, corrected value.
+capillary_and_viscous  Table of the printed capillary and viscous equations.
+sliding                Table of the printed equations of tangential separation.
+corrected              Corrected values of the printed equations.
+arguments              Arguments and results of printed equations, with their units.
+printed                The equations exactly as printed, and their errata.
 """

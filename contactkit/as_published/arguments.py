@@ -1,4 +1,4 @@
-"""What a printed formula is given and gives: arguments by name with their units, and the answer."""
+"""Arguments and results of printed equations, by name and with their units."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["ARGUMENTS", "Argument", "PublishedFormula", "PublishedValue", "check
 
 
 class Argument(NamedTuple):
-    """An argument of printed formulas: its unit, what it must be, and what it means."""
+    """An argument of printed equations: its unit, valid range and meaning."""
 
     unit: str
     expected: str
@@ -47,7 +47,7 @@ def _steep(value: float) -> bool:
     return 0.0 < value < 0.5 * math.pi
 
 
-def _share(value: float) -> bool:
+def _fraction(value: float) -> bool:
     return 0.0 < value <= 1.0
 
 
@@ -80,17 +80,17 @@ ARGUMENTS: Mapping[str, Argument] = MappingProxyType(
         "kelvin_radius": _positive_argument("m", "Kelvin radius of the meniscus"),
         "molar_volume": _positive_argument("m3/mol", "molar volume of the liquid"),
         "temperature": _positive_argument("K", "temperature"),
-        "relative_humidity": Argument("-", "be above 0 and at most 1", "p/p0", _share),
+        "relative_humidity": Argument("-", "be above 0 and at most 1", "p/p0", _fraction),
         "sphere_radius": _positive_argument("m", "radius R of the sphere"),
         "immersion": _positive_argument("m", "depth d0 = s - D to which the film wets it"),
         "filling_angle": Argument("rad", "lie between 0 and pi/2", "filling angle", _steep),
         "volume": _positive_argument("m3", "volume of the liquid"),
         "curvature_lower": Argument("1/m", "be zero or positive", "1/R", _non_negative, 0.0),
         "curvature_upper": Argument("1/m", "be zero or positive", "1/R", _non_negative, 0.0),
-        "height": _positive_argument("m", "height of the film at the place"),
+        "height": _positive_argument("m", "local height of the film"),
         "film_height": _positive_argument("m", "height H of the film at its rim, at the start"),
         "gap_start": _gap("gap at the start"),
-        "gap_end": Argument("m", "be positive", "gap at the break, may be inf", _above),
+        "gap_end": Argument("m", "be positive", "gap at rupture, may be inf", _above),
         "separation_time": _positive_argument("s", "time t_s of the separation"),
         "viscosity": _positive_argument("Pa.s", "dynamic viscosity of the liquid"),
         "speed": Argument("m/s", "be a finite number", "opening or sliding speed", _finite),
@@ -99,9 +99,9 @@ ARGUMENTS: Mapping[str, Argument] = MappingProxyType(
         "force": Argument("N", "be a finite number", "force of one meniscus", _finite),
     }
 )
-"""Every argument of a printed formula, by name."""
+"""Arguments of the printed equations, by name."""
 
-# An argument that has to exceed another one of the same formula.
+# Arguments that must exceed another one of the same equation.
 _ORDERED = (
     ("gap_end", "gap_start"),
     ("film_height", "gap_start"),
@@ -111,25 +111,25 @@ _ORDERED = (
 
 
 class PublishedValue(NamedTuple):
-    """Value of a printed equation, with what is wrong with it and the right value beside it.
+    """Value of a printed equation, its erratum and the corrected value.
 
     Attributes
     ----------
     number : str
         Number of the equation.
     name : str
-        What it gives.
+        Quantity.
     value : float
         As printed, in `unit`; forces that resist or attract are positive.
     unit : str
         Unit of both values.
     corrected : float or None
-        What the consistent model gives for the same arguments; None where there is no such
-        value, for the reason in `corrected_by`.
+        Value of the consistent model for the same arguments; None where there is none, for the
+        reason in `corrected_by`.
     erratum : str
-        What is wrong with the equation; empty if nothing is.
+        Error of the equation; empty if it is correct.
     corrected_by : str
-        Where `corrected` comes from, or why there is none.
+        Model of `corrected`, or why there is none.
     """
 
     number: str
@@ -142,7 +142,7 @@ class PublishedValue(NamedTuple):
 
     @property
     def relative_error(self) -> float | None:
-        """Error of the printed value over the right one [-]; None where either is missing."""
+        """Relative error of the printed value [-]; None where a value is missing."""
         if self.corrected is None or self.corrected == 0.0:
             return None
         return (self.value - self.corrected) / abs(self.corrected)
@@ -151,17 +151,17 @@ class PublishedValue(NamedTuple):
         unit = "" if self.unit == "-" else f" {self.unit}"
         lines = [f"{_numbered(self.number)} {self.name}: {self.value:.6g}{unit} as printed"]
         if self.corrected is None:
-            lines.append(f"  no right value: {self.corrected_by}")
+            lines.append(f"  no corrected value: {self.corrected_by}")
         else:
-            lines.append(f"  right: {self.corrected:.6g}{unit}, {self.corrected_by}")
+            lines.append(f"  corrected: {self.corrected:.6g}{unit}, {self.corrected_by}")
         return "\n".join([*lines, *([f"  erratum: {self.erratum}"] if self.erratum else [])])
 
 
 class PublishedFormula(NamedTuple):
-    """A printed equation: how it reads, what it needs, and what puts it right.
+    """A printed equation: formula, arguments, and correction.
 
-    `right` gives the corrected value for the same arguments, or None where the printed value
-    is right as it stands; `by` says what it is.
+    `right` computes the corrected value from the same arguments, or is None where the printed
+    equation is correct; `by` names the correction.
     """
 
     number: str
@@ -170,8 +170,8 @@ class PublishedFormula(NamedTuple):
     arguments: tuple[str, ...]
     unit: str
     printed: Callable[..., Any]
-    right: Callable[..., Any] | None = None
-    by: str = "as printed, which is right"
+    corrected: Callable[..., Any] | None = None
+    by: str = "as printed, which is correct"
     errata: tuple[str, ...] = ()
 
     @property
@@ -190,7 +190,7 @@ def _numbered(number: str) -> str:
 
 
 def checked_arguments(formula: PublishedFormula, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Arguments of a formula in its order, or the error that names the one that is wrong."""
+    """Arguments of an equation in its order, validated."""
     owner = f"published {_numbered(formula.number)}"
     unknown = [name for name in given if name not in formula.arguments]
     if unknown:

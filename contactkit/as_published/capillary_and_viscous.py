@@ -1,4 +1,4 @@
-"""The printed equations, one row for each: how it reads, what it needs, what puts it right."""
+"""Printed capillary and viscous equations: formula, arguments and correction of each."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ __all__ = ["ROWS"]
 
 _EXACT = "exact bridge of the same volume"
 _EXACT_ARC = "exact bridge of the volume of the arc with this contact circle"
-_SHARED = "exact bridge of one of N parts of the volume"
-_KEPT = "impulse over time of a film that keeps its volume"
+_DIVIDED = "exact bridge of one of N parts of the volume"
+_CONSERVED = "impulse over time of a film of constant volume"
 _ANGLES = ("angle_lower", "angle_upper")
 _FLAT = ("radius", "gap", "surface_tension", *_ANGLES)
 _SPHERE = ("sphere_radius", "gap", "volume", "surface_tension", *_ANGLES)
@@ -76,7 +76,7 @@ _CAPILLARY = (
         ("sphere_radius", "surface_tension", *_ANGLES),
         "N",
         films.laplace_sphere_3_6,
-        by="as printed, right for little liquid",
+        by="as printed, correct for small volumes",
     ),
     Row(
         "3.7",
@@ -95,7 +95,7 @@ _CAPILLARY = (
         ("sphere_radius", "surface_tension", "angle"),
         "N",
         printed.laplace_sphere_3_8,
-        by="as printed, right for a thin film",
+        by="as printed, correct for a thin film",
     ),
     Row(
         "3.9",
@@ -144,7 +144,7 @@ _CAPILLARY = (
         "N",
         printed.meniscus_divided_3_33,
         right.meniscus_divided,
-        _SHARED + ", N times",
+        _DIVIDED + ", N times",
         ("3.11",),
     ),
     Row(
@@ -166,7 +166,7 @@ _CAPILLARY = (
         "N",
         films.meniscus_of_n_3_31,
         right.meniscus_of_n,
-        _SHARED,
+        _DIVIDED,
         ("3.11",),
     ),
     Row(
@@ -177,7 +177,7 @@ _CAPILLARY = (
         "N",
         printed.meniscus_divided_3_33,
         right.meniscus_divided,
-        _SHARED + ", N times",
+        _DIVIDED + ", N times",
     ),
     Row(
         "3.35",
@@ -217,7 +217,7 @@ _CAPILLARY = (
         "m",
         right.printed_break_gap,
         right.break_gap,
-        "limit of stability of the exact bridge",
+        "stability limit of the exact bridge",
     ),
 )
 
@@ -250,13 +250,13 @@ _VISCOUS = (
     ),
     Row(
         "3.19",
-        "viscous force on flats at the break",
+        "viscous force on flats at rupture",
         "3 pi eta x^4/(4 t_s) (1/h0^2 - 1/h_s^2)",
         _OPENED,
         "N",
         printed.viscous_flat_3_19,
         viscous.viscous_flat,
-        _KEPT,
+        _CONSERVED,
     ),
     Row(
         "3.21",
@@ -284,7 +284,7 @@ _VISCOUS = (
         "m3",
         right.printed_film_volume,
         right.film_volume,
-        "volume of the arc turned about the axis",
+        "volume of revolution of the arc",
     ),
     Row(
         "3.24",
@@ -302,21 +302,21 @@ _VISCOUS = (
         "N",
         printed.viscous_sphere_3_26,
         viscous.viscous_lifted,
-        _KEPT,
+        _CONSERVED,
     ),
     Row(
         "3.26",
-        "viscous force on a sphere at the break",
+        "viscous force on a sphere at rupture",
         _IMPULSE_SPHERE,
         _LIFTED,
         "N",
         printed.viscous_sphere_3_26,
         viscous.viscous_lifted,
-        _KEPT,
+        _CONSERVED,
     ),
     Row(
         "3.27",
-        "viscous force on a sphere that breaks far away",
+        "viscous force on a sphere, rupture far away",
         "6 pi eta R^2/t_s ln(H0/(2 D0))",
         ("sphere_radius", "gap_start", "film_height", "separation_time", "viscosity"),
         "N",
@@ -333,7 +333,7 @@ _VISCOUS = (
         "N",
         printed.viscous_divided_3_34,
         viscous.viscous_divided,
-        _KEPT,
+        _CONSERVED,
         ("3.19",),
     ),
     Row(
@@ -344,7 +344,7 @@ _VISCOUS = (
         "N",
         films.viscous_rough_3_29,
         films.viscous_rough_3_29,
-        _KEPT,
+        _CONSERVED,
         ("3.26", "3.14"),
     ),
     Row(
@@ -355,7 +355,7 @@ _VISCOUS = (
         "N",
         films.viscous_of_n_3_32,
         viscous.viscous_of_n,
-        _KEPT,
+        _CONSERVED,
         ("3.19",),
     ),
     Row(
@@ -366,17 +366,17 @@ _VISCOUS = (
         "N",
         printed.viscous_divided_3_34,
         viscous.viscous_divided,
-        _KEPT,
+        _CONSERVED,
     ),
     Row(
         "3.36",
-        "viscous force of N menisci that break far away",
+        "viscous force of N menisci, rupture far away",
         "3 pi eta x^4/(4 N t_s h0^2)",
         ("radius", "gap_start", "separation_time", "viscosity", "number"),
         "N",
         films.viscous_divided_3_36,
         viscous.viscous_far,
-        _KEPT,
+        _CONSERVED,
         ("3.34",),
     ),
     Row(
@@ -387,7 +387,7 @@ _VISCOUS = (
         "-",
         printed.viscous_number_3_43,
         viscous.viscous_number,
-        "over the impulse of a film that keeps its volume",
+        "over the impulse of a film of constant volume",
     ),
 )
 

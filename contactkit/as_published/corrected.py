@@ -1,7 +1,7 @@
-"""The right value beside each printed capillary equation: exact bridges, one force, their limit.
+"""Corrected values of the printed equations: exact bridges, films of constant volume.
 
-Every function takes the arguments of its equation. Where no right value exists, such as beyond
-the stability of a bridge, InfeasibleError says why. Nothing is imported before it is needed.
+Every function takes the arguments of its equation. Where no corrected value exists, such as beyond
+the stability limit of a bridge, InfeasibleError states why. Imports are deferred.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def meniscus_of_n(
     number: float,
     pulled: str = "lower",
 ) -> float:
-    """Exact force [N] of one of N equal menisci, which share the volume of the undivided arc."""
+    """Exact force [N] of one of N equal menisci of the volume of the undivided arc."""
     volume = _arc_volume(radius, gap, angle_lower, angle_upper, pulled) / number
     return _exact(gap, volume, surface_tension, angle_lower, angle_upper)
 
@@ -103,7 +103,7 @@ def meniscus_divided(
     number: float,
     pulled: str = "lower",
 ) -> float:
-    """Exact force [N] of N equal menisci, which share the volume of the undivided arc."""
+    """Exact force [N] of N equal menisci, together of the volume of the undivided arc."""
     film = (radius, gap, surface_tension, angle_lower, angle_upper, number, pulled)
     return number * meniscus_of_n(*film)
 
@@ -149,7 +149,7 @@ def laplace_sphere(
     angle_lower: float,
     angle_upper: float,
 ) -> float:
-    """Exact force [N] on a sphere; the volume is that of the film with an upright rim."""
+    """Exact force [N] on a sphere; the volume is that of the film with a cylindrical rim."""
     volume = math.pi * sphere_radius * immersion * (immersion + 2.0 * gap)
     return _exact(gap, volume, surface_tension, angle_lower, angle_upper, sphere_radius)
 
@@ -206,14 +206,14 @@ def meniscus_rough(
     angle_upper: float,
     number: float,
 ) -> float:
-    """Exact force [N] of N asperities of radius R/n, as long as their menisci stay apart."""
+    """Exact force [N] of N asperities of radius R/n with separate menisci."""
     small = sphere_radius / math.sqrt(number)
     circle, volume = _asperity_film(small, gap, film_height, angle_lower, angle_upper)
     if number > 1.0 and circle > small:
-        most = max(sphere_radius / (2.0 * (film_height - gap)), 1.0)
+        max_split = max(sphere_radius / (2.0 * (film_height - gap)), 1.0)
         raise InfeasibleError(
             f"menisci of neighbouring asperities overlap: keep n = sqrt(number) below "
-            f"R/(2 (s - D)) = {most:.4g}"
+            f"R/(2 (s - D)) = {max_split:.4g}"
         )
     one = _exact(gap, volume, surface_tension, angle_lower, angle_upper, small)
     return number * one
@@ -222,7 +222,7 @@ def meniscus_rough(
 def printed_film_volume(
     sphere_radius: float, gap: float, film_height: float, angle_lower: float, angle_upper: float
 ) -> float:
-    """Eq. (3.23) [m3]; the contact angles are not in it."""
+    """Eq. (3.23) [m3], which does not contain the contact angles."""
     from .printed.films import film_volume_3_23
 
     return float(film_volume_3_23(sphere_radius, gap, film_height))
@@ -231,7 +231,7 @@ def printed_film_volume(
 def film_volume(
     sphere_radius: float, gap: float, film_height: float, angle_lower: float, angle_upper: float
 ) -> float:
-    """Volume [m3] of the arc turned about the axis."""
+    """Volume of revolution [m3] of the arc."""
     return _asperity_film(sphere_radius, gap, film_height, angle_lower, angle_upper)[1]
 
 
@@ -260,7 +260,7 @@ def printed_break_gap(
     curvature_lower: float = 0.0,
     curvature_upper: float = 0.0,
 ) -> float:
-    """Gap [m] at which the neck of the arc closes, spheres as paraboloids."""
+    """Gap [m] at which the neck of the arc closes, with paraboloids for spheres."""
     from ..capillary.arc import sphere as arc_sphere
 
     shape = (angle_lower, angle_upper, curvature_lower, curvature_upper)
@@ -274,7 +274,7 @@ def break_gap(
     curvature_lower: float = 0.0,
     curvature_upper: float = 0.0,
 ) -> float:
-    """Gap [m] at which the exact bridge loses its stability."""
+    """Stability limit [m] of the exact bridge."""
     from ..capillary.exact.stability import stability_limit
 
     bodies = (curvature_lower, curvature_upper)
@@ -284,7 +284,7 @@ def break_gap(
 def viscous_flat(
     radius: float, gap_start: float, gap_end: float, separation_time: float, viscosity: float
 ) -> float:
-    """Impulse over time [N] of a film that keeps its volume."""
+    """Impulse over time [N] of a film of constant volume."""
     from ..lubrication.squeeze_film import disc_impulse_conserved
 
     volume = math.pi * radius**2 * gap_start
@@ -300,7 +300,7 @@ def viscous_of_n(
     viscosity: float,
     number: float,
 ) -> float:
-    """Impulse over time [N] of one of N films that keep their volume."""
+    """Impulse over time [N] of one of N films of constant volume."""
     small = radius / math.sqrt(number)
     return viscous_flat(small, gap_start, gap_end, separation_time, viscosity)
 
@@ -313,7 +313,7 @@ def viscous_divided(
     viscosity: float,
     number: float,
 ) -> float:
-    """Impulse over time [N] of N films that keep their volume."""
+    """Impulse over time [N] of N films of constant volume."""
     film = (radius, gap_start, gap_end, separation_time, viscosity, number)
     return number * viscous_of_n(*film)
 
@@ -321,7 +321,7 @@ def viscous_divided(
 def viscous_far(
     radius: float, gap_start: float, separation_time: float, viscosity: float, number: float
 ) -> float:
-    """Impulse over time [N] of N films that keep their volume and break far away."""
+    """Impulse over time [N] of N films of constant volume with rupture far away."""
     return viscous_divided(radius, gap_start, math.inf, separation_time, viscosity, number)
 
 
@@ -345,7 +345,7 @@ def viscous_lifted(
     separation_time: float,
     viscosity: float,
 ) -> float:
-    """Impulse over time [N] of a lifted sphere whose film keeps its volume."""
+    """Impulse over time [N] of a lifted sphere with a film of constant volume."""
     from ..lubrication.squeeze_film import sphere_impulse_conserved
 
     film = (sphere_radius, film_height, gap_start, gap_end, viscosity)
@@ -355,5 +355,5 @@ def viscous_lifted(
 def viscous_number(
     force: float, radius: float, gap_start: float, separation_time: float, viscosity: float
 ) -> float:
-    """Force over that of a film which keeps its volume and breaks far away [-]."""
+    """Force over that of a film of constant volume with rupture far away [-]."""
     return force / viscous_flat(radius, gap_start, math.inf, separation_time, viscosity)

@@ -1,7 +1,7 @@
-"""The source's equations by their numbers: as printed, what is wrong, and the right value beside.
+"""Equations of the source by number: printed value, erratum, corrected value.
 
-For reproduction only: nothing else in contactkit takes a printed equation that is wrong, unless a
-scene asks for it by ``"as-published"``.
+For reproduction only: elsewhere contactkit uses a printed equation that is wrong only if a scene
+specifies ``"as-published"``.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def _order(number: str) -> tuple[int, str]:
 PUBLISHED: Mapping[str, PublishedFormula] = MappingProxyType(
     {row.number: row for row in sorted((*ROWS, *SLIDING_ROWS), key=lambda row: _order(row.number))}
 )
-"""Every printed equation that gives a number, by its own number."""
+"""The printed equations with a numerical value, by number."""
 
 TABLE_4_1: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -47,11 +47,11 @@ TABLE_4_1: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "sliding sphere, viscous force": ("3.56", "3.57", "3.59"),
     }
 )
-"""Rows of Table 4.1 of the source, and the numbers of the equations in each."""
+"""Rows of Table 4.1 of the source, with their equation numbers."""
 
 
 def erratum(number: str) -> str:
-    """What is wrong with a printed equation, in a sentence or two; empty if nothing is.
+    """Erratum of a printed equation; empty if it is correct.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def erratum(number: str) -> str:
 
 
 def published(number: str, /, **arguments: Any) -> PublishedValue:
-    r"""Value of an equation of the source as printed, its erratum, and the right value beside it.
+    r"""Value of an equation of the source as printed, its erratum, and the corrected value.
 
     Parameters
     ----------
@@ -72,39 +72,38 @@ def published(number: str, /, **arguments: Any) -> PublishedValue:
         Number of the equation, such as ``"3.19"``; `PUBLISHED` lists them all. ``"zero neck"``
         is the break distance of section 3.2.1.4.
     **arguments : float or str
-        What the equation needs, in SI units and by name; ``PUBLISHED[number].signature`` says
-        which, with their units. Angles in radians.
+        Arguments of the equation by name, in SI units; ``PUBLISHED[number].signature`` lists them
+        with their units. Angles in radians.
 
     Returns
     -------
     PublishedValue
-        The value as printed, the corrected one, the erratum, and where the corrected one is
-        from; ``corrected`` is None where there is none, such as where no bridge is stable.
+        The printed value, the corrected value and its model, and the erratum; ``corrected`` is None
+        where there is none, such as where no bridge is stable.
 
     Raises
     ------
     DescriptionError
-        If there is no such equation, or an argument is missing, unknown or impossible.
+        If there is no such equation, or an argument is missing, unknown or invalid.
     InfeasibleError
         Where the printed equation has no finite value.
 
     Notes
     -----
-    Viscous forces that the source calls those at the break are impulses over the separation
-    time. Resistance and attraction are positive, where some printed signs are not.
+    The viscous forces "at break" of the source are impulses over the separation time. Resistance
+    and attraction are positive, unlike some printed signs.
 
     References
     ----------
-    .. [1] The numbers are those of chapter 3; Table 4.1 collects the most important ones, see
-       `TABLE_4_1`.
+    .. [1] Equation numbers of chapter 3; Table 4.1 lists the most important ones, see `TABLE_4_1`.
 
     Examples
     --------
     >>> found = published("3.19", radius=100e-9, gap_start=2e-9, gap_end=180e-9,
     ...                   separation_time=1e-7, viscosity=0.89e-3)
     >>> print(str(found).rpartition("\n")[0])
-    Eq. (3.19) viscous force on flats at the break: 5.24189e-07 N as printed
-      right: 2.62127e-07 N, impulse over time of a film that keeps its volume
+    Eq. (3.19) viscous force on flats at rupture: 5.24189e-07 N as printed
+      corrected: 2.62127e-07 N, impulse over time of a film of constant volume
     >>> found.erratum.partition(",")[0], round(found.relative_error, 3)
     ('It is the impulse over the separation time', 1.0)
     >>> PUBLISHED["3.22"].signature
@@ -144,7 +143,7 @@ def _printed(formula: PublishedFormula, given: Mapping[str, Any]) -> float:
 def _corrected(
     formula: PublishedFormula, given: Mapping[str, Any], value: float
 ) -> tuple[float | None, str]:
-    """Right value, or None with the reason; a refusal of the right model is no error here."""
+    """Corrected value, or None with the reason why the consistent model has none."""
     if formula.right is None:
         return value, formula.by
     try:

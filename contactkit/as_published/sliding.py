@@ -1,6 +1,6 @@
-"""The printed equations of tangential separation, as rows of `PUBLISHED`, with their right values.
+"""Printed equations of tangential separation, as rows of `PUBLISHED`, with corrected values.
 
-The printed forces are impulses over the separation time: means, not forces at the break.
+The printed forces are impulses over the separation time: means, not forces at rupture.
 """
 
 from __future__ import annotations
@@ -160,7 +160,7 @@ SLIDING_ROWS: tuple[Row, ...] = (
     ),
     Row(
         "3.57",
-        "viscous force of N equal menisci that slide",
+        "viscous force of N equal sliding menisci",
         "N F_v",
         ("force", "number"),
         "N",
@@ -189,7 +189,7 @@ SLIDING_ROWS: tuple[Row, ...] = (
     ),
     Row(
         "3.60",
-        "viscous force on one of N menisci that slide",
+        "viscous force on one of N sliding menisci",
         "8 eta (x/sqrt(N))^3/(3 t_s h0)",
         (*_FLAT, "number"),
         "N",

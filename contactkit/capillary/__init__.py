@@ -1,11 +1,15 @@
-"""Capillarity: Kelvin's equation, liquid bridges, films on rough surfaces.
+"""Capillarity: Kelvin's equation, liquid bridges, menisci on rough surfaces.
 
-asperities      Menisci at the asperities of a rough surface near a flat: three laws, not to be conf
-condensed       Many bridges of one pressure on spheres near a flat: which of them stand, and what t
-film_islands    Menisci of a thin liquid film on a rough contact: which gaps they bridge, how hard t
-island_bridges  A bridge of its own on each island of a rough contact that holds liquid.
-kelvin          Liquid in equilibrium with its vapour: Kelvin's equation, and the meniscus that cond
-many_menisci    Many equal menisci in place of one: how many are stable, and where they would overla
+kelvin            Kelvin's equation and capillary condensation.
+exact             Exact axisymmetric bridges (Delaunay surfaces), their stability limits.
+arc               Bridges in the circular (toroidal) approximation.
+flats             Force law of the exact bridge between flats, tabulated.
+condensed         Capillary condensation on many spheres near a flat.
+many_menisci      Division of a meniscus into many equal ones.
+asperities        Menisci at the asperities of a rough surface: three statistical laws.
+asperity_bridges  Exact bridges at asperities: force curve, average over the heights.
+film_islands      Wetted islands of a rough contact under a thin film.
+island_bridges    Equivalent spheres for the wetted islands, one bridge on each.
 """
 
 from __future__ import annotations

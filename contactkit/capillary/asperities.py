@@ -1,13 +1,13 @@
-r"""Menisci at the asperities of a rough surface near a flat: three laws, not to be confused.
+r"""Menisci at the asperities of a rough surface near a flat: three statistical laws.
 
-* `identical`: all summits equally high, one thin meniscus at each within reach.
+* `identical`: summits of equal height, one thin meniscus at each within reach.
 * `greenwood_williamson`: summits of equal radius, their heights normal about a mean plane.
-* `cross_cut`: no summits at all; the area on which the gap of a Gaussian surface is thinner than
-  the film, Eq. (2.43).
+* `cross_cut`: no summits; the area on which the gap of a Gaussian surface is smaller than the film,
+  Eq. (2.43).
 
-On one surface they may differ by a factor of ten, because they are fed different statistics; a
-result has to name its law. In all, the menisci end at one height h_m, that of a film or of a
-humidity. Forces attract if positive. Floats only, without numpy.
+On one surface they may differ by a factor of ten, because they use different statistics; a result
+names its law. In all of them the menisci end at one height h_m, that of a film or that given by the
+humidity. Positive forces attract. Arguments are floats; the module does without numpy.
 
 ==============  ================================================================  =======
 symbol          quantity                                                          unit
@@ -44,19 +44,19 @@ __all__ = [
 
 
 class AsperitySum(NamedTuple):
-    """Menisci at many asperities: pull [N], how many are wet and touch, and what they cover.
+    """Menisci at many asperities: force [N], numbers of wetted and touching summits, coverage.
 
-    `cover` is the sum of the contact circles over the nominal area [-].
+    `coverage` is the sum of the contact circles over the nominal area [-].
     """
 
     force: float
     n_wet: float
     n_touching: float
-    cover: float
+    coverage: float
 
 
 class CrossCut(NamedTuple):
-    """Pull [N] and area [m2] of the part of a surface within reach of a film, and of contact."""
+    """Force [N] and wetted area [m2] of a surface within reach of a film, and contact area."""
 
     force: float
     area: float
@@ -72,7 +72,7 @@ def identical(
     wetting: float,
     height: float,
 ) -> AsperitySum:
-    r"""Menisci at asperities of one height, at a distance D from the flat.
+    r"""Menisci at asperities of equal height, at a distance D from the flat.
 
     .. math:: F = n A \, 2\pi R\gamma c \, (1 - D/h_m)
 
@@ -92,15 +92,15 @@ def identical(
     Examples
     --------
     >>> found = identical(0.0, 1e-6, 1e12, 1e-8, 0.072, 1.0, 1e-9)
-    >>> round(found.force * 1e3, 6), round(found.n_wet), round(found.cover, 6)
+    >>> round(found.force * 1e3, 6), round(found.n_wet), round(found.coverage, 6)
     (4.523893, 10000, 0.006283)
     """
     number = density * area
     one = float(thin_film_force(radius, separation, surface_tension, wetting, height))
     share = max(1.0 - separation / height, 0.0)
     wet = number if share > 0.0 else 0.0
-    cover = 2.0 * math.pi * radius * density * height * share
-    return AsperitySum(number * one, wet, number if separation <= 0.0 else 0.0, cover)
+    coverage = 2.0 * math.pi * radius * density * height * share
+    return AsperitySum(number * one, wet, number if separation <= 0.0 else 0.0, coverage)
 
 
 def greenwood_williamson(
@@ -113,7 +113,7 @@ def greenwood_williamson(
     wetting: float,
     height: float,
 ) -> AsperitySum:
-    r"""Menisci at summits whose heights are normal about a plane at a distance d from the flat.
+    r"""Menisci at summits with normally distributed heights (Greenwood and Williamson).
 
     .. math::
         F = 2\pi R\gamma c \, n A \, \frac{1}{b-a}\int_a^b Q(t)\,dt, \qquad
@@ -130,11 +130,11 @@ def greenwood_williamson(
 
     Notes
     -----
-    Each summit within reach pulls with 2 pi R gamma c (1 - D/h_m), one that touches with the
-    force of D = 0: what its flattening changes is left out, as in the thin limit it does not
-    matter. The mean of the tail is the same as
+    Each summit within reach attracts with 2 pi R gamma c (1 - D/h_m), a summit in contact with the
+    force of D = 0: its flattening is neglected, which has no effect in the limit of a thin
+    meniscus. The mean of the tail equals
     ``Q(b) + ((h_m - d)(Q(a) - Q(b)) + sigma (phi(a) - phi(b)))/h_m``, without its cancellation.
-    Neighbours do not feel each other; look at `cover`.
+    Neighbours do not interact; check `coverage`.
 
     References
     ----------
@@ -150,8 +150,8 @@ def greenwood_williamson(
     share = mean_tail(a, b)
     number = density * area
     force = 2.0 * math.pi * radius * surface_tension * wetting * number * share
-    cover = 2.0 * math.pi * radius * density * height * share
-    return AsperitySum(force, number * normal_tail(a), number * normal_tail(b), cover)
+    coverage = 2.0 * math.pi * radius * density * height * share
+    return AsperitySum(force, number * normal_tail(a), number * normal_tail(b), coverage)
 
 
 def cross_cut(
@@ -162,7 +162,7 @@ def cross_cut(
     wetting: float,
     height: float,
 ) -> CrossCut:
-    r"""Film on a Gaussian surface cut by a plane: Laplace pressure times the area within reach.
+    r"""Film on a truncated Gaussian surface: Laplace pressure times the area within reach.
 
     .. math:: F = \gamma c A_m/h_m, \qquad A_m = A [Q((d-h_m)/\sigma) - Q(d/\sigma)]
 
@@ -177,9 +177,9 @@ def cross_cut(
 
     Notes
     -----
-    The surface keeps its shape where it would interpenetrate, so that the area of contact is that
-    of the cut; `kernels.film_islands` has the same law on a deformed map. Overestimates what
-    stands on narrow islands: the pressure is not that of a slit there.
+    The surface is not deformed, so that the contact area is that of bearing-area theory;
+    `film_islands` has the same law on a deformed map. Overestimates menisci on narrow islands,
+    where the pressure is not that of a slit.
 
     References
     ----------
@@ -197,7 +197,7 @@ def cross_cut(
 
 
 def gaussian_peaks(level: float, area: float, variance: float, slope_variance: float) -> float:
-    r"""Number of islands of a Gaussian surface above a high level.
+    r"""Number of islands of a Gaussian surface above a high threshold.
 
     .. math:: N = A (2\pi)^{-3/2} (m_2/m_0) \, t \, e^{-t^2/2}
 
@@ -212,8 +212,8 @@ def gaussian_peaks(level: float, area: float, variance: float, slope_variance: f
 
     Notes
     -----
-    It is the mean of islands less holes, which is negative below the mean plane. An exponential
-    autocorrelation has no m_2 of its own: the number then depends on the grid.
+    The mean Euler characteristic (islands less holes), negative below the mean plane. For an
+    exponential autocorrelation m_2 diverges, so that the number depends on the grid.
 
     References
     ----------
@@ -234,7 +234,7 @@ def normal_density(t: float) -> float:
 
 
 def normal_tail(t: float) -> float:
-    """Share of a standard normal distribution above `t`.
+    """Upper tail probability of the standard normal distribution.
 
     Examples
     --------
@@ -245,7 +245,7 @@ def normal_tail(t: float) -> float:
 
 
 def mean_tail(a: float, b: float) -> float:
-    r"""Mean of the upper tail Q between a and b > a, to rounding wherever they are.
+    r"""Mean of the upper tail Q between a and b > a, accurate to round-off everywhere.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Exact bridges of one pressure at the asperities of a rough surface: one, and their average."""
+"""Exact bridges of given pressure at asperities: force curve, and average over the heights."""
 
 from __future__ import annotations
 
@@ -11,38 +11,38 @@ from scipy.interpolate import CubicSpline
 
 from ..errors import ConvergenceError
 from .asperities import normal_tail
-from .condensed import reach_at_pressure
+from .condensed import max_gap_on_sphere
 from .exact.at_pressure import bridge_at_pressure
 
 __all__ = ["force_curve", "gaussian_average"]
 
 Floats = NDArray[np.float64]
 
-_MOST_NODES = 2049
-_SPAN = 80.0  # of the square of a normal variable: exp(-40) is left out
+_MAX_NODES = 2049
+_SPAN = 80.0  # of the square of a normal variable: exp(-40) is neglected
 
 
 def force_curve(
     pressure: float, angles: tuple[float, float], curvature: float, rtol: float
 ) -> tuple[Callable[[Floats], Floats], float]:
-    """Force over surface tension [m] of one bridge of a pressure [1/m], and how far it reaches [m].
+    """Force over surface tension [m] of a bridge of given pressure [1/m], and its maximum gap [m].
 
-    The curve is in the root of the way that is left to the end, where the slope of the force is
-    infinite; its nodes are doubled until it agrees with the bridge at the midpoints.
+    The curve is in the square root of the distance to the maximum gap, where the slope of the force
+    is infinite; nodes are doubled until the curve agrees with the bridge at the midpoints.
 
     Raises
     ------
     ConvergenceError
         If the force is not smooth enough for a curve.
     """
-    reach = reach_at_pressure(pressure, *angles, curvature)
+    reach = max_gap_on_sphere(pressure, *angles, curvature)
 
     def force(left: Floats) -> Floats:
         gap = np.maximum(reach * (1.0 - left * left), 0.0)
         return np.asarray(bridge_at_pressure(gap, pressure, *angles, 0.0, curvature).force)
 
     nodes, error = 17, math.inf
-    while error > rtol and 2 * nodes - 1 <= _MOST_NODES:
+    while error > rtol and 2 * nodes - 1 <= _MAX_NODES:
         left = np.linspace(1e-3, 1.0, 2 * nodes - 1)
         value = force(left)
         coarse = CubicSpline(left[::2], value[::2])
@@ -57,7 +57,7 @@ def force_curve(
 def gaussian_average(
     force: Callable[[Floats], Floats], reach: float, separation: float, spread: float
 ) -> float:
-    r"""Mean of a force over summits of normal heights, those in contact having that of no gap.
+    r"""Mean of a force over summits of normal heights; in contact it is that at zero gap.
 
     .. math:: \int_0^{D_{max}} F(D)\, \phi\Bigl(\frac{d - D}{\sigma}\Bigr) \frac{dD}{\sigma}
               + F(0)\, Q(d/\sigma)
@@ -68,7 +68,7 @@ def gaussian_average(
     if high <= low:
         return touching
     nodes, weights = _NODES
-    # The root of what is left to the reach, in which the force is smooth.
+    # In the square root of the distance to the maximum gap the force is smooth.
     first, last = math.sqrt((low - a) * spread / reach), math.sqrt((high - a) * spread / reach)
     left = first + (last - first) * nodes
     t = a + left * left * reach / spread

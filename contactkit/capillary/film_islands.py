@@ -1,9 +1,9 @@
-r"""Menisci of a thin liquid film on a rough contact: which gaps they bridge, how hard they pull.
+r"""Menisci of a thin liquid film on a rough contact: wetted islands and capillary force.
 
-A film of thickness :math:`h_f` lies on one surface. Where the gap is smaller than the meniscus
-height :math:`h_m` (the cut) a meniscus can stand; it does on those islands of the cut that touch
-the film somewhere, gap < :math:`h_f`. Contact itself is dry. Gaps [m] are positive where open,
-arrays ``[y, x]``; the force is positive where it attracts.
+A film of thickness :math:`h_f` lies on one surface. A meniscus can form where the gap is smaller
+than the meniscus height :math:`h_m`; it does on those connected islands that touch the film
+somewhere, gap < :math:`h_f`. The contact area itself is dry. Gaps [m] are positive where open,
+arrays ``[y, x]``; a positive force attracts.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Labels = NDArray[np.int64]
 
 
 class FilmIslands(NamedTuple):
-    """Where menisci stand. Counts are of pixels: times the area of one they are areas."""
+    """Wetted islands of a gap map; counts are of pixels."""
 
     meniscus: Mask
     """Pixels under a meniscus, (ny, nx)."""
@@ -48,7 +48,7 @@ def meniscus_area(
     periodic: bool,
     connectivity: Literal[4, 8] = 8,
 ) -> FilmIslands:
-    """Pixels on which menisci stand.
+    """Pixels wetted by menisci.
 
     Parameters
     ----------
@@ -57,19 +57,19 @@ def meniscus_area(
     film_thickness : float
         Thickness of the film [m].
     meniscus_height : float
-        Gap up to which a meniscus reaches [m]. If it is not above `film_thickness`, every island
-        touches the film.
+        Maximum gap of a meniscus [m]. If it does not exceed `film_thickness`, every island touches
+        the film.
     contact : ndarray of bool (ny, nx)
         Pixels in contact.
     periodic : bool
-        Whether islands go on across the edges.
+        Whether islands continue across the edges.
     connectivity : {4, 8}
-        Whether pixels that share only a corner are of one island: 8, or not: 4.
+        8: pixels with a common corner belong to one island; 4: only those with a common edge.
 
     Notes
     -----
-    An area counted in pixels is off by a fraction of its perimeter times the pixel, of either
-    sign. The film is taken to be of one thickness, unmoved by the menisci that it feeds.
+    The error of a pixel count is a fraction of the perimeter times the pixel size, of either sign.
+    The film thickness is uniform and not reduced by the menisci that it feeds.
 
     References
     ----------
@@ -96,7 +96,7 @@ def meniscus_area(
 
 
 def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> tuple[Labels, int]:
-    """Connected pixels of a mask, numbered from 1, and how many such islands there are.
+    """Connected components of a mask, labelled from 1, and their number.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> tupl
     Returns
     -------
     names : ndarray of int (ny, nx)
-        Number of the island of each pixel, 0 outside.
+        Label of the island of each pixel, 0 outside.
     n : int
         Number of islands.
 
@@ -123,7 +123,7 @@ def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> tupl
     pairs = np.concatenate([_across(names, connectivity), _across(names.T, connectivity)], axis=1)
     joined = coo_array((np.ones(pairs.shape[1]), tuple(pairs)), shape=(n + 1, n + 1))
     n_found, renamed = connected_components(joined, directed=False)
-    # Pixel 0, outside, is a component of its own, and the first that is met.
+    # The outside, 0, is a component of its own, and the first one.
     return np.asarray(renamed[names], dtype=np.int64), int(n_found) - 1
 
 
@@ -134,7 +134,7 @@ def film_force(
     angle_upper: ArrayLike,
     meniscus_height: ArrayLike,
 ) -> Array:
-    r"""Pull [N] of menisci: pressure deficit of a flat meniscus times the area it acts on.
+    r"""Capillary force [N]: Laplace pressure of a flat meniscus times the wetted area.
 
     .. math:: F = \gamma (\cos\theta_1 + \cos\theta_2) A_m / h_m
 
@@ -151,8 +151,8 @@ def film_force(
 
     Notes
     -----
-    Leaves out the pull of the rim and the curvature along it: a share of about the height over
-    the width of a meniscus. Whether the pull is added to the load is for the caller to say.
+    Neglects the line tension at the rim and the curvature along it, of relative size height over
+    width of a meniscus. The caller decides whether the force is added to the load.
 
     References
     ----------
@@ -173,7 +173,7 @@ def film_force(
 
 
 def _across(names: Labels, connectivity: int) -> Labels:
-    """Names of islands that meet across the first and last row, (2, number of meetings)."""
+    """Labels of islands that meet across the first and last row, (2, number of pairs)."""
     last, first = names[-1], names[0]
     steps = (0,) if connectivity == 4 else (-1, 0, 1)
     pairs = np.concatenate([np.stack([last, np.roll(first, step)]) for step in steps], axis=1)

@@ -1,19 +1,18 @@
-r"""A bridge of its own on each island of a rough contact that holds liquid.
+r"""Equivalent spheres for the wetted islands of a rough contact, one bridge on each.
 
-An island is a connected part of the gap map that is thinner than the menisci are high; it is
-replaced by a sphere near a flat: with the summit gap of the island, and the curvature either of
-its summit or of the sphere whose cut at that height has its area. On it stands an axisymmetric
-bridge of the liquid of the island, or of a given pressure. Gaps [m] are positive where open,
-arrays ``[y, x]``, points (y, x); forces are over the surface tension [m], positive where they
-attract.
+An island is a connected part of the gap map with a gap below the meniscus height; it is replaced
+by a sphere near a flat, with the minimum gap of the island and the curvature either of its summit
+or of the sphere with the same area at that height. An axisymmetric bridge, of the liquid of the
+island or of a given pressure, forms at it. Gaps [m] are positive where open, arrays ``[y, x]``,
+points (y, x); forces are over the surface tension [m], positive where they attract.
 
 ==============  ====================================================  =======
 symbol          quantity                                              unit
 ==============  ====================================================  =======
 A_i, A_c        area of an island, and of the contact in it           m2
-D_i             smallest gap of an island                             m
+D_i             minimum gap of an island                              m
 h_m             gap up to which an island reaches                     m
-kappa_i         curvature of the sphere that stands for it            1/m
+kappa_i         curvature of its equivalent sphere                    1/m
 ==============  ====================================================  =======
 """
 
@@ -34,12 +33,12 @@ Labels = NDArray[np.int64]
 
 
 class Islands(NamedTuple):
-    """Islands of a map, n of them: what of each a bridge has to know."""
+    """Geometry of the n islands of a map."""
 
     summit: NDArray[np.int64]
-    """Pixel of the smallest gap, or of the highest point in contact, (n, 2)."""
+    """Pixel of the minimum gap, or of the highest point in contact, (n, 2)."""
     gap: Array
-    """Smallest gap D_i [m], 0 where it touches, (n,)."""
+    """Minimum gap D_i [m], 0 in contact, (n,)."""
     area: Array
     """Area A_i [m2], contact included, (n,)."""
     contact_area: Array
@@ -59,11 +58,11 @@ def measure_islands(
     Parameters
     ----------
     names : ndarray of int (ny, nx)
-        Number of the island of each pixel, from 1 to `n`; 0 outside.
+        Label of the island of each pixel, from 1 to `n`; 0 outside.
     n : int
         Number of islands.
     gap, heights : ndarray (ny, nx)
-        Distance of the deformed surfaces, and heights before they were deformed [m].
+        Gap of the deformed surfaces, and heights before deformation [m].
     contact : ndarray of bool (ny, nx)
         Pixels in contact.
     pixel_area : float
@@ -82,7 +81,7 @@ def measure_islands(
     touching = np.bincount(flat, weights=contact.ravel(), minlength=n + 1)[1:]
     inside: Array = pixel_area * touching.astype(np.float64)
     smallest = np.asarray(ndimage.minimum(gap, names, index), dtype=np.float64).reshape(n)
-    # Where it touches, the highest point before the deformation; elsewhere the smallest gap.
+    # In contact the highest point before deformation; elsewhere the minimum gap.
     rank = np.where(contact, heights - heights.min(), -gap)
     summit = np.asarray(ndimage.maximum_position(rank, names, index), dtype=np.int64)
     smallest = np.where(inside > 0.0, 0.0, np.maximum(smallest, 0.0))
@@ -90,7 +89,7 @@ def measure_islands(
 
 
 def curvature_of_area(islands: Islands, height: float) -> Array:
-    r"""Curvature [1/m] of the sphere whose cut at the height h_m has the area of the island.
+    r"""Curvature [1/m] of the sphere whose section at the height h_m has the area of the island.
 
     .. math:: \kappa_i = 2\pi (h_m - D_i)/(A_i - A_c)
 
@@ -99,13 +98,13 @@ def curvature_of_area(islands: Islands, height: float) -> Array:
     islands : Islands
         From `measure_islands`.
     height : float
-        Gap h_m up to which the islands reach [m].
+        Maximum gap h_m of the islands [m].
 
     Notes
     -----
-    A thin bridge on it pulls what Eq. (2.43) gives for its island, ``gamma c (A_i - A_c)/h_m``.
-    An area counted in pixels is off by a fraction of its perimeter. Infinite for an island that
-    is in contact all over, and has no room for liquid.
+    The force of a thin bridge on it is that of Eq. (2.43), ``gamma c (A_i - A_c)/h_m``. The error
+    of a pixel count is a fraction of the perimeter times the pixel size. Infinite for an island in
+    full contact, which has no room for liquid.
 
     Examples
     --------
@@ -133,12 +132,12 @@ def summit_curvature(
     pixel_size : (float, float)
         Size (dy, dx) of a pixel [m].
     periodic : bool
-        Whether the map goes on across its edges; otherwise pixels at an edge take the curvature
-        of their inner neighbours.
+        Whether the map is periodic; otherwise pixels at an edge take the curvature of their inner
+        neighbours.
 
     Notes
     -----
-    Of the shortest wave that the grid has: on most rough surfaces it grows as the pixel shrinks.
+    Dominated by the shortest wavelengths: on most rough surfaces it grows as the pixel shrinks.
 
     Examples
     --------
@@ -159,7 +158,7 @@ def summit_curvature(
 def overlapping(
     points: Array, radii: Array, period: tuple[float, float] | None
 ) -> NDArray[np.bool_]:
-    """Whether a circle overlaps with another one.
+    """Whether each circle overlaps another one.
 
     Parameters
     ----------
@@ -182,7 +181,7 @@ def overlapping(
         return found
     tree = cKDTree(np.mod(points, period) if period else points, boxsize=period)  # type: ignore[arg-type]
     order = np.argsort(-radii)
-    # Of a pair the larger circle looks for the smaller one, which is at most as large again.
+    # Each circle looks for smaller ones, whose centres are within twice its radius.
     for i in order:
         near = np.asarray(tree.query_ball_point(tree.data[i], 2.0 * radii[i]))
         apart = np.abs(tree.data[near] - tree.data[i])

@@ -1,8 +1,8 @@
-r"""Liquid in equilibrium with its vapour: Kelvin's equation, and the meniscus that condenses.
+r"""Kelvin's equation and capillary condensation: liquid in equilibrium with its vapour.
 
-The relative humidity is the pressure of the vapour over that of saturation, H; a pressure is that
-of the liquid less that outside, hence negative for a hollow meniscus. A force is positive when it
-attracts. Floats or arrays; only what has no answer is refused.
+The relative humidity H is the vapour pressure over its saturation value; a pressure is that of the
+liquid less that outside, hence negative for a concave meniscus. A positive force attracts.
+Arguments are floats or arrays; only those without a solution are refused.
 
 ==============  ==========================================  =======
 symbol          quantity                                    unit
@@ -40,7 +40,7 @@ GAS_CONSTANT = 8.31446261815324
 def kelvin_radius(
     surface_tension: Any, molar_volume: Any, temperature: Any, relative_humidity: Any
 ) -> Any:
-    r"""Mean radius of curvature [m] of a meniscus in equilibrium with its vapour, positive.
+    r"""Kelvin radius [m]: mean radius of curvature of a meniscus in equilibrium with its vapour.
 
     .. math:: r_K = -\frac{\gamma v}{R T \ln H}
 
@@ -54,13 +54,12 @@ def kelvin_radius(
     Raises
     ------
     InfeasibleError
-        At no vapour, and at saturation and above, as in `laplace_pressure`.
+        Without vapour, and at or above saturation, as in `laplace_pressure`.
 
     Notes
     -----
-    Ideal vapour, and a surface tension that does not depend on the curvature: the second is off
-    by about the size of a molecule over the radius, 20 % at 1 nm. Eq. (3.3) has the logarithm
-    right and the sign turned.
+    Ideal vapour, and a surface tension independent of curvature; the error of the latter is about
+    the molecular size over the radius, 20 % at 1 nm. Eq. (3.3) has the opposite sign.
 
     References
     ----------
@@ -77,20 +76,20 @@ def kelvin_radius(
 
 
 def laplace_pressure(molar_volume: Any, temperature: Any, relative_humidity: Any) -> Any:
-    r"""Pressure [Pa] of a liquid in equilibrium with its vapour, less that outside; negative.
+    r"""Laplace pressure [Pa] of a liquid in equilibrium with its vapour; negative.
 
     .. math:: p = \frac{R T}{v} \ln H
 
-    The surface tension is not in it: what a meniscus needs is its curvature p/gamma.
+    It is independent of the surface tension; the curvature of the meniscus is p/gamma.
 
     Raises
     ------
     InfeasibleError
-        At H = 0, where nothing condenses, and at H = 1 or more, where the film has no end.
+        At H = 0, where nothing condenses, and at H >= 1, where the film is unbounded.
 
     Notes
     -----
-    Arguments and what is left out as in `kelvin_radius`; the liquid is incompressible.
+    Arguments and assumptions as in `kelvin_radius`; the liquid is incompressible.
 
     Examples
     --------
@@ -101,7 +100,7 @@ def laplace_pressure(molar_volume: Any, temperature: Any, relative_humidity: Any
 
 
 def relative_humidity(pressure: Any, molar_volume: Any, temperature: Any) -> Any:
-    r"""Relative humidity [-] at which a liquid of a pressure [Pa] neither grows nor dries up.
+    r"""Relative humidity [-] in equilibrium with a liquid of given Laplace pressure [Pa].
 
     .. math:: H = \exp\frac{p v}{R T}
 
@@ -119,7 +118,7 @@ def relative_humidity(pressure: Any, molar_volume: Any, temperature: Any) -> Any
 
 
 def meniscus_height(pressure: Any, surface_tension: Any, wetting: Any) -> Any:
-    r"""Height [m] of a thin meniscus of a pressure [Pa] between walls that are nearly parallel.
+    r"""Height [m] of a thin meniscus of given pressure [Pa] between nearly parallel walls.
 
     .. math:: h_m = -\frac{\gamma}{p} (\cos\theta_1 + \cos\theta_2)
 
@@ -128,12 +127,12 @@ def meniscus_height(pressure: Any, surface_tension: Any, wetting: Any) -> Any:
     pressure, surface_tension : float or ndarray, shape (...)
         Laplace pressure [Pa], negative, and surface tension [N/m].
     wetting : float or ndarray, shape (...)
-        Sum of the cosines of the contact angles [-]. If it is not positive the height is not
-        either: nothing condenses.
+        Sum of the cosines of the contact angles [-]. If it is not positive, neither is the height:
+        nothing condenses.
 
     Notes
     -----
-    Leaves out the curvature around the axis, a share of the height over the radius.
+    Neglects the azimuthal curvature, of relative size height over radius.
 
     Examples
     --------
@@ -148,11 +147,11 @@ def meniscus_height(pressure: Any, surface_tension: Any, wetting: Any) -> Any:
 def thin_film_force(
     sphere_radius: Any, gap: Any, surface_tension: Any, wetting: Any, height: Any
 ) -> Any:
-    r"""Pull [N] of a thin meniscus of a given height on a sphere above a flat.
+    r"""Capillary force [N] of a thin meniscus of given height on a sphere above a flat.
 
     .. math:: F = 2\pi R \gamma (\cos\theta_1 + \cos\theta_2) \, (1 - D/h_m), \qquad D < h_m
 
-    Zero from D = h_m on: no meniscus of that height spans the gap.
+    Zero from D = h_m on.
 
     Parameters
     ----------
@@ -161,13 +160,13 @@ def thin_film_force(
     surface_tension, wetting : float or ndarray, shape (...)
         Surface tension [N/m] and sum of the cosines of the contact angles [-].
     height : float or ndarray, shape (...)
-        Height of the meniscus at its rim [m], from `meniscus_height` or of a film.
+        Height of the meniscus at its rim [m], from `meniscus_height` or that of a film.
 
     Notes
     -----
-    The limit of a small filling. Against the exact bridge of the same pressure it is 4 % too high
-    at R = 100 r_K in contact, 6 % at a gap of a quarter of the height, and the error falls as
-    the square root of r_K/R.
+    The limit of a small filling angle. Compared with the exact bridge of the same pressure it is
+    4 % too high at R = 100 r_K in contact, 6 % at a gap of a quarter of the height; the error
+    falls as the square root of r_K/R.
 
     References
     ----------
@@ -181,17 +180,17 @@ def thin_film_force(
     0.0
     """
     share = 1.0 - gap / height
-    share = 0.5 * (share + abs(share))  # its positive part, of a float as of an array
+    share = 0.5 * (share + abs(share))  # positive part, of a float or an array
     return 2.0 * math.pi * sphere_radius * surface_tension * wetting * share
 
 
 def _log(relative_humidity: Any) -> Any:
-    """Logarithm of a humidity that has one, and is below saturation."""
+    """Logarithm of a humidity above zero and below saturation."""
     lowest, highest = _bounds(relative_humidity)
     if not lowest > 0.0:
         raise InfeasibleError(
             f"relative humidity {lowest:g}: without vapour nothing condenses and there is no "
-            "meniscus; give a humidity above 0, or leave the meniscus out"
+            "meniscus; give a humidity above 0, or omit the meniscus"
         )
     if not highest < 1.0:
         raise InfeasibleError(

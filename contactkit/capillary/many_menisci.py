@@ -1,15 +1,14 @@
-r"""Many equal menisci in place of one: how many are stable, and where they would overlap.
+r"""Division of a meniscus into many equal ones: stability, overlap, and printed optima.
 
-A liquid volume V between two flats a distance h apart is shared out to N menisci of V/N. Without
-gravity shapes depend on V/h^3 alone, so the cube roots of volume carry the whole scaling. Floats
-or arrays; nothing is checked.
+A liquid volume V between two flats at a distance h is divided into N menisci of volume V/N. Without
+gravity, shapes depend on V/h^3 alone. Arguments are floats or arrays and are not checked.
 
 ==============  ==================================================  =======
 symbol          quantity                                            unit
 ==============  ==================================================  =======
 N               number of equal menisci                             -
 x               radius of the larger contact circle of one          m
-h, h_lim        gap, and the largest gap of a stable bridge         m
+h, h_lim        gap, and the maximum gap of a stable bridge         m
 R, s, D         radius of a sphere, height of the film, gap         m
 ==============  ==================================================  =======
 """
@@ -20,40 +19,40 @@ import math
 from typing import Any
 
 __all__ = [
-    "DENSEST_COVER",
-    "best_count_published",
-    "cover",
+    "MAX_COVERAGE",
+    "optimal_count_published",
+    "coverage",
     "critical_radius_published",
-    "largest_stable_count",
-    "least_overlapping_split",
+    "max_stable_count",
+    "max_separate_split",
 ]
 
-DENSEST_COVER = math.pi / math.sqrt(12.0)
-"""Share of a plane under equal circles in their densest order [-]; beyond it they overlap."""
+MAX_COVERAGE = math.pi / math.sqrt(12.0)
+"""Densest packing of equal circles in a plane [-]; beyond it they overlap."""
 
 
-def cover(count: Any, contact_radius: Any, area: Any) -> Any:
-    r"""Sum of the contact circles over the area of the face, :math:`N \pi x^2/A` [-].
+def coverage(count: Any, contact_radius: Any, area: Any) -> Any:
+    r"""Area coverage [-]: contact circles over the area of the face, :math:`N \pi x^2/A`.
 
-    Beyond `DENSEST_COVER` neighbours overlap however they are placed (unless there is only one).
+    Beyond `MAX_COVERAGE` neighbours overlap in any arrangement (unless there is only one).
 
     Examples
     --------
-    >>> round(cover(4, 0.5, math.pi), 12)
+    >>> round(coverage(4, 0.5, math.pi), 12)
     1.0
     """
     return count * math.pi * contact_radius**2 / area
 
 
-def largest_stable_count(gap: float, limit_gap: float) -> int:
-    r"""Number of menisci into which a liquid can be shared out at a gap between flats.
+def max_stable_count(gap: float, limit_gap: float) -> int:
+    r"""Maximum number of stable menisci into which a liquid can be divided between flats.
 
     .. math:: N_{max} = \lfloor (h_{lim}/h)^3 \rfloor
 
     Parameters
     ----------
     gap, limit_gap : float
-        Gap [m], and the largest gap that the undivided liquid spans [m].
+        Gap [m], and the maximum gap of the undivided liquid [m].
 
     Returns
     -------
@@ -62,20 +61,20 @@ def largest_stable_count(gap: float, limit_gap: float) -> int:
 
     Notes
     -----
-    Exact for free contact lines, since the limit grows as the cube root of the volume; at N_max
-    itself a meniscus stands at its limit and is left out.
+    Exact for free contact lines, because the limit grows as the cube root of the volume; a count
+    that puts the menisci exactly at their limit is excluded.
 
     Examples
     --------
-    >>> largest_stable_count(6e-9, 258.11334458632575e-9)
+    >>> max_stable_count(6e-9, 258.11334458632575e-9)
     79611
     """
     ratio = (limit_gap / gap) ** 3
     return math.ceil(ratio * (1.0 - 1e-12)) - 1 if ratio > 1.0 else 0
 
 
-def least_overlapping_split(radius: Any, film_height: Any, gap: Any) -> Any:
-    r"""Number n to a side up to which n x n asperities of radius R/n hold separate menisci.
+def max_separate_split(radius: Any, film_height: Any, gap: Any) -> Any:
+    r"""Maximum n for which n x n asperities of radius R/n have separate menisci.
 
     .. math:: n = \frac{R}{2 (s - D)}
 
@@ -83,20 +82,20 @@ def least_overlapping_split(radius: Any, film_height: Any, gap: Any) -> Any:
 
     Notes
     -----
-    Eq. (3.14) has no such bound, and is meaningless above it.
+    Eq. (3.14) does not state this bound, and does not hold above it.
 
     Examples
     --------
     A radius of 50 um under a film of 500 nm: 2500 asperities at most.
 
-    >>> round(least_overlapping_split(50e-6, 500e-9, 0.0) ** 2)
+    >>> round(max_separate_split(50e-6, 500e-9, 0.0) ** 2)
     2500
     """
     return radius / (2.0 * (film_height - gap))
 
 
-def best_count_published(line_force: Any, viscous_force: Any) -> Any:
-    r"""Number of menisci with the least sum of Eqs. (3.33) and (3.34), not rounded.
+def optimal_count_published(line_force: Any, viscous_force: Any) -> Any:
+    r"""Number of menisci that minimises the sum of Eqs. (3.33) and (3.34), not rounded.
 
     .. math:: N = (2 F_v/F_l)^{2/3} \quad\text{minimises}\quad F_L + \sqrt{N} F_l + F_v/N
 
@@ -105,15 +104,15 @@ def best_count_published(line_force: Any, viscous_force: Any) -> Any:
     line_force : float or ndarray, shape (...)
         Line tension :math:`2\pi\gamma x\sin\theta` of the undivided meniscus [N].
     viscous_force : float or ndarray, shape (...)
-        Mean viscous force of the undivided meniscus [N], far from its break.
+        Mean viscous force of the undivided meniscus [N], far from its rupture.
 
     Notes
     -----
-    Below 1 the undivided meniscus is best. The exact force grows slower than the square root.
+    Below 1 the undivided meniscus is optimal. The exact force grows slower than the square root.
 
     Examples
     --------
-    >>> round(best_count_published(1.0, 500.0), 9)
+    >>> round(optimal_count_published(1.0, 500.0), 9)
     100.0
     """
     return (2.0 * viscous_force / line_force) ** (2.0 / 3.0)
@@ -122,7 +121,7 @@ def best_count_published(line_force: Any, viscous_force: Any) -> Any:
 def critical_radius_published(
     gap: Any, surface_tension: Any, wetting: Any, sine: Any, viscosity: Any, time: Any
 ) -> Any:
-    r"""Radius [m] of the meniscus for which Eqs. (3.11) and (3.19), far from the break, agree.
+    r"""Radius [m] of a meniscus at which Eqs. (3.11) and (3.19), far from rupture, are equal.
 
     .. math::
         \frac{3\eta x^3}{4 t_s h^2} = \frac{\gamma c\, x}{h} + 2\gamma\sin\theta
@@ -139,8 +138,8 @@ def critical_radius_published(
 
     Notes
     -----
-    Above it the viscous force is the larger one. As printed, with the radius kept while the gap
-    opens: with the volume kept the viscous force is half as large.
+    Above it the viscous force dominates. As printed, at constant radius; at constant volume the
+    viscous force is half as large.
 
     Examples
     --------
@@ -153,6 +152,6 @@ def critical_radius_published(
     p = surface_tension * wetting / (3.0 * viscous * gap)
     q = surface_tension * sine / viscous
     x = 2.0 * (abs(p) ** 0.5 + q ** (1.0 / 3.0))
-    for _ in range(60):  # Newton from above: convex there, hence monotone
+    for _ in range(60):  # Newton's method from above: convex there, hence monotone
         x = x - (x * x * x - 3.0 * p * x - 2.0 * q) / (3.0 * (x * x - p))
     return x

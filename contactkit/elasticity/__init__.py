@@ -1,13 +1,14 @@
 """Elasticity: layered half-spaces, point and patch loads, stresses.
 
-depths           Planes at depth in a layered half-space, with a side where they lie on an interface
-influence        Influence coefficients of isolated contacts: pixels of pressure on a half-space, la
-layer_recursion  One elastic layer in Fourier space: its compliance climbed upward, its tractions le
-layer_stack      Materials of a layered half-space: what they must be, and its compliance to the lon
-layered          Surface compliance of an elastic layered half-space in Fourier space, without a mat
-layered_fields   Elastic states on planes at depth in a layered half-space, one wavenumber at a time
-love             Uniform pressure on a rectangle of a half-space: Love's influence coefficients.
-point_load       Surface displacement of a layered half-space under a point load: a table over the r
+layered          Surface compliance of a layered half-space in Fourier space.
+layered_fields   Displacements and tractions on planes at depth, in Fourier space.
+layer_recursion  Recursion over one layer: compliance upward, tractions downward.
+layer_stack      Validated materials of a layered half-space; long-wavelength compliance.
+depths           Planes at depth: layer, and side of an interface.
+point_load       Surface displacement under a point load, tabulated over the radius.
+love             Uniform pressure on a rectangle: Love's influence coefficients.
+influence        Influence coefficients of non-periodic contacts.
+stress           Subsurface stress under a map of pressure and traction.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Planes at depth in a layered half-space, with a side where they lie on an interface.
+"""Planes at depth in a layered half-space: layer, and side of an interface.
 
 z points into the solid.  In-plane stresses jump at an interface: side "-" of a plane there is the
 material above, side "+" the one below.
@@ -30,25 +30,25 @@ def locate(
     depths : sequence of float
         Of the planes, >= 0 [m].
     sides : sequence of {"+", "-"} or one of them for all
-        Which material a plane on an interface belongs to: "+" the lower, "-" the upper one.  The
-        surface itself belongs to the top layer whatever its side.
+        Material of a plane on an interface: "+" the lower, "-" the upper one.  The surface itself
+        belongs to the top layer for either side.
     thickness : array_like, shape (n_layers,)
         [m].
 
     Returns
     -------
     list of (depth, side, layer)
-        The layer counts from 0 at the top; n_layers is the substrate.
+        Layers are counted from 0 at the top; n_layers is the substrate.
 
     Raises
     ------
     DescriptionError
-        For a depth that is negative or not finite, another side, or numbers of both that differ.
+        For a negative or non-finite depth, an unknown side, or unequal numbers of both.
 
     Notes
     -----
-    A depth within 1e-12 of an interface, relative to it, is on the interface: sums of thicknesses
-    do not come out the same in every order.
+    A depth within a relative distance of 1e-12 of an interface is on the interface, because sums of
+    thicknesses depend on their order at round-off.
 
     Examples
     --------
@@ -77,7 +77,7 @@ def locate(
 def default_depths(
     thickness: ArrayLike, deepest: float, count: int = 24
 ) -> tuple[list[float], list[Side]]:
-    """Planes that miss no jump: the surface, both sides of every interface, and a graded set.
+    """Default planes: the surface, both sides of every interface, and a graded set.
 
     Parameters
     ----------
@@ -86,12 +86,12 @@ def default_depths(
     deepest : float
         Depth of the last plane, typically two contact radii [m].
     count : int, optional
-        Of the graded planes, which crowd towards the surface as the squares of 1/count, 2/count...
+        Number of graded planes, at `deepest` times the squares of 1/count, 2/count ...
 
     Returns
     -------
     depths, sides
-        Ascending; interfaces below `deepest` are left out.
+        Ascending; interfaces below `deepest` are omitted.
 
     Raises
     ------

@@ -1,9 +1,9 @@
-r"""Influence coefficients of isolated contacts: pixels of pressure on a half-space, layered or not.
+r"""Influence coefficients of non-periodic contacts on a homogeneous or layered half-space.
 
 The coefficient of an offset is the displacement (positive into the solid) at the centre of one
 pixel under a unit pressure on another. Displacements follow from pressures by a linear
-convolution, which a transform of twice the length in each direction carries out exactly: nothing
-of the outside world is periodic.
+convolution, which a transform of twice the length in each direction evaluates exactly, without
+periodic images.
 
 With the displacement T(r) / (2 pi r) under a unit force (see :mod:`.point_load`), a rectangle
 with a corner under the point of interest and sides X and Y contributes, in triangles,
@@ -12,9 +12,9 @@ with a corner under the point of interest and sides X and Y contributes, in tria
           + Y \int_0^{\mathrm{asinh}\,X/Y} I(Y \cosh u)\,du \right],
 
 where I(r) is the mean of T between 0 and r; a constant I gives Love's logarithms. A pixel is the
-difference of four such rectangles. This holds for any thickness against the pixel, and is used
-for the offsets up to some twenty pixels. Farther away the mean over the pixel is a series in its
-moments, of the fourth order.
+difference of four such rectangles. This holds for any ratio of thickness to pixel and is used for
+offsets up to some twenty pixels. Farther away the mean over the pixel is a series in its moments,
+of fourth order.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ from . import love, point_load
 __all__ = ["coefficients", "symbol"]
 
 _NEAR = 20.0  # in longer sides of a pixel: beyond, the sixth order is below 1e-10
-_MIDDLE = 128.0  # the same: beyond, the fourth order is below 1e-10
-_BLOCK = 1 << 16  # points worked on at a time, to stay in the cache
+_MIDDLE = 128.0  # likewise: beyond, the fourth order is below 1e-10
+_BLOCK = 1 << 16  # points per block, to stay in the cache
 
 
 def symbol(
@@ -58,13 +58,13 @@ def symbol(
     Returns
     -------
     ndarray, shape (2 ny, nx + 1)
-        Real symbol [m/Pa], to multiply ``rfft2(pressure, s=(2 * ny, 2 * nx))``; what returns from
-        the inverse is the displacement on the first ny rows and nx columns. Two elastic bodies
-        add their symbols.
+        Real symbol [m/Pa], to multiply ``rfft2(pressure, s=(2 * ny, 2 * nx))``; the first ny rows
+        and nx columns of the inverse transform are the displacement. The symbols of two elastic
+        bodies add.
 
     See Also
     --------
-    coefficients : the same before the transform, and its error.
+    coefficients : the coefficients before the transform, and their error.
 
     Examples
     --------
@@ -77,7 +77,7 @@ def symbol(
            [0.300684, 0.209917, 0.130663]])
     """
     quadrant = coefficients(shape, pixel_size, young_modulus, poisson_ratio, thickness)
-    # Of an even, periodic array the transform is one of cosines, on a quarter of the points.
+    # The transform of an even, periodic array is a cosine transform on a quarter of the points.
     half = fft.dctn(quadrant, type=1, overwrite_x=True)
     return np.asarray(np.concatenate((half, half[-2:0:-1])))
 
@@ -89,7 +89,7 @@ def coefficients(
     poisson_ratio: ArrayLike,
     thickness: ArrayLike = (),
 ) -> NDArray[np.float64]:
-    r"""Influence coefficients of the offsets of a window, from none to its sides.
+    r"""Influence coefficients for all pixel offsets of a window.
 
     .. math:: K_{mn} = \int_{-d_y/2}^{d_y/2} \int_{-d_x/2}^{d_x/2}
               g\left(\sqrt{(n d_x - x)^2 + (m d_y - y)^2}\right) dx\,dy
@@ -106,14 +106,14 @@ def coefficients(
 
     Notes
     -----
-    The relative error is below 1e-12 for a homogeneous half-space and below 1e-10 for a stack of
-    materials up to a few times stiffer than one another, for layers as thin or thick against
-    pixel and window as can be written. At a contrast of 1e6 it is below 1e-10 of the coefficient
-    at no offset, and the small ones far away keep seven digits. The time is that of a few
-    evaluations of a logarithm on the window, and some milliseconds for the table of the stack.
+    The relative error is below 1e-12 for a homogeneous half-space and below 1e-10 for layers of
+    moduli that differ by a factor of a few, for any ratio of thickness to pixel and window. At a
+    contrast of 1e6 it is below 1e-10 of the coefficient at zero offset, and distant coefficients
+    keep seven digits. The time is that of a few evaluations of a logarithm on the window, and some
+    milliseconds for the table of the stack.
 
-    The matrix of values at centres is symmetric, and has proved positive definite for all stacks
-    tried; that of the means over pixels would be so by construction.
+    The matrix of values at centres is symmetric, and was positive definite for all stacks tried;
+    that of the means over pixels is so by construction.
 
     References
     ----------
@@ -154,7 +154,7 @@ def _far(
     dy: float,
     load: point_load.PointLoad,
 ) -> NDArray[np.float64]:
-    """Coefficients of distant offsets x, y, from the moments of a pixel; nothing near zero."""
+    """Coefficients of distant offsets x, y, from the moments of a pixel; invalid near zero."""
     out = np.empty((y.size, x.size))
     rows = max(1, _BLOCK // x.size)
     x2 = x**2
@@ -162,7 +162,7 @@ def _far(
         y2 = y[first : first + rows, None] ** 2
         r2 = x2 + y2
         if first == 0:
-            r2[0, 0] = r2[0, -1]  # any: the point is not far
+            r2[0, 0] = r2[0, -1]  # arbitrary: overwritten by the near field
         index, fraction = point_load.locate(load, 0.5 * np.log(r2))
         is_middle = y[first] < _MIDDLE * max(dx, dy)
         inverse2 = 1.0 / r2

@@ -1,4 +1,4 @@
-"""One elastic layer in Fourier space: its compliance climbed upward, its tractions led downward.
+"""Recursion over one elastic layer in Fourier space: compliance upward, tractions downward.
 
 Conventions as in `layered`.  Symbols:
 
@@ -7,11 +7,11 @@ x              wavenumber times thickness
 m, n           1/(1 - nu) and (1 - 2 nu)/(1 - nu)
 s, c           sinh x and cosh x
 f11, f12, f22  2 G alpha F, the compliance below (then above) the layer with G of the layer
-d              f11 f22 - f12^2, carried along
+d              f11 f22 - f12^2, an unknown of its own
 tau            (-T, -S), the tractions on a plane
 =============  ===========================================================================
 
-Nothing here is checked: `layered` and `layered_fields` are the doors.
+Arguments are not checked: `layered` and `layered_fields` are the entry points.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 Projective = tuple[Array, Array, Array, Array]
 
 THICKEST = 1e3  # exp(-x) is zero in double precision below this x, and x^2 exp(-x) with it
-SERIES_BELOW = 1.6  # of 2x: ten terms of the series reach the last bit there
+SERIES_BELOW = 1.6  # of 2x: ten terms of the series are exact to round-off there
 # (sinh y - y)/y^3 and (cosh y - 1 - y^2/2)/y^4 as series in y^2
 _SINH = 1.0 / np.cumprod(np.arange(1.0, 22.0))[2::2]
 _COSH = 1.0 / np.cumprod(np.arange(1.0, 23.0))[3::2]
@@ -81,7 +81,7 @@ def _far(one: Array, first: Array, second: Array) -> tuple[Array, Array, Array, 
 
 
 def _near(y: Array, one: Array) -> tuple[Array, Array, Array, Array]:
-    """By series: sc = sinh(y)/2 and ss = (cosh(y) - 1)/2 of y = 2x, without their first terms."""
+    """Products by series: sc = sinh(y)/2, ss = (cosh(y) - 1)/2 with y = 2x, less first terms."""
     w = y * y
     scale = 0.5 * w * one
     sc_x, ss_xx = scale * y * _series(_SINH, w), scale * w * _series(_COSH, w)
@@ -110,7 +110,7 @@ def half_space(nu: float, size: int) -> Projective:
 
 
 def cross(f: Projective, ratio: float) -> Projective:
-    """Carry f over an interface into a layer `ratio` times as stiff in shear.
+    """Compliance f across an interface, in units of a layer `ratio` times as stiff in shear.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def cross(f: Projective, ratio: float) -> Projective:
 
 
 def denominator(p: Products, f: Projective, m: float, n: float) -> Array:
-    """Determinant that both directions divide by, times exp(-2x)."""
+    """Determinant of both recursions, times exp(-2x)."""
     f11, f12, f22, d = f
     half = 0.5 * m
     along = (p.sc + p.x) * f11 + p.sc_x * f22 + (n * p.ss + m * p.xx) * f12

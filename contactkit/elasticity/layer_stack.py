@@ -1,4 +1,4 @@
-"""Materials of a layered half-space: what they must be, and its compliance to the longest waves.
+"""Validated materials of a layered half-space, and its compliance at long wavelengths.
 
 Conventions as in `layered`: arrays from the top layer to the substrate, which has no thickness;
 displacements into the solid and pressures on it are positive.
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Stack(NamedTuple):
-    """Shear moduli [Pa], Poisson's ratios and thicknesses [m] that were checked, top first."""
+    """Validated shear moduli [Pa], Poisson's ratios and thicknesses [m], top first."""
 
     G: Array
     nu: Array
@@ -27,7 +27,7 @@ class Stack(NamedTuple):
 
 
 def stack_of(young_modulus: ArrayLike, poisson_ratio: ArrayLike, thickness: ArrayLike) -> Stack:
-    """Check a layered half-space.
+    """Validate a layered half-space.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def stack_of(young_modulus: ArrayLike, poisson_ratio: ArrayLike, thickness: Arra
     Raises
     ------
     DescriptionError
-        For shapes that do not fit, a modulus or thickness that is not positive and finite, or a
+        For inconsistent shapes, a modulus or thickness that is not positive and finite, or a
         Poisson's ratio outside (-1, 1/2].
 
     Examples
@@ -73,7 +73,7 @@ def stack_of(young_modulus: ArrayLike, poisson_ratio: ArrayLike, thickness: Arra
 def small_wavenumber_constant(
     young_modulus: ArrayLike, poisson_ratio: ArrayLike, thickness: ArrayLike
 ) -> float:
-    """Second term of ``C(alpha) = 2 (1 - nu_s^2)/(E_s alpha) + c0 + O(alpha)`` for long waves.
+    """Constant c0 of ``C(alpha) = 2 (1 - nu_s^2)/(E_s alpha) + c0 + O(alpha)`` for long waves.
 
     ``c0 = sum h_j (chi_j - chi_s)(1 + 2 G_j chi_s)/(1 - nu_j)`` with ``chi = (1 - 2 nu)/(2 G)``:
     exactly zero where a layer is of the substrate's material.
@@ -107,7 +107,7 @@ def small_wavenumber_constant(
 def uniform_compliance(
     young_modulus: ArrayLike, poisson_ratio: ArrayLike, thickness: ArrayLike
 ) -> float:
-    """Compression of the layers by a uniform pressure where they cannot strain sideways.
+    """Compliance of the layers in uniaxial strain under a uniform pressure.
 
     ``sum h_j (1 + nu_j)(1 - 2 nu_j)/(E_j (1 - nu_j))``, without the substrate, whose compression
     is unbounded.  It is the compliance at wavenumber 0, not the limit of `layered.compliance` for

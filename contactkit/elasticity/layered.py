@@ -1,4 +1,4 @@
-"""Surface compliance of an elastic layered half-space in Fourier space, without a matrix solve.
+"""Surface compliance of a layered elastic half-space in Fourier space, by layer recursion.
 
 Conventions: the solid fills z >= 0 and z points into it; tension is positive; the loads are the
 tractions on the solid, sigma_zz = -p and sigma_xz = -q_x at z = 0; the transform is
@@ -11,14 +11,14 @@ Symbols inside this module:
 
 =====  ===================================================================================
 f      2 G alpha F: the compliance matrix (f11, f12, f22) made dimensionless with G of the layer
-d      det f, carried as an unknown of its own: it cannot be had from f without cancellation
+d      det f, an unknown of its own, because computing it from f cancels
 fs     G alpha Fs, the same for the transverse shear
 =====  ===================================================================================
 
-The compliance climbs from the substrate to the surface.  One layer maps (1, f11, f12, f22, d) by a
-linear map followed by one division; every product of sinh x, cosh x and x in it is multiplied by
-exp(-2x), so that nothing overflows however thick the layer, and the coefficients of 1, f11, f22
-and d are sums of non-negative terms, so that nothing cancels whatever the contrast.
+The recursion runs from the substrate to the surface.  One layer transforms (1, f11, f12, f22, d) by
+a linear map followed by one division; every product of sinh x, cosh x and x in it is multiplied by
+exp(-2x), so that nothing overflows for any thickness, and the coefficients of 1, f11, f22 and d are
+sums of non-negative terms, so that nothing cancels for any contrast.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-BLOCK = 8192  # wavenumbers treated at once: some thirty arrays of this length stay in the cache
-MANY_LAYERS = 6  # from here on sorting the wavenumbers, most of which are met twice, costs less
+BLOCK = 8192  # wavenumbers per block: some thirty arrays of this length stay in the cache
+MANY_LAYERS = 6  # from here on it pays to sort the wavenumbers, most of which occur twice
 
 
 class Compliance(NamedTuple):
-    """Displacement of the surface per unit traction on it, one number for each wavenumber.
+    """Surface displacement per unit traction, for each wavenumber.
 
     ``U = -F11 T - F12 S``, ``W = -F12 T - C S`` and ``V = -Fs Q`` at z = 0, all in [m/Pa].
     """
@@ -190,14 +190,14 @@ def _cell(shape: tuple[int, int], pixel_size: tuple[float, float]) -> tuple[floa
 
 
 def blocks(size: int) -> Iterator[slice]:
-    """Slices of a long array that fit into the cache."""
+    """Slices of a long array, short enough for the cache."""
     return (slice(start, min(start + BLOCK, size)) for start in range(0, size, BLOCK))
 
 
 def _distinct(alpha: Array, layers: int) -> tuple[Array, NDArray[np.intp] | None]:
-    """Wavenumbers to evaluate, and where each one asked for is found among them.
+    """Distinct wavenumbers, and the index of each requested one among them.
 
-    Worth its cost for the modes of a map, of which half mirror the other half.
+    It pays for the modes of a map, half of which mirror the other half.
     """
     if layers == 0 or alpha.size <= 2 * BLOCK:
         return alpha.ravel(), None
@@ -212,7 +212,7 @@ def _distinct(alpha: Array, layers: int) -> tuple[Array, NDArray[np.intp] | None
 
 
 def _fill(out: Array, alpha: Array, stack: Stack) -> None:
-    """Write C (one row asked for) or F11, F12, C, Fs (four rows) at every alpha into `out`."""
+    """Write C (`out` of one row) or F11, F12, C, Fs (four rows) at every alpha into `out`."""
     with np.errstate(over="ignore", under="ignore"):
         for part in blocks(alpha.size):
             rows = _climbed(alpha[part], stack, shear=len(out) == 4)

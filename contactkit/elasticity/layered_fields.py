@@ -1,12 +1,12 @@
-"""Elastic states on planes at depth in a layered half-space, one wavenumber at a time.
+"""Displacements and tractions on planes at depth in a layered half-space, in Fourier space.
 
 Conventions, symbols and unknowns as in `layered`: z into the solid, tension positive; L along the
 wave vector, T across it; ``u_L = iU, u_z = W, sigma_Lz = iT, sigma_zz = S, u_T = V, sigma_Tz = Q``.
 
 In-plane stresses jump at an interface, so a plane there has two sides: "-" is the material above,
-"+" the one below.  The compliance at the bottom of each layer is kept from one climb to the
-surface; the tractions are then led down from the top of the layer to the plane, which is treated
-as an interface within it.  Only decaying exponentials are met on either way.
+"+" the one below.  The compliance at the bottom of each layer is stored during the upward
+recursion; the tractions then follow downward from the top of the layer to the plane, which is
+treated as an interface within it.  Only decaying exponentials occur in both directions.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def plane_states(
     depths, sides
         As in `locate`, the planes in order of layer and depth within it.
     cutoff : float, optional
-        Wavenumbers with alpha z above it are left out of a plane; at 40 they carry less than
+        Wavenumbers with alpha z above it are omitted on a plane; at 40 their contribution is below
         1e-15 of the load.
 
     Yields
@@ -83,7 +83,7 @@ def plane_states(
     Notes
     -----
     Error below 1e-13 of the largest component on the plane for contrasts up to 1e3 and
-    alpha z <= 40; it grows with alpha z times the rounding unit, as exp(-alpha z) itself does.
+    alpha z <= 40; it grows as alpha z times the unit round-off, like that of exp(-alpha z).
 
     Examples
     --------
@@ -106,7 +106,7 @@ def plane_states(
 
 
 def unit_stresses(states: PlaneStates) -> tuple[Array, Array, Array]:
-    """In-plane stresses of the unit states: what U, V, S make of them.
+    """In-plane stresses of the unit states, from U, V and S.
 
     ``sigma_LL = (nu S - 2 G alpha U)/(1 - nu)``, ``sigma_TT = nu (S - 2 G alpha U)/(1 - nu)`` and
     ``sigma_LT = i G alpha V``.
@@ -169,14 +169,14 @@ def _descended(
 
 
 def _reached(alpha: Array, depth: float, cutoff: float) -> int:
-    """Number of leading wavenumbers that matter at a depth."""
+    """Number of leading wavenumbers below the cut-off at a depth."""
     return int(np.searchsorted(alpha * depth, cutoff, side="right"))
 
 
 def _bottoms(alpha: Array, stack: Stack, reached: list[int]) -> list[Array]:
     """f11, f12, f22, d, fs at the bottom of every layer, in units of that layer.
 
-    All wavenumbers climb all the way; a layer keeps those that reach its top.
+    The recursion runs over all wavenumbers; a layer stores those that reach its top.
     """
     G, nu, h = stack
     kept = [np.empty((5, size)) for size in [alpha.size, *reached][: h.size]]

@@ -1,21 +1,21 @@
 r"""Uniform pressure on a rectangle of a half-space: Love's influence coefficients.
 
-Pressure is positive in compression and the displacement `u` positive into the solid, as z is. The
-rectangle is centred on the origin; the field is even in x and in y, exactly. Nothing is checked.
+Pressure is positive in compression and the displacement `u` positive into the solid, as is z. The
+rectangle is centred on the origin; the field is exactly even in x and y. Arguments are not checked.
 
 ============  ===================================================  =======
 symbol        quantity                                             unit
 ============  ===================================================  =======
 a, b          half sides of the rectangle along x and y            m
 M             contact modulus E / (1 - nu^2)                       Pa
-c             height above the surface at which 1/r is cut off     m
+c             height above the surface that regularises 1/r        m
 s             sqrt(x^2 + y^2 + c^2)                                m
 F_k           (1/r d/dr)^k of a function F of the radius           m^-2k [F]
 ============  ===================================================  =======
 
-Near the rectangle the four corners are combined before a logarithm is taken, so that a difference
-of close numbers is lost at most once; farther away, and where c is large, the mean of 1/s over the
-rectangle is a series in its moments.
+Near the rectangle the four corners are combined before a logarithm is taken, so that cancellation
+occurs at most once; farther away, and for large c, the mean of 1/s over the rectangle is a series
+in its moments.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = ["mean_over_cells", "rectangle"]
 
 _FAR = 24.0  # in longer sides: beyond, terms of eighth order are below 1e-13
-_DISTANT = 200.0  # the same: beyond, terms of sixth order are
+_DISTANT = 200.0  # likewise: beyond, terms of sixth order are
 _TOUCHING = 3.5  # in longer sides: nearer, the field inside a cell is too steep for quadrature
-_BLOCK = 1 << 15  # points worked on at a time, to stay in the cache
+_BLOCK = 1 << 15  # points per block, to stay in the cache
 _FACTORIAL = (1.0, 2.0, 24.0, 720.0)  # of 0, 2, 4, 6
 
 
@@ -60,8 +60,8 @@ def rectangle(
         Height c [m]: the displacement whose transform is :math:`2 e^{-\alpha c} / (M \alpha)` per
         unit pressure. Zero is Love's solution.
     average : bool
-        Mean over a rectangle of the same sides centred at (x, y), rather than the value there.
-        The matrix of these means on a grid is symmetric positive definite (Galerkin's).
+        Mean over a rectangle of the same sides centred at (x, y), instead of the value there. The
+        matrix of these means on a grid is symmetric positive definite (Galerkin).
 
     Returns
     -------
@@ -105,7 +105,7 @@ def mean_over_cells(
     derivatives: Sequence[NDArray[np.float64]],
     average: bool = False,
 ) -> NDArray[np.float64]:
-    r"""Mean over a rectangle of a function of the radius that varies slowly across it.
+    r"""Mean over a rectangle of a slowly varying function of the radius.
 
     .. math:: \langle F \rangle = \sum_{p, q} \frac{\langle t_x^{2p} \rangle
               \langle t_y^{2q} \rangle}{(2p)!\,(2q)!} \,\partial_x^{2p} \partial_y^{2q} F
@@ -125,7 +125,7 @@ def mean_over_cells(
     Returns
     -------
     ndarray
-        The mean [unit of F]; the first term left out is of two orders more.
+        The mean [unit of F]; the first neglected term is two orders higher.
 
     Examples
     --------
@@ -245,7 +245,7 @@ def _edge(
 
 
 def _solid_angle(x: NDArray[np.float64], y: NDArray[np.float64], c: float) -> NDArray[np.float64]:
-    """Angle under which a quadrant's rectangle is seen from the height c."""
+    """Solid angle of a quadrant's rectangle seen from the height c."""
     return np.arctan2(x * y, c * np.sqrt(x * x + y * y + c * c))
 
 
@@ -261,7 +261,7 @@ def _tent(
 
 
 def _fourfold(x: NDArray[np.float64], y: NDArray[np.float64], c: float) -> NDArray[np.float64]:
-    """Twice the integral over x and over y of 1/s, but for terms that differences remove."""
+    """Twice the integral over x and y of 1/s, up to terms that differences remove."""
     x, y = np.abs(x), np.abs(y)
     s = np.sqrt(x * x + y * y + c * c)
     tiny = 1e-150  # the logarithm at zero has the factor zero

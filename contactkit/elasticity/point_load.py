@@ -1,20 +1,20 @@
-r"""Surface displacement of a layered half-space under a point load: a table over the radius.
+r"""Surface displacement of a layered half-space under a point load, tabulated over the radius.
 
-Pressure positive in compression, displacement positive into the solid. A unit force sinks the
-surface at the radius r by
+Pressure positive in compression, displacement positive into the solid. The displacement of the
+surface at the radius r under a unit force is
 
 .. math:: g(r) = \frac{1}{2\pi} \int_0^\infty \alpha C(\alpha) J_0(\alpha r)\,d\alpha
                = \frac{T(r)}{2\pi r},
 
-with T going from C_inf, twice the compliance of the top layer, at r = 0 to C_s of the substrate
-far away. On the logarithms of wavenumber and radius both alpha C and T are smooth, whatever the
-thicknesses and contrasts, and the transform is a convolution. It is done mode by mode:
+where T varies from C_inf, twice the compliance of the top layer, at r = 0 to C_s of the substrate
+far away. In the logarithms of wavenumber and radius both alpha C and T are smooth for all
+thicknesses and contrasts, and the transform is a convolution, evaluated mode by mode:
 
 .. math:: \int_0^\infty \alpha^{i\omega} r J_0(\alpha r)\,d\alpha = r^{-i\omega}\,
           2^{i\omega}\, \frac{\Gamma((1 + i\omega)/2)}{\Gamma((1 - i\omega)/2)},
 
-of modulus one: no digit is lost. Before, the step of alpha C from C_s to C_inf is taken out as
-that of exp(-alpha c), whose T is known.
+of modulus one, so that no digits are lost. The step of alpha C from C_s to C_inf is subtracted
+first, as that of exp(-alpha c), whose T is known.
 
 ============  ===========================================================  =========
 symbol        quantity                                                     unit
@@ -23,7 +23,7 @@ T_k           r^(2k+1) (1/r d/dr)^k (T/r) = (D - 2k + 1) ... (D - 1) T     1/Pa
 D             r d/dr                                                       -
 I             mean of T over radii from 0 to r                             1/Pa
 C_s, C_inf    limits of alpha C for long and short waves                   1/Pa
-c             scale of the step that is taken out                          m
+c             scale of the step that is subtracted                         m
 ============  ===========================================================  =========
 """
 
@@ -43,10 +43,10 @@ __all__ = ["ORDERS", "PointLoad", "cubic", "locate", "mean_to", "table"]
 ORDERS = 5
 """Number of functions T_0, T_1 ... that are tabulated."""
 
-# Modes of the logarithm of the wavenumber fall below rounding at a frequency of 45 for sandwiches
-# of any contrast; more steps would add only noise to the derivatives.
+# Modes in the logarithm of the wavenumber are below round-off at a frequency of 45 for layers of
+# any contrast; more steps would only add noise to the derivatives.
 _STEP = np.log(10.0) / 40.0
-_FINER = 24  # steps of the radius in one of the wavenumber: cubics between them are right to 1e-13
+_FINER = 24  # steps of the radius per step of the wavenumber: cubics are then accurate to 1e-13
 _BELOW, _ABOVE = 1e-26, 1e16  # the range of alpha H and alpha h_1; see table
 
 
@@ -56,13 +56,13 @@ class PointLoad(NamedTuple):
     Attributes
     ----------
     start : float
-        Logarithm of the least radius.
+        Logarithm of the minimum radius.
     step : float
         Step of the logarithm.
     derivatives : ndarray, shape (ORDERS, 4, n_steps)
         Coefficients, constant first, of T_0 .. T_4 in the fraction of the step [1/Pa].
     mean : ndarray, shape (4, n_steps)
-        The same for the mean I.
+        Coefficients of the mean I.
     """
 
     start: float
@@ -75,10 +75,10 @@ def table(
     young_modulus: NDArray[np.float64],
     poisson_ratio: NDArray[np.float64],
     thickness: NDArray[np.float64],
-    least_radius: float,
-    largest_radius: float,
+    min_radius: float,
+    max_radius: float,
 ) -> PointLoad:
-    """Tabulate the displacement under a point load between two radii.
+    """Tabulate the displacement under a point load over a range of radii.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def table(
         Of the layers, top first, and of the substrate [Pa], [-].
     thickness : ndarray, shape (n_layers,)
         Of the layers [m]; at least one.
-    least_radius, largest_radius : float
+    min_radius, max_radius : float
         Ends of the table [m].
 
     Returns
@@ -95,11 +95,11 @@ def table(
 
     Notes
     -----
-    The range of wavenumbers is so wide that what is left at its ends is below rounding: at the
-    upper end since T tends to C_inf like r / h_1 at the matching radii, at the lower since alpha C
-    tends to C_s like alpha H times the contrast of moduli. The error of T is about 1e-14 of the
-    larger of C_s and C_inf: ten digits remain far from a load on a layer a million times softer
-    than the substrate.
+    The range of wavenumbers is so wide that the truncation error is below round-off: at the upper
+    end T tends to C_inf like r / h_1 at the corresponding radii, at the lower end alpha C tends to
+    C_s like alpha H times the contrast of moduli. The error of T is about 1e-14 of the larger of
+    C_s and C_inf: ten digits remain far from a load on a layer a million times softer than the
+    substrate.
 
     References
     ----------
@@ -119,14 +119,14 @@ def table(
     plane_compliance = 2.0 * (1.0 - poisson_ratio**2) / young_modulus
     c_inf, c_s = float(plane_compliance[0]), float(plane_compliance[-1])
     scale = float(np.sum(thickness))
-    low = min(_BELOW / scale, 0.1 / largest_radius)
-    high = max(_ABOVE / float(thickness[0]), 10.0 / least_radius)
+    low = min(_BELOW / scale, 0.1 / max_radius)
+    high = max(_ABOVE / float(thickness[0]), 10.0 / min_radius)
     count = fft.next_fast_len(int(np.ceil(np.log(high / low) / _STEP)), real=True)
     alpha = low * np.exp(_STEP * np.arange(count))
     response = alpha * layered.compliance(alpha, young_modulus, poisson_ratio, thickness).C
     rest = response - (c_inf + (c_s - c_inf) * np.exp(-alpha * scale))
-    start = np.log(least_radius) - 2.0 * _STEP
-    n_radii = int(np.ceil((np.log(largest_radius) - start) * _FINER / _STEP)) + 2 * _FINER
+    start = np.log(min_radius) - 2.0 * _STEP
+    n_radii = int(np.ceil((np.log(max_radius) - start) * _FINER / _STEP)) + 2 * _FINER
     step = _STEP / _FINER
     radius = np.exp(start + step * np.arange(n_radii))
     modes = _modes(rest, np.log(low) + start)
@@ -175,7 +175,7 @@ def _modes(rest: NDArray[np.float64], shift: float) -> NDArray[np.complex128]:
     phase = omega * (np.log(2.0) - shift) + 2.0 * loggamma(0.5 + 0.5j * omega).imag
     modes *= np.exp(1j * phase)
     if rest.size % 2 == 0:
-        modes[-1] = 0.0  # its sign is not known between the samples
+        modes[-1] = 0.0  # the Nyquist mode is ambiguous between the samples
     return np.asarray(modes.conj())  # r^(-i omega): the sum over modes is an inverse transform
 
 

@@ -1,7 +1,7 @@
-"""A liquid and its properties over temperature.
+"""Liquids and their properties as functions of temperature.
 
-liquid            Liquids: surface tension, viscosity and density, as constants or as laws of temper
-temperature_laws  Laws of temperature: how viscosity, surface tension and density of a liquid follow
-viscosity         Viscosity as a function of temperature: the laws of Walther and of Vogel.
-water             Water: its surface tension and its density as functions of temperature.
+liquid            Liquid: surface tension, viscosity, density, constant or by a law.
+temperature_laws  Temperature laws: base class, linear laws.
+viscosity         Viscosity laws of Walther (ASTM D341) and Vogel.
+water             Surface tension and density of water.
 """

@@ -1,1 +1,12 @@
-"""Solutions by other means, to compare with: slow, simple and independent of the kernels."""
+"""Reference solutions by independent methods, which share no code with what they check.
+
+hertz            Hertz: sphere on a half-space.
+flat_punch       Flat cylindrical punch on a half-space.
+westergaard      Westergaard: rigid wave in one direction.
+product_wave     Johnson, Greenwood and Higginson: rigid wave in two directions.
+love_patch       Uniform pressure on a rectangle, by quadrature.
+hamilton         Stresses under a sliding sphere.
+layered_wave     Wave of pressure on a layered half-space, by integration over the depth.
+reynolds         Reynolds' equation of an axisymmetric film, by finite volumes.
+elliptic_bridge  Liquid bridges by Legendre's elliptic integrals.
+"""

@@ -1,9 +1,9 @@
-r"""Liquid bridges by Legendre's elliptic integrals: a second way to what the exact kernel solves.
+r"""Liquid bridges by Legendre's elliptic integrals, independent of `capillary.exact`.
 
-A bridge is given by one number that runs along a separation: how far its meridian at the lower
-body is from the inflection. Between flats all else follows without a solve. Lengths are in units
-of the radius a of neck or belly; angles run through the liquid; body 1 is a flat below, body 2 a
-flat or a sphere above, and the lower body is the one whose inflection comes first.
+A bridge is parametrised by one number that increases during a separation: the distance of its
+meridian at the lower body from the inflection. Between flats all else is explicit. Lengths are in
+units of the radius a of neck or bulge; angles run through the liquid; body 1 is a flat below, body
+2 a flat or a sphere above, and the inflection is first reached at the lower body.
 
 ==========  ======================================================================
 symbol      quantity
@@ -44,24 +44,24 @@ class EllipticBridge(NamedTuple):
 def at_lean(
     lean: float, angle_lower: float, angle_upper: float, curvature: float = 0.0
 ) -> EllipticBridge:
-    """Bridge whose neck or belly lies between the bodies.
+    """Bridge whose neck or bulge lies between the bodies.
 
     Parameters
     ----------
     lean : float
         Negative before the inflection reaches the lower body, positive beyond [-]: the pressure
         is ``1 - |cos angle_lower| - lean^2`` over a with a neck, ``1 + |cos| + lean^2`` with a
-        belly, in units of surface tension.
+        bulge, in units of surface tension.
     angle_lower, angle_upper : float
         Contact angles [rad]; on the lower body the one that is further from a right angle. A
-        neck where they add up to less than pi.
+        neck if their sum is less than pi.
     curvature : float
-        Curvature of the upper body times the radius of neck or belly [-].
+        Curvature of the upper body times the radius of neck or bulge [-].
 
     Raises
     ------
     ValueError
-        If such a meridian meets the bodies nowhere at these angles.
+        If such a meridian does not meet the bodies at these angles.
 
     Notes
     -----
@@ -148,7 +148,7 @@ def _held(lean: float, lower: float, upper: float, curvature: float) -> Elliptic
     def excess(log: float) -> float:
         return at_lean(lean, lower, upper, math.exp(log)).curvature_upper / curvature - 1.0
 
-    # From a nearly flat body up, to the first curvature there is: a small sphere is another.
+    # From a nearly flat body up to the first solution: a small sphere is another one.
     low = math.log(curvature)
     while _cuts(lean, lower, upper, low) or excess(low) > 0.0:
         low -= 0.5
@@ -170,7 +170,7 @@ def _cuts(lean: float, lower: float, upper: float, log: float) -> bool:
 
 
 def longest(angle_lower: float, angle_upper: float, curvature: float = 0.0) -> EllipticBridge:
-    """Bridge at the limit of its stability; for equal angles on flats, where its symmetry ends.
+    """Bridge at its stability limit; for equal angles on flats the pitchfork.
 
     `curvature` is that of the upper body times the cube root of the volume [-].
 
@@ -185,7 +185,7 @@ def longest(angle_lower: float, angle_upper: float, curvature: float = 0.0) -> E
 
 
 def _lean_of_limit(shape: tuple[float, float, float]) -> float:
-    """Lean at which the gap is largest, or where equal angles lose their symmetry."""
+    """Lean at the maximum gap, or at the pitchfork for equal angles."""
     last = 0.0
     while True:
         try:
@@ -201,7 +201,7 @@ def _lean_of_limit(shape: tuple[float, float, float]) -> float:
         method="bounded",
         options={"xatol": 1e-10},
     )
-    # Equal angles on flats above some 31 degrees lose their symmetry before that.
+    # For equal angles on flats above some 31 degrees the pitchfork comes first.
     is_even = shape[2] == 0.0 and shape[0] == shape[1]
     return min(float(found.x), 0.0) if is_even else float(found.x)
 

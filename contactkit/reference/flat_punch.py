@@ -1,4 +1,4 @@
-r"""A rigid cylinder with a flat end pressed on a half-space without friction.
+r"""Rigid flat cylindrical punch on a half-space, frictionless.
 
 Pressure positive in compression, displacement into the solid; E* is the contact modulus
 E / (1 - nu^2). The contact does not grow with the load, and the pressure has no bound at the rim.
@@ -56,7 +56,7 @@ def pressure(r: ArrayLike, load: float, radius: float) -> NDArray[np.float64]:
 def surface_displacement(
     r: ArrayLike, load: float, radius: float, modulus: float
 ) -> NDArray[np.float64]:
-    r"""Displacement [m] of the surface: the approach under the punch, and outside less.
+    r"""Displacement [m] of the surface; under the punch it is the approach.
 
     .. math:: u = \frac{2 \delta}{\pi} \arcsin \frac{a}{r}
 

@@ -1,4 +1,4 @@
-r"""Stresses under a sliding sphere: Hertz's pressure and a traction in proportion to it.
+r"""Stresses under a sliding sphere: Hertz pressure and proportional traction (Hamilton).
 
 z points into the solid, tension is positive, components are ordered xx, yy, zz, xy, xz, yz. The
 slider moves in +x and drags the solid with q_x = +mu p, so that the surface is in tension at the
@@ -25,7 +25,7 @@ belong to the pressure (i, j = x, y), and to a traction of the same form in x
 .. math:: \sigma_{zz} = z P_{,x}, \quad \sigma_{xz} = -P + z H_{,zxx}, \quad
           \sigma_{yz} = z H_{,zxy}.
 
-Nothing cancels on the axis, and the edge of the contact is no exception.
+Nothing cancels on the axis or at the edge of the contact.
 
 References
 ----------
@@ -76,8 +76,8 @@ def stress(
     Notes
     -----
     The pressure is Hertz's also where there is friction (Goodman's approximation, exact for two
-    bodies of the same Poisson ratio and shear modulus, and for incompressible on rigid). At a
-    distance r far from the contact, r/a squared times the rounding error is lost.
+    bodies of the same Poisson ratio and shear modulus, and for incompressible on rigid). At a large
+    distance r the relative error is r/a squared times the round-off.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class _Potentials(NamedTuple):
 
 
 def _potentials(r: Array, z: Array, a: float, p0: float) -> _Potentials:
-    """All derivatives of the potentials that the stresses need."""
+    """Derivatives of the potentials for the stresses."""
     zeta = np.empty(r.shape, dtype=complex)
     zeta.real, zeta.imag = z, -a
     square = np.empty_like(zeta)

@@ -1,8 +1,8 @@
-r"""Hertz: a sphere pressed on a half-space without friction.
+r"""Hertz contact of a sphere and a half-space, frictionless.
 
 Pressure positive in compression, stress positive in tension, z into the solid. The modulus is that
 of the contact, 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2, and the sphere a paraboloid
-r^2 / 2R, which asks for a contact small against its radius.
+r^2 / 2R, which requires a contact radius much smaller than R.
 
 References
 ----------
@@ -21,7 +21,7 @@ __all__ = ["Contact", "axis_stress", "gap", "pressure", "sphere", "surface_displ
 
 
 class Contact(NamedTuple):
-    """What a load makes of a sphere on a half-space.
+    """Hertz contact of a sphere on a half-space.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Contact(NamedTuple):
     peak_pressure : float
         Pressure in its centre [Pa]; the mean is two thirds of it.
     approach : float
-        How far the sphere sinks below first touch [m].
+        Approach from first contact [m].
     """
 
     contact_radius: float
@@ -59,7 +59,7 @@ def sphere(load: float, radius: float, modulus: float) -> Contact:
 
     Notes
     -----
-    The paraboloid costs the contact radius a relative error of order (a/R)^2.
+    The paraboloid causes a relative error of order (a/R)^2 in the contact radius.
 
     Examples
     --------

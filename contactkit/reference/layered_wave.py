@@ -1,4 +1,4 @@
-r"""A wave of pressure on a layered half-space, by integrating the elastic equations over the depth.
+r"""Sinusoidal pressure on a layered half-space, by integration of the Riccati equation over depth.
 
 z points into the solid, pressure is positive in compression. For one wave vector of length alpha
 the displacements u = (U, W) and the stresses t = (T, S) obey
@@ -10,8 +10,8 @@ On u = -F t the compliance F of what lies below z obeys an equation of Riccati,
 
 .. math:: F' = A F + F A^T - B + F M F,
 
-which forgets its beginning on the way up: it is integrated from the substrate by a general
-method, with no formula for a layer.
+which is stable in the upward direction: it is integrated from the substrate by a general-purpose
+method, without a formula for a layer.
 
 References
 ----------
@@ -52,8 +52,8 @@ def compliance(
     Returns
     -------
     float
-        C [m/Pa]; right to about ten times the tolerance, in a time that grows with alpha times
-        the thickness. Layers below alpha z = 40 are not felt and left out.
+        C [m/Pa], with an error of about ten times the tolerance; the cost grows with alpha times
+        the thickness. Layers below alpha z = 40 are omitted.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def full_contact_pressure(
     poisson_ratio: Sequence[float],
     thickness: Sequence[float],
 ) -> float:
-    r"""Mean pressure [Pa] above which a rigid wave touches a layered half-space everywhere.
+    r"""Mean pressure [Pa] of full contact of a rigid wave and a layered half-space.
 
     .. math:: p^* = D / C(\alpha)
 
@@ -101,7 +101,7 @@ def full_contact_pressure(
 
     Notes
     -----
-    From there on the pressure is p + p* cos, exactly: it must only be nowhere negative.
+    Above it the pressure is exactly p + p* cos, which is nowhere negative.
 
     Examples
     --------
@@ -112,7 +112,7 @@ def full_contact_pressure(
 
 
 def _climb(shear: float, nu: float) -> Callable[[float, NDArray[np.float64]], list[float]]:
-    """Rate of the compliance (f11, f12, f22) on the way up, against alpha times height."""
+    """Derivative of the compliance (f11, f12, f22) by alpha times height."""
     side = nu / (1.0 - nu)
     stiff = 2.0 * shear / (1.0 - nu)
 

@@ -1,8 +1,8 @@
-r"""Uniform pressure on a rectangle, summed over directions instead of in closed form.
+r"""Uniform pressure on a rectangle of a half-space, by quadrature over directions.
 
-Pressure positive in compression, displacement into the solid. Seen from a point of the surface, a
-direction theta of the rectangle adds the length of the chord it cuts, as the displacement under a
-unit force falls like 1/r: one quadrature of a bounded function.
+Pressure positive in compression, displacement into the solid. Seen from a point of the surface,
+each direction theta contributes the length of its chord in the rectangle, because the displacement
+under a unit force decreases as 1/r: one quadrature of a bounded function.
 
 References
 ----------
@@ -27,7 +27,7 @@ def displacement(x: float, y: float, half_x: float, half_y: float, modulus: floa
     Parameters
     ----------
     x, y : float
-        Place [m], in the rectangle or outside.
+        Point [m], inside the rectangle or outside.
     half_x, half_y : float
         Half sides [m].
     modulus : float
@@ -36,7 +36,7 @@ def displacement(x: float, y: float, half_x: float, half_y: float, modulus: floa
     Returns
     -------
     float
-        Displacement [m/Pa], right to about 1e-12.
+        Displacement [m/Pa], with an error of about 1e-12.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-r"""A rigid wave of two directions on a half-space: Johnson, Greenwood and Higginson.
+r"""Rigid bidirectional wave on a half-space: limits of Johnson, Greenwood and Higginson.
 
 The surface is D (1 - cos(2 pi x / l) cos(2 pi y / l)), with two crests in each l by l cell; E* is
 the contact modulus. No closed form is known between the limits of light load, where each crest is
@@ -43,8 +43,8 @@ def area_under_light_load(ratio: float) -> float:
 
     Notes
     -----
-    Each crest is Hertz's sphere of radius l^2 / (4 pi^2 D) under the load of half a cell; what is
-    left out is of relative order q^(2/3).
+    Each crest is a Hertz contact of radius of curvature l^2 / (4 pi^2 D) under the load of half a
+    cell; neglected terms are of relative order q^(2/3).
 
     Examples
     --------

@@ -1,4 +1,4 @@
-r"""Reynolds' equation of an axisymmetric film on a grid: the squeeze film without its closed form.
+r"""Reynolds' equation of an axisymmetric squeeze film, by finite volumes, with cavitation.
 
 .. math:: \frac{1}{r} \frac{d}{dr}\left(r H^3 \frac{dp}{dr}\right) = 12 \eta \dot h,
           \qquad p(r_n) = 0
@@ -29,7 +29,7 @@ def film_force(
     cells: int = 400,
     tension: float = np.inf,
 ) -> float:
-    """Force [N] that resists opening an axisymmetric film, by finite volumes.
+    """Viscous force [N] of an opening axisymmetric film.
 
     Parameters
     ----------
@@ -42,9 +42,9 @@ def film_force(
     viscosity : float
         Dynamic viscosity [Pa.s].
     cells : int
-        Rings of the grid; the error falls with their square.
+        Rings of the grid; the error is of second order.
     tension : float
-        Largest drop below ambient pressure that the liquid bears [Pa].
+        Tensile strength of the liquid: maximum pressure drop below ambient [Pa].
 
     Returns
     -------
@@ -67,7 +67,7 @@ def film_force(
     pressure = np.zeros(cells)
     for _ in range(cells + 1):
         pressure = _solve(conductance, source, floor, tension)
-        # A cell leaves the floor where the film would push it up, joins where it would go below.
+        # Active set: a cell leaves the bound if its pressure would rise, joins if it would fall.
         flow = _flow(conductance, pressure) - source
         new = (pressure < -tension * (1.0 + 1e-12)) | (floor & (flow <= 0.0))
         if np.array_equal(new, floor):

@@ -1,4 +1,4 @@
-r"""Westergaard: a rigid wave of one direction pressed on a half-space without friction.
+r"""Westergaard: rigid unidirectional wave on a half-space, frictionless.
 
 The wave is D (1 - cos(2 pi x / l)), which touches first at x = 0; pressures are positive in
 compression and gaps where the surfaces are apart. E* is the contact modulus. Contacts are strips
@@ -21,7 +21,7 @@ __all__ = ["full_contact_pressure", "half_width", "mean_gap", "pressure"]
 
 
 def full_contact_pressure(amplitude: float, wavelength: float, modulus: float) -> float:
-    r"""Mean pressure [Pa] above which the whole wave touches, :math:`p^* = \pi E^* D / l`.
+    r"""Mean pressure [Pa] of full contact, :math:`p^* = \pi E^* D / l`.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def mean_gap(ratio: float, amplitude: float) -> float:
 
     Notes
     -----
-    At q = 1 its slope is zero: close to full contact almost nothing is left to be closed.
+    Its slope is zero at q = 1, full contact.
 
     Examples
     --------

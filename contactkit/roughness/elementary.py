@@ -1,6 +1,6 @@
-r"""Heights of simple bodies: waves, balls, paraboloids.
+r"""Heights of simple shapes: waves, spheres, paraboloids.
 
-Heights [m] are positive where the body comes closer to the other: peaks up. Arrays are ``[y, x]``,
+Heights [m] are positive towards the other body: peaks up. Arrays are ``[y, x]``,
 ``shape = (ny, nx)``, ``pixel_size = (dy, dx)``; pixel (i, j) lies at :math:`y = i\,dy,\ x = j\,dx`.
 """
 
@@ -26,7 +26,7 @@ def wave(
     wavelength_y: float | None = None,
     phase: Pair = (0.0, 0.0),
 ) -> Array:
-    r"""Heights of a wave along x, or of the product of two.
+    r"""Heights of a sinusoidal wave along x, or of the product of two.
 
     .. math:: h = D \cos(2\pi x/\lambda_x + \varphi_x) \, [\cos(2\pi y/\lambda_y + \varphi_y)]
 
@@ -35,9 +35,9 @@ def wave(
     shape, pixel_size
         Pixels (ny, nx) and their size (dy, dx) [m].
     amplitude : float
-        Half the height D from trough to crest [m].
+        Amplitude D, half of the height from trough to crest [m].
     wavelength, wavelength_y : float
-        Lengths of the waves along x and y [m]; without the second there is only the first.
+        Wavelengths along x and y [m]; without the second the wave is along x alone.
     phase : (float, float)
         Phases (y, x) [rad].
 
@@ -56,7 +56,7 @@ def wave(
 
 
 def sphere(shape: Shape, pixel_size: Pair, radius: float, centre: Pair | None = None) -> Array:
-    r"""Heights of a ball that points at the other body, its apex at height 0.
+    r"""Heights of a sphere with its apex at height 0.
 
     .. math:: h = \sqrt{R^2 - r^2} - R
 
@@ -65,13 +65,13 @@ def sphere(shape: Shape, pixel_size: Pair, radius: float, centre: Pair | None = 
     shape, pixel_size
         Pixels (ny, nx) and their size (dy, dx) [m].
     radius : float
-        Radius R [m]. Further out than R the height stays at -R: half a ball on a plate.
+        Radius R [m]. Beyond R the height is -R: a hemisphere on a plate.
     centre : (float, float), optional
-        Place (y, x) of the apex [m]; without it the pixel (ny // 2, nx // 2).
+        Position (y, x) of the apex [m]; default: the pixel (ny // 2, nx // 2).
 
     Notes
     -----
-    The theory of Hertz is about the `paraboloid`, which lies above the ball by about
+    Hertz' theory is for the `paraboloid`, which lies above the sphere by about
     :math:`r^4/(8 R^3)`.
 
     Examples
@@ -91,7 +91,7 @@ def paraboloid(
     radius_y: float | None = None,
     centre: Pair | None = None,
 ) -> Array:
-    r"""Heights of a paraboloid that points at the other body, its apex at height 0.
+    r"""Heights of a paraboloid with its apex at height 0.
 
     .. math:: h = -\frac{x^2}{2 R_x} - \frac{y^2}{2 R_y}
 
@@ -100,8 +100,8 @@ def paraboloid(
     shape, pixel_size, centre
         As in `sphere`.
     radius, radius_y : float
-        Radii of curvature along x and y at the apex [m], inf for a cylinder; without the second
-        both are the first.
+        Radii of curvature along x and y at the apex [m], inf for a cylinder; `radius_y` defaults to
+        `radius`.
 
     Examples
     --------
@@ -114,7 +114,7 @@ def paraboloid(
 
 
 def _from_centre(shape: Shape, pixel_size: Pair, centre: Pair | None) -> tuple[Array, Array]:
-    """Distances (ny, 1) and (1, nx) of the pixels from a place [m]."""
+    """Distances (ny, 1) and (1, nx) of the pixels from a point [m]."""
     at = centre or tuple((n // 2) * d for n, d in zip(shape, pixel_size, strict=True))
     y, x = (
         np.arange(n, dtype=np.float64) * d - c

@@ -1,7 +1,7 @@
-"""Measured height maps: reads files, and says of a map that cannot be used why, and the cure.
+"""Measured height maps: reading, validation and detrending.
 
-Heights [m] are measured out of the body, peaks up; arrays are ``[y, x]``, the first line of a file
-is the row y = 0. Maps are taken as they are: no hole is filled, nothing is interpolated.
+Heights [m] are positive out of the body, peaks up; arrays are ``[y, x]``, the first line of a file
+is the row y = 0. Maps are not modified: no hole is filled, nothing is interpolated.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-_ROUNDED = 0.02  # share of a step by which coordinates may be off, as rounded in a text
+_ROUNDED = 0.02  # tolerance of coordinates over the step, for values rounded in a text
 
 
 def read_matrix(file: Path) -> Array:
-    """Numbers of a text, (lines, columns).
+    """Numbers of a text file, (lines, columns).
 
     Raises
     ------
     DescriptionError
-        If a line has another number of columns than the first, or holds no numbers.
+        If a line has another number of columns than the first, or is not numeric.
     """
     delimiter = _delimiter(file)
     try:
@@ -51,12 +51,12 @@ def read_matrix(file: Path) -> Array:
 
 
 def read_points(file: Path) -> tuple[Array, tuple[float, float]]:
-    """Heights (ny, nx) and pixel size (dy, dx) of a text of points x, y, z, in its own unit.
+    """Heights (ny, nx) and pixel size (dy, dx) of a file of points x, y, z, in its own unit.
 
     Raises
     ------
     DescriptionError
-        If there are not three columns, or the points are no full regular grid.
+        If there are not three columns, or the points do not form a complete regular grid.
     """
     points = read_matrix(file)
     if points.shape[1] != 3:
@@ -80,7 +80,7 @@ def read_points(file: Path) -> tuple[Array, tuple[float, float]]:
 
 
 def _steps(values: Array, name: str, file: Path) -> tuple[NDArray[np.int64], int, float]:
-    """Number of the step of each coordinate, how many there are, and the step."""
+    """Grid index of each coordinate, number of grid lines, and step."""
     if not np.isfinite(values).all():
         raise DescriptionError(f"HeightMap.{name}", "one that is not", "be finite")
     levels = np.unique(values)
@@ -105,7 +105,7 @@ def _steps(values: Array, name: str, file: Path) -> tuple[NDArray[np.int64], int
 
 
 def _data_lines(file: Path) -> list[tuple[int, str]]:
-    """Lines that hold data, with their numbers from 1."""
+    """Data lines with their numbers, from 1."""
     try:
         text = file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -115,7 +115,7 @@ def _data_lines(file: Path) -> list[tuple[int, str]]:
 
 
 def _delimiter(file: Path) -> str | None:
-    """What splits the columns, from the first line with data; None for spaces and tabs."""
+    """Delimiter of the columns, from the first data line; None for spaces and tabs."""
     lines = _data_lines(file)
     if not lines:
         raise DescriptionError("HeightMap.heights", "none", f"be in {file.name}")
@@ -123,7 +123,7 @@ def _delimiter(file: Path) -> str | None:
 
 
 def _reason(file: Path, delimiter: str | None, message: str) -> DescriptionError:
-    """Find the line that could not be read."""
+    """Error that names the line that could not be read."""
     width = 0
     for number, line in _data_lines(file):
         words = [word.strip() for word in line.split(delimiter)]
@@ -159,7 +159,7 @@ Trend = Literal["none", "mean", "tilt", "curvature"]
 
 
 def detrended(heights: Array, trend: Trend = "tilt") -> Array:
-    r"""Heights without the polynomial that fits them best, by least squares over all pixels.
+    r"""Detrended heights: less the least-squares polynomial over all pixels.
 
     Parameters
     ----------
@@ -175,8 +175,8 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
 
     Notes
     -----
-    Rough surfaces have waves longer than any window, of which this takes part: a tilt takes about
-    the share of the variance that lies in waves longer than the window.
+    Rough surfaces have wavelengths beyond any window, which are removed in part: a tilt removes
+    about the fraction of the variance at wavelengths longer than the window.
 
     Examples
     --------
@@ -193,11 +193,11 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     y, x = (_centred(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1)) for n in left.shape)
     shapes = [(y, np.ones_like(x)), (np.ones_like(y), x)]
     if trend == "curvature":
-        # On a full grid these are orthogonal to each other and to all above.
+        # On a full grid these are orthogonal to each other and to the former terms.
         shapes += [(_centred(y * y), np.ones_like(x)), (np.ones_like(y), _centred(x * x)), (y, x)]
     for of_y, of_x in shapes:
         square = float(of_y @ of_y) * float(of_x @ of_x)
-        if square > 1e-12:  # a grid of one or two pixels holds no tilt or no curvature
+        if square > 1e-12:  # a grid of one or two pixels has no tilt or no curvature
             left -= (of_y @ left @ of_x / square * of_y)[:, None] * of_x
     return left
 
@@ -214,7 +214,7 @@ _UNMARKED = ("hgt", "nms")
 
 
 class HeightMap(NamedTuple):
-    """A measured map."""
+    """A measured height map."""
 
     heights: Array
     """Heights [m], (ny, nx), peaks up."""
@@ -256,7 +256,7 @@ def read_height_map(
     xyz                    a point x, y, z per line, on a full regular grid in any order;
                            needs `unit`, that of all three
     any other              whatever SurfaceTopography reads (extra ``contactkit[maps]``);
-                           `pixel_size` and `unit` only if the file does not say them
+                           `pixel_size` and `unit` only if the file does not contain them
     ====================== ==============================================================
 
     Parameters
@@ -270,12 +270,12 @@ def read_height_map(
     checksum : str, optional
         SHA-256 that the file must have.
     channel : int, optional
-        Which of several maps in a file of an instrument; without it, the instrument's first.
+        Index of the map in an instrument file with several; default: the instrument's own.
 
     Raises
     ------
     DescriptionError
-        If there is no such file or it is another one; if it is not a map of at least 2 x 2
+        If the file does not exist or its checksum differs; if it is not a map of at least 2 x 2
         numbers; if a height is missing or not finite; if a size or a unit is missing, wrong or
         contradicts the file.
 
@@ -344,7 +344,7 @@ def _needed(value: Any, field: str, example: str, file: Path) -> Any:
         raise DescriptionError(
             f"HeightMap.{field}",
             None,
-            f"be given: {file.name} does not say it",
+            f"be given: {file.name} does not contain it",
             hint=f"for example {field}={example}",
         )
     return value
@@ -359,7 +359,7 @@ def _length_unit(unit: str | None, file: Path) -> float:
 
 
 def _double(field: str, value: object, file: Path) -> DescriptionError:
-    return DescriptionError(f"HeightMap.{field}", value, f"be left out: {file.name} says it itself")
+    return DescriptionError(f"HeightMap.{field}", value, f"be left out: {file.name} contains it")
 
 
 def _load_npy(file: Path) -> Array:
@@ -367,7 +367,7 @@ def _load_npy(file: Path) -> Array:
         raw = np.load(file, allow_pickle=False)
     except (ValueError, EOFError, OSError) as error:
         raise DescriptionError(
-            "HeightMap.path", str(file), "be a numpy file of plain numbers", hint=str(error)
+            "HeightMap.path", str(file), "be a numpy file of numbers", hint=str(error)
         ) from error
     if not isinstance(raw, np.ndarray) or raw.dtype.kind not in "fiu":
         kind = raw.dtype if isinstance(raw, np.ndarray) else type(raw).__name__
@@ -381,7 +381,7 @@ def _checked(heights: Array, file: Path) -> Array:
             "HeightMap.heights",
             f"shape {heights.shape}",
             f"be a map (ny, nx) of at least 2 x 2 pixels in {file.name}",
-            hint="a profile along one line is no surface",
+            hint="a profile along a line is not a surface",
         )
     holes = ~np.isfinite(np.ma.filled(heights, np.nan))
     if holes.any():
@@ -399,7 +399,7 @@ def _checked(heights: Array, file: Path) -> Array:
 def _read_instrument(
     file: Path, size: Pair | None, unit: str | None, channel: int | None
 ) -> tuple[Array, Pair, str]:
-    """Heights [m], pixel size [m] and source of a file of an instrument."""
+    """Heights [m], pixel size [m] and source of an instrument file."""
     try:
         from SurfaceTopography import open_topography
         from SurfaceTopography.Exceptions import ReadFileError
@@ -412,7 +412,7 @@ def _read_instrument(
         ) from error
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a reader, about matters that are checked below
+            warnings.simplefilter("ignore")  # of a reader, about properties checked below
             with open_topography(str(file)) as reader:
                 return _read_channel(reader, file, size, unit, channel)
     except DescriptionError:
@@ -429,7 +429,7 @@ def _read_instrument(
 def _read_channel(
     reader: Any, file: Path, size: Pair | None, unit: str | None, channel: int | None
 ) -> tuple[Array, Pair, str]:
-    # These readers take any file of some length, for lack of a mark at its beginning.
+    # These readers accept any file of some length, as the format has no signature.
     if reader.format() in _UNMARKED and file.suffix.lower() != f".{reader.format()}":
         raise DescriptionError(
             "HeightMap.path",
@@ -447,7 +447,7 @@ def _read_channel(
             "HeightMap.channel",
             info.name,
             f"be a map of heights in {file.name}",
-            hint="a profile along one line is no surface; a phase or a voltage is no height",
+            hint="a profile along a line is not a surface; a phase or a voltage is not a height",
         )
     if info.unit is not None and unit is not None:
         raise _double("unit", unit, file)

@@ -1,11 +1,11 @@
-r"""Periodic random surfaces: a sum of waves with given mean squares and seeded random phases.
+r"""Periodic Gaussian random fields from a spectrum: sums of waves with seeded random amplitudes.
 
 .. math:: h(x, y) = \sum_q A_q e^{i (q_x x + q_y y)}, \qquad \langle |A_q|^2 \rangle = P(q)
 
 Arrays are ``[y, x]``; pixel (i, j) lies at :math:`y = i\,dy,\ x = j\,dx`. The complex random number
-of a wave belongs to the seed and to its wavevector in whole waves per window, (k_y, k_x), and to
-nothing else: no number depends on the grid. Each tile of wavevectors has a stream of its own, so
-that no number is drawn that lies further than a tile from one that is needed, whatever the shape.
+of a wave depends only on the seed and its wavevector in waves per window, (k_y, k_x), not on the
+grid. Each tile of wavevectors has its own stream, so that few numbers beyond the needed ones are
+drawn for any shape.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ Array = NDArray[np.float64]
 Normalise = Literal["expected", "sample", "none"]
 
 _TILE = 64  # waves along each side of a tile
-_ON_THE_EDGE = 1.0 + 1e-9  # a wave of just the cut-off wavelength is kept, however it was rounded
+_ON_THE_EDGE = 1.0 + 1e-9  # a wave of the cut-off wavelength is kept, independent of round-off
 
 
 class Waves(NamedTuple):
-    """The waves of a window with k_x >= 0 that a grid holds and a cut-off lets pass.
+    """Waves of a window with k_x >= 0 that a grid resolves and a cut-off passes.
 
-    Arrays are (2 m_y + 1, m_x + 1) or broadcast to it, rows k_y = -m_y ... m_y. The wave without
-    length and those at the Nyquist wavenumber, of which a grid sees only one phase, are left out.
+    Arrays are (2 m_y + 1, m_x + 1) or broadcast to it, rows k_y = -m_y ... m_y. The mean and the
+    waves at the Nyquist wavenumber, of which a grid resolves only one phase, are excluded.
     """
 
     qy: Array
@@ -40,7 +40,7 @@ class Waves(NamedTuple):
     qx: Array
     """Wavenumbers along x [rad/m], (1, m_x + 1)."""
     times: Array
-    """How often a wave stands in the whole sum: 2 with its conjugate, 1 for k_x = 0, 0 if out."""
+    """Multiplicity of a wave in the sum: 2 with its conjugate, 1 for k_x = 0, 0 if excluded."""
 
     def total(self, power: Array) -> float:
         """Sum of a power over the whole plane of wavevectors."""
@@ -50,7 +50,7 @@ class Waves(NamedTuple):
 def waves(
     shape: tuple[int, int], pixel_size: tuple[float, float], cutoff_wavelength: float
 ) -> Waves:
-    """Wavevectors that fit into the window, hold on the grid and are no shorter than a cut-off.
+    """Wavevectors of the window that the grid resolves and the cut-off passes.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def add_up(
     weight: Array | float = 1.0,
     normalise: Normalise = "expected",
 ) -> Array:
-    """Heights whose waves have mean squares `power`, rescaled if asked.
+    """Heights whose waves have mean squares `power`, rescaled to a target if given.
 
     Parameters
     ----------
@@ -114,11 +114,11 @@ def add_up(
     seed : int
         Seed, zero or positive.
     target : float, optional
-        What the sum of `weight` times the squares of all amplitudes shall be.
+        Target of the sum of `weight` times the squares of all amplitudes.
     weight : ndarray or float
         1 for the variance of the heights, the square of the wavenumber for that of the slope.
     normalise : {"expected", "sample", "none"}
-        Whether the target is met by the mean over all seeds, by this map, or not at all.
+        Whether the mean over all seeds or this map meets the target, or neither.
     """
     amplitude = np.where(which.times > 0.0, np.sqrt(power), 0.0) * _unit_waves(which, seed)
     if normalise != "none" and target is not None:

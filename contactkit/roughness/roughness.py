@@ -1,17 +1,17 @@
-r"""Height maps made by a recipe: random surfaces from their spectrum; with them, simple shapes.
+r"""Random rough surfaces with a prescribed spectrum: exponential autocorrelation, self-affine.
 
-Heights [m] of the rough body are positive where it comes closer to the other: peaks up. Arrays are
+Heights [m] of the rough body are positive towards the other body: peaks up. Arrays are
 ``[y, x]``, ``shape = (ny, nx)``, ``pixel_size = (dy, dx)``; pixel (i, j) lies at
 :math:`y = i\,dy,\ x = j\,dx`, so that a grid with half the pixel holds every point of the coarse
 one. The window is :math:`L_y \times L_x = n_y dy \times n_x dx`.
 
-A random surface is the sum of the waves that fit into the window, hence periodic, with no mean:
+A random surface is the sum of the waves of the window, hence periodic, with zero mean:
 
 .. math:: \langle |A_q|^2 \rangle = \frac{C(q)}{L_x L_y}, \qquad
           \sigma^2 = \frac{1}{4\pi^2} \iint C \, dq_x dq_y
 
-The same seed on two grids of one window gives the same long waves, and a grid fine enough for the
-short-wave cut-off adds nothing but points (see `random_waves`).
+The same seed on two grids of one window yields the same long waves, and grids that resolve the
+short-wave cut-off sample the same surface (see `random_fields`).
 
 ====== ======================================= =====
 symbol is                                      unit
@@ -52,15 +52,15 @@ _DECADE = 2.3  # Eq. (2.42): exp(-2.3) is a tenth
 
 
 class VarianceBudget(NamedTuple):
-    """Where the variance of the endless surface goes, as fractions of it."""
+    """Fractions of the variance of the infinite surface."""
 
     resolved: float
-    """Carried by the waves that window and grid hold and the cut-off lets pass."""
+    """In waves that window and grid resolve and the cut-off passes."""
     cutoff: float
     """In waves shorter than the cut-off."""
     window: float
-    """The rest: waves longer than the window, or too short for the grid. Replacing an integral by
-    a sum over the waves of the window may leave it slightly negative."""
+    """The rest: waves longer than the window, or too short for the grid. It may be slightly
+    negative, because an integral is replaced by a sum over the waves of the window."""
 
 
 def gaussian_exponential(
@@ -72,13 +72,13 @@ def gaussian_exponential(
     seed: int,
     normalise: Normalise = "expected",
 ) -> Array:
-    r"""Heights of a Gaussian surface whose autocorrelation decays exponentially.
+    r"""Heights of a Gaussian surface with exponential autocorrelation.
 
     .. math:: R(x, y) = \sigma^2 e^{-\sqrt{(x/l_x)^2 + (y/l_y)^2}}, \qquad
               C(q) = \frac{2 \pi \sigma^2 l_x l_y}{[1 + (q_x l_x)^2 + (q_y l_y)^2]^{3/2}}
 
-    with :math:`l = \beta^*/2.3`. The spectrum is sampled, which is never negative; that of a
-    sampled autocorrelation is, once :math:`\beta^*` passes a tenth of the window.
+    with :math:`l = \beta^*/2.3`. The spectrum is sampled, which is never negative, unlike that
+    of a sampled autocorrelation once :math:`\beta^*` exceeds a tenth of the window.
 
     Parameters
     ----------
@@ -90,15 +90,15 @@ def gaussian_exponential(
         Length :math:`\beta^*` over which the autocorrelation falls to a tenth, one number or
         (y, x) [m].
     cutoff_wavelength : float
-        Waves shorter than this are left out [m]. Without it the surface has no slope: the rms
-        slope grows without bound as the cut-off shrinks, and contact pressures with it.
+        Shorter waves are excluded [m]. The rms slope, and with it the contact pressure, diverges as
+        the cut-off tends to zero.
     seed : int
         Seed of the random numbers, zero or positive.
     normalise : {"expected", "sample", "none"}
-        What `rms` is. "expected": root of the variance of the waves this map is made of, averaged
-        over all seeds; the spectrum is raised by what window and cut-off take (`resolved_variance`
-        says how much). "sample": standard deviation of just this map. "none": that of the endless
-        surface, of which this map shows the part it resolves.
+        Meaning of `rms`. "expected": standard deviation of the resolved waves, averaged over all
+        seeds; the spectrum is scaled up by what window and cut-off exclude (`resolved_variance`).
+        "sample": standard deviation of this map. "none": that of the infinite surface, of which
+        this map has the resolved part.
 
     Returns
     -------
@@ -108,13 +108,13 @@ def gaussian_exponential(
     Raises
     ------
     DescriptionError
-        If not one wave passes the cut-off.
+        If no wave passes the cut-off.
 
     Notes
     -----
-    The variance of one map scatters by about :math:`\sqrt\pi\, l/L`, relative, unless it is
-    normalised by the sample. With a cut-off of two pixels or less the grid chooses the waves, and
-    the surface is no longer the same on a finer one; whoever calls should refuse that.
+    The relative scatter of the variance of one map is about :math:`\sqrt\pi\, l/L`, unless it is
+    normalised by the sample. With a cut-off of two pixels or less the grid determines the waves, so
+    that the surface depends on the grid; the caller should refuse that.
 
     References
     ----------
@@ -140,9 +140,9 @@ def resolved_variance(
     correlation_length: float | Pair,
     cutoff_wavelength: float,
 ) -> VarianceBudget:
-    r"""Share of the variance of `gaussian_exponential` that window, grid and cut-off leave.
+    r"""Fraction of the variance of `gaussian_exponential` that window, grid and cut-off retain.
 
-    A surface without direction loses :math:`(1 + q_c^2 l^2)^{-1/2}` to the cut-off.
+    The cut-off removes :math:`(1 + q_c^2 l^2)^{-1/2}` of an isotropic surface.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def resolved_variance(
     Raises
     ------
     DescriptionError
-        If not one wave passes the cut-off.
+        If no wave passes the cut-off.
 
     Examples
     --------
@@ -166,7 +166,7 @@ def resolved_variance(
     area = shape[0] * pixel_size[0] * shape[1] * pixel_size[1]
     resolved = which.total(_exponential_psd(which, correlation_length)) / area
     ly, lx = (length / _DECADE for length in _pair(correlation_length))
-    # In the stretched plane (q_x l_x, q_y l_y) the spectrum is round and the cut-off an ellipse.
+    # In the plane (q_x l_x, q_y l_y) the spectrum is isotropic and the cut-off an ellipse.
     angle = np.arange(4096) * (2.0 * math.pi / 4096)
     reach = 2.0 * math.pi / cutoff_wavelength / np.hypot(np.cos(angle) / lx, np.sin(angle) / ly)
     beyond = float(np.mean(1.0 / np.hypot(1.0, reach)))
@@ -200,8 +200,8 @@ def self_affine(
     rolloff_wavelength : float
         Wavelength above which the spectrum is flat [m]; inf for none.
     normalise : {"expected", "sample"}
-        Whether `rms` or `rms_slope` is that of all seeds or of just this map. The spectrum has no
-        scale of its own, hence no "none".
+        Whether `rms` or `rms_slope` is the mean over all seeds or that of this map. The spectrum
+        has no scale of its own, hence no "none".
     rms_slope : float, optional
         Instead of `rms`: root of the mean square of the gradient [-].
 
@@ -230,7 +230,7 @@ def self_affine(
         raise DescriptionError("self_affine.normalise", normalise, "be 'expected' or 'sample'")
     which = waves(shape, pixel_size, cutoff_wavelength)
     square = which.qx**2 + which.qy**2
-    # Wavenumbers relative to the cut-off, so that no power of them overflows; out of the sum, any.
+    # Wavenumbers relative to the cut-off, so that no power overflows; arbitrary outside the sum.
     q = np.maximum(
         np.where(which.times > 0.0, np.sqrt(square) * cutoff_wavelength / (2.0 * math.pi), 1.0),
         cutoff_wavelength / rolloff_wavelength,

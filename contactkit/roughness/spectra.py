@@ -1,7 +1,7 @@
-r"""Correlation and spectrum of a height map.
+r"""Autocorrelation and power spectral density of a height map.
 
-Heights z [m] are ``[y, x]``, ``pixel_size = (dy, dx)`` [m], wavenumbers q [rad/m]; everything is
-about the heights less their mean. The density C [m4] of the spectrum is that of `roughness`:
+Heights z [m] are ``[y, x]``, ``pixel_size = (dy, dx)`` [m], wavenumbers q [rad/m]; the mean of the
+heights is subtracted first. The spectral density C [m4] is that of `roughness`:
 :math:`\sigma^2 = \iint C\,d^2q / 4\pi^2`.
 """
 
@@ -37,7 +37,7 @@ class Spectrum(NamedTuple):
     density: Array
     r"""Density C [m4]: :math:`\sigma^2 = \iint C\,d^2q / 4\pi^2`."""
     n_waves: NDArray[np.int64]
-    """Waves in each ring; the density scatters by one part in the root of half of it."""
+    """Number of waves in each ring; the relative scatter is one over the root of half of it."""
 
 
 def standardised(heights: Array) -> Array:
@@ -46,7 +46,7 @@ def standardised(heights: Array) -> Array:
     Raises
     ------
     DescriptionError
-        If they are all the same.
+        If all heights are equal.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def standardised(heights: Array) -> Array:
     """
     z = heights - heights.mean()
     largest = float(np.abs(z).max())
-    # Rounding leaves a plane at a height of 1 m rough by 1e-16 m.
+    # Round-off makes a plane at a height of 1 m rough by 1e-16 m.
     if largest <= 1e-14 * float(np.abs(heights).max()):
         raise DescriptionError("heights", "a plane", "vary, for their shape to have a number")
     z /= largest
@@ -65,9 +65,9 @@ def standardised(heights: Array) -> Array:
 def spectral_moment(heights: Array, pixel_size: Pair, order: int) -> float:
     r"""Moment of the spectrum of a periodic map, :math:`m_n = \sum_q |q|^n |A_q|^2` [m2-n].
 
-    The variance for order 0, the mean square of the gradient for order 2, and four times that of
-    the mean curvature for order 4. Exact for a periodic map that its pixels resolve; the jump at
-    the edges of one that is not periodic adds waves of all lengths, and makes it worthless.
+    The variance for order 0, the mean square gradient for order 2, and four times the mean square
+    of the mean curvature for order 4. Exact for a resolved periodic map; not meaningful for a
+    non-periodic one, because the jump at the edges adds waves of all lengths.
 
     Examples
     --------
@@ -81,14 +81,14 @@ def spectral_moment(heights: Array, pixel_size: Pair, order: int) -> float:
 
 
 def autocorrelation(heights: Array, periodic: bool) -> Array:
-    """Mean product of two heights at a lag [m2], the mean of the map taken off first.
+    """Autocovariance: mean product of two heights at a lag [m2], less the mean of the map.
 
     Parameters
     ----------
     heights : ndarray (ny, nx)
         Heights [m].
     periodic : bool
-        Whether pairs reach across the edges.
+        Whether the map is periodic.
 
     Returns
     -------
@@ -98,8 +98,8 @@ def autocorrelation(heights: Array, periodic: bool) -> Array:
 
     Notes
     -----
-    Taking off the mean of the window lowers all of it by about the variance times the square of
-    correlation length over window. Without `periodic` far lags are means over few pairs.
+    Subtracting the mean of the window lowers all values by about the variance times the square of
+    correlation length over window. Without `periodic` large lags are means over few pairs.
 
     Examples
     --------
@@ -120,10 +120,10 @@ def autocorrelation(heights: Array, periodic: bool) -> Array:
 def correlation_length(heights: Array, pixel_size: Pair, periodic: bool) -> Pair:
     """Lags (y, x) at which the autocorrelation first falls to a tenth [m].
 
-    Straight lines are drawn between pixels. Half the window is searched; inf if the
-    autocorrelation stays above a tenth there, as along a groove. From map to map it scatters by
-    about 2.5 times its share of the window (40 maps, exponential autocorrelation). It hardly
-    depends on the pixel, as long as that is much smaller.
+    By linear interpolation between pixels, within half the window; inf if the autocorrelation
+    stays above a tenth there, as along a groove. Its relative scatter from map to map is about 2.5
+    times its ratio to the window (40 maps, exponential autocorrelation). It hardly depends on the
+    pixel, if that is much smaller.
     """
     standardised(heights)  # refuses a plane
     values = autocorrelation(heights, periodic)
@@ -142,14 +142,14 @@ def radial_spectrum(heights: Array, pixel_size: Pair, periodic: bool) -> Spectru
     heights, pixel_size
         Map [m] and size of its pixels [m].
     periodic : bool
-        Whether the map is one period. If not, it is tapered by a Hann window in both directions,
-        which mends the jump at the edges, keeps the sum of the density, and blurs it over two
+        Whether the map is one period. If not, a Hann window is applied in both directions, which
+        removes the jump at the edges, conserves the sum of the density, and blurs it over two
         neighbouring rings.
 
     Notes
     -----
-    Up to the wavenumber that the coarser direction of the grid still holds. The shortest waves of
-    a measured map may be the instrument's: its noise, or the roundness of its tip.
+    Up to the Nyquist wavenumber of the coarser direction. The shortest waves of a measured map may
+    be artefacts of the instrument: noise, or the tip radius.
     """
     z = heights - heights.mean()
     if not periodic:
@@ -169,7 +169,7 @@ def radial_spectrum(heights: Array, pixel_size: Pair, periodic: bool) -> Spectru
 
 
 def _first_tenth(values: Array) -> float:
-    """Where a curve first falls to a tenth of its start, in steps; inf if it does not."""
+    """Lag, in steps, at which a curve first falls to a tenth of its start; inf if it does not."""
     under = values <= 0.1 * values[0]
     if not under.any():
         return math.inf

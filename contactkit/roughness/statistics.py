@@ -1,13 +1,13 @@
-r"""What a height map is like, in numbers: heights, slopes, curvatures, correlation, spectrum.
+r"""Statistics of a height map: heights, slopes, curvatures, bearing area.
 
-Heights z [m] are ``[y, x]``, ``pixel_size = (dy, dx)`` [m]; every number is about the heights less
-their mean. With ``periodic=True`` the map is one period of an endless surface; otherwise nothing is
+Heights z [m] are ``[y, x]``, ``pixel_size = (dy, dx)`` [m]; the mean of the heights is subtracted
+first. With ``periodic=True`` the map is one period of an infinite surface; otherwise nothing is
 assumed beyond its edges.
 
-A number of a rough surface is one of its scan, too. The standard deviation grows with the window
-until that holds the longest waves. Slope grows as the pixel shrinks until that resolves the
-shortest, curvature faster still; for an exponential autocorrelation without a cut-off they grow as
-:math:`dx^{-1/2}` and :math:`dx^{-3/2}` without end. Quote pixel and window with every number.
+Roughness parameters depend on the scan. The standard deviation grows with the window up to the
+longest waves. The slope grows as the pixel shrinks down to the shortest waves, the curvature
+faster; for an exponential autocorrelation without a cut-off they diverge as :math:`dx^{-1/2}` and
+:math:`dx^{-3/2}`. Quote pixel and window with every parameter.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ Pair = tuple[float, float]
 
 
 class Summary(NamedTuple):
-    """Numbers of one map; see the functions of the same names."""
+    """Roughness parameters of one map; see the functions of the same names."""
 
     rms: float
     """Standard deviation of the heights [m]."""
@@ -76,7 +76,7 @@ class Summary(NamedTuple):
 def rms(heights: Array) -> float:
     """Standard deviation of the heights [m], dividing by the number of pixels.
 
-    Hardly depends on the pixel; grows with the window up to the longest wave of the surface.
+    Nearly independent of the pixel; grows with the window up to the longest wave of the surface.
     """
     return float(np.std(heights))
 
@@ -84,8 +84,7 @@ def rms(heights: Array) -> float:
 def skewness(heights: Array) -> float:
     """Third central moment over the cube of the standard deviation [-]: negative for pits.
 
-    Hardly depends on the pixel; scatters from one window to the next, the more the fewer
-    correlation lengths a window holds.
+    Nearly independent of the pixel; its scatter grows as the window has fewer correlation lengths.
     """
     return float(np.mean(standardised(heights) ** 3))
 
@@ -93,7 +92,7 @@ def skewness(heights: Array) -> float:
 def kurtosis(heights: Array) -> float:
     """Fourth central moment over the square of the variance [-]: 3 for Gaussian heights.
 
-    Grows with rare extremes, such as dust or bad pixels.
+    Sensitive to rare extremes, such as dust or bad pixels.
     """
     return float(np.mean(standardised(heights) ** 4))
 
@@ -103,8 +102,8 @@ def rms_slope(heights: Array, pixel_size: Pair, periodic: bool) -> float:
 
     .. math:: s^2 = \langle (\Delta_x z/dx)^2 \rangle + \langle (\Delta_y z/dy)^2 \rangle
 
-    Below that of the spectrum (`spectral_moment`), by the factor :math:`\sin(q dx/2)/(q dx/2)` for
-    each wave: 10 % for a wave of 4 pixels, 36 % for one of 2.
+    Smaller than that of the spectrum (`spectral_moment`) by the factor
+    :math:`\sin(q dx/2)/(q dx/2)` for each wave: 10 % for a wave of 4 pixels, 36 % for one of 2.
 
     Examples
     --------
@@ -124,8 +123,8 @@ def rms_curvature(heights: Array, pixel_size: Pair, periodic: bool) -> float:
 
     .. math:: k = \tfrac12 \left(\frac{\Delta_x^2 z}{dx^2} + \frac{\Delta_y^2 z}{dy^2}\right)
 
-    The mean curvature of a surface of small slope; 1/R for a ball. Without `periodic` the pixels
-    of the edges are left out.
+    The mean curvature of a surface of small slope; 1/R for a sphere. Without `periodic` the pixels
+    at the edges are excluded.
 
     Examples
     --------
@@ -143,20 +142,20 @@ def rms_curvature(heights: Array, pixel_size: Pair, periodic: bool) -> float:
 
 
 def bearing_fraction(heights: Array, level: ArrayLike) -> Array:
-    """Share of the map that lies at or above levels [-]: the curve of Abbott and Firestone.
+    """Bearing ratio [-]: fraction of the map at or above given levels (Abbott-Firestone curve).
 
     Parameters
     ----------
     heights : ndarray (ny, nx)
         Heights [m].
     level : array_like (...)
-        Levels, counted from the same zero as the heights [m].
+        Levels, from the same zero as the heights [m].
 
     Notes
     -----
-    Of undeformed heights; the area of contact is smaller, because the surface gives way around a
-    peak too: under a ball, by half. Its upper end is that of the highest peaks, which a larger
-    window finds higher.
+    For undeformed heights; the contact area is smaller, because the surface deforms around a peak
+    too: by half under a sphere. Its upper end is determined by the highest peaks, which are higher
+    in a larger window.
 
     Examples
     --------
@@ -168,7 +167,7 @@ def bearing_fraction(heights: Array, level: ArrayLike) -> Array:
 
 
 def summary(heights: Array, pixel_size: Pair, periodic: bool) -> Summary:
-    """All numbers of a map of at least 3 x 3 pixels.
+    """All roughness parameters of a map of at least 3 x 3 pixels.
 
     Raises
     ------

@@ -56,13 +56,13 @@ class AdhesionPart(ForcePart):
 class AsperityPart(ForcePart):
     """What the menisci at asperities did, and by which `law`.
 
-    `n_wet` is their number along the run, `cover` their contact circles over the face [-], both
+    `n_wet` is their number along the run, `coverage` their contact circles over the face [-], both
     of thin menisci: above 0.9 neighbours overlap, and their forces do not add up any more.
     """
 
     law: str
     n_wet: Curve
-    cover: Curve
+    coverage: Curve
 
 
 @frozen(eq=False)

@@ -229,7 +229,7 @@ def _asperity_part(result: SeparationResult) -> AsperityPart:
     effect = scene.effect(AsperityMenisci)
     assert effect is not None  # of() has asked first
     sums = [effect.sums(scene, gap) for gap in result.gap.tolist()]
-    columns = (np.array([s.n_wet for s in sums]), np.array([s.cover for s in sums]))
+    columns = (np.array([s.n_wet for s in sums]), np.array([s.coverage for s in sums]))
     impulse = result.impulses.get("asperity_impulse")
     law = f"{effect.law}, {effect.profile} bridges"
     return AsperityPart(result.asperity_force, impulse, law, *columns)

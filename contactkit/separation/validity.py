@@ -9,7 +9,7 @@ from typing import Any
 
 from attrs import field, frozen
 
-from ..capillary.many_menisci import DENSEST_COVER
+from ..capillary.many_menisci import MAX_COVERAGE
 from ..errors import ValidityWarning
 from ..lubrication import dimensionless as numbers
 from ..units import nm
@@ -121,8 +121,8 @@ def _cover(plan: Plan, gaps: list[float]) -> ValidityNumber:
     assert effect is not None  # check() has asked
     return ValidityNumber(
         name="contact circles over the face",
-        value=max(effect.cover(plan.scene, gap) for gap in gaps),
-        high=DENSEST_COVER,
+        value=max(effect.coverage(plan.scene, gap) for gap in gaps),
+        high=MAX_COVERAGE,
         detail="above it the menisci of neighbouring asperities overlap",
         source="densest order of equal circles, pi/sqrt(12)",
     )

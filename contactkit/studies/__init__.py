@@ -1,8 +1,8 @@
 """Parameter studies on processes or a cluster.
 
-paths  Dotted paths into a scene: what a study varies, read and applied.
-run    Run the pieces of a study: one after the other here, in processes, or wherever a client likes
-store  Points of a study, and the folder they are kept in: one file each, whole or not there.
-study  Studies: one scene solved for many values of what is in it.
-table  What a study gives: its points, as columns, as a table and as a file.
+study  `study`: a scene solved over a grid of parameter values.
+table  The result of a study: points, columns, table and file.
+paths  Dotted paths into a scene: the parameters of a study.
+run    Execution of the points: in this process, in processes, or on a client.
+store  Folder of finished points, one file each.
 """

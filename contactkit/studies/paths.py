@@ -1,4 +1,4 @@
-"""Dotted paths into a scene: what a study varies, read and applied."""
+"""Dotted paths into a scene: reading and applying the parameters of a study."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class _Leaf(NamedTuple):
 
 
 class Axis(NamedTuple):
-    """One thing that is varied: its path, its values in SI units, and the unit."""
+    """One varied parameter: its path, its values in SI units, and the unit."""
 
     path: str
     values: tuple[Any, ...]
@@ -35,23 +35,23 @@ class Axis(NamedTuple):
 
 
 def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) -> tuple[Axis, ...]:
-    """Read what is to be varied.
+    """Parse the parameters to vary.
 
     Parameters
     ----------
     scene : ContactScene, SeparationScene or SlidingScene
-        The scene that the paths lead into.
+        The scene that the paths refer to.
     accuracy : Accuracy
-        What paths that begin with ``accuracy.`` lead into.
+        The settings that paths beginning with ``accuracy.`` refer to.
     vary : mapping of str to sequence
-        Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index picks
-        from a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name).
+        Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index for an
+        item of a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name).
         Quantities may be texts with a unit.
 
     Raises
     ------
     DescriptionError
-        If a path leads nowhere, lies inside another, or has no values.
+        If a path does not exist, lies inside another, or has no values.
 
     Examples
     --------
@@ -77,12 +77,12 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) ->
 
 
 def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> tuple[Scene, Accuracy]:
-    """Apply values by path; each noun is made once, so that fields which belong together may move.
+    """Apply values by path; each object is rebuilt once, so that coupled fields change together.
 
     Raises
     ------
     DescriptionError
-        If a noun refuses its values.
+        If an object refuses its values.
     """
     trees: dict[bool, Tree] = {True: {}, False: {}}
     for path, value in values.items():
@@ -96,19 +96,19 @@ def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> tupl
     return _rebuilt(scene, trees[False]), _rebuilt(accuracy, trees[True])
 
 
-def _rebuilt(noun: Any, tree: Tree | _Leaf) -> Any:
+def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
     if isinstance(tree, _Leaf):
         return tree.value
     if not tree:
-        return noun
-    if isinstance(noun, tuple):
-        items = list(noun)
+        return owner
+    if isinstance(owner, tuple):
+        items = list(owner)
         for segment, below in tree.items():
-            i = _places(noun)[segment]
+            i = _places(owner)[segment]
             items[i] = _rebuilt(items[i], below)
         return tuple(items)
-    changes = {name: _rebuilt(getattr(noun, name), below) for name, below in tree.items()}
-    return attrs.evolve(noun, **changes)
+    changes = {name: _rebuilt(getattr(owner, name), below) for name, below in tree.items()}
+    return attrs.evolve(owner, **changes)
 
 
 def _axis(scene: Scene, accuracy: Accuracy, path: str, values: Iterable[Any]) -> Axis:
@@ -125,7 +125,7 @@ def _axis(scene: Scene, accuracy: Accuracy, path: str, values: Iterable[Any]) ->
 
 
 def _owner(scene: Scene, accuracy: Accuracy, path: str) -> tuple[type | None, str]:
-    """Kind that has the field a path leads to, and the field; None for an item of a tuple."""
+    """Class and field that a path refers to; None for an item of a tuple."""
     at: Any = {"accuracy": accuracy} | {name: getattr(scene, name) for name in _fields(scene)}
     kind, name, walked = None, "", ""
     for segment in path.split("."):
@@ -155,21 +155,21 @@ def _lost(path: str, segment: str, walked: str, at: Any, choices: list[str]) -> 
     )
 
 
-def _fields(noun: Any) -> list[str]:
-    return [a.name for a in attrs.fields(type(noun)) if a.init]
+def _fields(owner: Any) -> list[str]:
+    return [a.name for a in attrs.fields(type(owner)) if a.init]
 
 
-def _choices(noun: Any) -> dict[str, Any]:
-    """What a path may name next; nothing in a plain value."""
-    if isinstance(noun, tuple):
-        return {segment: noun[i] for segment, i in _places(noun).items()}
-    if attrs.has(type(noun)):
-        return {name: getattr(noun, name) for name in _fields(noun)}
+def _choices(owner: Any) -> dict[str, Any]:
+    """Possible next segments of a path; none in a plain value."""
+    if isinstance(owner, tuple):
+        return {segment: owner[i] for segment, i in _places(owner).items()}
+    if attrs.has(type(owner)):
+        return {name: getattr(owner, name) for name in _fields(owner)}
     return {}
 
 
 def _places(items: tuple[Any, ...]) -> dict[str, int]:
-    """Index of each item of a tuple by the segments that name it: its number; effects, its name."""
+    """Index of each item of a tuple by its segments: its number and, for an effect, its name."""
     if items and all(isinstance(item, Effect) for item in items):
         return {item.name: i for i, item in enumerate(items)}
     if all(attrs.has(type(item)) for item in items):

@@ -1,4 +1,4 @@
-"""Run the pieces of a study: one after the other here, in processes, or wherever a client likes."""
+"""Execution of the pieces of a study: in this process, in worker processes, or on a client."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _PINNED = (
 
 
 class Task(NamedTuple):
-    """A point to be solved: its place in the study, what is varied, its key in the store."""
+    """A point to solve: its index in the study, its parameters, its key in the store."""
 
     place: int
     values: Mapping[str, Any]
@@ -58,7 +58,7 @@ class Task(NamedTuple):
 
 @frozen(eq=False)
 class Piece:
-    """Points that are solved one after the other, each from where the one before ended."""
+    """Points that are solved in sequence, each starting from the solution of the one before."""
 
     scene: Scene
     accuracy: Accuracy
@@ -67,11 +67,11 @@ class Piece:
     keeps_maps: bool
 
 
-_MOST_BEFORE = 3  # results a start is extrapolated from
+_MAX_BEFORE = 3  # results from which an initial guess is extrapolated
 
 
 class Done(NamedTuple):
-    """A finished point, and its result as bytes where maps are kept."""
+    """A finished point, and its result as bytes if maps are kept."""
 
     place: int
     point: StudyPoint
@@ -79,7 +79,7 @@ class Done(NamedTuple):
 
 
 class _Chain:
-    """What one solve leaves for the next: an engine, and pressures to start from."""
+    """State passed from one solve to the next: engine, and pressures for the initial guess."""
 
     def __init__(self) -> None:
         self._engine: Engine | None = None
@@ -90,11 +90,11 @@ class _Chain:
         if not isinstance(made, ContactPlan):
             return simulate(made)
         if self._engine is None or self._engine.key != interface_key(made):
-            self._engine = None  # so that two of them are never in memory
+            self._engine = None  # never two of them in memory
             self._engine = Engine(made)
             self._before = [r for r in self._before if r.pressure.shape == made.grid.shape][:1]
         result = solve(made, start=self._before, engine=self._engine)
-        self._before = [result, *self._before[: _MOST_BEFORE - 1]]
+        self._before = [result, *self._before[: _MAX_BEFORE - 1]]
         return result
 
 
@@ -103,7 +103,7 @@ def run_piece(
     report: Callable[[], None] | None = None,
     is_stopped: Callable[[], bool] | None = None,
 ) -> list[Done]:
-    """Solve the points of a piece, and write each to the store as soon as it is there."""
+    """Solve the points of a piece, and write each to the store when it is finished."""
     chain, found = _Chain(), []
     for task in piece.tasks:
         if is_stopped is not None and is_stopped():
@@ -119,7 +119,7 @@ def run_piece(
 
 
 def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> None:
-    """Write a point; not one that was refused, for the cure may lie outside the scene."""
+    """Write a point, unless it was refused: the cure may lie outside the scene."""
     if point.status != "refused":
         store.write(key, point, maps)
 
@@ -150,7 +150,7 @@ def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, Result
 
 
 def run_here(pieces: Sequence[Piece], report: Callable[[], None]) -> Iterator[list[Done]]:
-    """Run pieces one after the other in this process."""
+    """Run pieces in sequence in this process."""
     for piece in pieces:
         yield run_piece(piece, report)
 
@@ -158,10 +158,10 @@ def run_here(pieces: Sequence[Piece], report: Callable[[], None]) -> Iterator[li
 def run_in_processes(
     pieces: Sequence[Piece], workers: int, report: Callable[[], None]
 ) -> Iterator[list[Done]]:
-    """Run pieces in processes of their own, each with one thread.
+    """Run pieces in worker processes, each with one thread.
 
-    When this process is interrupted, each worker ends the point it is at and writes it; when this
-    process is killed, they end at once.
+    If this process is interrupted, each worker finishes its current point and writes it; if this
+    process is killed, the workers end at once.
 
     Raises
     ------
@@ -182,9 +182,9 @@ def run_in_processes(
                 yield found
         except BrokenProcessPool:
             raise ContactkitError(
-                "a worker process ended before its points did, for want of memory or because the "
-                "script that starts the study does so outside `if __name__ == '__main__':`; with "
-                "a store, running it again goes on where it stopped"
+                "a worker process ended before its points did, for lack of memory or because the "
+                "script starts the study outside `if __name__ == '__main__':`; with a store, "
+                "running it again continues where it stopped"
             ) from None
         finally:
             stop.set()
@@ -194,11 +194,11 @@ def run_in_processes(
 def run_on_client(
     pieces: Sequence[Piece], client: Any, report: Callable[[], None]
 ) -> Iterator[list[Done]]:
-    """Run pieces on whatever has ``submit(function, argument)`` that returns a future."""
+    """Run pieces on a client with ``submit(function, argument)`` that returns a future."""
     futures = []
     try:
         with warnings.catch_warnings():
-            # Height maps make a piece large, and each has to travel once whatever is said to that.
+            # Height maps make a piece large; each is transferred once, so the warning is no use.
             warnings.simplefilter("ignore")
             futures += [client.submit(_run_remotely, pickle.dumps(piece)) for piece in pieces]
         for found in _as_they_end(futures, lambda: None):
@@ -212,7 +212,7 @@ def run_on_client(
 
 
 def _as_they_end(futures: Sequence[Any], meanwhile: Callable[[], None]) -> Iterator[list[Done]]:
-    """Results of futures of any make, the first to end first."""
+    """Results of futures of any kind, in the order in which they finish."""
     ended: queue.SimpleQueue[Any] = queue.SimpleQueue()
     for future in futures:
         future.add_done_callback(ended.put)
@@ -239,13 +239,13 @@ _worker: dict[str, Any] = {}
 def _begin_worker(reports: Any, stop: Any) -> None:
     import signal
 
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started the study says when to stop
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the starting process decides when to stop
     _worker.update(reports=reports, stop=stop)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
 def _end_with_parent() -> None:
-    """End this process when the one that started it has been killed."""
+    """End this process when its parent has been killed."""
     from multiprocessing import parent_process
 
     parent = parent_process()
@@ -267,7 +267,7 @@ def _drain(reports: Any, report: Callable[[], None]) -> None:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let processes that start here find one thread each in their environment."""
+    """Environment in which started processes use one thread each."""
     before = {name: os.environ.get(name) for name in _PINNED}
     os.environ.update(dict.fromkeys(_PINNED, "1"))
     try:

@@ -1,4 +1,4 @@
-"""Points of a study, and the folder they are kept in: one file each, whole or not there."""
+"""Points of a study, and the folder that stores them, one atomically written file each."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 __all__ = ["FAILED", "Store", "StudyPoint"]
 
 _FORMAT = 1
-_OLD = 3600.0  # seconds after which what a killed run left half-written is swept away
+_OLD = 3600.0  # seconds after which the incomplete files of a killed run are removed
 
 FAILED = ("infeasible", "not converged", "refused")
-"""Statuses of points without an answer."""
+"""Statuses of points without a solution."""
 
 
 @frozen(eq=False)
@@ -39,17 +39,17 @@ class StudyPoint:
     Attributes
     ----------
     values : mapping
-        What was varied, by its path, in SI units.
+        Varied parameters by path, in SI units.
     scalars : mapping of str to (float, str)
         Numbers of the result with their units; nan where the point has none.
     status, message : str
         Those of the result; or ``infeasible``, ``not converged`` or ``refused``, and why.
     seconds : float
-        What the solve took when it was done [s].
+        Time of the solve [s].
     counts : mapping of str to int
-        What it cost, such as ``n_operator_applications``.
+        Operation counts, such as ``n_operator_applications``.
     notes : tuple of str
-        Warnings of the run, and what happened to its file.
+        Warnings of the run, and of its file.
     is_from_store : bool
         Whether it was read from the store, not solved.
     """
@@ -65,12 +65,12 @@ class StudyPoint:
 
     @property
     def has_failed(self) -> bool:
-        """Whether there is no answer at this point."""
+        """Whether this point has no solution."""
         return self.status in FAILED
 
     @property
     def n_operator_applications(self) -> int:
-        """Products with the compliance that the contact took; 0 for a separation."""
+        """Applications of the compliance operator in a contact; 0 for a separation."""
         return self.counts.get("n_operator_applications", 0)
 
 
@@ -78,24 +78,24 @@ class StudyPoint:
 class Store:
     """A folder of finished points.
 
-    A point is kept under a key made of everything its numbers depend on: scene, accuracy, the
-    content of measured surfaces and the version of contactkit. So a folder may hold points of
-    many studies, and studies that run at the same time may share one.
+    The key of a point is made from all its results depend on: scene, accuracy, the content of
+    measured surfaces and the version of contactkit. A folder may thus hold points of many studies,
+    and concurrent studies may use the same one.
 
     Parameters
     ----------
     folder : Path
-        Made when the first point is written.
+        Created when the first point is written.
     """
 
     folder: Path = field(converter=Path)
 
     def key(self, scene: Scene, accuracy: Accuracy) -> str:
-        """Return the name under which a point is kept."""
+        """Return the key of a point."""
         from .. import __version__
 
         tables = unstructure(scene, {})
-        tables.pop("name", None)  # a title changes no number
+        tables.pop("name", None)  # a title does not change results
         files = sorted(_content(surface.path) for surface in _measured(scene))
         what = [_FORMAT, __version__, tables, attrs.asdict(accuracy), files]
         return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
@@ -106,7 +106,7 @@ class Store:
         Raises
         ------
         DescriptionError
-            If there is a file and it cannot be read.
+            If the file exists and cannot be read.
         """
         path = self._point(key)
         try:
@@ -124,12 +124,12 @@ class Store:
         return StudyPoint(values, scalars, *said, counts, notes, True)
 
     def read_maps(self, key: str) -> bytes | None:
-        """Return the result of a point as it was written; None if it was not."""
+        """Return the result of a point as written; None if there is none."""
         path = self._maps(key)
         return path.read_bytes() if path.is_file() else None
 
     def write(self, key: str, point: StudyPoint, maps: bytes | None) -> None:
-        """Write a point; its maps first, so that a point which is there has them."""
+        """Write a point; its maps first, so that an existing point has them."""
         if maps is not None:
             with write_whole(self._maps(key)) as temporary:
                 temporary.write_bytes(maps)
@@ -137,7 +137,7 @@ class Store:
             "values": {name: str(value) for name, value in point.values.items()},
             "status": point.status,
             "message": point.message,
-            # as text, for JSON has no infinity
+            # as text, because JSON has no infinity
             "scalars": {n: [repr(float(v)), unit] for n, (v, unit) in point.scalars.items()},
             "seconds": point.seconds,
             "counts": dict(point.counts),
@@ -147,13 +147,13 @@ class Store:
             temporary.write_text(json.dumps(table, indent=1), encoding="utf-8")
 
     def has(self, key: str, with_maps: bool) -> bool:
-        """Whether a point is there, with its maps if asked for."""
+        """Whether a point is stored, with its maps if required."""
         return self._point(key).is_file() and (not with_maps or self._maps(key).is_file())
 
     def sweep(self) -> None:
-        """Remove what killed runs left half-written; not what another run writes just now."""
+        """Remove incomplete files of killed runs, but not those of concurrent ones."""
         for path in self.folder.glob(".*-????????.*"):
-            with suppress(OSError):  # the other run may be done with it by now
+            with suppress(OSError):  # another run may have finished the file
                 if path.suffix in (".json", ".npz") and path.stat().st_mtime < time.time() - _OLD:
                     path.unlink()
 
@@ -164,19 +164,19 @@ class Store:
         return self.folder / f"{key}.npz"
 
 
-def _measured(noun: Any) -> Iterator[Measured]:
-    if isinstance(noun, Measured):
-        yield noun
-    elif attrs.has(type(noun)):
-        for a in attrs.fields(type(noun)):
-            yield from _measured(getattr(noun, a.name))
-    elif isinstance(noun, tuple):
-        for item in noun:
+def _measured(part: Any) -> Iterator[Measured]:
+    if isinstance(part, Measured):
+        yield part
+    elif attrs.has(type(part)):
+        for a in attrs.fields(type(part)):
+            yield from _measured(getattr(part, a.name))
+    elif isinstance(part, tuple):
+        for item in part:
             yield from _measured(item)
 
 
 def _content(path: str) -> str:
-    """Checksum of a file; of none, its name: the run will say that it is missing."""
+    """Checksum of a file, or its name if it does not exist: the run will report that."""
     try:
         found = Path(path).stat()
         return _checksum(path, found.st_mtime_ns, found.st_size)

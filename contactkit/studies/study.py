@@ -1,4 +1,4 @@
-"""Studies: one scene solved for many values of what is in it."""
+"""Parameter studies: one scene solved over a grid of parameter values."""
 
 from __future__ import annotations
 
@@ -40,49 +40,49 @@ def study(
     progress: Callable[[float], None] | None = None,
     keep_maps: bool = False,
 ) -> Study:
-    """Solve a scene for every combination of some values.
+    """Solve a scene for every combination of parameter values.
 
     Parameters
     ----------
     scene : ContactScene, SeparationScene or SlidingScene
-        What is there, but for what is varied.
+        The scene, with its constant parameters.
     vary : mapping of str to sequence
         Values by the dotted path of a field: ``pressing.pressure``,
         ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
-        library. Along the last one each contact starts from the solution of the value before and
-        shares its heights and compliance where those stay the same: let it be the load, in steps
-        of less than a half, for from further away the start is no help.
+        library. Along the last one each contact starts from the solution at the value before, and
+        reuses heights and compliance where these are equal: choose the load, in steps of less than
+        a half, because an initial guess from further away does not help.
     accuracy : Accuracy, optional
-        How well to solve; `Accuracy.standard` if not given.
+        Numerical settings; default `Accuracy.standard`.
     store : str or Path, optional
-        Folder in which each point is kept as soon as it is finished. A study of the same points
-        reads them from there, so that one which was interrupted goes on where it stopped.
+        Folder in which each finished point is stored. A study of the same points reads them, so
+        that an interrupted study continues where it stopped.
     workers : int
-        Processes to spread the points over. In a script the call then belongs under
+        Number of processes. In a script the call then belongs under
         ``if __name__ == "__main__":``.
     client : optional
-        A ``dask.distributed.Client``, or whatever else has ``submit(function, argument)`` that
+        A ``dask.distributed.Client``, or another object with ``submit(function, argument)`` that
         returns a future, to run the points on; contactkit must be installed there.
     progress : callable, optional
-        Called with the share that is done, 0 to 1.
+        Called with the completed fraction, 0 to 1.
     keep_maps : bool
-        Whether to keep the whole results, with their maps or curves; `Study.results` has them.
+        Whether to keep the complete results, with maps or curves, in `Study.results`.
 
     Returns
     -------
     Study
-        Points in the order of the product, the last thing varied fastest, however many workers.
-        Numbers agree with those of a single solve to its tolerance, not to the last digit, for
-        they depend on where the solve started from.
+        Points in the order of the product, the last parameter fastest, for any number of workers.
+        Results agree with those of a single solve to its tolerance, not to the last digit, because
+        they depend on the initial guess.
 
     Raises
     ------
     DescriptionError
-        If a path leads nowhere or a value is impossible; before any solve.
+        If a path does not exist or a value is invalid; before any solve.
     PlanError
-        If the effects do not fit the scene; before any solve. A point without an answer stops
-        nothing: its numbers are nan, its status and message say why.
+        If the effects do not fit the scene; before any solve. A point without a solution does not
+        stop the study: its results are nan, its status and message state why.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def study(
 
 
 class _Run:
-    """A study under way: which points are there, which are still to be solved."""
+    """A running study: finished points, and points still to solve."""
 
     def __init__(
         self,
@@ -151,12 +151,12 @@ class _Run:
         self.n_done = len(self.points)
 
     def _task(self, index: int, values: dict[str, Any]) -> Task:
-        """Make the scene of a point, so that an impossible value is refused before any solve."""
+        """Build the scene of a point, so that an invalid value is refused before any solve."""
         made = changed(self.scene, self.accuracy, values)
         return Task(index, values, self.store.key(*made) if self.store is not None else "")
 
     def _fetch(self, store: Store, task: Task) -> None:
-        """Read a point from the store, if it is there with all that is asked for."""
+        """Read a point from the store, if it is there with all that is required."""
         try:
             point = store.read(task.key, task.values)
             if point is None:
@@ -169,11 +169,11 @@ class _Run:
             self.points[task.place] = point
         except DescriptionError as error:
             self.problems[task.place] = (
-                f"solved again, for what was in the store is no use: {error}"
+                f"solved again, because the stored point cannot be used: {error}"
             )
 
     def pieces(self, slots: int) -> list[Piece]:
-        """Chains of what is still to be solved, cut up where there are more slots than chains."""
+        """Chains of points to solve, divided if there are more slots than chains."""
         length = len(self.varied[-1].values)
         left = [task for task in self.tasks if task.place not in self.points]
         chains = [
@@ -187,22 +187,22 @@ class _Run:
         ]
 
     def check(self, pieces: list[Piece]) -> None:
-        """Refuse effects that do not fit the scene before any solve, and say what is done."""
+        """Refuse effects that do not fit the scene before any solve, and report progress."""
         if pieces:
             scene, accuracy = changed(self.scene, self.accuracy, pieces[0].tasks[0].values)
-            with suppress(InfeasibleError):  # an answer, though of this one point only
+            with suppress(InfeasibleError):  # concerns this point only
                 plan(scene, accuracy)
         if self.progress is not None and (self.n_done or not pieces):
             self.progress(self.n_done / len(self.tasks))
 
     def report(self) -> None:
-        """Count one more point."""
+        """Count a finished point."""
         self.n_done += 1
         if self.progress is not None:
             self.progress(self.n_done / len(self.tasks))
 
     def take(self, done: Done) -> None:
-        """Take a finished point; write it, if the worker did so to another disk."""
+        """Accept a finished point, and write it if the worker wrote to another disk."""
         place, point, maps = done
         key = self.tasks[place].key
         if self.store is not None and not self.store.has(key, maps is not None):
@@ -214,7 +214,7 @@ class _Run:
             self.results[place] = from_bytes(maps)
 
     def finish(self) -> Study:
-        """Put the points together; every one gets every number, nan where it has none."""
+        """Assemble the points; each gets every column, nan where it has no value."""
         points = [self.points[i] for i in range(len(self.tasks))]
         if all(point.status == "refused" for point in points):
             raise PlanError(f"every point of the study is refused: {points[0].message}")
@@ -247,7 +247,7 @@ def _warn(points: list[StudyPoint]) -> None:
 
 
 def _cut(chain: list[Task], parts: int) -> Iterator[list[Task]]:
-    """Cut a chain into runs of nearly the same length."""
+    """Divide a chain into parts of nearly equal length."""
     parts = min(parts, len(chain))
     ends = [len(chain) * i // parts for i in range(parts + 1)]
     for first, last in itertools.pairwise(ends):
@@ -255,7 +255,7 @@ def _cut(chain: list[Task], parts: int) -> Iterator[list[Task]]:
 
 
 def _slots(client: Any, workers: int) -> int:
-    """How many pieces can run at once."""
+    """Number of pieces that can run at once."""
     threads = getattr(client, "nthreads", None)
     return max(workers, sum(threads().values()) if callable(threads) else 1)
 

@@ -1,4 +1,4 @@
-"""What a study gives: its points, as columns, as a table and as a file."""
+"""Result of a study: points, columns, table and CSV file."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 __all__ = ["Study"]
 
-_MOST_COLUMNS = 6  # numbers in a table for which none are named
+_MAX_COLUMNS = 6  # of a table without named columns
 
 
 @frozen(eq=False)
 class Study:
-    """Points of a study, in the order of the product of what was varied: the last varies fastest.
+    """Points of a study, in the order of the product of the parameters, the last one fastest.
 
     Attributes
     ----------
     points : tuple of StudyPoint
         One for each combination.
     shape : tuple of int
-        Number of values of each thing varied; ``column(name).reshape(study.shape)`` is the array
-        over them.
+        Number of values of each parameter; ``column(name).reshape(study.shape)`` is the array over
+        them.
     units : mapping of str to str
-        Unit of each column: of what was varied, by its path; of the numbers of the results; of
-        the ``seconds`` and the counts of what they took.
+        Unit of each column: of the parameters, by path; of the scalar results; of ``seconds`` and
+        the operation counts.
     """
 
     points: tuple[StudyPoint, ...] = field(repr=False)
@@ -49,7 +49,7 @@ class Study:
 
     @property
     def results(self) -> tuple[Result | None, ...]:
-        """Results with their maps or curves; None where a point failed.
+        """Complete results with maps or curves; None where a point failed.
 
         Raises
         ------
@@ -67,17 +67,17 @@ class Study:
 
     @property
     def failed(self) -> tuple[StudyPoint, ...]:
-        """Points without an answer; status and message say why."""
+        """Points without a solution; status and message state why."""
         return tuple(point for point in self.points if point.has_failed)
 
     def column(self, name: str) -> NDArray[Any]:
-        """Return one number over all points, in SI units; nan where a point has none.
+        """Return one column over all points, in SI units; nan where a point has no value.
 
         Parameters
         ----------
         name : str
-            A number of the results such as ``contact_area``, a path that was varied, ``seconds``,
-            a count such as ``n_operator_applications``, or ``status``.
+            A scalar result such as ``contact_area``, the path of a parameter, ``seconds``, a count
+            such as ``n_operator_applications``, or ``status``.
 
         Raises
         ------
@@ -112,12 +112,12 @@ class Study:
             )
 
     def table(self, *names: str) -> str:
-        """Return the points as text, one to a line, and below what is to be said of them.
+        """Return the points as text, one per line, with remarks below.
 
         Parameters
         ----------
         *names : str
-            Numbers to show beside what was varied; none: the first six that differ.
+            Columns to show beside the parameters; none: the first six that vary.
         """
         varied = list(self.points[0].values)
         shown = [*varied, *(names or self._telling(varied))]
@@ -134,10 +134,10 @@ class Study:
         return "\n".join([*rows, *self._remarks()])
 
     def _telling(self, varied: list[str]) -> list[str]:
-        """Numbers of the results that are not the same everywhere."""
+        """Scalar results that vary between the points."""
         scalars = [n for n in self.points[0].scalars if n not in varied]
         differ = [n for n in scalars if len(np.unique(self.column(n), equal_nan=True)) > 1]
-        return (differ or scalars)[:_MOST_COLUMNS]
+        return (differ or scalars)[:_MAX_COLUMNS]
 
     def _remarks(self) -> list[str]:
         failed = [f"point {i}: {p.message}" for i, p in enumerate(self.points) if p.has_failed]
@@ -146,7 +146,7 @@ class Study:
         return [*failed, *notes, *([f"{stored} points from the store"] if stored else [])]
 
     def save_csv(self, path: str | Path) -> Path:
-        """Write all columns to a CSV file, headed by name and unit; whole or not at all.
+        """Write all columns to a CSV file, headed by name and unit, atomically.
 
         Parameters
         ----------
@@ -185,7 +185,7 @@ def _text(value: Any, digits: int = 6) -> str:
 
 
 def _labels(shown: list[str], varied: list[str]) -> dict[str, str]:
-    """Last word of each path, or all of it where two would read the same."""
+    """Last segment of each path, or the whole path where two would be equal."""
     short = {name: name.rpartition(".")[2] if name in varied else name for name in shown}
     twice = {label for label in short.values() if list(short.values()).count(label) > 1}
     return {name: name if label in twice else label for name, label in short.items()}

@@ -75,7 +75,7 @@ def test_without_spread_of_heights_the_population_is_identical():
         found = population(separation, 1e-16)
         expected = laws.identical(max(separation, 0.0), *SURFACE.values(), *LIQUID.values())
         assert found.force == pytest.approx(expected.force, rel=1e-6, abs=1e-300)
-        assert found.cover == pytest.approx(expected.cover, rel=1e-6, abs=1e-300)
+        assert found.coverage == pytest.approx(expected.coverage, rel=1e-6, abs=1e-300)
 
 
 def test_force_and_cover_are_one_law():
@@ -84,7 +84,7 @@ def test_force_and_cover_are_one_law():
         population(1e-9, 1e-9),
         laws.identical(2e-10, 1e-6, 1e12, 1e-8, 0.072, 1.0, 1e-9),
     ):
-        assert found.force == pytest.approx(0.072 * found.cover * 1e-8 / 1e-9, rel=1e-13)
+        assert found.force == pytest.approx(0.072 * found.coverage * 1e-8 / 1e-9, rel=1e-13)
 
 
 def test_deep_in_the_tail_and_far_below_it_nothing_is_lost():
@@ -137,12 +137,12 @@ def test_a_sphere_split_into_equal_ones_fills_the_same_square():
 
 def test_split_menisci_touch_where_the_kernel_says_they_do():
     """Cover pi/4, circles touching in a square order, at n = R/(2 (s - D))."""
-    from contactkit.capillary.many_menisci import least_overlapping_split
+    from contactkit.capillary.many_menisci import max_separate_split
 
-    n = least_overlapping_split(50e-6, 500e-9, 0.0)
+    n = max_separate_split(50e-6, 500e-9, 0.0)
     made = AsperityPopulation.split(radius=50e-6, count=round(n * n))
     found = laws.identical(0.0, made.radius, made.density, 1e-8, 0.072, 1.0, 500e-9)
-    assert found.cover == pytest.approx(math.pi / 4.0, rel=1e-12)
+    assert found.coverage == pytest.approx(math.pi / 4.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("field", ["density", "radius"])

@@ -39,7 +39,7 @@ def test_the_exact_division_of_the_case_file(case):
     gap = case["h0_nm"] * 1e-9
     found = divide_meniscus(scene(gap, 1e-12 * gap), [case["N"]], law="exact")
     assert found.law == "exact"
-    assert found.largest_stable_count == math.floor(case["N_max_exact_stability"])
+    assert found.max_stable_count == math.floor(case["N_max_exact_stability"])
     assert found.meniscus_force[0] == pytest.approx(case["F_m_total_exact_N"], rel=1e-9)
     assert found.limit_gap[0] * 1e9 == pytest.approx(case["h_limit_exact_nm"], rel=1e-8)
     viscous = case["F_v_total_conserving_exact_limit_N"]
@@ -64,9 +64,9 @@ def test_the_best_number_of_the_published_law(case):
     radius = math.sqrt(1e-12 / math.pi)
     line = 2.0 * math.pi * 0.072 * radius * math.sin(60 * DEG)
     viscous = 0.75 * math.pi * 0.89e-3 * radius**4 / (1e-7 * gap**2)
-    closed = menisci.best_count_published(line, viscous)
+    closed = menisci.optimal_count_published(line, viscous)
     assert closed == pytest.approx(case["N_opt_published"], rel=1e-12)
-    half = menisci.best_count_published(line, 0.5 * viscous)
+    half = menisci.optimal_count_published(line, 0.5 * viscous)
     assert half == pytest.approx(case["N_opt_consistent_half"], rel=1e-12)
 
 
@@ -127,12 +127,12 @@ def test_overlap_is_seen_on_the_face():
     """A film that fills the face at one meniscus covers more of it the more it is divided."""
     face = math.sqrt(1.15e-12 / math.pi)
     found = divide_meniscus(scene(angle=0.0, face=face), [1, 10, 10_000], law="exact")
-    assert found.cover[0] < found.cover[1] < found.cover[2]
+    assert found.coverage[0] < found.coverage[1] < found.coverage[2]
     assert found.overlaps.tolist() == [False, False, True]
-    expected = menisci.cover(found.counts, found.contact_radius, math.pi * face**2)
-    assert found.cover == pytest.approx(expected, rel=1e-14)
+    expected = menisci.coverage(found.counts, found.contact_radius, math.pi * face**2)
+    assert found.coverage == pytest.approx(expected, rel=1e-14)
     with pytest.raises(ck.NotSimulatedError, match=r"radius \[m\] of a Flat face"):
-        divide_meniscus(scene(), [1], law="exact").cover  # noqa: B018
+        divide_meniscus(scene(), [1], law="exact").coverage  # noqa: B018
 
 
 @pytest.mark.parametrize("case", CASES["critical_area"], ids=lambda c: f"{c['h0_nm']} nm")

@@ -135,7 +135,7 @@ def _lateral_area(found, i):
     nodes, weights = np.polynomial.legendre.leggauss(60)
     low, high = -found.arc_lower[i], found.arc_upper[i]
     s = 0.5 * (high - low) * (nodes + 1.0) + low
-    a, e = found.waist[i], found.shape[i]
+    a, e = found.neck_radius[i], found.shape[i]
     p = (1.0 - e) / a
     r = np.sqrt(a * a + e * s * s * np.sinc(0.5 * p * s / np.pi) ** 2)
     return 0.5 * (high - low) * float(weights @ (2.0 * np.pi * r))

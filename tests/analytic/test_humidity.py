@@ -179,7 +179,7 @@ def test_a_population_follows_humidity_by_its_own_law():
     assert np.all(np.diff(exact.force) > 0.0)
     assert exact.force == pytest.approx(thin.force, rel=0.2)
     assert np.array_equal(exact.n_menisci, thin.n_menisci)
-    assert exact.cover[-1] > exact.cover[0]
+    assert exact.coverage[-1] > exact.coverage[0]
     with pytest.raises(ck.NotSimulatedError, match="has no volume"):
         exact.volume  # noqa: B018
 
@@ -245,8 +245,8 @@ def test_a_smooth_ball_in_contact_is_one_island_with_the_bridge_of_its_sphere():
         for h in found.meniscus_height
     ]
     assert cut.force == pytest.approx(thin, rel=0.02)
-    with pytest.raises(ck.NotSimulatedError, match="has no cover"):
-        cut.cover  # noqa: B018
+    with pytest.raises(ck.NotSimulatedError, match="has no coverage"):
+        cut.coverage  # noqa: B018
 
 
 def test_the_cross_cut_is_that_of_the_film_islands():
@@ -292,7 +292,7 @@ REFUSED = [
     ),
     (
         lambda: humidity_curve(_flats(), [0.5]),
-        "between smooth flats.*it dries up",
+        "between smooth flats.*it evaporates",
         ck.InfeasibleError,
     ),
     (lambda: humidity_curve("scene", [0.5]), "a SeparationScene or a ContactResult", ck.PlanError),

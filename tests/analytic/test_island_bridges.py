@@ -105,7 +105,7 @@ def test_neighbours_that_overlap_are_counted():
     found = pressed(bumps(near), ck.IslandBridges(film_thickness=4e-9)).of(ck.IslandBridges)
     assert found.n_menisci == 3
     assert found.n_overlapping == 2
-    assert found.cover == pytest.approx(
+    assert found.coverage == pytest.approx(
         math.pi * np.square(found.contact_radius).sum() / (3.2e-6) ** 2, rel=1e-12
     )
 

@@ -12,7 +12,7 @@ from scipy.interpolate import RectBivariateSpline
 
 from contactkit.elasticity.stress.measures import (
     interface_shear,
-    largest_tension,
+    max_principal_stress,
     maxima,
     plane_maximum,
     principal_stresses,
@@ -62,7 +62,7 @@ def test_trailing_edge_of_a_sliding_sphere():
     for count in (80, 320):
         pressure, _, pixel = sphere(count, 2.4)
         surface = next(planes(pressure, 0.5 * pressure, None, pixel, *HALF, [0.0], mean="free"))
-        found = plane_maximum(largest_tension(surface.stress), pixel, 0.0, "+", 0)
+        found = plane_maximum(max_principal_stress(surface.stress), pixel, 0.0, "+", 0)
         assert found.x - 1.2 == pytest.approx(-1.0, abs=1.5 * pixel[1])
         assert found.y == pytest.approx(1.2, abs=0.2)
         errors.append(1 - found.value / exact)
@@ -239,7 +239,7 @@ def test_principal_stresses_that_are_nearly_equal(gap, sign):
     found = principal_stresses(stress)
     np.testing.assert_allclose(found, np.tile(values[:, None], (1, 500)), rtol=0, atol=5e-15)
     np.testing.assert_allclose(tresca(stress), (values[0] - values[2]) / 2, rtol=4e-15)
-    np.testing.assert_allclose(largest_tension(stress), values[0], rtol=0, atol=5e-15)
+    np.testing.assert_allclose(max_principal_stress(stress), values[0], rtol=0, atol=5e-15)
     j2 = np.sum((values - values.mean()) ** 2) / 2
     np.testing.assert_allclose(sqrt_j2(stress), np.sqrt(j2), rtol=4e-15)
     np.testing.assert_allclose(von_mises(stress), np.sqrt(3 * j2), rtol=4e-15)

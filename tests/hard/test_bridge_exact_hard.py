@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.at_pressure import max_gap_at_pressure
 from contactkit.capillary.exact.bridge import KINDS, bridge, bridge_at_pressure
 from contactkit.capillary.exact.profile import profile
 from contactkit.capillary.exact.stability import LIMITS, stability_limit
@@ -218,7 +218,7 @@ def test_at_fixed_pressure():
         bridge_at_pressure(1e-9, -1e8, 0.0, 0.0)
     with pytest.raises(InfeasibleError, match="even between touching bodies"):
         bridge_at_pressure(0.0, -1e8, 2.0, 2.0, 0.0, 1e6)
-    longest = longest_at_pressure(-1e8, 0.3, 0.3, 0.0, 1e6)
+    longest = max_gap_at_pressure(-1e8, 0.3, 0.3, 0.0, 1e6)
     state = bridge_at_pressure(
         longest * np.array([0.0, 0.9, 0.999999, 1.01]), -1e8, 0.3, 0.3, 0.0, 1e6, beyond="nan"
     )

@@ -13,7 +13,7 @@ from contactkit.analyses.division import divide_meniscus
 from contactkit.analyses.humidity_curve import humidity_curve
 from contactkit.capillary import asperities as laws
 from contactkit.capillary.asperity_bridges import force_curve, gaussian_average
-from contactkit.capillary.condensed import condensed_bridges, reach_at_pressure
+from contactkit.capillary.condensed import condensed_bridges, max_gap_on_sphere
 from contactkit.capillary.exact.bridge import bridge_at_pressure
 from contactkit.files.scenes import load_scene, save_scene
 
@@ -44,7 +44,7 @@ def test_from_bone_dry_to_almost_wet_a_touching_sphere_is_pulled(radius):
     assert np.all(np.diff(found.volume) > 0.0)
 
 
-def test_a_sphere_that_its_liquid_drowns_is_refused_and_the_sizes_are_named():
+def test_a_sphere_immersed_in_its_liquid_is_refused_and_the_sizes_are_named():
     with pytest.raises(ck.InfeasibleError, match=r"Kelvin radius is .* around a sphere of 1e-08 m"):
         humidity_curve(near_sphere(1e-8), [0.5, 0.9999])
 
@@ -69,7 +69,7 @@ def test_two_spheres_are_one_of_their_common_curvature_when_large():
 
 def test_the_reach_is_where_the_bridge_ends():
     for pressure, curvature in ((-1e9, 1e6), (-1e8, 1e7), (-1e12, 1.0)):
-        reach = reach_at_pressure(pressure, 0.3, 0.7, curvature)
+        reach = max_gap_on_sphere(pressure, 0.3, 0.7, curvature)
         gaps = reach * np.array([1.0 - 1e-6, 1.0 + 1e-6])
         force = bridge_at_pressure(gaps, pressure, 0.3, 0.7, 0.0, curvature, beyond="nan").force
         assert np.isfinite(force).tolist() == [True, False]
@@ -81,7 +81,7 @@ def test_many_spheres_are_sorted_as_one_by_one():
     gap = rng.uniform(0.0, 1.2, 60) * 1.4e-9
     curvature = 10.0 ** rng.uniform(4.0, 7.5, 60)
     found = condensed_bridges(gap, pressure, 0.2, 0.4, curvature)
-    reach = np.array([reach_at_pressure(pressure, 0.2, 0.4, float(k)) for k in curvature[:8]])
+    reach = np.array([max_gap_on_sphere(pressure, 0.2, 0.4, float(k)) for k in curvature[:8]])
     assert np.array_equal(np.isfinite(found.force[:8]), gap[:8] <= reach)
     stands = np.isfinite(found.force)
     again = bridge_at_pressure(gap[stands], pressure, 0.2, 0.4, 0.0, curvature[stands])
@@ -89,7 +89,7 @@ def test_many_spheres_are_sorted_as_one_by_one():
 
 
 def test_a_sharp_summit_among_blunt_ones_is_not_passed_over():
-    with pytest.raises(ck.InfeasibleError, match=r"a summit of a radius of 1e-10 m drowns"):
+    with pytest.raises(ck.InfeasibleError, match=r"a summit of radius 1e-10 m is immersed"):
         condensed_bridges(np.zeros(2), -1e8, 0.0, 0.0, np.array([1e4, 1e10]))
 
 
@@ -146,7 +146,7 @@ def test_identical_asperities_let_go_together():
         opening=ck.Opening(initial_gap=0.5e-9, final_gap=50e-9, speed=1e-6),
     )
     made = ck.plan(scene)
-    end = reach_at_pressure(-5e7 / 0.072, 0.0, 0.0, 1e6)
+    end = max_gap_on_sphere(-5e7 / 0.072, 0.0, 0.0, 1e6)
     assert made.film.end == pytest.approx(end, rel=1e-12)
     assert made.film.static_force(end) > 0.0
     with pytest.raises(ck.InfeasibleError, match="no meniscus spans the initial gap"):
@@ -176,7 +176,7 @@ def test_overlap_is_printed_with_a_result():
         result = ck.simulate(ck.plan(scene))
     part = result.of(ck.AsperityMenisci)
     assert part.law == "greenwood-williamson, exact bridges"
-    assert part.cover[0] > 0.9
+    assert part.coverage[0] > 0.9
     assert part.n_wet[0] > part.n_wet[-1]
     assert part.force is result.asperity_force
 
@@ -208,7 +208,7 @@ def divided(volume, gap, lower, upper):
 )
 def test_any_pair_of_angles_is_divided_up_to_its_last_stable_number(lower, upper):
     scene = divided(1e-18, 1e-7, math.radians(lower), math.radians(upper))
-    most = divide_meniscus(scene, [1], law="exact").largest_stable_count
+    most = divide_meniscus(scene, [1], law="exact").max_stable_count
     found = divide_meniscus(scene, [1, 7, most - 1, most], law="exact")
     assert found.unstable == ()
     assert np.all(np.isfinite(found.meniscus_force))
@@ -222,7 +222,7 @@ def test_a_billion_menisci_of_a_film_a_million_times_as_wide_as_high():
     thin = 0.072 * 2.0 * math.cos(1.0) * math.pi * 1e-6 / 1e-9
     assert found.meniscus_force[0] == pytest.approx(thin, rel=1e-5)
     assert np.all(np.diff(found.meniscus_force) > 0.0)
-    assert found.largest_stable_count > 10**9
+    assert found.max_stable_count > 10**9
 
 
 def test_wetted_against_repelling_there_is_nothing_to_divide():

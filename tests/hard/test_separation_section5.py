@@ -422,7 +422,7 @@ def test_a_hundred_thousand_menisci_of_two_nanometres():
     one = evolve(
         scene, interface=evolve(scene.interface, meniscus=evolve(scene.interface.meniscus, count=1))
     )
-    assert ck.divide_meniscus(one, [1]).largest_stable_count == 716506
+    assert ck.divide_meniscus(one, [1]).max_stable_count == 716506
 
 
 @pytest.mark.parametrize("case", CASES["division"], ids=lambda c: f"{c['h0_nm']}nm_{c['N']}")

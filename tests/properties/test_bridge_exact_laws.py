@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.at_pressure import max_gap_at_pressure
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure, margin
 from contactkit.capillary.exact.stability import stability_limit
 
@@ -30,7 +30,7 @@ def energy(gap, fixed):
     """Free surface less what wetting gains, over the surface tension."""
     volume, lower, upper, below, above = fixed
     state = bridge(gap, volume, lower, upper, below, above)
-    a, e = float(state.waist), float(state.shape)
+    a, e = float(state.neck_radius), float(state.shape)
 
     def radius(s):
         return math.sqrt(1.0 + e * (s * np.sinc((1.0 - e) * s / (2.0 * math.pi))) ** 2)
@@ -124,7 +124,7 @@ def test_the_ensembles_agree(lower, upper, power, share, both):
     """A bridge of given pressure is the bridge of its volume, and takes up liquid with pressure."""
     fixed = (lower, upper, 1.0 if both else 0.0, 1.0)
     pressure = -(10.0**power)
-    gap = share * longest_at_pressure(pressure, *fixed)
+    gap = share * max_gap_at_pressure(pressure, *fixed)
     at = bridge_at_pressure(gap, pressure, *fixed)
     same = bridge(gap, float(at.volume), *fixed)
     assert float(same.force) == pytest.approx(float(at.force), rel=1e-9)

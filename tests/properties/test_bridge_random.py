@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.capillary.exact.at_pressure import longest_at_pressure
+from contactkit.capillary.exact.at_pressure import max_gap_at_pressure
 from contactkit.capillary.exact.bridge import ExactBridge, bridge, bridge_at_pressure
 from contactkit.capillary.exact.stability import stability_limit
 from contactkit.capillary.flats.force_law import flat_law
@@ -135,7 +135,7 @@ def test_force_and_volume_obey_maxwell_at_a_pressure():
         one, two = rng.uniform(0.0, 1.2, 2)
         pressure = -(10.0 ** rng.uniform(0.7, 6.0))
         bodies = (one, two, 0.0, 1.0)
-        gap = float(rng.uniform(0.05, 0.8)) * longest_at_pressure(pressure, *bodies)
+        gap = float(rng.uniform(0.05, 0.8)) * max_gap_at_pressure(pressure, *bodies)
         h = 1e-4
         force = bridge_at_pressure(gap, pressure * np.array([1.0 - h, 1.0 + h]), *bodies).force
         volume = bridge_at_pressure(gap * np.array([1.0 - h, 1.0 + h]), pressure, *bodies).volume
@@ -148,7 +148,7 @@ def test_force_and_volume_obey_maxwell_at_a_pressure():
 def test_pressure_and_volume_are_two_ways_to_one_bridge(exponent):
     pressure = -3.0 * 10.0**exponent if exponent > -1 else -5.0
     bodies = (0.4, 0.9, 0.0, 1.0)
-    gap = longest_at_pressure(pressure, *bodies) * np.array([0.0, 1e-6, 0.5, 0.99])
+    gap = max_gap_at_pressure(pressure, *bodies) * np.array([0.0, 1e-6, 0.5, 0.99])
     held = bridge_at_pressure(gap, pressure, *bodies)
     free = bridge(gap, held.volume, *bodies)
     assert free.force == pytest.approx(held.force, rel=1e-8)

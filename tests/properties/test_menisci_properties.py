@@ -50,7 +50,7 @@ def test_asperities_scale_with_their_lengths(separation, height, scale):
         scale * height,
     )
     assert other.force == pytest.approx(scale * one.force, rel=1e-10)
-    assert other.cover == pytest.approx(one.cover, rel=1e-10)
+    assert other.coverage == pytest.approx(one.coverage, rel=1e-10)
     assert one.n_touching <= one.n_wet <= 0.01 * 1e4 * (1.0 + 1e-12)
 
 
@@ -105,7 +105,7 @@ def test_a_division_scales_with_lengths_and_times(lower, upper, scale):
     other = divide_meniscus(divided(scale, lower, upper), [1, 3, 9], law="exact")
     assert other.total_force == pytest.approx(scale * one.total_force, rel=1e-8)
     assert abs(other.best_count - one.best_count) <= 1
-    assert abs(other.largest_stable_count - one.largest_stable_count) <= 1
+    assert abs(other.max_stable_count - one.max_stable_count) <= 1
 
 
 @pytest.mark.parametrize(("angle", "sign"), [(30.0, 1), (80.0, 1), (120.0, -1), (160.0, -1)])
@@ -138,6 +138,6 @@ def test_islands_keep_the_area_of_their_map(seed, height):
 @few
 @given(st.floats(1.0, 1e4), st.floats(1e-9, 1e-3))
 def test_the_largest_stable_number_is_the_last_below_the_limit(ratio, gap):
-    most = menisci.largest_stable_count(gap, ratio * gap)
+    most = menisci.max_stable_count(gap, ratio * gap)
     assert ratio * (most + 1) ** (-1.0 / 3.0) <= 1.0 + 1e-9
     assert most == 0 or ratio * most ** (-1.0 / 3.0) > 1.0 - 1e-9

@@ -276,9 +276,9 @@ HEARTS = [
             ROUGH,
             (
                 "capillary.asperities.greenwood_williamson",
-                "capillary.condensed.reach_at_pressure",
+                "capillary.condensed.max_gap_on_sphere",
                 "capillary.asperities.identical",
-                "capillary.condensed.reach_at_pressure",
+                "capillary.condensed.max_gap_on_sphere",
             ),
             strict=True,
         )

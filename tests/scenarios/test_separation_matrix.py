@@ -259,7 +259,7 @@ def test_menisci_add_up_and_too_many_name_the_limit():
         assert ck.plan(made).film.static_force(5e-9) == pytest.approx(exact, rel=1e-7)
     most = ck.divide_meniscus(
         attrs.evolve(one, interface=ck.Interface(meniscus=one.interface.meniscus))
-    ).largest_stable_count
+    ).max_stable_count
     film = attrs.evolve(one.interface.meniscus, count=10 * most)
     with pytest.raises(ck.InfeasibleError, match=rf"at most {most} menisci"):
         ck.plan(attrs.evolve(one, interface=ck.Interface(meniscus=film)))

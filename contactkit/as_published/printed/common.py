@@ -1,10 +1,9 @@
-r"""The formulas of chapter 3 as printed, by equation number: for reproduction, never as defaults.
+r"""Meniscus forces of chapter 3 as printed, by equation number, for reproduction only.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; forces in N,
-positive when they attract or resist separation, which is why the minus signs printed in Eqs.
-(3.18), (3.19) and (3.34) are dropped: those functions give the magnitude on opening. Angles are
-floats; everything else may be floats or numpy arrays. `ERRATA` says what is wrong with each; the
-right forms are in `arc_flat`, `arc_sphere` and `squeeze`.
+positive when they attract or resist separation, so that the minus signs printed in Eqs. (3.18),
+(3.19) and (3.34) are dropped. Angles are floats; other arguments are floats or numpy arrays.
+`ERRATA` lists the errors; the correct forms are in `capillary.arc` and `lubrication.squeeze_film`.
 """
 
 from __future__ import annotations
@@ -63,11 +62,11 @@ def laplace_sphere_3_7(
     angle_lower: float,
     angle_upper: float,
 ) -> Any:
-    r"""Laplace force [N] on a sphere at a gap D whose film wets it to a depth d0 [m], Eq. (3.7).
+    r"""Laplace force [N] on a sphere at a gap D, wetted to a depth d0 [m], Eq. (3.7).
 
     .. math:: F_L = 2\pi R\gamma(\cos\theta_1 + \cos\theta_2) / (1 + D/d_0)
 
-    Right for thin films at a fixed film height; see `ERRATA` for constant volume.
+    Correct for thin films at a fixed film height; see `ERRATA` for constant volume.
 
     Examples
     --------
@@ -81,7 +80,7 @@ def laplace_sphere_3_7(
 def laplace_sphere_3_8(sphere_radius: Any, surface_tension: Any, angle: float) -> Any:
     r"""Laplace force [N] on a sphere above a continuous film, :math:`2\pi R\gamma(1+\cos\theta)`.
 
-    Eq. (3.8), right for thin films.
+    Eq. (3.8), correct for thin films.
 
     Examples
     --------
@@ -94,7 +93,7 @@ def laplace_sphere_3_8(sphere_radius: Any, surface_tension: Any, angle: float) -
 def line_tension_3_9(
     sphere_radius: Any, surface_tension: Any, filling_angle: float, angle_upper: float
 ) -> Any:
-    r"""Pull [N] of the surface at the contact line of a sphere, Eq. (3.9), which is correct.
+    r"""Surface-tension force [N] at the contact line of a sphere, Eq. (3.9), which is correct.
 
     .. math:: F_T = 2\pi R\gamma\sin\phi\sin(\phi+\theta_2)
 
@@ -153,7 +152,7 @@ def meniscus_divided_3_33(
     number: Any,
     pulled: Literal["lower", "upper"] = "lower",
 ) -> Any:
-    r"""Meniscus force [N] of a film cut into a number of equal menisci, Eq. (3.33).
+    r"""Meniscus force [N] of a film divided into equal menisci, Eq. (3.33).
 
     .. math:: \pi x^2\gamma(\cos\theta_1+\cos\theta_2)/h + 2\sqrt{N}\pi\gamma x\sin\theta_{1,2}
 
@@ -172,7 +171,7 @@ def meniscus_divided_3_33(
 
 
 def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any) -> Any:
-    r"""Meniscus force [N] on a sphere above a flat, Eq. (3.12), with its plus sign.
+    r"""Meniscus force [N] on a sphere above a flat, Eq. (3.12), with the printed plus sign.
 
     .. math::
         F_m = \pi x_n^2\gamma\Bigl(\frac{1}{r_1} + \frac{1}{x_c - r_1}\Bigr)
@@ -214,9 +213,9 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
             hint="swap the bodies and their angles",
         )
     x, inverse, phi = state.radius_upper, state.inverse_arc_radius, state.slope_upper
-    # x_c - r1 times 1/r1, which stays finite for a straight arc
+    # x_c - r1 times 1/r1, which is finite for a straight arc
     centre = x * inverse - (1.0 - np.sin(angle_upper + phi))
-    straight = centre == 0.0  # an upright cylinder, whose x_c - r1 is its radius
+    straight = centre == 0.0  # a cylinder, whose x_c - r1 is its radius
     second = np.where(straight, 1.0 / x, inverse / np.where(straight, 1.0, centre))
     line = 2.0 * np.pi * x * np.sin(phi + angle_upper)
     return surface_tension * (np.pi * x**2 * (inverse + second) + line)
@@ -225,7 +224,7 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
 def meniscus_number_3_42(
     force: Any, radius: Any, surface_tension: Any, angle_lower: float, angle_upper: float
 ) -> Any:
-    r"""Force of a meniscus made dimensionless, :math:`F_m/(\pi x_{n0}\gamma(c_1+c_2))`, Eq. (3.42).
+    r"""Dimensionless meniscus force, :math:`F_m/(\pi x_{n0}\gamma(c_1+c_2))`, Eq. (3.42).
 
     Raises
     ------

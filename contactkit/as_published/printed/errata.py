@@ -1,4 +1,4 @@
-"""What is wrong with the equations of chapter 3, one sentence for each, for warnings and docs."""
+"""Errata of the equations of chapter 3, one sentence each, for warnings and documentation."""
 
 from __future__ import annotations
 
@@ -16,55 +16,55 @@ ERRATA: Mapping[str, str] = MappingProxyType(
         "3.7": "It holds at a fixed film height, hence fixed humidity; at constant volume the "
         "factor is 1 - D / sqrt(D^2 + V / (pi R)).",
         "3.10": "Its pressure is the drop below ambient, against the sign of Eq. (3.2); and as in "
-        "Table 4.1 the Laplace force of hardly any liquid is added to the surface tension at a "
+        "Table 4.1 the Laplace force of vanishing volume is added to the surface tension at a "
         "filling angle: 2 % too much at 1 deg, 27 % at 10 deg (60/60 deg).",
         "3.11": "It drops the curvature around the axis (+9 % at x/h = 10, +58 % at x/h = 1 for "
-        "60/60 deg, +100 % for 90/90 deg) and pulls the two bodies with different forces.",
+        "60/60 deg, +100 % for 90/90 deg) and yields different forces on the two bodies.",
         "3.12": "The two curvatures of a neck have opposite signs: the plus should be a minus. "
         "The printed force is 29 to 46 % too large for the source's own case and diverges where "
         "the neck closes.",
         "3.14": "Splitting a rough surface further than n = R / (2 (s - D)) makes the menisci of "
         "neighbouring asperities overlap.",
         "3.18": "Its minus sign makes resistance negative, against Eqs. (3.22) and (3.26).",
-        "3.19": "It is the impulse over the separation time, not a force at the break, and keeps "
-        "the radius constant: with the volume kept it is half as large, and its printed sign is "
+        "3.19": "It is the impulse over the separation time, not a force at rupture, and keeps the "
+        "radius constant: at constant volume it is half as large, and its printed sign is "
         "negative.",
         "3.21": "Its sign is opposite to that of Eq. (3.16): suction is negative on opening.",
-        "3.23": "It takes the rim of the film for upright, and its H(x^2) should read H^2(x); the "
-        "volume of the arc turned about the axis differs by 2 % for a film of 2 nm.",
+        "3.23": "It takes the rim of the film for cylindrical, and its H(x^2) should read H^2(x); "
+        "the volume of revolution of the arc differs by 2 % for a film of 2 nm.",
         "3.25": "It is an impulse over the separation time; a force at a given gap would need "
         "that gap as upper limit, and would still be an average.",
-        "3.26": "It is the impulse over the separation time, not a force at the break, and the D "
-        "in its denominator is the gap D_s at the break.",
+        "3.26": "It is the impulse over the separation time, not a force at rupture, and the D "
+        "in its denominator is the gap D_s at rupture.",
         "3.27": "It is not the limit of Eq. (3.26), which is ln((D0 + H0)^2 / (4 D0 H0)): it is "
         "zero at H0 = 2 D0, negative below and 41 to 55 % too large for H0 = 3 to 6 D0.",
         "3.33": "It inherits the errors of Eq. (3.11), which grow with the number of menisci "
         "(+42 % at 1e4 for 6 nm), and gives numbers where no bridge is stable any more.",
-        "3.34": "It is the impulse over the separation time at constant radius: with the volume "
-        "kept it is half as large, and its printed sign is negative.",
+        "3.34": "It is the impulse over the separation time at constant radius: at constant volume "
+        "it is half as large, and its printed sign is negative.",
         "3.35": "Its right side should be the force of the undivided meniscus, and it holds only "
         "where the line tension dominates.",
-        "3.37": "A paraboloid stands for the sphere, which costs 3 to 14 % of the force at contact "
+        "3.37": "A paraboloid replaces the sphere, an error of 3 to 14 % of the force at contact "
         "for volumes above 1e-2 R^3.",
         "3.39": "Its absolute slope loses the sign of contact angles above 90 deg.",
-        "3.40": "What is kept is the volume turned about the axis, not the area between the axes.",
+        "3.40": "Conserved is the volume of revolution, not the area between the axes.",
         "3.41": "It is needed only for an unsigned arc radius, and neither it nor Eq. (3.39) "
-        "covers one angle below and one above 90 deg.",
+        "holds for one angle below and one above 90 deg.",
         "zero neck": "A closed neck of the arc is no criterion for rupture: the exact bridge "
-        "lets go 1.4 to 15 times earlier, unless an angle is 180 deg.",
+        "breaks at a gap 1.4 to 15 times smaller, unless an angle is 180 deg.",
         "3.42": "It does not remove the initial gap, is infinite for theta1 + theta2 = 180 deg "
         "and turns repulsion positive.",
-        "3.43": "With Eq. (3.19) as printed it tends to -1; with the volume kept to 1/2.",
+        "3.43": "With Eq. (3.19) as printed it tends to -1; at constant volume to 1/2.",
         "3.44": "Its right side lacks the speed: the shear stress is eta v / h0.",
         "3.51": "Its D should read L, the offset of the two circles.",
-        "3.53": "It is the impulse over the separation time, not a force at the break: the drag is "
-        "largest at the start, 3 pi / 4 times as large, and falls with the overlap.",
-        "3.56": "It takes the film for as thick everywhere as at its rim: 1 - D/s stands where "
-        "ln(s/D) is right for shear alone, which hides that the drag diverges for a closed gap.",
+        "3.53": "It is the impulse over the separation time, not a force at rupture: the drag has "
+        "its maximum at the start, 3 pi / 4 times as large, and falls with the overlap.",
+        "3.56": "It takes the film thickness for that at the rim everywhere: 1 - D/s instead of "
+        "ln(s/D), which is correct for shear alone and diverges for a closed gap.",
         "3.59": "N (R / sqrt(N))^(3/2) is N^(1/4), not N^(-1/2): at a given separation time the "
         "force rises with the number of asperities, at a given speed as N^(1/2).",
-        "3.61": "It holds at a given separation time for ever shorter travels; at a given speed "
-        "the number of menisci has no effect.",
+        "3.61": "It holds at a given separation time, for travels that shrink with the menisci; at "
+        "a given speed the number of menisci has no effect.",
     }
 )
-"""What is wrong with each equation, by its number."""
+"""Errata by equation number."""

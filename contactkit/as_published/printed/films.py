@@ -1,8 +1,8 @@
-r"""More of chapter 3 as printed, by equation number: films, pressures, division, full occupation.
+r"""Kelvin radius, films, pressures and division of chapter 3 as printed, by equation number.
 
-Conventions as in `published`: body 1 lies below, body 2 above, angles run through the liquid,
-forces attract or resist when positive. Pressures keep the printed sign. Angles are floats,
-everything else may be floats or arrays. `errata.ERRATA` says what is wrong with each.
+Conventions as in `common`: body 1 lies below, body 2 above, angles run through the liquid, positive
+forces attract or resist. Pressures keep the printed sign. Angles are floats, other arguments floats
+or arrays. `errata.ERRATA` lists the errors.
 
 =========  ======================================  =======
 symbol     quantity                                unit
@@ -74,7 +74,7 @@ def meniscus_pressure_radius_3_4(
 
     .. math:: \pi x^2\gamma/r_k + 2\pi\gamma x\sin\theta
 
-    Right where r_k is that of the whole curvature and angle and radius are those of one body.
+    Correct if r_k is that of the mean curvature, and angle and radius are those of one body.
 
     Examples
     --------
@@ -143,7 +143,7 @@ def mean_pressure_3_17(gap: Any, radius: Any, speed: Any, viscosity: Any) -> Any
 def pressure_sphere_3_21(
     sphere_radius: Any, height: Any, film_height: Any, speed: Any, viscosity: Any
 ) -> Any:
-    r"""Pressure [Pa] where the film is `height` high under a lifted sphere, Eq. (3.21) as printed.
+    r"""Pressure [Pa] at a local film height under a lifted sphere, Eq. (3.21) as printed.
 
     .. math:: 3\eta R\dot D(1/H^2(r) - 1/H^2(x))
 
@@ -250,7 +250,7 @@ def meniscus_number_n_3_35(force: Any, number: Any) -> Any:
 def viscous_divided_3_36(
     radius: Any, gap_start: Any, separation_time: Any, viscosity: Any, number: Any
 ) -> Any:
-    """Impulse over time [N] of N equal menisci that break far away, Eq. (3.36).
+    """Impulse over time [N] of N equal menisci with rupture far away, Eq. (3.36).
 
     Examples
     --------

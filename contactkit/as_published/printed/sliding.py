@@ -1,8 +1,8 @@
-r"""The formulas of tangential separation as printed, by equation number: for reproduction only.
+r"""Equations of tangential separation as printed, by number, for reproduction only.
 
-Each is the impulse of a Couette film over the separation time t_s: a mean force [N], positive
-when it resists, not "the force at the break". Floats or arrays. `ERRATA` in `errata` says what is
-wrong with each; the right forms are in `sliding` and `sliding_lubrication`.
+Each is the impulse of a Couette film over the separation time t_s: a mean force [N], positive when
+it resists, not a force at rupture. Arguments are floats or arrays. `errata.ERRATA` lists the
+errors; the correct forms are in `lubrication.couette_flat` and `lubrication.couette_reynolds`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = [
 
 
 def sliding_flat_3_53(radius: Any, gap: Any, separation_time: Any, viscosity: Any) -> Any:
-    r"""Impulse of sliding flats apart over the time it takes [N], Eq. (3.53).
+    r"""Impulse of sliding flats over the separation time [N], Eq. (3.53).
 
     .. math:: \frac{8\eta x^3}{3 t_s h_0}
 
@@ -35,12 +35,11 @@ def sliding_flat_3_53(radius: Any, gap: Any, separation_time: Any, viscosity: An
 def sliding_sphere_3_56(
     sphere_radius: Any, gap: Any, film_height: Any, separation_time: Any, viscosity: Any
 ) -> Any:
-    r"""Impulse of sliding a sphere off its film over the time it takes [N], Eq. (3.56).
+    r"""Impulse of a sliding sphere over the separation time [N], Eq. (3.56).
 
     .. math:: \frac{8\eta [2R(s - D)]^{3/2}}{3 t_s s}
 
-    The film is taken to be as thick everywhere as at its rim, which hides that the drag grows
-    without bound as the gap D goes to 0.
+    With the film thickness at the rim everywhere, so that the divergence for D to 0 is missing.
 
     Examples
     --------
@@ -59,9 +58,9 @@ def sliding_sphere_divided_3_59(
     viscosity: Any,
     number: Any,
 ) -> Any:
-    """What Eq. (3.59) prints for a number of asperities that fill the area of one sphere [N].
+    """Impulse over time [N] of asperities that fill the area of one sphere, Eq. (3.59).
 
-    Eq. (3.56) over the root of the number; right is its fourth root, as a factor.
+    Eq. (3.56) over the root of the number; correct is a factor of its fourth root.
 
     Examples
     --------
@@ -76,10 +75,10 @@ def sliding_sphere_divided_3_59(
 def sliding_flat_divided_3_61(
     radius: Any, gap: Any, separation_time: Any, viscosity: Any, number: Any
 ) -> Any:
-    """Impulse over time [N] of a film between flats cut into a number of menisci, Eq. (3.61).
+    """Impulse over time [N] of a film between flats divided into menisci, Eq. (3.61).
 
-    Right where each small meniscus takes the time t_s for its own, shorter travel; at a given
-    speed the number has no effect.
+    Correct if each small meniscus takes the time t_s for its own, shorter travel; at a given speed
+    the number has no effect.
 
     Examples
     --------
@@ -91,7 +90,7 @@ def sliding_flat_divided_3_61(
 
 
 def sliding_number_3_62(force: Any, radius: Any, separation_time: Any, viscosity: Any) -> Any:
-    r"""Drag of flats made dimensionless, :math:`t_s F_v/(\eta x_n^2)`, Eq. (3.62).
+    r"""Dimensionless drag of flats, :math:`t_s F_v/(\eta x_n^2)`, Eq. (3.62).
 
     Examples
     --------
@@ -104,7 +103,7 @@ def sliding_number_3_62(force: Any, radius: Any, separation_time: Any, viscosity
 def sliding_number_3_63(
     force: Any, sphere_radius: Any, separation_time: Any, viscosity: Any
 ) -> Any:
-    r"""Drag of a sphere made dimensionless, :math:`t_s F_v/(\eta R^2)`, Eq. (3.63).
+    r"""Dimensionless drag of a sphere, :math:`t_s F_v/(\eta R^2)`, Eq. (3.63).
 
     Examples
     --------

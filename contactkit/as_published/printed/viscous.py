@@ -1,8 +1,8 @@
-r"""The viscous formulas of chapter 3 as printed, by equation number; `published` is their door.
+r"""Viscous forces of chapter 3 as printed, by equation number, for reproduction only.
 
-Conventions: forces in N, positive when they resist separation, which is why the minus signs
-printed in Eqs. (3.18), (3.19) and (3.34) are dropped. What is called a viscous force at the
-break is an impulse over the separation time. Right forms are in `squeeze`.
+Conventions: forces in N, positive when they resist separation, so that the minus signs printed in
+Eqs. (3.18), (3.19) and (3.34) are dropped. The viscous force "at break" is an impulse over the
+separation time. The correct forms are in `lubrication.squeeze_film`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def _log1p(x: Any) -> Any:
 def viscous_flat_3_18(radius: Any, gap: Any, speed: Any, viscosity: Any) -> Any:
     r"""Viscous force [N] on opening flats, :math:`3\pi\eta x^4\dot h/(2h^3)`, Eq. (3.18).
 
-    Stefan's law, right for x/h > 5; viscosity [Pa.s], speed [m/s], positive when it opens.
+    Stefan's law, correct for x/h > 5; viscosity [Pa.s], speed [m/s], positive on opening.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def viscous_flat_3_18(radius: Any, gap: Any, speed: Any, viscosity: Any) -> Any:
 def viscous_flat_3_19(
     radius: Any, gap_start: Any, gap_end: Any, separation_time: Any, viscosity: Any
 ) -> Any:
-    r"""Impulse of opening flats over the time it takes [N], Eq. (3.19); `gap_end` may be inf.
+    r"""Impulse of opening flats over the separation time [N], Eq. (3.19); `gap_end` may be inf.
 
     .. math:: \frac{3\pi\eta x^4}{4 t_s}\Bigl(\frac{1}{h_0^2} - \frac{1}{h_s^2}\Bigr)
 
@@ -74,9 +74,9 @@ def viscous_flat_3_19(
 def viscous_divided_3_34(
     radius: Any, gap_start: Any, gap_end: Any, separation_time: Any, viscosity: Any, number: Any
 ) -> Any:
-    """Impulse over time [N] of a film cut into a number of equal menisci, Eq. (3.34).
+    """Impulse over time [N] of a film divided into equal menisci, Eq. (3.34).
 
-    That of Eq. (3.19) over the number, with the break gap of the smaller menisci.
+    That of Eq. (3.19) over the number, with the rupture gap of the smaller menisci.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def viscous_sphere_3_22(
 ) -> Any:
     r"""Viscous force [N] on a sphere, :math:`6\pi\eta R^2(1-D/H)^2\dot D/D`, Eq. (3.22).
 
-    Correct for thin films; `film_height` H [m] is the height of the film at its rim.
+    Correct for thin films; `film_height` H [m] is the film height at the rim.
 
     Examples
     --------
@@ -112,13 +112,13 @@ def viscous_sphere_3_26(
     separation_time: Any,
     viscosity: Any,
 ) -> Any:
-    r"""Impulse of lifting a sphere over the time it takes [N], Eq. (3.26); `gap_end` may be inf.
+    r"""Impulse of a lifted sphere over the separation time [N], Eq. (3.26); `gap_end` may be inf.
 
     .. math::
         \frac{6\pi\eta R^2}{t_s}\ln\frac{D_s(D_0+H_0)^2 S}{D_0H_0(D_s+S)^2}, \qquad
         S = \sqrt{H_0^2 - D_0^2 + D_s^2}
 
-    written as a difference of ``log1p``, which loses nothing for films hardly thicker than the
+    written as a difference of ``log1p``, which is accurate also for films hardly thicker than the
     gap. The integral of Eq. (3.22) at constant volume: an average over time, not a force.
 
     Raises
@@ -144,7 +144,7 @@ def viscous_sphere_3_26(
 def viscous_sphere_3_27(
     sphere_radius: Any, gap_start: Any, film_height: Any, separation_time: Any, viscosity: Any
 ) -> Any:
-    r"""What Eq. (3.27) prints as the limit of Eq. (3.26) for a far break [N]: it is not.
+    r"""Printed, incorrect limit of Eq. (3.26) for rupture far away [N], Eq. (3.27).
 
     .. math:: \frac{6\pi\eta R^2}{t_s}\ln\frac{H_0}{2 D_0}
 
@@ -166,7 +166,7 @@ def viscous_sphere_3_27(
 def viscous_number_3_43(
     force: Any, radius: Any, gap_start: Any, separation_time: Any, viscosity: Any
 ) -> Any:
-    r"""Viscous force made dimensionless, :math:`4t_sh_0^2F_v/(3\pi\eta x_{n0}^4)`, Eq. (3.43).
+    r"""Dimensionless viscous force, :math:`4t_sh_0^2F_v/(3\pi\eta x_{n0}^4)`, Eq. (3.43).
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Liquid bridges with a circular (toroidal) meridian.
+"""Liquid bridges in the circular (toroidal) approximation.
 
-bridge           Capillary bridge between two bodies, its meridian taken for an arc of a circle: the
-contact_circles  The two contact circles of an arc between curved bodies: equations, Newton iteratio
-flat             A liquid bridge between two flats, its meridian taken for an arc of a circle.
-shape            Pure numbers of an arc of a circle between two flats: all that follows from two ang
-sphere           A liquid bridge between two curved bodies, its meridian taken for an arc of a circl
+bridge           Bridge of given volume between two bodies: `arc_bridge`.
+flat             Bridge between two flats, explicit.
+sphere           Bridge between two curved bodies.
+shape            Geometry of a circular meridian between two flats at unit gap.
+contact_circles  Contact circles between curved bodies, by Newton iteration.
 """

@@ -1,11 +1,11 @@
-r"""Capillary bridge between two bodies, its meridian taken for an arc of a circle: the front door.
+r"""Capillary bridge between two bodies in the circular (toroidal) approximation: `arc_bridge`.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
 length; pressure is that of the liquid less that outside, over the surface tension; no gravity.
 
-The arc is fast and explicit between flats, and teaches well; it is not exact and knows nothing
-of stability. For numbers to rely on use the exact bridge.
+The approximation is fast, and explicit between flats; it is not an equilibrium shape and has no
+stability limit. For reliable numbers use the exact bridge.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from .shape import SPREADING, refuse_spreading
 __all__ = ["Bridge", "arc_bridge"]
 
 Array = NDArray[np.float64]
-_FLAT = 1e-60  # curvature times the size of the drop that even a film cannot tell from zero
+_FLAT = 1e-60  # curvature times the size of the drop, below which it counts as zero
 
 
 class Bridge(NamedTuple):
-    """A bridge; all arrays of the broadcast shape of the arguments.
+    """Bridges in the circular approximation; all arrays of the broadcast shape of the arguments.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Bridge(NamedTuple):
     radius_lower, radius_upper : ndarray
         Radii of the contact circles [m].
     neck, bulge : ndarray
-        Smallest and largest radius of the bridge [m], wherever they lie.
+        Minimum and maximum radius of the bridge [m], at any height.
     """
 
     force: Array
@@ -60,8 +60,8 @@ def _refuse(
         raise DescriptionError(f"bridge.{name}", value, expected, unit=unit, hint=hint)
 
 
-def _checked(given: dict[str, ArrayLike]) -> dict[str, Array]:
-    """Arguments as arrays of one shape, or the error that names the one that is impossible."""
+def checked_arguments(given: dict[str, ArrayLike]) -> dict[str, Array]:
+    """Arguments as arrays of one shape, validated."""
     try:
         loose = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
         arrays = dict(zip(loose, np.broadcast_arrays(*loose.values()), strict=True))
@@ -104,12 +104,12 @@ def _between_flats(points: list[Array], beyond: str) -> list[Array]:
     for i, angles in enumerate(pairs.T.tolist()):
         here = np.flatnonzero(which == i)
         shape = arc_flat.shape(*angles)
-        # the limit itself has no neck left; rounding must not decide on which side it falls
+        # at the limit the neck has closed; round-off must not decide on which side it falls
         limit = arc_flat.zero_neck_gap(shape, volume[here])
         good = gap[here] < limit * (1.0 - 1e-12)
         if not good.all():
             if beyond == "raise":
-                raise arc_flat.closed_neck(float(limit[~good][0]))
+                raise arc_flat.closed_neck_error(float(limit[~good][0]))
             here = here[good]
         h = gap[here]
         x = arc_flat.contact_radius(shape, h, volume[here])
@@ -123,14 +123,14 @@ def _between_flats(points: list[Array], beyond: str) -> list[Array]:
 
 
 def _no_arc(point: list[float], closed: bool) -> Exception:
-    """Say why a point between curved bodies has no arc."""
+    """Exception that states why a point between curved bodies has no arc."""
     gap, volume, lower, upper, below, above = point
     try:
         limit = arc_sphere.zero_neck_gap(volume, lower, upper, below, above)
     except InfeasibleError as nowhere:
         return nowhere
     if gap >= limit * (1.0 - 1e-12):
-        return arc_flat.closed_neck(limit)
+        return arc_flat.closed_neck_error(limit)
     if closed:
         return InfeasibleError(
             f"no arc bridge at a gap of {gap!r} m: its neck is closed there, though not up "
@@ -167,9 +167,9 @@ def arc_bridge(
     curvature_upper: ArrayLike = 0.0,
     beyond: Literal["raise", "nan"] = "raise",
 ) -> Bridge:
-    r"""Arc-shaped liquid bridge of given volume between two bodies.
+    r"""Liquid bridge of given volume between two bodies, in the circular approximation.
 
-    The force is the pull through the neck or belly of the arc, one for both bodies:
+    The force is evaluated at the neck or bulge of the arc and is the same for both bodies:
 
     .. math:: F/\gamma = \pi x_e \sin\varphi_e + \pi x_e^2 / r_1
 
@@ -204,11 +204,11 @@ def arc_bridge(
 
     Notes
     -----
-    The profile is not one of constant pressure. For hydrophilic pairs the force is off by less
-    than 0.7 % up to a tenth of the exact stability limit, 4 % up to 30 % and 7 % up to 90 % of
-    it, and by 5 to 19 % beyond; the arc goes on two to ten times further than a bridge does.
-    Contact radii and neck are right to 0.25 % for equal angles and five gaps or more of radius.
-    A repelling pair between curved bodies is expelled sideways, which nothing here can see.
+    The pressure of the profile is not uniform. For hydrophilic pairs the error of the force is
+    below 0.7 % up to a tenth of the exact stability limit, 4 % up to 30 % and 7 % up to 90 % of
+    it, and 5 to 19 % beyond; the neck of the arc closes at two to ten times the stability limit.
+    Contact radii and neck are accurate to 0.25 % for equal angles and radii of five gaps or more.
+    The lateral instability of a repelling bridge between curved bodies is not represented.
 
     References
     ----------
@@ -228,7 +228,7 @@ def arc_bridge(
     """
     if beyond not in ("raise", "nan"):
         raise DescriptionError("bridge.beyond", beyond, "be 'raise' or 'nan'")
-    arrays = _checked(
+    arrays = checked_arguments(
         {
             "gap": gap,
             "volume": volume,

@@ -1,12 +1,12 @@
-"""The two contact circles of an arc between curved bodies: equations, Newton iteration, branch.
+"""Contact circles of a circular meridian between curved bodies, by Newton iteration.
 
-Symbols and conventions are those of `arc_sphere`, which is the door to this module.
+Symbols and conventions are those of `sphere`, the entry point to this module.
 
-Two equations fix the circles: the chord lies at the mean of the tangent angles at its ends, and
-the volume is given. The volume is that of a frustum and of a circular
-segment turned about the axis, less the caps of the bodies; all of it is closed and regular, for
-straight arcs, flat bodies and contact angles of 0, 90 and 180 deg alike. The unknowns are the
-distances along the bodies, which stay regular at the equator and for vanishing curvature.
+Two equations determine the circles: the chord lies at the mean of the tangent angles at its ends,
+and the volume is given. The volume is that of a frustum and of a circular segment of revolution,
+less the caps of the bodies; all expressions are closed and regular, also for straight arcs, flat
+bodies and contact angles of 0, 90 and 180 deg. The unknowns are the distances along the bodies,
+which are regular at the equator and for vanishing curvature.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-_SERIES = 0.25  # below this the nine terms leave less than rounding
+_SERIES = 0.25  # below this the remainder of the nine terms is below round-off
 _MOMENT = (
     1 / 60,
     1 / 252,
@@ -46,7 +46,7 @@ _MOMENT = (
 
 
 class Segment(NamedTuple):
-    """Area over chord squared, moment over chord cubed, and their slopes by the half angle."""
+    """Area over chord squared, moment over chord cubed; their derivatives by the half angle."""
 
     area: Array
     moment: Array
@@ -55,7 +55,7 @@ class Segment(NamedTuple):
 
 
 def segment(half: Array) -> Segment:
-    """Segment of an arc that turns by twice `half` [rad], between -pi and pi.
+    """Circular segment of an arc that turns by twice `half` [rad], between -pi and pi.
 
     Examples
     --------
@@ -88,9 +88,9 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 _RIGHT = np.pi / 2.0
-_COLD, _WARM = 30, 12  # iterations; what takes more is tracked, or tried with half the step
+_COLD, _WARM = 30, 12  # maximum iterations from a cold start, and along a path
 _STEEP = np.pi / 4.0  # a steeper paraboloid has a second, far-away family of arcs
-_SETTLED = 1e-9  # a relative Newton step this small leaves its square, once it is taken
+_SETTLED = 1e-9  # relative Newton step; the error after it is of the order of its square
 
 
 class Circle(NamedTuple):
@@ -106,7 +106,7 @@ class Circle(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """What is given; arrays of one length."""
+    """Gap, volume, contact angles and curvatures of the points; arrays of one length."""
 
     gap: Array
     volume: Array
@@ -116,7 +116,7 @@ class Problem(NamedTuple):
     curvature_upper: Array
 
     def at(self, index: NDArray[np.intp] | Flags) -> Problem:
-        """Take some of the points."""
+        """Select points."""
         return Problem(*(value[index] for value in self))
 
 
@@ -132,7 +132,7 @@ class Outline(NamedTuple):
 
 
 class Equations(NamedTuple):
-    """Residuals, their slopes by the two distances, and the turn of the chord from upright."""
+    """Residuals, their derivatives by the distances, and the turn of the chord from vertical."""
 
     tilt: Array
     excess: Array
@@ -147,7 +147,7 @@ class Equations(NamedTuple):
 
 
 def circle(distance: Array, curvature: Array, profile: str) -> Circle:
-    """Contact circle at that distance from the pole; on a parabola it is the radius itself."""
+    """Contact circle at a distance from the pole; on a parabola the distance is the radius."""
     steep = curvature * distance
     if profile == "parabola":
         sag = 0.5 * steep * distance
@@ -162,7 +162,7 @@ def circle(distance: Array, curvature: Array, profile: str) -> Circle:
 
 
 def _distance(radius: Array, curvature: Array, profile: str) -> Array:
-    """Distance along a body of the circle of that radius, kept short of the equator."""
+    """Distance along a body of the circle of given radius, limited to below the equator."""
     if profile == "parabola":
         return radius
     sine = np.clip(curvature * radius, -0.95, 0.95)
@@ -170,10 +170,10 @@ def _distance(radius: Array, curvature: Array, profile: str) -> Array:
 
 
 def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
-    """Contact circles between cones that touch the bodies where a film would end.
+    """Initial guess: contact circles between cones tangent to the bodies at the rim of a film.
 
-    A film with an upright rim gives the place; the volume of an arc between cones is a
-    quadratic in the mean contact radius, and its larger root is the branch with an open neck.
+    The rim is that of a film with a cylindrical edge; the volume of an arc between cones is a
+    quadratic in the mean contact radius, whose larger root is the branch with an open neck.
     """
     gap, volume, angle_lower, angle_upper, lower, upper = problem
     bias = angle_upper - angle_lower
@@ -183,7 +183,7 @@ def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
         below = circle(_distance(one, lower, profile), lower, profile)
         above = circle(_distance(two, upper, profile), upper, profile)
         height = gap + below.sag + above.sag
-        # a film may end where the chord would point down: stay half way to that
+        # at the rim of the film the chord may point down: go half way to that
         turn = np.clip(bias + above.slope - below.slope, 0.5 * (bias - np.pi), 0.5 * (bias + np.pi))
         lean = -np.tan(0.5 * turn) * height
         half = 0.5 * (angle_lower + below.slope + angle_upper + above.slope) - _RIGHT
@@ -199,12 +199,12 @@ def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
 
 
 def equations(problem: Problem, one: Array, two: Array, profile: str) -> Equations:
-    """Residuals at two contact circles: the lean of the chord and the excess of volume."""
+    """Residuals at two contact circles: tilt of the chord and excess volume."""
     gap, volume, angle_lower, angle_upper, lower, upper = problem
     b, t = circle(one, lower, profile), circle(two, upper, profile)
     height, lean = gap + b.sag + t.sag, t.radius - b.radius
     chord2, mean = height**2 + lean**2, 0.5 * (b.radius + t.radius)
-    # slopes are added last, for they may be tiny against the angles and the height huge
+    # derivatives are added last: they may be tiny against the angles, and the height huge
     turn = (angle_upper - angle_lower) + (t.slope - b.slope)
     sine, cosine = np.cos(0.5 * turn), -np.sin(0.5 * turn)  # of the angle of the chord
     half = 0.5 * ((angle_lower - _RIGHT) + (angle_upper - _RIGHT) + (b.slope + t.slope))
@@ -231,12 +231,12 @@ def equations(problem: Problem, one: Array, two: Array, profile: str) -> Equatio
 def iterate(
     problem: Problem, profile: str, start: tuple[Array, Array] | None = None
 ) -> tuple[Array, Array, Flags]:
-    """Newton on all points at once; those that have settled are frozen and dropped.
+    """Newton iteration on all points at once; converged points are frozen and dropped.
 
-    Returns the two distances and whether they settled.
+    Returns the two distances and whether they converged.
     """
     settled = np.zeros(problem.gap.shape, dtype=np.bool_)
-    with np.errstate(all="ignore"):  # hopeless points overflow, and are left unsettled
+    with np.errstate(all="ignore"):  # diverging points overflow and count as not converged
         one, two = _start(problem, profile) if start is None else (start[0].copy(), start[1].copy())
         active = np.arange(problem.gap.size)
         for _ in range(_COLD if start is None else _WARM):
@@ -249,7 +249,7 @@ def iterate(
             longest = np.maximum(abs(step1), abs(step2))
             d_turn = e.turn_lower * step1 + e.turn_upper * step2
             room = np.where(d_turn > 0.0, np.pi - e.turn, np.pi + e.turn)
-            # halve at most, and never turn the chord past the horizontal
+            # a distance is halved at most, and the chord stays above the horizontal
             bound = np.where(room > 0.0, 0.8 * room / abs(d_turn), 1.0)
             scale = np.fmin(1.0, np.fmin(0.5 * size / longest, bound))
             one[active] += scale * step1
@@ -263,7 +263,7 @@ def iterate(
 
 
 def outline(problem: Problem, below: Circle, above: Circle) -> Outline:
-    """Neck, belly and force plane of the arcs between two contact circles."""
+    """Neck, bulge and force plane of the arcs between two contact circles."""
     lower = (_RIGHT - problem.angle_lower) - below.slope
     upper = (_RIGHT - problem.angle_upper) - above.slope
     height = problem.gap + below.sag + above.sag
@@ -280,7 +280,7 @@ def outline(problem: Problem, below: Circle, above: Circle) -> Outline:
 
 
 def acceptable(problem: Problem, one: Array, two: Array, profile: str) -> Flags:
-    """Whether roots are on the branch wanted: neck open, chord upright, more liquid is wider."""
+    """Whether roots are on the open-neck branch: neck open, width increasing with volume."""
     below = circle(one, problem.curvature_lower, profile)
     above = circle(two, problem.curvature_upper, profile)
     e = equations(problem, one, two, profile)
@@ -294,9 +294,9 @@ def acceptable(problem: Problem, one: Array, two: Array, profile: str) -> Flags:
 
 
 def _stage(problem: Problem, share: Array) -> Problem:
-    """Point of a path from a trace of liquid between touching bodies to what is given.
+    """Point of a continuation path from a small volume between touching bodies to the problem.
 
-    Volume first (share 0 to 1) and gap second (1 to 2), which keeps the neck open on the way.
+    First the volume grows (parameter 0 to 1), then the gap (1 to 2), so that the neck stays open.
     """
     bend = problem.curvature_lower + problem.curvature_upper
     film = np.minimum(problem.gap, 0.1 * np.sqrt(bend * problem.volume))
@@ -307,10 +307,10 @@ def _stage(problem: Problem, share: Array) -> Problem:
 
 
 def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
-    """Track the branch with an open neck step by step, for points that a cold start missed.
+    """Follow the open-neck branch by continuation, for points where the cold start failed.
 
-    Steps that fail are halved. Returns the two distances, whether the end was reached with an
-    open neck, and whether the neck closed on the way. One body at least must be curved.
+    Failed steps are halved. Returns the two distances, whether the end was reached with an open
+    neck, and whether the neck closed along the path. One body at least must be curved.
     """
     share, step = np.zeros_like(problem.gap), np.full_like(problem.gap, 0.1)
     one, two, good = iterate(_stage(problem, share), profile)

@@ -1,4 +1,4 @@
-r"""A liquid bridge between two flats, its meridian taken for an arc of a circle.
+r"""Liquid bridge between two flats in the circular (toroidal) approximation.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
@@ -13,15 +13,14 @@ length; pressure is that of the liquid less that outside, over the surface tensi
 :math:`r_1`                   radius of the arc, positive for a hollow profile
 ============================  ================================================================
 
-Everything that depends on the angles alone is a pure number for unit gap, worked out once by
-`shape` (see `arc_shape`); what is left is a quadratic. Nothing here imports numpy, so that the
-kernel runs in a bare interpreter; gaps, volumes and radii may be floats or numpy arrays, angles
-are floats.
+All that depends on the angles alone is computed once for unit gap by `shape` (module `shape`);
+what remains is a quadratic. The module does without numpy, so that it runs in a bare interpreter;
+gaps, volumes and radii are floats or numpy arrays, angles are floats.
 
-The arc is not an equilibrium shape. Against the exact bridge its force is off by less than
-0.7 % up to a tenth of the exact stability limit, 4 % up to 30 % and 7 % up to 90 % of it for two
-wetted flats, and worse beyond; a wetted flat against a repelling one is off by 12 % already at
-:math:`x/h = 2`. It knows nothing of stability: its neck closes two to ten times later.
+The arc is not an equilibrium shape. Compared with the exact bridge, the error of its force is
+below 0.7 % up to a tenth of the exact stability limit, 4 % up to 30 % and 7 % up to 90 % of it for
+two wetted flats, and larger beyond; for a wetted flat against a repelling one it is 12 % already at
+:math:`x/h = 2`. There is no stability limit: the neck closes at two to ten times the exact limit.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
 __all__ = [
     "ArcShape",
     "bulge",
-    "closed_neck",
+    "closed_neck_error",
     "contact_radius",
     "force",
     "neck",
@@ -56,12 +55,12 @@ __all__ = [
 _Number = TypeVar("_Number", float, "NDArray[np.float64]")
 
 
-def closed_neck(limit: float) -> InfeasibleError:
+def closed_neck_error(limit: float) -> InfeasibleError:
     """Error that names the gap [m] beyond which there is no arc.
 
     Examples
     --------
-    >>> print(closed_neck(1.28e-8))
+    >>> print(closed_neck_error(1.28e-8))
     no arc bridge beyond 12.8 nm: there its neck has closed
     """
     units = ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm"))
@@ -77,7 +76,7 @@ def _smallest(value: Any) -> float:
 
 
 def contact_radius(shape: ArcShape, gap: _Number, volume: _Number | float) -> _Number:
-    r"""Lower contact radius of a bridge that keeps its volume.
+    r"""Lower contact radius of a bridge of given volume.
 
     .. math:: x_1/h = \sqrt{V/(\pi h^3) - (b - a^2)} - a
 
@@ -91,7 +90,7 @@ def contact_radius(shape: ArcShape, gap: _Number, volume: _Number | float) -> _N
     Returns
     -------
     float or ndarray, shape (...)
-        Radius [m] of the lower contact circle: the larger root, the one with an open neck.
+        Radius [m] of the lower contact circle: the larger root, which has an open neck.
 
     Raises
     ------
@@ -105,11 +104,11 @@ def contact_radius(shape: ArcShape, gap: _Number, volume: _Number | float) -> _N
     0.653390425487
     """
     filling = volume / (math.pi * gap**3)
-    if not _smallest(filling) > shape.least_volume:
-        raise closed_neck(zero_neck_gap(shape, _smallest(volume)))
+    if not _smallest(filling) > shape.min_volume:
+        raise closed_neck_error(zero_neck_gap(shape, _smallest(volume)))
     mean = shape.mean_offset
     root = (filling - shape.variance) ** 0.5
-    # two forms of the same root: the one without a difference of like numbers
+    # of two forms of the root the one without cancellation
     ratio: _Number = root - mean if mean <= 0.0 else (filling - shape.square_offset) / (root + mean)
     return gap * ratio
 
@@ -117,7 +116,7 @@ def contact_radius(shape: ArcShape, gap: _Number, volume: _Number | float) -> _N
 def rim_contact_radius(shape: ArcShape, gap: _Number, rim_radius: _Number | float) -> _Number:
     """Lower contact radius [m] at which the larger contact circle has `rim_radius` [m].
 
-    This is a film held by the rim of a flooded plate; its angles are kept, its volume is not.
+    The film is pinned at the rim of a flooded plate, at constant angles instead of constant volume.
 
     Raises
     ------
@@ -134,14 +133,14 @@ def rim_contact_radius(shape: ArcShape, gap: _Number, rim_radius: _Number | floa
     0.001
     """
     lower = rim_radius - gap * max(0.0, shape.upper_offset)
-    if not _smallest(lower + gap * shape.least_offset) > 0.0:
-        raise closed_neck(zero_neck_gap_at_rim(shape, _smallest(rim_radius)))
+    if not _smallest(lower + gap * shape.min_offset) > 0.0:
+        raise closed_neck_error(zero_neck_gap_at_rim(shape, _smallest(rim_radius)))
     return lower
 
 
 def zero_neck_gap_at_rim(shape: ArcShape, rim_radius: _Number) -> _Number:
-    """Gap [m] at which the neck of a film held by a rim closes; inf for two right angles."""
-    span = max(0.0, shape.upper_offset) - shape.least_offset
+    """Gap [m] at which the neck of a film pinned at a rim closes; inf for two right angles."""
+    span = max(0.0, shape.upper_offset) - shape.min_offset
     return rim_radius / span if span > 0.0 else rim_radius * math.inf
 
 
@@ -151,17 +150,17 @@ def upper_contact_radius(shape: ArcShape, gap: _Number, contact_radius: _Number)
 
 
 def neck(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
-    """Smallest radius [m] of the bridge, wherever it lies; arguments as in `force`."""
-    return contact_radius + gap * shape.least_offset
+    """Minimum radius [m] of the bridge, at any height; arguments as in `force`."""
+    return contact_radius + gap * shape.min_offset
 
 
 def bulge(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
-    """Largest radius [m] of the bridge, wherever it lies; arguments as in `force`."""
-    return contact_radius + gap * shape.greatest_offset
+    """Maximum radius [m] of the bridge, at any height; arguments as in `force`."""
+    return contact_radius + gap * shape.max_offset
 
 
 def volume(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
-    r"""Volume [m^3] inside the arc turned about the axis; arguments as in `force`.
+    r"""Volume [m^3] of the solid of revolution of the arc; arguments as in `force`.
 
     .. math:: V = \pi h (x_1^2 + 2 a h x_1 + b h^2)
 
@@ -176,12 +175,12 @@ def volume(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
 
 
 def force(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
-    r"""Pull of the bridge on either flat, over the surface tension.
+    r"""Attraction of the flats by the bridge, over the surface tension.
 
     .. math:: F/\gamma = \pi x_e \sin\varphi_e + \pi x_e^2 / r_1
 
-    taken through the plane of the neck or belly of the arc (:math:`\sin\varphi_e = 1`), or, if
-    it has neither, through its smaller contact circle.
+    evaluated at the neck or bulge of the arc (:math:`\sin\varphi_e = 1`), or, if it has neither,
+    at the smaller contact circle.
 
     Parameters
     ----------
@@ -197,8 +196,8 @@ def force(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
 
     Notes
     -----
-    For the error against the exact bridge see the head of this module. Eq. (3.11) leaves out
-    the curvature around the axis and gives the two bodies different forces; this does neither.
+    For the error see the head of this module. Eq. (3.11) neglects the azimuthal curvature and
+    yields different forces on the two bodies; this one does neither.
 
     References
     ----------
@@ -221,19 +220,20 @@ def pressure(shape: ArcShape, gap: _Number, contact_radius: _Number) -> _Number:
     .. math:: P = \sin\varphi_e / x_e - 1 / r_1
 
     in the same plane as `force`, so that :math:`F/\gamma = 2\pi x_e\sin\varphi_e - \pi x_e^2 P`.
-    Arguments as in `force`; leaves out that the pressure of an arc is not quite uniform.
+    Arguments as in `force`; the variation of the pressure along the arc is neglected.
     """
     plane = contact_radius + gap * shape.plane_offset
     return shape.plane_sine / plane - shape.inverse_radius / gap
 
 
 def zero_neck_gap(shape: ArcShape, volume: _Number) -> _Number:
-    r"""Gap [m] at which the neck, or for a belly the smaller contact circle, closes.
+    r"""Gap [m] at which the neck, or for a bulge the smaller contact circle, closes.
 
     .. math:: h = \bigl(V / (\pi \textstyle\int (\xi - \xi_{min})^2 d\eta)\bigr)^{1/3}
 
-    Infinite for two right angles. This is the break distance of the dissertation, and not where
-    a bridge breaks: the exact bridge lets go 1.4 to 15 times earlier unless an angle is 180 deg.
+    Infinite for two right angles. This is the break distance of the dissertation, not the rupture
+    of a bridge: the exact bridge becomes unstable at a gap 1.4 to 15 times smaller, unless an angle
+    is 180 deg.
 
     Examples
     --------
@@ -243,8 +243,8 @@ def zero_neck_gap(shape: ArcShape, volume: _Number) -> _Number:
     >>> zero_neck_gap(shape(math.pi / 2, math.pi / 2), 1.0)
     inf
     """
-    if shape.least_volume == 0.0:
+    if shape.min_volume == 0.0:
         return volume * math.inf
     # float ** float is Any to type checkers, since negative bases turn complex
-    gap: _Number = (volume / (math.pi * shape.least_volume)) ** (1.0 / 3.0)
+    gap: _Number = (volume / (math.pi * shape.min_volume)) ** (1.0 / 3.0)
     return gap

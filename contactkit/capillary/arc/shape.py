@@ -1,7 +1,7 @@
-r"""Pure numbers of an arc of a circle between two flats: all that follows from two angles.
+r"""Geometry of a circular meridian between two flats at unit gap, from the contact angles.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; lengths are
-over the gap, and offsets count from the lower contact circle. Nothing here imports numpy.
+over the gap, and offsets count from the lower contact circle. The module does without numpy.
 
 ============================  ================================================================
 :math:`\varphi`               tangent angle of the meridian, from :math:`\pi-\theta_1` below to
@@ -19,15 +19,15 @@ from typing import NamedTuple
 from ...errors import InfeasibleError
 from ...numerics.quadrature import gauss_legendre
 
-__all__ = ["SPREADING", "ArcShape", "refuse_spreading", "shape", "wetting", "whole_angle"]
+__all__ = ["SPREADING", "ArcShape", "refuse_spreading", "shape", "wetting", "rounded_angle"]
 
 _RIGHT = math.pi / 2.0
-_NODES = 20  # the integrand oscillates at most three half turns: exact to rounding
+_NODES = 20  # at most three half periods of the integrand: exact to round-off
 SPREADING = 1e-8  # angles closer than this to the 0/180 pair have lost half their digits
 
 
 class ArcShape(NamedTuple):
-    """Pure numbers of an arc between flats, for unit gap; offsets count from `x_1`.
+    """Geometry of an arc between flats, for unit gap; offsets count from `x_1`.
 
     Attributes
     ----------
@@ -36,16 +36,16 @@ class ArcShape(NamedTuple):
     square_offset : float
         Mean square offset, the moment b = integral of xi^2 d(eta).
     variance : float
-        Their combination b - a^2, found without taking a difference.
+        The variance b - a^2, computed without cancellation.
     inverse_radius : float
         Gap over arc radius, cos(theta_1) + cos(theta_2): positive if hollow.
     upper_offset : float
         Offset of the upper contact circle.
     plane_offset, plane_sine : float
         Offset and sine of the tangent angle where the force is taken.
-    least_offset, greatest_offset : float
-        Smallest and largest offset of the profile: neck and bulge.
-    least_volume : float
+    min_offset, max_offset : float
+        Minimum and maximum offset of the profile: neck and bulge.
+    min_volume : float
         Volume over pi times gap cubed at which the neck closes.
     """
 
@@ -56,9 +56,9 @@ class ArcShape(NamedTuple):
     upper_offset: float
     plane_offset: float
     plane_sine: float
-    least_offset: float
-    greatest_offset: float
-    least_volume: float
+    min_offset: float
+    max_offset: float
+    min_volume: float
 
 
 def wetting(angle_lower: float, angle_upper: float) -> float:
@@ -74,11 +74,11 @@ def wetting(angle_lower: float, angle_upper: float) -> float:
     return 2.0 * math.sin(0.5 * (lower + upper)) * math.cos(0.5 * (lower - upper))
 
 
-def whole_angle(angle: float) -> float:
-    """Contact angle [rad] in which two right angles stand for what is within 1e-6 of them.
+def rounded_angle(angle: float) -> float:
+    """Contact angle [rad], rounded to 0, pi/2 or pi where it is within 1e-6 of them.
 
-    A limit of stability moves by the square of that, 1e-11; without it the last digits of a
-    nearly closed contact circle would decide where a bridge ends.
+    A stability limit changes by the square of that, 1e-11; otherwise the round-off of a nearly
+    closed contact circle would decide where the bridge ends.
     """
     return math.pi if math.pi - angle < 1e-6 else angle
 
@@ -95,7 +95,7 @@ def refuse_spreading(angle_lower: float, angle_upper: float) -> None:
 def _offsets(lower: float, upper: float) -> list[tuple[float, float]]:
     """Offsets of an arc of unit gap at the quadrature nodes, with weights times d(eta)/dt.
 
-    The chord form is regular where the arc turns straight, so no angle is special.
+    The chord form is regular for straight arcs, so that no angle is a special case.
     """
     half = -0.5 * (lower + upper)  # half of the turn of the tangent angle
     chord = math.cos(0.5 * (lower - upper))
@@ -109,7 +109,7 @@ def _offsets(lower: float, upper: float) -> list[tuple[float, float]]:
 
 
 def _force_plane(lower: float, upper: float, inverse: float, offset: float) -> tuple[float, float]:
-    """Offset and sine of the tangent at the neck or belly, else at the smaller contact circle."""
+    """Offset and sine of the tangent at the neck or bulge, else at the smaller contact circle."""
     if lower * upper >= 0.0 and lower != -upper:
         return -2.0 * math.sin(0.5 * lower) ** 2 / inverse, 1.0
     return (0.0, math.cos(lower)) if lower <= upper else (offset, math.cos(upper))
@@ -117,9 +117,9 @@ def _force_plane(lower: float, upper: float, inverse: float, offset: float) -> t
 
 @lru_cache(maxsize=1024)
 def shape(angle_lower: float, angle_upper: float) -> ArcShape:
-    r"""Everything about an arc between flats that depends on the contact angles only.
+    r"""Geometry of an arc between flats that depends on the contact angles only.
 
-    With the tangent angle running linearly over the parameter :math:`0 \le t \le 1`,
+    With the tangent angle linear in the parameter :math:`0 \le t \le 1`,
 
     .. math::
         \xi = \frac{\cos(p + t\delta)}{\sin(p + \delta)} \frac{\sin t\delta}{\sin\delta}, \quad
@@ -143,9 +143,9 @@ def shape(angle_lower: float, angle_upper: float) -> ArcShape:
 
     Notes
     -----
-    This is the circle of Eq. (3.38) with the end conditions of Eq. (3.39), in a form that needs
-    neither an infinite radius at :math:`\theta_1 + \theta_2 = \pi` nor two cases for hollow and
-    bulging profiles (Eq. 3.41). Moments are right to rounding (1e-15).
+    This is the circle of Eq. (3.38) with the end conditions of Eq. (3.39), in a form without an
+    infinite radius at :math:`\theta_1 + \theta_2 = \pi` and without separate cases for hollow and
+    bulging profiles (Eq. 3.41). Moments are accurate to round-off (1e-15).
 
     References
     ----------
@@ -156,7 +156,7 @@ def shape(angle_lower: float, angle_upper: float) -> ArcShape:
     >>> import math
     >>> round(shape(math.pi / 3, math.pi / 3).inverse_radius, 12)
     1.0
-    >>> shape(math.pi / 2, math.pi / 2).least_volume
+    >>> shape(math.pi / 2, math.pi / 2).min_volume
     0.0
     """
     lower, upper = _RIGHT - angle_lower, _RIGHT - angle_upper
@@ -175,7 +175,7 @@ def shape(angle_lower: float, angle_upper: float) -> ArcShape:
         upper_offset=end,
         plane_offset=plane,
         plane_sine=sine,
-        least_offset=least,
-        greatest_offset=greatest,
-        least_volume=sum(weight * (x - least) ** 2 for x, weight in points),
+        min_offset=least,
+        max_offset=greatest,
+        min_volume=sum(weight * (x - least) ** 2 for x, weight in points),
     )

@@ -1,4 +1,4 @@
-r"""A liquid bridge between two curved bodies, its meridian taken for an arc of a circle.
+r"""Liquid bridge between two curved bodies in the circular (toroidal) approximation.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
@@ -14,9 +14,9 @@ length; pressure is that of the liquid less that outside, over the surface tensi
                               positive for a hollow profile
 ============================  ================================================================
 
-Against the exact bridge between wetted bodies the force is off by up to 1 % at contact for
-V < 1e-2 R^3 and 3.5 % for 0.1 R^3, by 7 % up to 90 % of the exact stability limit, and worse
-beyond. The arc knows nothing of stability: its neck closes two to ten times later.
+Compared with the exact bridge between wetted bodies, the error of the force is up to 1 % at contact
+for V < 1e-2 R^3 and 3.5 % for 0.1 R^3, 7 % up to 90 % of the exact stability limit, and larger
+beyond. There is no stability limit: the neck closes at two to ten times the exact limit.
 """
 
 from __future__ import annotations
@@ -37,20 +37,20 @@ Array = NDArray[np.float64]
 
 
 class ArcState(NamedTuple):
-    """Arcs found, all arrays of the broadcast shape; nan where no arc has an open neck.
+    """Solutions, all arrays of the broadcast shape; nan where no arc has an open neck.
 
     Attributes
     ----------
     radius_lower, radius_upper, slope_lower, slope_upper : ndarray
         Radii of the contact circles [m] and slopes of the bodies there [rad].
     neck, bulge : ndarray
-        Smallest and largest radius of the bridge [m], wherever they lie.
+        Minimum and maximum radius of the bridge [m], at any height.
     plane_radius, plane_sine : ndarray
-        Radius [m] and sine of the tangent angle where the force is taken.
+        Radius [m] and sine of the tangent angle where the force is evaluated.
     height, inverse_arc_radius : ndarray
         Height of the profile [m] and curvature 1/r1 of the arc [1/m], positive if hollow.
     found, closed : ndarray of bool
-        Whether there is an arc; if not, whether its neck was seen to close on the way.
+        Whether an arc exists; if not, whether its neck closed along the continuation path.
     """
 
     radius_lower: Array
@@ -68,12 +68,12 @@ class ArcState(NamedTuple):
 
     @property
     def force(self) -> Array:
-        r"""Pull of the bridge on either body, over the surface tension [m]; positive attracts.
+        r"""Force of the bridge on either body, over the surface tension [m]; positive attracts.
 
         .. math:: F/\gamma = \pi x_e \sin\varphi_e + \pi x_e^2 / r_1
 
-        through the plane of the neck or belly of the arc (:math:`\sin\varphi_e = 1`), or, if it
-        has neither, through its smaller contact circle: one value for both bodies.
+        evaluated at the neck or bulge of the arc (:math:`\sin\varphi_e = 1`), or, if it has
+        neither, at the smaller contact circle: one value for both bodies.
         """
         x = self.plane_radius
         return np.pi * x * (self.plane_sine + x * self.inverse_arc_radius)
@@ -84,7 +84,7 @@ class ArcState(NamedTuple):
 
         .. math:: P = \sin\varphi_e / x_e - 1 / r_1
 
-        in the plane of `force`; leaves out that the pressure of an arc is not quite uniform.
+        in the plane of `force`; the variation of the pressure along the arc is neglected.
         """
         return self.plane_sine / self.plane_radius - self.inverse_arc_radius
 
@@ -108,7 +108,7 @@ def solve(
     curvature_upper: ArrayLike = 0.0,
     profile: str = "sphere",
 ) -> ArcState:
-    r"""Arcs that keep their volume and contact angles, for all points at once.
+    r"""Circular bridges of given volume and contact angles, for all points at once.
 
     .. math::
         x_2 - x_1 = Y \cot\frac{p_1 + p_2}{2}, \qquad
@@ -124,8 +124,8 @@ def solve(
     curvature_lower, curvature_upper : array_like, shape (...)
         Curvatures 1/R [1/m] of the bodies, zero or positive; at least one is positive.
     profile : {"sphere", "parabola"}
-        True spheres, or the paraboloids of Eq. (3.37), which cost 3 to 14 % of the force at
-        contact once V exceeds 1e-2 R^3.
+        True spheres, or the paraboloids of Eq. (3.37), with an error of 3 to 14 % of the force at
+        contact for V > 1e-2 R^3.
 
     Returns
     -------
@@ -134,7 +134,7 @@ def solve(
 
     Notes
     -----
-    Three Newton iterations as a rule (see `arc_newton`); relative errors are near 1e-15.
+    Three Newton iterations as a rule (see `contact_circles`); relative errors are near 1e-15.
 
     References
     ----------
@@ -149,7 +149,7 @@ def solve(
     _check_profile(profile)
     bend = (curvature_lower, curvature_upper)
     problem, form = _problem(gap, volume, angle_lower, angle_upper, *bend)
-    with np.errstate(all="ignore"):  # points that fail are found out below
+    with np.errstate(all="ignore"):  # failed points are detected below
         one, two, found = iterate(problem, profile)
         found &= acceptable(problem, one, two, profile)
         closed = ~found & (problem.curvature_lower + problem.curvature_upper == 0.0)
@@ -191,12 +191,12 @@ def volume(
     curvature_upper: float = 0.0,
     profile: str = "sphere",
 ) -> float:
-    """Volume [m^3] of the arc that meets the upper body in a circle of that radius [m].
+    """Volume [m^3] of the circular bridge with a given upper contact radius [m].
 
-    This turns the height of an initial film, ``D + x^2 / 2R``, into a volume: that of the arc
-    turned about the axis, which Eq. (3.23) approximates by a film with an upright rim.
+    This converts the height of an initial film, ``D + x^2 / 2R``, to a volume, which Eq. (3.23)
+    approximates by a film with a cylindrical rim.
 
-    Raises ConvergenceError if no lower contact circle goes with the upper one.
+    Raises ConvergenceError if there is no lower contact circle for the upper one.
 
     Examples
     --------
@@ -225,7 +225,7 @@ def volume(
 def _widest(
     gaps: Array, fixed: tuple[float, ...], profile: str
 ) -> tuple[float, tuple[Array, Array]]:
-    """Last gap of the first run of gaps that have an arc, and its contact circles."""
+    """Largest gap of the first interval of gaps with an arc, and its contact circles."""
     problem, _ = _problem(gaps, *fixed)
     with np.errstate(all="ignore"):
         one, two, found = iterate(problem, profile)
@@ -242,7 +242,7 @@ def _widest(
 def _track(
     gap: float, start: tuple[Array, Array], fixed: tuple[float, ...], profile: str
 ) -> tuple[float, tuple[Array, Array]]:
-    """Neck at a gap near that of `start`, negative past the end, and the contact circles."""
+    """Neck at a gap near that of `start` (negative beyond the limit), and the contact circles."""
     problem, _ = _problem([gap], *fixed)
     with np.errstate(all="ignore"):
         one, two, settled = iterate(problem, profile, start)
@@ -260,10 +260,10 @@ def zero_neck_gap(
     curvature_upper: float = 0.0,
     profile: str = "sphere",
 ) -> float:
-    """Gap [m] at which the neck, or for a belly the smaller contact circle, closes.
+    """Gap [m] at which the neck, or for a bulge the smaller contact circle, closes.
 
-    The break distance of the dissertation, not where a bridge breaks: see `arc_flat`. Infinite
-    where it does not happen within a hundred times the size of drop and bodies.
+    The break distance of the dissertation, not the rupture of a bridge: see `flat`. Infinite if
+    the neck stays open up to a hundred times the size of drop and bodies.
 
     Raises
     ------

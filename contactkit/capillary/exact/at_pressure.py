@@ -1,9 +1,9 @@
-r"""Liquid bridge of given pressure between two bodies, as a vapour holds it.
+r"""Exact liquid bridge of given pressure between two bodies, as in equilibrium with a vapour.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
 length; pressure is that of the liquid less that outside, over the surface tension; no gravity.
-Symbols are those of `bridge_exact`, which is the door to this module.
+Symbols are those of `bridge`.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import DescriptionError, InfeasibleError
-from ..arc.bridge import _checked
+from ..arc.bridge import checked_arguments
 from ..arc.shape import SPREADING, refuse_spreading
 from .pressure_branch import branch_at_pressure
 from .result import ExactBridge, assembled
 from .solve import BeyondLimitError, columns_at
-from .stability import no_bridge
+from .stability import no_bridge_error
 
-__all__ = ["branch_at_pressure", "bridge_at_pressure", "longest_at_pressure"]
+__all__ = ["branch_at_pressure", "bridge_at_pressure", "max_gap_at_pressure"]
 
-_VAST = 1e12  # of pressure over curvature: a film of rounding errors
+_VAST = 1e12  # of pressure over curvature, beyond which a film is lost in round-off
 _FLATS = (
     "no bridge between flats is stable at fixed pressure: the slit fills to its rim, or dries up; "
     "give a volume, or curve one of the bodies"
@@ -40,7 +40,7 @@ def bridge_at_pressure(
     *,
     beyond: Literal["raise", "nan"] = "raise",
 ) -> ExactBridge:
-    r"""Liquid bridge of given pressure between two bodies, exactly, as a vapour holds it.
+    r"""Exact liquid bridge of given pressure between two bodies.
 
     Parameters
     ----------
@@ -54,30 +54,29 @@ def bridge_at_pressure(
     curvature_lower, curvature_upper : array_like, shape (...)
         Curvature 1/R of the bodies [1/m]; one of them at least is positive.
     beyond : {"raise", "nan"}
-        What to do where no stable bridge exists.
+        Behaviour where no stable bridge exists.
 
     Returns
     -------
     ExactBridge
-        As from `bridge`; `volume` is an outcome, and `stiffness` is at fixed pressure.
+        As from `bridge`; `volume` is a result, and `stiffness` is at fixed pressure.
 
     Raises
     ------
     InfeasibleError
-        If a gap lies beyond the largest one at that pressure, which is named, or no bridge holds
-        at it at all.
+        If a gap exceeds the maximum at that pressure, which is named, or no stable bridge exists.
     DescriptionError
         If an argument is not finite, out of range, or does not broadcast.
 
     Notes
     -----
-    Stable at fixed pressure means that more pressure holds more liquid, at fixed gap. The branch
-    is that which starts from a thin ring of liquid between touching bodies, and it ends at the
-    fold of the gap at fixed pressure, long before the limit at fixed volume. The second bridge
-    beyond that fold is the nucleus of condensation; it is unstable and not returned. Between two
-    flats every bridge of fixed pressure is unstable: below a gap of
-    ``(cos(angle_lower) + cos(angle_upper)) / -pressure`` the film floods the slit up to its rim,
-    beyond it dries up; this is refused.
+    A bridge is stable at fixed pressure if its volume increases with pressure at fixed gap. The
+    branch starts from a thin ring of liquid between touching bodies and ends at the fold of the gap
+    at fixed pressure, long before the limit at fixed volume. The second bridge beyond that fold is
+    the nucleus of condensation; it is unstable and not returned. Between two flats every bridge of
+    fixed pressure is unstable: below a gap of
+    ``(cos(angle_lower) + cos(angle_upper)) / -pressure`` the liquid fills the slit, beyond it
+    evaporates; such input is refused.
 
     References
     ----------
@@ -99,7 +98,7 @@ def bridge_at_pressure(
     if not np.isfinite(level).all():
         bad = float(level[~np.isfinite(level)].flat[0])
         raise DescriptionError("bridge.pressure", bad, "be finite", unit="1/m")
-    arrays = _checked(
+    arrays = checked_arguments(
         {
             "gap": gap,
             "volume": np.ones_like(level),
@@ -133,27 +132,27 @@ def bridge_at_pressure(
     try:
         columns = columns_at([value[where] for value in points], beyond, (pressures * size)[where])
     except BeyondLimitError as error:
-        raise no_bridge(error.limit * float(size[where[error.point]])) from None
+        raise no_bridge_error(error.limit * float(size[where[error.point]])) from None
     return assembled(columns, where, size, arrays["gap"].shape)
 
 
-def longest_at_pressure(
+def max_gap_at_pressure(
     pressure: float,
     angle_lower: float,
     angle_upper: float,
     curvature_lower: float = 0.0,
     curvature_upper: float = 0.0,
 ) -> float:
-    """Largest gap [m] at which a bridge of given pressure holds: the fold at fixed pressure.
+    """Maximum gap [m] of a bridge of given pressure: the fold at fixed pressure.
 
     Arguments and errors as in `bridge_at_pressure`.
 
     Examples
     --------
-    >>> round(longest_at_pressure(-1e3, 0.0, 0.0, 0.0, 1.0), 10)
+    >>> round(max_gap_at_pressure(-1e3, 0.0, 0.0, 0.0, 1.0), 10)
     0.0017977471
     """
-    # the bridge of touching bodies checks the arguments, and says so if there is none
+    # the bridge between touching bodies validates the arguments and raises if there is none
     bridge_at_pressure(0.0, pressure, angle_lower, angle_upper, curvature_lower, curvature_upper)
     bend = curvature_lower + curvature_upper
     curve = branch_at_pressure(

@@ -1,4 +1,4 @@
-r"""Capillary bridge between two bodies, exactly: the front door.
+r"""Exact capillary bridge of given volume between two bodies: `bridge`, and lateral stability.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
@@ -8,7 +8,7 @@ length; pressure is that of the liquid less that outside, over the surface tensi
 :math:`D, V`                  shortest gap and liquid volume
 :math:`\theta_i`              contact angle on body i, through the liquid
 :math:`\kappa_i`              curvature 1/R of body i, 0 for a flat
-:math:`a, e`                  radius of the waist of the meridian and its shape, 1 - aP
+:math:`a, e`                  neck radius of the meridian and its shape, 1 - aP
 ============================  ================================================================
 """
 
@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import DescriptionError
-from ..arc.bridge import _checked
+from ..arc.bridge import checked_arguments
 from ..arc.shape import SPREADING, refuse_spreading
 from .at_pressure import bridge_at_pressure
 from .result import KINDS, ExactBridge, assembled
 from .solve import BeyondLimitError, columns_at
-from .stability import no_bridge, stability_limit
+from .stability import no_bridge_error, stability_limit
 
 __all__ = ["KINDS", "ExactBridge", "bridge", "bridge_at_pressure", "laterally_stable", "margin"]
 
@@ -42,9 +42,10 @@ def bridge(
     *,
     beyond: Literal["raise", "nan"] = "raise",
 ) -> ExactBridge:
-    r"""Liquid bridge of given volume between two bodies, exactly.
+    r"""Exact liquid bridge of given volume between two bodies.
 
-    The force is one for both bodies and every horizontal cut of radius r and tangent angle phi:
+    The force is the same for both bodies and at every horizontal section of radius r and tangent
+    angle phi:
 
     .. math:: F/\gamma = 2\pi r \sin\varphi - \pi r^2 P = \pi a (1 + e)
 
@@ -59,7 +60,7 @@ def bridge(
     curvature_lower, curvature_upper : array_like, shape (...)
         Curvature 1/R of the bodies [1/m], zero for a flat.
     beyond : {"raise", "nan"}
-        What to do where no stable bridge exists.
+        Behaviour where no stable bridge exists.
 
     Returns
     -------
@@ -69,8 +70,8 @@ def bridge(
     Raises
     ------
     InfeasibleError
-        If a gap lies beyond the limit of stability, which is named, or one body is wetted fully
-        and the other not at all. With ``beyond="nan"`` such entries are nan.
+        If a gap exceeds the stability limit, which is named, or one body is wetted fully and the
+        other not at all. With ``beyond="nan"`` such entries are nan.
     DescriptionError
         If an argument is not finite, out of range, or does not broadcast.
     ConvergenceError
@@ -79,9 +80,9 @@ def bridge(
     Notes
     -----
     Relative errors of the force are near 1e-14, growing to 1e-8 at the fold itself, where the
-    force has a vertical tangent. Left out: gravity (Bond number), hysteresis of the contact
-    angles, and lateral motion: a bridge that repels (F < 0) on a curved body is expelled sideways,
-    see `laterally_stable`.
+    force has a vertical tangent. Neglected: gravity (Bond number), contact-angle hysteresis, and
+    lateral motion: a repelling bridge (F < 0) at a curved body is laterally unstable, see
+    `laterally_stable`.
 
     References
     ----------
@@ -103,7 +104,7 @@ def bridge(
     """
     if beyond not in ("raise", "nan"):
         raise DescriptionError("bridge.beyond", beyond, "be 'raise' or 'nan'")
-    arrays = _checked(
+    arrays = checked_arguments(
         {
             "gap": gap,
             "volume": volume,
@@ -124,7 +125,7 @@ def bridge(
     try:
         columns = columns_at([value[where] for value in points], beyond)
     except BeyondLimitError as error:
-        raise no_bridge(error.limit * float(size[where[error.point]])) from None
+        raise no_bridge_error(error.limit * float(size[where[error.point]])) from None
     return assembled(columns, where, size, arrays["gap"].shape)
 
 
@@ -136,7 +137,7 @@ def margin(
     curvature_lower: ArrayLike = 0.0,
     curvature_upper: ArrayLike = 0.0,
 ) -> Array:
-    """Share of the stability limit that is left, ``1 - gap / limit``; negative beyond it.
+    """Margin to the stability limit, ``1 - gap / limit`` [-]; negative beyond it.
 
     Arguments and errors as in `stability_limit`, and the gap [m].
 
@@ -153,11 +154,11 @@ def margin(
 def laterally_stable(
     force: ArrayLike, curvature_lower: ArrayLike = 0.0, curvature_upper: ArrayLike = 0.0
 ) -> NDArray[np.bool_]:
-    r"""Whether a bridge stays where it is when it is moved sideways along the bodies.
+    r"""Whether a bridge is stable against lateral displacement along the bodies.
 
-    Between flats it is neutral, as nothing there pushes it; with a curved body it stays where it
-    attracts: the sideways mode changes its stability only where the interface is a sphere and
-    the force is zero, so a bridge that repels is expelled from between the bodies.
+    Between flats it is neutral; with a curved body it is stable if it attracts: the lateral mode
+    changes its stability only where the meniscus is a sphere and the force is zero, so that a
+    repelling bridge is expelled from between the bodies.
 
     Parameters
     ----------

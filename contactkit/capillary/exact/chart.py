@@ -1,7 +1,7 @@
-"""Gap, volume and pressure of a bridge as functions of two numbers, with derivatives, on arrays.
+"""Gap and volume of a bridge as explicit functions of two coordinates, with derivatives.
 
-Symbols are those of `delaunay`: a point is the logarithm of the waist and the chart coordinate
-zeta. Everything about a bridge is explicit there.
+Symbols are those of `delaunay`; the coordinates are the logarithm of the neck radius and the chart
+coordinate zeta. Functions take arrays of points.
 """
 
 from __future__ import annotations
@@ -45,31 +45,35 @@ ARRAYS = Elementary(
     np.where,
     _stacked,
 )
-_STEP = 1e-30  # of the complex step
+_STEP = 1e-30  # of the complex-step derivative
 _DIRECTIONS = np.array([[0.0], [_STEP]])
 _COUNTS = (16, 24, 32, 40, 48, 64, 96, 128)
 
 
 class Pair(NamedTuple):
-    """Two bodies, the binding one first; entries are arrays of one length."""
+    """Two bodies, that of the limiting end first; entries are arrays of one length."""
 
-    binder: Body
-    other: Body
-    twin: Flags
+    limiting: Body
+    second: Body
+    symmetric: Flags
 
     def at(self, index: NDArray[np.intp] | Flags) -> Pair:
-        """Take some of the points."""
+        """Select points."""
         return Pair(
-            Body(*(value[index] for value in self.binder)),
-            Body(*(value[index] for value in self.other)),
-            self.twin[index],
+            Body(*(value[index] for value in self.limiting)),
+            Body(*(value[index] for value in self.second)),
+            self.symmetric[index],
         )
 
     def swapped(self, flip: Flags) -> Pair:
-        """Exchange the bodies of some points."""
-        first = Body(*(np.where(flip, o, b) for b, o in zip(self.binder, self.other, strict=True)))
-        last = Body(*(np.where(flip, b, o) for b, o in zip(self.binder, self.other, strict=True)))
-        return Pair(first, last, self.twin)
+        """Exchange the bodies of points."""
+        first = Body(
+            *(np.where(flip, o, b) for b, o in zip(self.limiting, self.second, strict=True))
+        )
+        last = Body(
+            *(np.where(flip, b, o) for b, o in zip(self.limiting, self.second, strict=True))
+        )
+        return Pair(first, last, self.symmetric)
 
 
 class Point(NamedTuple):
@@ -78,24 +82,24 @@ class Point(NamedTuple):
     Attributes
     ----------
     ends : Ends
-        Shape and ends, lengths over the waist.
+        Shape and ends, lengths over the neck radius.
     gap, volume : ndarray
         Gap [m] and volume [m^3].
-    gap_waist, gap_chart, volume_waist, volume_chart : ndarray
-        Derivatives of the gap and of the volume by the logarithm of the waist and by zeta.
-    shape_waist, shape_chart : ndarray
+    gap_by_neck, gap_by_chart, volume_by_neck, volume_by_chart : ndarray
+        Derivatives of gap and volume by the logarithm of the neck radius and by zeta.
+    shape_by_neck, shape_by_chart : ndarray
         Derivatives of the shape e.
     """
 
     ends: Ends
     gap: Array
     volume: Array
-    gap_waist: Array
-    gap_chart: Array
-    volume_waist: Array
-    volume_chart: Array
-    shape_waist: Array
-    shape_chart: Array
+    gap_by_neck: Array
+    gap_by_chart: Array
+    volume_by_neck: Array
+    volume_by_chart: Array
+    shape_by_neck: Array
+    shape_by_chart: Array
 
 
 def solids(angle: Array, curvature: Array) -> Body:
@@ -103,9 +107,9 @@ def solids(angle: Array, curvature: Array) -> Body:
     return body(ARRAYS, angle, curvature)
 
 
-def pair(lower: Body, upper: Body, twin: Flags) -> Pair:
+def pair(lower: Body, upper: Body, symmetric: Flags) -> Pair:
     """Bodies in the order lower, upper."""
-    return Pair(lower, upper, twin)
+    return Pair(lower, upper, symmetric)
 
 
 @lru_cache(maxsize=16)
@@ -115,7 +119,7 @@ def _nodes(count: int) -> tuple[Array, Array]:
 
 
 def _real(found: Ends) -> Ends:
-    """Real parts in the first row of a complex step."""
+    """Real parts, from the first row of a complex step."""
 
     def first(end: End) -> End:
         return End(*(value[0].real for value in end))
@@ -124,15 +128,15 @@ def _real(found: Ends) -> Ends:
         found.shape[0].real,
         found.pressure[0].real,
         found.force[0].real,
-        first(found.binder),
-        first(found.other),
-        found.sine_binder[0].real,
-        found.sine_other[0].real,
+        first(found.limiting),
+        first(found.second),
+        found.sine_limiting[0].real,
+        found.sine_second[0].real,
     )
 
 
 def integrals(e: Array, first: End, last: End) -> Array:
-    """Height and volume over pi of the meridian between its ends, then their slopes by e."""
+    """Height and volume over pi of the meridian between its ends, and their derivatives by e."""
     from_bulge = is_round(e)
     result = np.empty((4, e.size))
     for flag in (False, True):
@@ -145,7 +149,7 @@ def integrals(e: Array, first: End, last: End) -> Array:
 
 
 def integrals_between(shape: Array, low: Array, high: Array) -> Array:
-    """The integrals of meridians between two arc lengths, see `integrals`."""
+    """Integrals of meridians between two arc lengths, see `integrals`."""
 
     def end(arc: Array) -> End:
         return End(arc, np.tan(0.5 * (1.0 - shape) * arc), arc, arc, arc, arc)
@@ -159,32 +163,32 @@ def _stretched(e: Array, first: End, last: End, from_bulge: bool) -> Array:
     longest = float(np.max(abs(span), initial=0.0, where=np.isfinite(span)))
     wanted = 6.0 + 20.0 / np.arcsinh(np.pi / max(longest, 1e-3))
     nodes, weights = _nodes(next((n for n in _COUNTS if n >= wanted), _COUNTS[-1]))
-    # nodes first, so that all but the last operation run along whole rows
+    # nodes along the first axis, so that all but the last operation run along contiguous rows
     values = integrand(ARRAYS, e, low + span * nodes[:, None], from_bulge=from_bulge)
     return np.stack([span * (weights @ value) for value in values])
 
 
-def point(where: Pair, waist: Array, chart: Array) -> Point:
-    """Bridges at points of the chart, lengths in the unit of the waist (given by its logarithm)."""
-    flat = not (where.binder.curvature.any() or where.other.curvature.any())
-    # between flats nothing but the scale depends on the waist
+def point(where: Pair, log_neck: Array, chart: Array) -> Point:
+    """Bridges at points of the chart, lengths in the unit of the neck radius."""
+    flat = not (where.limiting.curvature.any() or where.second.curvature.any())
+    # between flats only the scale depends on the neck radius
     directions = _DIRECTIONS[1:] if flat else _DIRECTIONS
     coordinate = chart + 1j * directions
-    a = np.exp(waist + 0.0 * directions if flat else waist + 1j * _DIRECTIONS[::-1])
-    found = ends(ARRAYS, a, coordinate, where.binder, where.other, where.twin)
+    a = np.exp(log_neck + 0.0 * directions if flat else log_neck + 1j * _DIRECTIONS[::-1])
+    found = ends(ARRAYS, a, coordinate, where.limiting, where.second, where.symmetric)
     real = _real(found)
-    height, content, height_e, content_e = integrals(real.shape, real.binder, real.other)
+    height, content, height_e, content_e = integrals(real.shape, real.limiting, real.second)
     size = a[0].real
 
     def slope(value: NDArray[np.complex128]) -> Array:
         result: Array = value.imag / _STEP
         return result if len(result) == 2 else np.concatenate((0.0 * result, result))
 
-    b, o = real.binder, real.other
+    b, o = real.limiting, real.second
     shape = slope(found.shape)
-    arc_b, arc_o = slope(found.binder.arc), slope(found.other.arc)
-    sags = slope(found.binder.sag + found.other.sag)
-    caps = slope(found.binder.cap + found.other.cap)
+    arc_b, arc_o = slope(found.limiting.arc), slope(found.second.arc)
+    sags = slope(found.limiting.sag + found.second.sag)
+    caps = slope(found.limiting.cap + found.second.cap)
     gap = size * (height - b.sag - o.sag)
     volume = size**3 * (np.pi * content - b.cap - o.cap)
     d_gap = size * (height_e * shape + b.sine * arc_b + o.sine * arc_o - sags)

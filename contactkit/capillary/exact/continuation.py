@@ -1,7 +1,7 @@
-"""The curve of bridges with free ends, followed by its arc length up to its limit.
+"""Pseudo-arclength continuation of bridges with free ends, up to the stability limit.
 
-Symbols are those of `delaunay` and `bridge_free`. It serves where `bridge_branch.march` loses its
-way, for the phase of an end has passed minus a right angle.
+Symbols are those of `delaunay` and `free_ends`. Used where `volume_branch.march` fails because the
+phase of an end has passed minus a right angle.
 """
 
 from __future__ import annotations
@@ -14,19 +14,20 @@ from numpy.typing import NDArray
 
 from ...errors import ConvergenceError
 from .chart import Pair
-from .free_ends import Free, bent, newton, tangent, weights_of
-from .volume_branch import DETACHMENT, FOLD, drop_left
+from .free_ends import Free, newton, scaled_curvature, tangent, weights_of
+from .volume_branch import DETACHMENT, FOLD, sessile_drop
 
-__all__ = ["FreeBranch", "march_free", "unbend"]
+__all__ = ["FreeBranch", "march_free", "relax_curvature"]
 
 Array = NDArray[np.float64]
 
 
 class FreeBranch(NamedTuple):
-    """Places along the curve, gap growing; the last gap is the limit.
+    """Points along the curve with increasing gap; the last gap is the limit.
 
-    `unknowns` and `directions` hold four unknowns and the gap, and their slopes by the arc
-    length `path`; `radii` are the last over the waist; bodies are in the order lower, upper.
+    `unknowns` and `directions` hold four unknowns and the gap, and their derivatives by the arc
+    length `path`; `radii` are the last contact radii over the neck radius; bodies are in the order
+    lower, upper.
     """
 
     bodies: Pair
@@ -39,22 +40,22 @@ class FreeBranch(NamedTuple):
 
     @property
     def last(self) -> tuple[float, float, float, float]:
-        """Waist, shape and the two contact radii at the limit."""
+        """Neck radius, shape and the two contact radii at the limit."""
         if self.kind == DETACHMENT:
-            leaves = float(self.bodies.binder.cosine[0]) == -1.0
-            a, _, left = drop_left(self.bodies.other if leaves else self.bodies.binder)
+            leaves = float(self.bodies.limiting.cosine[0]) == -1.0
+            a, _, left = sessile_drop(self.bodies.second if leaves else self.bodies.limiting)
             return (a, -1.0, 0.0, left) if leaves else (a, -1.0, left, 0.0)
         a, (below, above) = math.exp(self.unknowns[0, -1]), self.radii
         return a, float(self.unknowns[1, -1]), a * below, a * above
 
     @property
     def first(self) -> Array:
-        """Unknowns of the first place."""
+        """Unknowns at the first point."""
         result: Array = self.unknowns[:4, 0]
         return result
 
     def place(self, gap: Array) -> Array:
-        """Unknowns near which the bridges of gaps lie."""
+        """Initial guess of the unknowns for given gaps."""
         inside = self.unknowns[4]
         i = np.clip(np.searchsorted(inside, gap), 1, inside.size - 1) - 1
         width = self.path[i + 1] - self.path[i]
@@ -72,12 +73,14 @@ class FreeBranch(NamedTuple):
         return first + last
 
 
-def unbend(bodies: Pair, factor: float, start: Array, gap: float) -> Array:
-    """Unknowns of a bridge between bodies, from those between bodies `factor` times as curved."""
+def relax_curvature(bodies: Pair, factor: float, start: Array, gap: float) -> Array:
+    """Unknowns of a bridge, by continuation from bodies of `factor` times the curvature."""
     here, far, ratio = start, math.log(factor), 0.6
     while far != 0.0:
         trial = far * ratio if abs(far * ratio) > 0.05 else 0.0
-        found, good = newton(bent(bodies, math.exp(trial)), here[:, None], np.array([gap]), None)
+        found, good = newton(
+            scaled_curvature(bodies, math.exp(trial)), here[:, None], np.array([gap]), None
+        )
         if good[0]:
             here, far = found.unknowns[:, 0], trial
             continue
@@ -88,19 +91,19 @@ def unbend(bodies: Pair, factor: float, start: Array, gap: float) -> Array:
 
 
 def _ahead(
-    bodies: Pair, here: Free, way: Array, step: float, pressure: float | None
+    bodies: Pair, here: Free, direction: Array, step: float, pressure: float | None
 ) -> Free | None:
-    """The bridge a step along the curve, in the plane across its direction."""
+    """Bridge one step along the curve, in the plane normal to its direction."""
     weights = weights_of(here)
     origin = np.append(here.unknowns[:, 0], here.gap[0])
-    y = origin + step * way
-    row = way * weights**2
+    y = origin + step * direction
+    row = direction * weights**2
     for _ in range(10):
         at, _ = _once(bodies, y, pressure)
         if not (np.isfinite(at.jacobian).all() and np.isfinite(at.residual).all()):
             return None
         rows = np.concatenate((at.jacobian[0], [[-1.0], [0.0], [0.0], [0.0]]), axis=1)
-        miss = np.append(at.residual[:, 0], row @ (y - origin - step * way))
+        miss = np.append(at.residual[:, 0], row @ (y - origin - step * direction))
         try:
             move = np.linalg.solve(np.vstack((rows, row)), miss)
         except np.linalg.LinAlgError:
@@ -120,27 +123,27 @@ def _once(bodies: Pair, y: Array, pressure: float | None) -> tuple[Free, Array]:
     return _at(bodies, y[:4, None], y[4:], pressure), y
 
 
-def _turned(way: Array, before: Array, weights: Array) -> Array:
-    return way if (way * before) @ weights**2 > 0.0 else -way
+def _turned(direction: Array, before: Array, weights: Array) -> Array:
+    return direction if (direction * before) @ weights**2 > 0.0 else -direction
 
 
 def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = None) -> FreeBranch:
-    """Follow the curve from a stable bridge, given by its unknowns, to its limit."""
+    """Follow the curve from a stable bridge, given by its unknowns, to the limit."""
     here, good = newton(bodies, start[:, None], np.array([gap]), pressure)
     if not good[0]:
         raise ConvergenceError("no bridge was found to start from", start)
-    leaves = [body.cosine[0] == -1.0 for body in (bodies.binder, bodies.other)]
+    leaves = [body.cosine[0] == -1.0 for body in (bodies.limiting, bodies.second)]
     limit = np.inf
     if any(leaves) and pressure is None:
-        limit = drop_left(bodies.other if leaves[0] else bodies.binder)[1]
+        limit = sessile_drop(bodies.second if leaves[0] else bodies.limiting)[1]
     sign = np.sign(np.linalg.det(here.jacobian[0]))
-    way = tangent(here)
-    way = way if way[4] > 0.0 else -way
-    path, places, ways, step = [0.0], [here], [way], 0.1
+    direction = tangent(here)
+    direction = direction if direction[4] > 0.0 else -direction
+    path, places, tangents, step = [0.0], [here], [direction], 0.1
     for _ in range(400):
-        new = _ahead(bodies, here, way, step, pressure)
-        now = None if new is None else _turned(tangent(new), way, weights_of(new))
-        if new is None or now is None or now @ (way * weights_of(new) ** 2) < 0.8:
+        new = _ahead(bodies, here, direction, step, pressure)
+        now = None if new is None else _turned(tangent(new), direction, weights_of(new))
+        if new is None or now is None or now @ (direction * weights_of(new) ** 2) < 0.8:
             step *= 0.5
             if step < 1e-6 or (here.gap[0] > limit * (1.0 - 1e-5)):
                 break
@@ -149,19 +152,19 @@ def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = 
             if step > 1e-3:
                 step *= 0.25
                 continue
-            return _with_fold(bodies, path, places, ways, step, pressure)
-        if np.sign(np.linalg.det(new.jacobian[0])) != sign:  # jumped over two folds
+            return _with_fold(bodies, path, places, tangents, step, pressure)
+        if np.sign(np.linalg.det(new.jacobian[0])) != sign:  # stepped over two folds
             step *= 0.25
             if step < 1e-6:
                 break
             continue
         path.append(path[-1] + step)
-        here, way = new, now
+        here, direction = new, now
         places.append(here)
-        ways.append(way)
+        tangents.append(direction)
         step = min(1.4 * step, 0.5)
     if np.isfinite(limit) and here.gap[0] > 0.9 * limit:
-        return _branch(bodies, path, places, ways, np.append(_gaps(places), limit), DETACHMENT)
+        return _branch(bodies, path, places, tangents, np.append(_gaps(places), limit), DETACHMENT)
     raise ConvergenceError("no limit of the bridge was found", places)
 
 
@@ -170,42 +173,53 @@ def _gaps(places: list[Free]) -> Array:
 
 
 def _branch(
-    bodies: Pair, path: list[float], places: list[Free], ways: list[Array], gap: Array, kind: int
+    bodies: Pair,
+    path: list[float],
+    places: list[Free],
+    tangents: list[Array],
+    gap: Array,
+    kind: int,
 ) -> FreeBranch:
     unknowns = np.array([np.append(place.unknowns[:, 0], place.gap[0]) for place in places]).T
     first, last = places[-1].radii[:, 0].tolist()
-    return FreeBranch(bodies, np.array(path), unknowns, np.array(ways).T, gap, (first, last), kind)
+    return FreeBranch(
+        bodies, np.array(path), unknowns, np.array(tangents).T, gap, (first, last), kind
+    )
 
 
 def _with_fold(
     bodies: Pair,
     path: list[float],
     places: list[Free],
-    ways: list[Array],
+    tangents: list[Array],
     step: float,
     pressure: float | None,
 ) -> FreeBranch:
-    """Find the fold less than a step ahead of the last place: there the gap stands still."""
-    here, way = places[-1], ways[-1]
+    """Locate the fold, the maximum of the gap, within one step of the last point."""
+    here, direction = places[-1], tangents[-1]
     low, high = 0.0, step
-    f_low, f_high = float(way[4]), -np.inf
-    best, best_way = here, way
+    f_low, f_high = float(direction[4]), -np.inf
+    best, best_direction = here, direction
     for _ in range(60):
         middle = 0.5 * (low + high)
         if np.isfinite(f_high):
             middle = high - f_high * (high - low) / (f_high - f_low)
-        new = _ahead(bodies, here, way, middle, pressure)
+        new = _ahead(bodies, here, direction, middle, pressure)
         if new is None:
             break
-        best, best_way = new, _turned(tangent(new), way, weights_of(new))
-        value = float(best_way[4])
+        best, best_direction = new, _turned(tangent(new), direction, weights_of(new))
+        value = float(best_direction[4])
         if abs(value) < 1e-10 or high - low < 1e-12:
             break
         if value > 0.0:
             low, f_low, f_high = middle, value, 0.5 * f_high
         else:
             high, f_high, f_low = middle, value, 0.5 * f_low
-    best_way = best_way.copy()
-    best_way[4] = 0.0
-    path, places, ways = [*path, path[-1] + middle], [*places, best], [*ways, best_way]
-    return _branch(bodies, path, places, ways, _gaps(places), FOLD)
+    best_direction = best_direction.copy()
+    best_direction[4] = 0.0
+    path, places, tangents = (
+        [*path, path[-1] + middle],
+        [*places, best],
+        [*tangents, best_direction],
+    )
+    return _branch(bodies, path, places, tangents, _gaps(places), FOLD)

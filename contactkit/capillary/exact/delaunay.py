@@ -1,11 +1,11 @@
-r"""Meridians of constant mean curvature between two contact lines: closed but for two integrals.
+r"""Delaunay surfaces: meridians of constant mean curvature between two contact lines.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
 length; pressure is that of the liquid less that outside, over the surface tension; no gravity.
 
-Lengths are over the radius `a` of the waist, the neck or bulge of the meridian or of its
-continuation, from which the arc length s counts:
+Lengths are over the neck radius `a` of the meridian or its continuation (its bulge radius for
+e < 0), from which the arc length s counts:
 
 ============================  ================================================================
 :math:`e = 1 - aP`            shape: above 1 nodoid with P < 0, 1 catenoid, down to 0 unduloid
@@ -15,8 +15,8 @@ continuation, from which the arc length s counts:
 :math:`g = 1 + e`             force over :math:`\pi a`
 :math:`k`                     curvature of a body times a
 :math:`\psi`                  phase of an end, :math:`e\sin\psi = \cos\theta - (1 + e) k`; it is
-                              0 for a thin film and :math:`\pi/2` where an end of a bridge
-                              between equal bodies stops resisting a tilt of the profile
+                              0 for a thin film and :math:`\pi/2` where a bridge between equal
+                              bodies becomes unstable against tilt of the profile
 :math:`\beta`                 slope of a body at its contact line
 ============================  ================================================================
 
@@ -24,10 +24,10 @@ continuation, from which the arc length s counts:
     r^2 = 1 + e w, \quad w = s^2 \operatorname{sinc}^2(ps/2), \quad
     r \sin\varphi = 1 + p e w / 2, \quad r \cos\varphi = e \sin(ps) / p
 
-hold for every shape and are entire in e and s, and the arc length at an end follows from its
-phase without an iteration; only the height and the volume are integrals. Nothing here imports
-numpy: what the elementary functions are is an argument, so that one text serves numbers, complex
-numbers (for exact derivatives) and arrays.
+hold for every shape and are entire in e and s; the arc length at an end follows from its phase in
+closed form; only the height and the volume are integrals. The module does without numpy: the
+elementary functions are an argument, so that one code serves floats, complex numbers (for exact
+derivatives) and arrays.
 """
 
 from __future__ import annotations
@@ -52,13 +52,13 @@ __all__ = [
 ]
 
 _RIGHT = math.pi / 2.0
-_TINY = 1e-300  # keeps a quotient of two zeros at its limit
+_TINY = 1e-300  # avoids 0/0
 _SMALL = 1e-10
-_ROUND = 0.2  # shapes below this have no neck that is narrow against their length
+_ROUND = 0.2  # shapes below this have no neck that is narrow compared with their length
 
 
 class Elementary(NamedTuple):
-    """Elementary functions of one kind of number."""
+    """Elementary functions for one type of number."""
 
     sin: Callable[[Any], Any]
     cos: Callable[[Any], Any]
@@ -69,7 +69,7 @@ class Elementary(NamedTuple):
     atan: Callable[[Any], Any]
     expm1: Callable[[Any], Any]
     where: Callable[[Any, Any, Any], Any]
-    stack: Callable[[Any, Any], Any] | None = None  # two into one, to halve the calls on arrays
+    stack: Callable[[Any, Any], Any] | None = None  # stacks two arrays, to halve the calls
 
 
 def _either(condition: Any, first: Any, second: Any) -> Any:
@@ -102,16 +102,16 @@ class Body(NamedTuple):
 
     sine: Any
     cosine: Any
-    lack: Any
-    rise: Any
+    one_minus_sine: Any
+    one_plus_cosine: Any
     curvature: Any
 
 
 class End(NamedTuple):
-    """An end of a meridian, lengths over the waist.
+    """An end of a meridian, lengths over the neck radius.
 
-    Arc length from the waist and tan(p S / 2), radius, height and volume of the cap of the body
-    within the contact line, sine of the tangent angle.
+    Arc length from the neck and tan(p S / 2), contact radius, height and volume of the cap of the
+    body within the contact line, sine of the tangent angle.
     """
 
     arc: Any
@@ -128,10 +128,10 @@ class Ends(NamedTuple):
     shape: Any
     pressure: Any
     force: Any
-    binder: End
-    other: End
-    sine_binder: Any
-    sine_other: Any
+    limiting: End
+    second: End
+    sine_limiting: Any
+    sine_second: Any
 
 
 def body(m: Elementary, angle: Any, curvature: Any) -> Body:
@@ -155,12 +155,12 @@ def _arc(m: Elementary, tangent: Any, pressure: Any) -> tuple[Any, Any]:
 
 
 def _end(m: Elementary, solid: Body, k: Any, shape: Any, pull: Any, phase: Any) -> End:
-    r"""End of the phase given as (sin, cos, 1 - cos, sin + k), from the waist outwards.
+    r"""End with the phase (sin, cos, 1 - cos, sin + k), from the neck outwards.
 
-    The contact line is a root of a quadratic in :math:`\tan\beta / k`, in the one of its two
-    forms that takes no difference of like numbers; w/e likewise stays regular at the cylinder.
+    The contact line is a root of a quadratic in :math:`\tan\beta / k`, in the form without
+    cancellation; w/e likewise is regular at the cylinder.
     """
-    sine, cosine, lack, rest = phase
+    sine, cosine, one_minus_cosine, rest = phase
     p = 1.0 - shape
     lever = shape * cosine
     outer = lever.real >= 0.0
@@ -170,7 +170,7 @@ def _end(m: Elementary, solid: Body, k: Any, shape: Any, pull: Any, phase: Any) 
     square = below * below + (k * top) * (k * top)
     size = m.sqrt(square)
     radius, sine_beta, cosine_beta = top / size, k * top / size, below / size
-    short = solid.lack * cosine + lack  # 1 - sin(theta) cos(psi)
+    short = solid.one_minus_sine * cosine + one_minus_cosine  # 1 - sin(theta) cos(psi)
     first = 2.0 * (short + shape * sine * sine + pull * k * sine)
     flat = 1.0 - k * k
     second = 2.0 * flat * (short + p * k * sine) - 2.0 * shape * (
@@ -183,16 +183,21 @@ def _end(m: Elementary, solid: Body, k: Any, shape: Any, pull: Any, phase: Any) 
         (rest - 0.5 * k * p * w) / m.where(upright, cosine_beta, 1.0),
         (solid.cosine * cosine_beta - solid.sine * sine_beta) / shape,
     )  # cos(phi) / e
-    across, share = radius * lean, 0.25 * p * p * w  # sin(ps) / p and sin(ps/2)^2
-    late = share.real > 0.5
-    arc, z = _arc(m, m.where(late, w, across) / m.where(late, across, 1.0 - share), p)
+    across, half_sine = radius * lean, 0.25 * p * p * w  # sin(ps) / p and sin(ps/2)^2
+    late = half_sine.real > 0.5
+    arc, z = _arc(m, m.where(late, w, across) / m.where(late, across, 1.0 - half_sine), p)
     sag = k * radius * radius / (1.0 + cosine_beta)
     cap = math.pi / 6.0 * sag * (3.0 * radius * radius + sag * sag)
     return End(arc, z, radius, sag, cap, solid.sine * cosine_beta + solid.cosine * sine_beta)
 
 
 def ends(
-    m: Elementary, waist: Any, chart: Any, binder: Body, other: Body, twin: Any = False
+    m: Elementary,
+    neck_radius: Any,
+    chart: Any,
+    limiting: Body,
+    second: Body,
+    symmetric: Any = False,
 ) -> Ends:
     r"""Both ends of the meridian at a point of the chart.
 
@@ -204,44 +209,51 @@ def ends(
     ----------
     m : Elementary
         Functions for the kind of number of the other arguments.
-    waist, chart : number or array
-        Radius `a` [m] of the waist, and zeta [-]: towards infinity the film is thin, zero where
-        the phase of the binding end is a right angle, negative beyond it.
-    binder, other : Body
-        The body whose end gets to that phase first, and the other one.
-    twin : bool or array
-        Whether both ends share one phase, as between equal bodies.
+    neck_radius, chart : number or array
+        Neck radius `a` [m], and zeta [-]: infinite for a thin film, zero where the phase of the
+        limiting end is a right angle, negative beyond it.
+    limiting, second : Body
+        The body whose end reaches that phase first (limiting end), and the other one.
+    symmetric : bool or array
+        Whether both ends have the same phase, as between equal bodies.
 
     Returns
     -------
     Ends
-        Shape and ends, lengths over the waist. Where the other end has no phase its sine exceeds
-        one, and its numbers are not to be used.
+        Shape and ends, lengths over the neck radius. Where the second end has no phase, its sine
+        exceeds one and its values are invalid.
     """
-    k, k_other = binder.curvature * waist, other.curvature * waist
+    k, k_second = limiting.curvature * neck_radius, second.curvature * neck_radius
     wide = m.cosh(chart)
     half = m.sinh(0.5 * chart)
     rest = (1.0 + k) / wide
     sine = rest - k
     near = 2.0 * (1.0 + k) * half * half / wide  # 1 - sin(psi)
     cosine = half * m.sqrt(2.0 * (1.0 + k) * (1.0 - k + rest) / wide)
-    shape = (binder.cosine - k) / rest + _TINY
-    pull = m.where(abs(chart.real) < 1.0, (binder.rise - near) / rest, 1.0 + shape)
+    shape = (limiting.cosine - k) / rest + _TINY
+    pull = m.where(abs(chart.real) < 1.0, (limiting.one_plus_cosine - near) / rest, 1.0 + shape)
     phase = (sine, cosine, _one_less(m, sine, cosine), rest)
-    rest_other = m.where(twin, rest, (other.cosine - k_other) / shape)
-    sine_other = rest_other - k_other
-    lead = (binder.cosine - other.cosine - (k - k_other) * pull) / shape
-    total = (binder.cosine + other.cosine - (k + k_other) * pull) / shape  # of the two sines
+    rest_second = m.where(symmetric, rest, (second.cosine - k_second) / shape)
+    sine_second = rest_second - k_second
+    lead = (limiting.cosine - second.cosine - (k - k_second) * pull) / shape
+    total = (limiting.cosine + second.cosine - (k + k_second) * pull) / shape  # of the two sines
     square = m.where(
-        abs(sine_other.real) < 0.9,
-        1.0 - sine_other * sine_other,
+        abs(sine_second.real) < 0.9,
+        1.0 - sine_second * sine_second,
         cosine * cosine + lead * total,
     )
     open_ = square.real > 0.0
-    cosine_other = m.where(twin, cosine, m.sqrt(m.where(open_, square, _TINY)))
-    phase_other = (sine_other, cosine_other, _one_less(m, sine_other, cosine_other), rest_other)
-    first, last = _both(m, (binder, k, phase), (other, k_other, phase_other), shape, pull)
-    return Ends(shape, 1.0 - shape, pull, first, last, sine, m.where(open_ | twin, sine_other, 2.0))
+    cosine_second = m.where(symmetric, cosine, m.sqrt(m.where(open_, square, _TINY)))
+    phase_second = (
+        sine_second,
+        cosine_second,
+        _one_less(m, sine_second, cosine_second),
+        rest_second,
+    )
+    first, last = _both(m, (limiting, k, phase), (second, k_second, phase_second), shape, pull)
+    return Ends(
+        shape, 1.0 - shape, pull, first, last, sine, m.where(open_ | symmetric, sine_second, 2.0)
+    )
 
 
 def _both(m: Elementary, one: Any, two: Any, shape: Any, pull: Any) -> tuple[End, End]:
@@ -256,29 +268,29 @@ def _both(m: Elementary, one: Any, two: Any, shape: Any, pull: Any) -> tuple[End
 
 
 def _one_less(m: Elementary, sine: Any, cosine: Any) -> Any:
-    """1 - cosine, without a difference of like numbers."""
+    """1 - cosine, without cancellation."""
     acute = cosine.real > 0.0
     return m.where(acute, sine * sine / m.where(acute, 1.0 + cosine, 1.0), 1.0 - cosine)
 
 
 def is_round(shape: Any) -> Any:
-    """Whether a shape has no neck at s = 0 that is narrow against its length."""
+    """Whether a shape has no neck at s = 0 that is narrow compared with its length."""
     return shape < _ROUND
 
 
 def reach(m: Elementary, shape: Any, end: End, *, from_bulge: bool) -> Any:
-    """Stretched arc length of an end, see `integrand`; `from_bulge` as `is_round` says."""
+    """Stretched arc length of an end, see `integrand`; `from_bulge` from `is_round`."""
     return m.asinh(end.half_tangent if from_bulge else end.arc * m.sqrt(shape))
 
 
 def integrand(
     m: Elementary, shape: Any, stretched: Any, *, from_bulge: bool
 ) -> tuple[Any, Any, Any, Any]:
-    r"""Slopes of height and volume (over pi) by the stretched arc length, and those of both by e.
+    r"""Integrands of height and volume (over pi) in stretched arc length, and derivatives by e.
 
-    The stretch takes the branch points of r, a complex arc length off the neck, to a distance
-    of a right angle: :math:`\sqrt e\, s = \sinh v` from a neck, and the Gudermannian
-    :math:`\tan(ps/2) = \sinh v` from a bulge, or from a cylinder.
+    The stretching moves the branch points of r, which lie at a complex arc length, to a distance of
+    a right angle: :math:`\sqrt e\, s = \sinh v` from a neck, and the Gudermannian
+    :math:`\tan(ps/2) = \sinh v` from a bulge or a cylinder.
     """
     p = 1.0 - shape
     grown = m.expm1(stretched)
@@ -299,11 +311,11 @@ def integrand(
     square = 1.0 + w
     lean = 1.0 + 0.5 * p * w  # r sin(phi)
     inverse = jacobian / m.sqrt(square)
-    # (sin x / x - cos x) / x^2, to six digits at worst: it only steers iterations
+    # (sin x / x - cos x) / x^2, to six digits at least: used in derivatives only
     turn = (sine / x - cosine + _SMALL / 3.0) / (x * x + _SMALL)
-    rise = chord * (chord + (0.5 * shape * p) * s * s * s * turn)  # of w by e
-    rise_lean = 0.5 * (p * rise - w)
-    half = 0.5 * lean * rise
+    w_by_e = chord * (chord + (0.5 * shape * p) * s * s * s * turn)  # of w by e
+    rise_lean = 0.5 * (p * w_by_e - w)
+    half = 0.5 * lean * w_by_e
     return (
         inverse * lean,
         inverse * lean * square,

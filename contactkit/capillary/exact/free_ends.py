@@ -1,10 +1,10 @@
-r"""Bridges with free ends, for those whose phases no chart covers, and the curve through them.
+r"""Bridges with the arc lengths of both ends as unknowns, outside the chart of `delaunay`.
 
-Symbols are those of `delaunay`. Where a body repels and the other one wets, and the bodies are
-curved, the phase of an end passes minus a right angle, where the chart of `delaunay.ends` turns
-back. Here the arc lengths of both ends are unknowns themselves, which is regular everywhere short
-of the equator of a body, but needs a start nearby: such bridges are followed from one that is
-known, along the gap or along the curvature of the bodies.
+Symbols are those of `delaunay`. Between curved bodies of which one repels and the other wets, the
+phase of an end passes minus a right angle, where the chart of `delaunay.ends` has a fold. Here the
+arc lengths of both ends are unknowns, which is regular up to the equator of a body but needs a good
+initial guess: bridges are obtained by continuation from a known one, in the gap or in the curvature
+of the bodies.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from .chart import Pair, integrals_between
 
-__all__ = ["Free", "at_gaps", "bent", "descend", "newton", "tangent"]
+__all__ = ["Free", "at_gaps", "scaled_curvature", "descend", "newton", "tangent"]
 
 Array = NDArray[np.float64]
-Rows = NDArray[np.complex128]  # a number, and its steps in the directions of the unknowns
+Rows = NDArray[np.complex128]  # a value and its complex steps in the directions of the unknowns
 
-_STEP = 1e-30  # of the complex step
+_STEP = 1e-30  # of the complex-step derivative
 _STEPS = 400
 _DIRECTIONS = np.concatenate((np.zeros((1, 4)), np.eye(4)))[:, :, None]
 
@@ -32,15 +32,15 @@ class Free(NamedTuple):
     Attributes
     ----------
     unknowns : ndarray, shape (4, n)
-        Logarithm of the waist, shape e, and arc lengths over the waist of the two ends.
+        Logarithm of the neck radius, shape e, and arc lengths over the neck radius of the two ends.
     residual : ndarray, shape (4, n)
-        Miss of the gap, of the volume (or of p = aP) and of the two contact angles.
+        Residuals of the gap, of the volume (or of p = aP) and of the two contact angles.
     jacobian : ndarray, shape (n, 4, 4)
-        Slopes of these by the unknowns.
+        Derivatives of the residuals by the unknowns.
     volume, gap : ndarray, shape (n,)
-        As found.
+        Volume and gap.
     radii : ndarray, shape (2, n)
-        Contact radii over the waist.
+        Contact radii over the neck radius.
     """
 
     unknowns: Array
@@ -51,8 +51,8 @@ class Free(NamedTuple):
     radii: Array
 
 
-def _end(waist: Rows, shape: Rows, arc: Rows, solid: Any) -> tuple[Any, ...]:
-    """Radius, sine of the tangent angle, sag, cap and the miss of the contact angle."""
+def _end(log_neck: Rows, shape: Rows, arc: Rows, solid: Any) -> tuple[Any, ...]:
+    """Radius, sine of the tangent angle, sag, cap and the residual of the contact angle."""
     p = 1.0 - shape
     x = 0.5 * p * arc + 1e-300
     chord = arc * np.sin(x) / x
@@ -60,7 +60,7 @@ def _end(waist: Rows, shape: Rows, arc: Rows, solid: Any) -> tuple[Any, ...]:
     r = np.sqrt(1.0 + shape * w)
     sine = (1.0 + 0.5 * p * shape * w) / r
     cosine = shape * chord * np.cos(x) / r
-    steep = solid.curvature * np.exp(waist) * r
+    steep = solid.curvature * np.exp(log_neck) * r
     level = np.sqrt(1.0 - steep * steep)
     sag = steep * r / (1.0 + level)
     cap = np.pi / 6.0 * sag * (3.0 * r * r + sag * sag)
@@ -70,15 +70,15 @@ def _end(waist: Rows, shape: Rows, arc: Rows, solid: Any) -> tuple[Any, ...]:
 
 
 def _at(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> Free:
-    waist, shape, *arcs = np.moveaxis(x + 1j * _STEP * _DIRECTIONS, 1, 0)
+    log_neck, shape, *arcs = np.moveaxis(x + 1j * _STEP * _DIRECTIONS, 1, 0)
     ends = [
-        _end(waist, shape, arc, solid)
-        for arc, solid in zip(arcs, (bodies.binder, bodies.other), strict=True)
+        _end(log_neck, shape, arc, solid)
+        for arc, solid in zip(arcs, (bodies.limiting, bodies.second), strict=True)
     ]
-    size = np.exp(waist)
+    size = np.exp(log_neck)
     height, content, height_e, content_e = integrals_between(x[1], -x[2], x[3])
     (r1, sine1), (r2, sine2) = ((end[0][0].real, end[1][0].real) for end in ends)
-    # the integrals carry their slopes in the imaginary parts, like all else
+    # the integrals carry their derivatives in the imaginary parts, like all other values
     i1, i2, ie = arcs[0].imag, arcs[1].imag, shape.imag
     z = height + 1j * (height_e * ie + sine1 * i1 + sine2 * i2)
     v = content + 1j * (content_e * ie + r1 * r1 * sine1 * i1 + r2 * r2 * sine2 * i2)
@@ -93,7 +93,7 @@ def _at(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> Free:
 def newton(
     bodies: Pair, x: Array, gap: Array, pressure: float | None
 ) -> tuple[Free, NDArray[np.bool_]]:
-    """Newton on bridges near `x`, and which of them were found."""
+    """Newton iteration from `x`, and which of the bridges converged."""
     bodies = bodies.at(np.zeros(gap.size, dtype=np.intp))
     for _ in range(12):
         at = _at(bodies, x, gap, pressure)
@@ -124,7 +124,7 @@ def tangent(at: Free, i: int = 0) -> Array:
 
 
 def weights_of(at: Free, i: int = 0) -> Array:
-    """Weights that make steps in the unknowns and in the gap alike."""
+    """Scaling weights of the unknowns and of the gap."""
     _, shape, first, last = at.unknowns[:, i]
     span = abs(first) + abs(last)
     return np.array(
@@ -135,28 +135,28 @@ def weights_of(at: Free, i: int = 0) -> Array:
 def descend(
     bodies: Pair, start: Array, start_gap: float, gaps: Array, pressure: float | None = None
 ) -> list[Free | None]:
-    """Follow bridges from a stable one, given by its unknowns, to each of the smaller gaps.
+    """Continuation from a stable bridge, given by its unknowns, to each of the smaller gaps.
 
-    None where the way is lost or stability ends.
+    None where the continuation fails or stability ends.
     """
     found: list[Free | None] = [None] * gaps.size
     here, good = newton(bodies, start[:, None], np.array([start_gap]), pressure)
     if not good[0]:
         return found
     sign = np.sign(np.linalg.det(here.jacobian[0]))
-    left, share = _STEPS, 0.2
+    left, fraction = _STEPS, 0.2
     for i in np.argsort(-gaps):
         target = float(gaps[i])
         while here.gap[0] - target > 1e-14 and left > 0:
             left -= 1
-            goal = max(target, here.gap[0] - share * max(here.gap[0], 0.05))
+            goal = max(target, here.gap[0] - fraction * max(here.gap[0], 0.05))
             slope = np.linalg.solve(here.jacobian[0], np.array([1.0, 0.0, 0.0, 0.0]))
             guess = here.unknowns + (slope * (goal - here.gap[0]))[:, None]
             new, good = newton(bodies, guess, np.array([goal]), pressure)
             if not good[0] or np.sign(np.linalg.det(new.jacobian[0])) != sign:
-                share *= 0.5
+                fraction *= 0.5
                 continue
-            here, share = new, min(1.5 * share, 0.5)
+            here, fraction = new, min(1.5 * fraction, 0.5)
         if here.gap[0] - target > 1e-13:
             break
         new, good = newton(bodies, here.unknowns, np.array([target]), pressure)
@@ -164,15 +164,16 @@ def descend(
     return found
 
 
-def bent(bodies: Pair, factor: float) -> Pair:
-    """The same bodies with their curvature multiplied."""
-    binder, other = (
-        body._replace(curvature=body.curvature * factor) for body in (bodies.binder, bodies.other)
+def scaled_curvature(bodies: Pair, factor: float) -> Pair:
+    """Bodies with their curvature multiplied by a factor."""
+    limiting, second = (
+        body._replace(curvature=body.curvature * factor)
+        for body in (bodies.limiting, bodies.second)
     )
-    return Pair(binder, other, bodies.twin)
+    return Pair(limiting, second, bodies.symmetric)
 
 
 def at_gaps(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> Free | None:
-    """Bridges at many gaps from good guesses, or None if any is not found."""
+    """Bridges at many gaps from initial guesses, or None if one does not converge."""
     found, good = newton(bodies, x, gap, pressure)
     return found if good.all() else None

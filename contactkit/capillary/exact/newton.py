@@ -1,9 +1,9 @@
-"""Newton iteration for bridges between curved bodies, and the curve of one volume up to its fold.
+"""Newton iteration for bridges between two bodies in chart coordinates.
 
-Symbols are those of `delaunay`. The unknowns are the logarithm of the waist and the chart
-coordinate zeta, in which the curve of bridges of one volume (or of one pressure) is smooth
-through catenoid, cylinder, sphere, inflection at a contact line and fold. Lengths are in the
-unit of the caller.
+Symbols are those of `delaunay`. The unknowns are the logarithm of the neck radius and the chart
+coordinate zeta, in which the curve of bridges of one volume (or pressure) is smooth through
+catenoid, cylinder, sphere, inflection at a contact line and fold. Lengths are in the unit of the
+caller.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from numpy.typing import NDArray
 from ..arc import sphere as arc_sphere
 from .chart import Pair, Point, pair, point, solids
 
-__all__ = ["Problem", "Solution", "from_arc", "from_waist", "problem", "rebind", "solve"]
+__all__ = ["Problem", "Solution", "from_arc", "from_neck", "problem", "reorder_ends", "solve"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 _ITERATIONS = 25
-_SETTLED = 1e-8  # a Newton step this small leaves its square, once it is taken
+_SETTLED = 1e-8  # Newton step; the error after it is of the order of its square
 
 
 class Problem(NamedTuple):
-    """What is given; arrays of one length. One of volume and pressure, the other is None."""
+    """Gap and either volume or pressure (the other is None) of bridges between two bodies."""
 
     gap: Array
     volume: Array | None
@@ -34,7 +34,7 @@ class Problem(NamedTuple):
     bodies: Pair
 
     def at(self, index: NDArray[np.intp] | Flags) -> Problem:
-        """Take some of the points."""
+        """Select points."""
         return Problem(
             self.gap[index],
             None if self.volume is None else self.volume[index],
@@ -44,42 +44,42 @@ class Problem(NamedTuple):
 
 
 class Solution(NamedTuple):
-    """Bodies with the binding one first, whether that is the upper one, place, and a verdict."""
+    """Bodies, that of the limiting end first; whether it is the upper one; point; convergence."""
 
     bodies: Pair
     flipped: Flags
-    waist: Array
+    log_neck: Array
     chart: Array
     settled: Flags
     found: Point
 
     @property
     def determinant(self) -> Array:
-        """Positive on the branch that is stable at fixed volume, zero at its fold."""
+        """Jacobian determinant: positive on the branch stable at fixed volume, zero at its fold."""
         f = self.found
-        result: Array = f.gap_waist * f.volume_chart - f.gap_chart * f.volume_waist
+        result: Array = f.gap_by_neck * f.volume_by_chart - f.gap_by_chart * f.volume_by_neck
         return result
 
     @property
     def unknowns(self) -> Array:
-        """Logarithm of the waist, shape, and arc lengths at the lower and upper body, as rows."""
+        """Rows: logarithm of the neck radius, shape, arc lengths at the lower and upper body."""
         ends = self.found.ends
-        first, last = ends.binder.arc, ends.other.arc
+        first, last = ends.limiting.arc, ends.second.arc
         arcs = np.where(self.flipped, last, first), np.where(self.flipped, first, last)
-        return np.stack((self.waist, ends.shape, *arcs))
+        return np.stack((self.log_neck, ends.shape, *arcs))
 
     @property
     def good(self) -> Flags:
-        """Whether a bridge was found that is stable at fixed volume."""
-        beyond = self.bodies.twin & (self.chart <= 0.0)
+        """Whether the iteration converged to a bridge that is stable at fixed volume."""
+        beyond = self.bodies.symmetric & (self.chart <= 0.0)
         result: Flags = (
             self.settled
             & (self.determinant > 0.0)
             & ~beyond
             & (self.found.volume > 0.0)
-            & (self.found.ends.sine_other <= 1.0)
-            & (self.found.ends.binder.radius > 0.0)
-            & (self.found.ends.other.radius > 0.0)
+            & (self.found.ends.sine_second <= 1.0)
+            & (self.found.ends.limiting.radius > 0.0)
+            & (self.found.ends.second.radius > 0.0)
         )
         return result
 
@@ -93,22 +93,32 @@ def problem(
 ) -> Problem:
     """Problem for bodies given by contact angles [rad] and curvatures, lower and upper."""
     lower, upper = solids(angles[0], curvatures[0]), solids(angles[1], curvatures[1])
-    twin = (angles[0] == angles[1]) & (curvatures[0] == curvatures[1])
-    return Problem(gap, volume, pressure, pair(lower, upper, twin))
+    symmetric = (angles[0] == angles[1]) & (curvatures[0] == curvatures[1])
+    return Problem(gap, volume, pressure, pair(lower, upper, symmetric))
 
 
-def rebind(
-    bodies: Pair, flipped: Flags, waist: Array, shape: Array, chart: Array, *, must: bool = False
+def reorder_ends(
+    bodies: Pair,
+    flipped: Flags,
+    log_neck: Array,
+    shape: Array,
+    chart: Array,
+    *,
+    always: bool = False,
 ) -> tuple[Pair, Flags, Array]:
-    """Make the end of the larger phase the binding one, where neither is beyond a right angle.
+    """Make the end of larger phase the limiting one, where neither is beyond a right angle.
 
-    With `must` the ends change parts wherever they can.
+    With `always` the ends are exchanged wherever possible.
     """
-    a = np.exp(waist)
-    rests = [(body.cosine - body.curvature * a) / shape for body in (bodies.binder, bodies.other)]
-    ks = [body.curvature * a for body in (bodies.binder, bodies.other)]
+    a = np.exp(log_neck)
+    rests = [
+        (body.cosine - body.curvature * a) / shape for body in (bodies.limiting, bodies.second)
+    ]
+    ks = [body.curvature * a for body in (bodies.limiting, bodies.second)]
     ahead = rests[1] - ks[1] > rests[0] - ks[0]
-    flip = (rests[1] > 0.0) & (must | ahead | (rests[0] <= 0.0)) & (chart > 0.0) & ~bodies.twin
+    flip = (
+        (rests[1] > 0.0) & (always | ahead | (rests[0] <= 0.0)) & (chart > 0.0) & ~bodies.symmetric
+    )
     if flip.any():
         wide = (1.0 + ks[1]) / np.where(flip, rests[1], 1.0)
         chart = np.where(flip, np.arccosh(np.maximum(wide, 1.0)), chart)
@@ -117,7 +127,7 @@ def rebind(
 
 
 def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]:
-    """Second residual and its slopes: volume or pressure."""
+    """Second residual and its derivatives: volume or pressure."""
     if given.volume is not None:
         ratio = at.volume / given.volume
         full = ratio > 0.0
@@ -125,80 +135,83 @@ def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]
         scale = np.where(full, at.volume, given.volume)
         return (
             np.where(full, logarithm, ratio - 1.0),
-            at.volume_waist / scale,
-            at.volume_chart / scale,
+            at.volume_by_neck / scale,
+            at.volume_by_chart / scale,
         )
     assert given.pressure is not None
     target = a * given.pressure
-    return at.ends.pressure - target, -at.shape_waist - target, -at.shape_chart
+    return at.ends.pressure - target, -at.shape_by_neck - target, -at.shape_by_chart
 
 
 def solve(
-    given: Problem, waist: Array, chart: Array, flipped: Flags, most: int = _ITERATIONS
+    given: Problem, log_neck: Array, chart: Array, flipped: Flags, max_iterations: int = _ITERATIONS
 ) -> Solution:
-    """Newton on all points at once, from the waist (its logarithm) and zeta given.
-
-    Points that have settled are taken once more with all others and then dropped.
-    """
+    """Newton iteration on all points at once; converged points are dropped."""
     bodies = given.bodies
-    waist, chart, flipped = waist.copy(), chart.copy(), flipped.copy()
-    settled = np.zeros(waist.shape, dtype=np.bool_)
-    active = np.arange(waist.size)
-    for _ in range(most):
+    log_neck, chart, flipped = log_neck.copy(), chart.copy(), flipped.copy()
+    settled = np.zeros(log_neck.shape, dtype=np.bool_)
+    active = np.arange(log_neck.size)
+    for _ in range(max_iterations):
         part = given.at(active)._replace(bodies=bodies.at(active))
-        at = point(part.bodies, waist[active], chart[active])
-        second, second_waist, second_chart = _residual(part, at, np.exp(waist[active]))
+        at = point(part.bodies, log_neck[active], chart[active])
+        second, second_by_neck, second_by_chart = _residual(part, at, np.exp(log_neck[active]))
         first = at.gap - part.gap
-        determinant = at.gap_waist * second_chart - at.gap_chart * second_waist
-        step1 = (at.gap_chart * second - first * second_chart) / determinant
-        step2 = (first * second_waist - at.gap_waist * second) / determinant
+        determinant = at.gap_by_neck * second_by_chart - at.gap_by_chart * second_by_neck
+        step1 = (at.gap_by_chart * second - first * second_by_chart) / determinant
+        step2 = (first * second_by_neck - at.gap_by_neck * second) / determinant
         longest = np.maximum(abs(step1) / 0.5, abs(step2))
         scale = 1.0 / np.maximum(longest, 1.0)
-        waist[active] += scale * step1
+        log_neck[active] += scale * step1
         chart[active] += scale * step2
         done = longest <= _SETTLED
         settled[active[done]] = True
         active = active[~done & np.isfinite(longest) & (abs(chart[active]) < 60.0)]
         if not active.size:
             break
-        bodies, flipped, chart = _rebound(bodies, flipped, waist, chart)
-    return Solution(bodies, flipped, waist, chart, settled, point(bodies, waist, chart))
+        bodies, flipped, chart = _reordered(bodies, flipped, log_neck, chart)
+    return Solution(bodies, flipped, log_neck, chart, settled, point(bodies, log_neck, chart))
 
 
-def _rebound(bodies: Pair, flipped: Flags, waist: Array, chart: Array) -> tuple[Pair, Flags, Array]:
-    k = bodies.binder.curvature * np.exp(waist)
-    shape = (bodies.binder.cosine - k) * np.cosh(chart) / (1.0 + k)
-    return rebind(bodies, flipped, waist, shape, chart)
+def _reordered(
+    bodies: Pair, flipped: Flags, log_neck: Array, chart: Array
+) -> tuple[Pair, Flags, Array]:
+    k = bodies.limiting.curvature * np.exp(log_neck)
+    shape = (bodies.limiting.cosine - k) * np.cosh(chart) / (1.0 + k)
+    return reorder_ends(bodies, flipped, log_neck, shape, chart)
 
 
 Array = NDArray[np.float64]
 
 
-def from_waist(given: Problem, waist: Array, shape: Array) -> Solution:
-    """Newton from a waist (its logarithm) and a shape e, both ends before a right angle."""
+def from_neck(given: Problem, log_neck: Array, shape: Array) -> Solution:
+    """Newton iteration from a neck radius (logarithm) and a shape e, both phases acute."""
     bodies = given.bodies
-    k = bodies.binder.curvature * np.exp(waist)
-    wide = shape * (1.0 + k) / (bodies.binder.cosine - k)
+    k = bodies.limiting.curvature * np.exp(log_neck)
+    wide = shape * (1.0 + k) / (bodies.limiting.cosine - k)
     chart = np.arccosh(np.maximum(np.where(np.isfinite(wide), wide, 1.0), 1.0))
-    flipped = np.zeros(waist.shape, dtype=np.bool_)
-    bodies, flipped, chart = rebind(bodies, flipped, waist, shape, np.maximum(chart, 1e-6))
-    return solve(given._replace(bodies=bodies), waist, np.maximum(chart, 0.05), flipped)
+    flipped = np.zeros(log_neck.shape, dtype=np.bool_)
+    bodies, flipped, chart = reorder_ends(bodies, flipped, log_neck, shape, np.maximum(chart, 1e-6))
+    return solve(given._replace(bodies=bodies), log_neck, np.maximum(chart, 0.05), flipped)
 
 
-def waist_of(force: Array, pressure: Array, hollow: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """Waist (its logarithm) and shape e from force and pressure over the surface tension."""
+def neck_from_force(
+    force: Array, pressure: Array, hollow: NDArray[np.bool_]
+) -> tuple[Array, Array]:
+    """Neck radius (logarithm) and shape e from force and pressure over the surface tension."""
     f = force / (2.0 * np.pi)
     root = np.sqrt(np.maximum(1.0 - 2.0 * f * pressure, 1e-6))
     shape = np.where(hollow, root, -root)
     by_force = abs(1.0 + shape) > abs(1.0 - shape)
     top = np.where(by_force, 2.0 * f, 1.0 - shape)
-    waist = top / np.where(by_force, 1.0 + shape, pressure)
-    return np.log(waist), shape
+    log_neck = top / np.where(by_force, 1.0 + shape, pressure)
+    return np.log(log_neck), shape
 
 
 def from_arc(
     given: Problem, angles: tuple[Array, Array], curvatures: tuple[Array, Array]
 ) -> Solution:
-    """Newton from the arc model; one body at least is curved, and the volume is one."""
+    """Newton iteration from the circular approximation; one body is curved, the volume is one."""
     arc = arc_sphere.solve(given.gap, 1.0, *angles, *curvatures)
-    return from_waist(given, *waist_of(arc.force, arc.pressure, arc.inverse_arc_radius >= 0.0))
+    return from_neck(
+        given, *neck_from_force(arc.force, arc.pressure, arc.inverse_arc_radius >= 0.0)
+    )

@@ -1,8 +1,8 @@
-"""Bridges of given pressure, as a vapour sets it: starts, and the curve up to its limit.
+"""Branch of bridges of given pressure: initial guesses, and the curve up to its limit.
 
-Symbols are those of `delaunay`; lengths are in the unit of the caller. The pressure is held, so a
-bridge is stable only if it takes up liquid when the pressure rises: that is less than at fixed
-volume, and between flats no bridge is.
+Symbols are those of `delaunay`; lengths are in the unit of the caller. At fixed pressure a bridge
+is stable only if its volume increases with pressure: a smaller range than at fixed volume, and
+empty between flats.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...errors import ConvergenceError, InfeasibleError
 from .chart import Pair
 from .continuation import FreeBranch, march_free
-from .newton import Problem, Solution, from_waist, problem, solve
+from .newton import Problem, Solution, from_neck, problem, solve
 from .volume_branch import Branch, march
 
 __all__ = ["branch_at_pressure", "from_film", "holds"]
@@ -29,16 +29,16 @@ _RADII = np.geomspace(1e-9, 0.98, 400)  # of the contact circles, over the small
 
 
 def holds(found: Solution) -> Flags:
-    """Whether a bridge was found that is stable at fixed pressure."""
+    """Whether the iteration converged to a bridge that is stable at fixed pressure."""
     at = found.found
-    second_waist = -at.shape_waist - at.ends.pressure
-    determinant = -at.gap_waist * at.shape_chart - at.gap_chart * second_waist
+    second_by_neck = -at.shape_by_neck - at.ends.pressure
+    determinant = -at.gap_by_neck * at.shape_by_chart - at.gap_by_chart * second_by_neck
     result: Flags = found.good & (determinant > 0.0)
     return result
 
 
 def _film(gap: Array, pressure: Array, angles: Two, curvatures: Two) -> tuple[Array, Flags]:
-    """Radius at which a film of two arcs has the pressure, the widest one, and if there is any."""
+    """Largest contact radius at which a thin film has the pressure, and whether there is one."""
     sharp = np.maximum(curvatures[0], curvatures[1])
     x = _RADII[:, None] / sharp
     height, pull = gap + 0.0 * x, 0.0 * x
@@ -51,17 +51,17 @@ def _film(gap: Array, pressure: Array, angles: Two, curvatures: Two) -> tuple[Ar
     i = falls.shape[0] - 1 - np.argmax(falls[::-1], axis=0)
     column = np.arange(gap.size)
     high, low = excess[i, column], excess[i + 1, column]
-    share = high / (high - low)
-    radius: Array = x[i, column] ** (1.0 - share) * x[i + 1, column] ** share
+    fraction = high / (high - low)
+    radius: Array = x[i, column] ** (1.0 - fraction) * x[i + 1, column] ** fraction
     wet: Flags = np.any(falls, axis=0)
     return radius, wet
 
 
 def from_film(given: Problem, angles: Two, curvatures: Two) -> tuple[Solution, Flags]:
-    """Newton from a thin film, and whether there is such a film."""
+    """Newton iteration from a thin film, and whether such a film exists."""
     assert given.pressure is not None
     radius, wet = _film(given.gap, given.pressure, angles, curvatures)
-    return from_waist(given, np.log(radius), 1.0 - radius * given.pressure), wet
+    return from_neck(given, np.log(radius), 1.0 - radius * given.pressure), wet
 
 
 @lru_cache(maxsize=512)
@@ -72,7 +72,7 @@ def branch_at_pressure(
     curvature_lower: float,
     curvature_upper: float,
 ) -> Branch | FreeBranch:
-    """Curve of bridges of one pressure from touching bodies to its limit."""
+    """Branch of bridges of one pressure from touching bodies to the limit."""
     angles = np.array([angle_lower]), np.array([angle_upper])
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
 
@@ -94,11 +94,11 @@ def branch_at_pressure(
             trial = drop * ratio if drop > 1e-3 * (sharp + abs(pressure)) else 0.0
             part = given(pressure - trial)
             part = part._replace(bodies=part.bodies.swapped(found.flipped))
-            new = solve(part, found.waist, found.chart, found.flipped)
+            new = solve(part, found.log_neck, found.chart, found.flipped)
             if holds(new)[0]:
                 drop, found = trial, new
             elif ratio > 0.99:
-                if found.found.ends.sine_other[0] < -0.99:
+                if found.found.ends.sine_second[0] < -0.99:
                     raise InfeasibleError(_DROWNED)
                 raise InfeasibleError(_DRY)
             else:
@@ -111,7 +111,7 @@ def _followed(found: Solution, bodies: Pair, pressure: float) -> Branch | FreeBr
         return march(
             found.bodies,
             bool(found.flipped[0]),
-            float(found.waist[0]),
+            float(found.log_neck[0]),
             float(found.chart[0]),
             pressure,
         )
@@ -120,10 +120,11 @@ def _followed(found: Solution, bodies: Pair, pressure: float) -> Branch | FreeBr
 
 
 _DROWNED = (
-    "no bridge of this pressure was found between touching bodies: it would hold more liquid than "
-    "the smaller sphere and drown it; a smaller pressure (a lower humidity) may hold one"
+    "no bridge of this pressure was found between touching bodies: its liquid would immerse the "
+    "smaller sphere; a more negative pressure (a lower humidity) may allow one"
 )
 _DRY = (
-    "no bridge holds at this pressure even between touching bodies: it would dry up, or grow "
-    "without end; a smaller pressure (a lower humidity) or smaller contact angles may hold one"
+    "no bridge is stable at this pressure even between touching bodies: it would evaporate, or "
+    "grow without bound; a more negative pressure (a lower humidity) or smaller contact angles "
+    "may allow one"
 )

@@ -1,6 +1,6 @@
-r"""The meridian of a liquid bridge as a curve, from the numbers told about it.
+r"""Meridian curve (profile) of a solved liquid bridge.
 
-Conventions: lengths in metres; the arc length s counts from the waist upwards.
+Conventions: lengths in metres; the arc length s counts from the neck upwards.
 
 .. math:: r(s) = \sqrt{a^2 + e s^2 \operatorname{sinc}^2(ps/2a)}, \quad p = 1 - e
 """
@@ -26,14 +26,14 @@ _NODES = 8  # between two points of a curve
 
 
 def profile(state: ExactBridge, count: int = 101) -> tuple[Array, Array]:
-    """Points on the meridian of one bridge, from the lower contact circle to the upper one.
+    """Points on the meridian of one bridge, from the lower to the upper contact circle.
 
     Parameters
     ----------
     state : ExactBridge
         One bridge, with numbers or arrays of one element.
     count : int
-        Number of points, two at least; they crowd where the neck is narrow.
+        Number of points, two at least; they are denser where the neck is narrow.
 
     Returns
     -------
@@ -47,8 +47,7 @@ def profile(state: ExactBridge, count: int = 101) -> tuple[Array, Array]:
 
     Notes
     -----
-    The radius is a closed form, the height an integral that is right to rounding for a hundred
-    points.
+    The radius is a closed form, the height an integral accurate to round-off for a hundred points.
 
     References
     ----------
@@ -63,13 +62,13 @@ def profile(state: ExactBridge, count: int = 101) -> tuple[Array, Array]:
     """
     if count < 2:
         raise DescriptionError("profile.count", count, "be two at least")
-    if np.size(state.waist) != 1 or not np.isfinite(state.waist).all():
+    if np.size(state.neck_radius) != 1 or not np.isfinite(state.neck_radius).all():
         raise DescriptionError(
-            "profile.state", np.shape(state.waist), "hold one bridge that exists"
+            "profile.state", np.shape(state.neck_radius), "hold one bridge that exists"
         )
     a, e, below, above = (
         float(np.ravel(value)[0])
-        for value in (state.waist, state.shape, state.arc_lower, state.arc_upper)
+        for value in (state.neck_radius, state.shape, state.arc_lower, state.arc_upper)
     )
     p, from_bulge = 1.0 - e, bool(is_round(e))
 
@@ -80,9 +79,9 @@ def profile(state: ExactBridge, count: int = 101) -> tuple[Array, Array]:
     nodes, weights = (np.array(values) for values in gauss_legendre(_NODES))
     step = (v[-1] - v[0]) / (count - 1)
     inside = v[:-1, None] + step * nodes
-    rise = integrand(ARRAYS, np.float64(e), inside, from_bulge=from_bulge)[0] @ weights
+    one_plus_cosine = integrand(ARRAYS, np.float64(e), inside, from_bulge=from_bulge)[0] @ weights
     s = 2.0 / p * np.arctan(np.sinh(v)) if from_bulge else np.sinh(v) / math.sqrt(e)
     s[0], s[-1] = -below / a, above / a
     chord = s * np.sinc(0.5 * p * s / np.pi)
-    height = np.concatenate(([0.0], np.cumsum(rise) * step))
+    height = np.concatenate(([0.0], np.cumsum(one_plus_cosine) * step))
     return a * np.sqrt(1.0 + e * chord * chord), a * height

@@ -1,4 +1,4 @@
-"""What is told about a bridge, gathered from the unknowns of its solution."""
+"""Forces, radii, shape and stiffness of solved liquid bridges."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 Columns = dict[str, Array]
 
 KINDS = ("cylinder", "unduloid", "catenoid", "nodoid P<0", "sphere", "nodoid P>0")
-_SAME = 1e-9  # a shape this close to that of a cylinder, catenoid or sphere is called by its name
+_SAME = 1e-9  # a shape this close to that of a cylinder, catenoid or sphere counts as one
 _POWERS = {"pressure": -1, "volume": 3, "shape": 0, "stiffness": 0}  # of the unit of length
 
 
@@ -32,17 +32,17 @@ class ExactBridge(NamedTuple):
     radius_lower, radius_upper : ndarray
         Radii of the contact circles [m].
     neck, bulge : ndarray
-        Smallest and largest radius of the bridge [m], wherever they lie.
+        Minimum and maximum radius of the bridge [m], at any height.
     volume : ndarray
         Volume of the liquid [m^3].
     kind : ndarray of int
         Index into `KINDS`, -1 where there is no bridge.
-    waist, shape : ndarray
-        Radius [m] at which the meridian or its continuation is upright, and ``1 - waist *
-        pressure`` [-]: positive if that is a neck, negative if it is a bulge.
+    neck_radius, shape : ndarray
+        Neck radius [m] of the Delaunay surface, where the meridian or its continuation is vertical,
+        and ``1 - neck_radius * pressure`` [-], negative if it is a bulge instead.
     arc_lower, arc_upper : ndarray
-        Arc lengths [m] of the meridian from the waist down to the lower and up to the upper
-        contact circle; one is negative if the waist lies outside.
+        Arc lengths [m] of the meridian from the neck down to the lower and up to the upper contact
+        circle; one is negative if the neck lies outside the bridge.
     stiffness : ndarray
         Derivative of `force` by the gap [-], at fixed volume (or pressure).
     """
@@ -55,7 +55,7 @@ class ExactBridge(NamedTuple):
     bulge: Array
     volume: Array
     kind: NDArray[np.int64]
-    waist: Array
+    neck_radius: Array
     shape: Array
     arc_lower: Array
     arc_upper: Array
@@ -70,39 +70,39 @@ def _kind(shape: Array) -> NDArray[np.int64]:
 
 
 def _columns(
-    waist: Array,
+    neck_radius: Array,
     shape: Array,
     pull: Array,
     radii: tuple[Array, Array],
     arcs: tuple[Array, Array],
     flip: NDArray[np.bool_],
 ) -> Columns:
-    """Columns that need no derivative; radii and arcs over the waist, of the binding end first."""
+    """Columns without derivatives; radii and arcs over the neck radius, limiting end first."""
     inside = (arcs[0] >= 0.0) & (arcs[1] >= 0.0)
-    least, most = np.minimum(*radii), np.maximum(*radii)
+    smallest, largest = np.minimum(*radii), np.maximum(*radii)
     return {
-        "force": np.pi * waist * pull,
-        "pressure": (1.0 - shape) / waist,
-        "radius_lower": waist * np.where(flip, radii[1], radii[0]),
-        "radius_upper": waist * np.where(flip, radii[0], radii[1]),
-        "neck": waist * np.where(inside & (shape > 0.0), np.minimum(least, 1.0), least),
-        "bulge": waist * np.where(inside & (shape < 0.0), np.maximum(most, 1.0), most),
-        "waist": waist,
+        "force": np.pi * neck_radius * pull,
+        "pressure": (1.0 - shape) / neck_radius,
+        "radius_lower": neck_radius * np.where(flip, radii[1], radii[0]),
+        "radius_upper": neck_radius * np.where(flip, radii[0], radii[1]),
+        "neck": neck_radius * np.where(inside & (shape > 0.0), np.minimum(smallest, 1.0), smallest),
+        "bulge": neck_radius * np.where(inside & (shape < 0.0), np.maximum(largest, 1.0), largest),
+        "neck_radius": neck_radius,
         "shape": shape,
-        "arc_lower": waist * np.where(flip, arcs[1], arcs[0]),
-        "arc_upper": waist * np.where(flip, arcs[0], arcs[1]),
+        "arc_lower": neck_radius * np.where(flip, arcs[1], arcs[0]),
+        "arc_upper": neck_radius * np.where(flip, arcs[0], arcs[1]),
     }
 
 
 def from_chart(found: Solution, *, at_pressure: bool = False) -> Columns:
     """Columns of bridges found in the chart, in the unit of the solution."""
-    at, ends, a = found.found, found.found.ends, np.exp(found.waist)
-    first, last = ends.binder, ends.other
-    second_waist, second_chart = at.volume_waist, at.volume_chart
+    at, ends, a = found.found, found.found.ends, np.exp(found.log_neck)
+    first, last = ends.limiting, ends.second
+    second_by_neck, second_by_chart = at.volume_by_neck, at.volume_by_chart
     if at_pressure:
-        second_waist, second_chart = -at.shape_waist - ends.pressure, -at.shape_chart
-    determinant = at.gap_waist * second_chart - at.gap_chart * second_waist
-    d_force = (ends.force + at.shape_waist) * second_chart - at.shape_chart * second_waist
+        second_by_neck, second_by_chart = -at.shape_by_neck - ends.pressure, -at.shape_by_chart
+    determinant = at.gap_by_neck * second_by_chart - at.gap_by_chart * second_by_neck
+    d_force = (ends.force + at.shape_by_neck) * second_by_chart - at.shape_by_chart * second_by_neck
     radii, arcs = (first.radius, last.radius), (first.arc, last.arc)
     return _columns(a, ends.shape, ends.force, radii, arcs, found.flipped) | {
         "volume": at.volume,
@@ -112,8 +112,8 @@ def from_chart(found: Solution, *, at_pressure: bool = False) -> Columns:
 
 def from_free(found: Free, flipped: bool) -> Columns:
     """Columns of bridges with free ends."""
-    waist, shape, first, last = found.unknowns
-    a = np.exp(waist)
+    log_neck, shape, first, last = found.unknowns
+    a = np.exp(log_neck)
     unit = np.array([[[1.0], [0.0], [0.0], [0.0]]])
     moved = np.linalg.solve(found.jacobian, unit)[..., 0]
     flip = np.full(a.shape, flipped)
@@ -125,7 +125,7 @@ def from_free(found: Free, flipped: bool) -> Columns:
 
 
 def cylinders(gap: Array) -> Columns:
-    """Bridges of unit volume between flats met at right angles."""
+    """Cylindrical bridges of unit volume between flats at right contact angles."""
     r = 1.0 / np.sqrt(np.pi * gap)
     still = np.zeros_like(r)
     columns = _columns(
@@ -137,7 +137,7 @@ def cylinders(gap: Array) -> Columns:
 def assembled(
     columns: Columns, where: NDArray[np.intp], size: Array, form: tuple[int, ...]
 ) -> ExactBridge:
-    """Put columns in units of `size` into their places and scale them; nan elsewhere."""
+    """Result from columns in units of `size`, scaled; nan for points without a bridge."""
     whole: dict[str, Array] = {}
     for name in ExactBridge._fields:
         if name != "kind":

@@ -1,6 +1,6 @@
-"""Bridges at many points at once: a first try for each, and the curve of its kind for the rest.
+"""Solution of bridges at many points: a direct Newton iteration, then the branch where it fails.
 
-Lengths are in the unit in which the volume is one, or in any unit for bridges of given pressure.
+Lengths are in units of the cube root of the volume, or arbitrary for bridges of given pressure.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ __all__ = ["BeyondLimitError", "columns_at"]
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_NEAR = 1e-9  # miss of a gap, over the largest one, that tells a bridge is lost
+_NEAR = 1e-9  # error of the gap, over its maximum, above which a solution is rejected
 
 
 class BeyondLimitError(Exception):
-    """A point whose gap has no bridge, and the limit there."""
+    """A point whose gap exceeds the stability limit, and that limit."""
 
     def __init__(self, point: int, limit: float) -> None:
         super().__init__(point, limit)
@@ -43,11 +43,11 @@ def _given(key: Key, gap: Array, pressure: float | None) -> Problem:
 
 
 def _on_curve(curve: Branch, given: Problem, gap: Array) -> Solution:
-    """Newton from the curve, once more from the far side of the fold where it went beyond it."""
-    chart, waist = curve.place(gap)
+    """Newton iteration from initial guesses on the branch."""
+    chart, log_neck = curve.place(gap)
     flipped = np.full(gap.size, curve.flipped)
     given = given._replace(bodies=given.bodies.swapped(flipped))
-    return solve(given, waist, chart, flipped)
+    return solve(given, log_neck, chart, flipped)
 
 
 def _close(
@@ -58,7 +58,7 @@ def _close(
     columns: Columns,
     lost: Flags,
 ) -> None:
-    """Follow bridges closer than the curve begins, whose ends no chart covers, into columns."""
+    """Fill in bridges at gaps below the start of the branch, outside the chart, by continuation."""
     is_flipped = isinstance(curve, Branch) and curve.flipped
     bodies = _given(key, gap[:1], pressure).bodies.swapped(np.array([is_flipped]))
     where = np.flatnonzero(lost)
@@ -77,7 +77,7 @@ def _close(
 def _free(
     key: Key, gap: Array, pressure: float | None, curve: FreeBranch, exists: Flags
 ) -> Columns:
-    """Columns of bridges on a curve that was followed with free ends."""
+    """Columns of bridges on a branch with free ends."""
     near = np.minimum(np.maximum(gap, curve.gap[0]), curve.gap[-1])
     found, good = newton(curve.bodies, curve.place(near), near, pressure)
     columns = from_free(found, flipped=False)
@@ -92,7 +92,7 @@ def _free(
 
 
 def _of_kind(key: Key, gap: Array, pressure: float | None) -> tuple[Columns, Flags, float]:
-    """Columns at gaps of one curve, which of them exist, and its limit."""
+    """Columns at gaps of one branch, which of them exist, and its limit."""
     if is_cylinder(*key):
         limit = math.pi ** (1.0 / 3.0)
         return cylinders(gap), gap <= limit, limit
@@ -105,7 +105,10 @@ def _of_kind(key: Key, gap: Array, pressure: float | None) -> tuple[Columns, Fla
     columns = from_chart(found, at_pressure=pressure is not None)
     miss = abs(found.found.gap - np.minimum(gap, limit)) > _NEAR * limit
     lost = exists & (miss | ~np.isfinite(found.found.gap))
-    if key[2:] != (0.0, 0.0):  # before the curve begins Newton may end elsewhere
+    if key[2:] != (
+        0.0,
+        0.0,
+    ):  # Newton's method may converge to another branch
         lost |= exists & (gap < curve.gap[0]) & ~found.good
     if lost.any():
         if (gap[lost] >= curve.gap[0]).any():
@@ -115,7 +118,7 @@ def _of_kind(key: Key, gap: Array, pressure: float | None) -> tuple[Columns, Fla
 
 
 def _first_try(points: list[Array], pressure: Array | None) -> tuple[Columns, Flags]:
-    """Columns from an approximate start, and which of them are stable bridges."""
+    """Columns by Newton's method from an approximate solution, and which are stable bridges."""
     gap, lower, upper, below, above = points
     angles, curvatures = (lower, upper), (below, above)
     if pressure is None:
@@ -128,7 +131,7 @@ def _first_try(points: list[Array], pressure: Array | None) -> tuple[Columns, Fl
 
 
 def columns_at(points: list[Array], beyond: str, pressure: Array | None = None) -> Columns:
-    """Columns for gaps, two angles and two curvatures; pressure over the surface tension or None.
+    """Columns for gaps, two angles and two curvatures, at unit volume or at given pressures.
 
     Raises BeyondLimitError at the first point that has none, unless `beyond` is "nan".
     """
@@ -140,7 +143,7 @@ def columns_at(points: list[Array], beyond: str, pressure: Array | None = None) 
         for name, value in found.items():
             columns.setdefault(name, np.full(n, np.nan))[where] = value
 
-    with np.errstate(all="ignore"):  # points that fail are found out
+    with np.errstate(all="ignore"):  # failed points are detected
         where = np.flatnonzero((points[3] > 0.0) | (points[4] > 0.0))
         if where.size:
             part = None if pressure is None else pressure[where]

@@ -1,4 +1,4 @@
-r"""Where a liquid bridge of given volume ends: fold, tilt or detachment.
+r"""Stability limit of a liquid bridge of given volume: fold, pitchfork or detachment.
 
 Conventions: body 1 lies below, body 2 above; contact angles run through the liquid; a force is
 positive when it pulls the bodies together and is divided by the surface tension, so it is a
@@ -10,8 +10,8 @@ length; pressure is that of the liquid less that outside, over the surface tensi
 :math:`\kappa_i`              curvature 1/R of body i, 0 for a flat
 ============================  ================================================================
 
-Nothing is interpolated across equal bodies, where the limit has a cusp: 60/60 degrees gives
-1.4205 cube roots of the volume, 60/60.1 degrees 1.4095.
+The limit has a cusp at equal bodies and is not interpolated there: 60/60 degrees gives 1.4205 cube
+roots of the volume, 60/60.1 degrees 1.4095.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import ConvergenceError, InfeasibleError
-from ..arc.bridge import _checked
-from ..arc.shape import refuse_spreading, whole_angle
+from ..arc.bridge import checked_arguments
+from ..arc.shape import refuse_spreading, rounded_angle
 from .chart import Pair, solids
-from .continuation import FreeBranch, march_free, unbend
+from .continuation import FreeBranch, march_free, relax_curvature
 from .newton import Solution, from_arc, problem, solve
 from .volume_branch import DETACHMENT, PITCHFORK, Branch, flat_branch, march
 
@@ -39,7 +39,7 @@ __all__ = [
     "branch",
     "contact",
     "is_cylinder",
-    "no_bridge",
+    "no_bridge_error",
     "stability_limit",
 ]
 
@@ -47,28 +47,35 @@ Array = NDArray[np.float64]
 
 Key = tuple[float, float, float, float]  # two contact angles [rad], two curvatures
 LIMITS = ("fold", "pitchfork", "detachment")
-_FACTORS = (1.0, 0.5, 0.2, 0.1, 0.03, 0.01)  # on the curvatures: the flatter, the easier
+_FACTORS = (
+    1.0,
+    0.5,
+    0.2,
+    0.1,
+    0.03,
+    0.01,
+)  # on the curvatures: flatter bodies are easier
 _FREE_STARTS = (0.05, 0.02, 0.01, 0.1, 0.2, 0.003)
-_MOST_LOST = 30  # each lost attempt takes about half a second
+_MAX_FAILED = 30  # each lost attempt takes about half a second
 _STARTS = (0.1, 0.03, 0.2, 0.01, 0.4, 0.003, 0.0)
 _CYLINDER = math.pi ** (1.0 / 3.0)
 
 
 class Limit(NamedTuple):
-    """Last stable bridge; all arrays of the broadcast shape of the arguments.
+    """Bridges at the stability limit; all arrays of the broadcast shape of the arguments.
 
     Attributes
     ----------
     gap : ndarray
-        Largest gap [m] at which a bridge of the volume holds.
+        Maximum gap [m] of a stable bridge of the volume.
     kind : ndarray of int
         0 fold, 1 pitchfork, 2 detachment; see `LIMITS`.
     force : ndarray
-        Force over surface tension there [m]; zero at a detachment.
+        Force over surface tension at the limit [m]; zero at a detachment.
     pressure : ndarray
-        Pressure over surface tension there [1/m].
+        Pressure over surface tension at the limit [1/m].
     radius_lower, radius_upper : ndarray
-        Contact radii there [m].
+        Contact radii at the limit [m].
     """
 
     gap: Array
@@ -90,15 +97,15 @@ def contact(
     found = from_arc(given, (angles[0], angles[1]), (curvatures[0], curvatures[1]))
     if found.good[0]:
         return found
-    # so much liquid that the arc misleads: begin with less, which is the same with more curvature
+    # for large volumes the circular approximation is a poor start: begin with more curvature
     factor = 1.0
     while not found.good[0]:
         factor *= 4.0
         if factor > 1e9:
             raise ConvergenceError("no bridge was found between touching bodies")
-        bent = (factor * curvatures[0], factor * curvatures[1])
-        given = problem(zero, one, None, (angles[0], angles[1]), bent)
-        found = from_arc(given, (angles[0], angles[1]), bent)
+        scaled_curvature = (factor * curvatures[0], factor * curvatures[1])
+        given = problem(zero, one, None, (angles[0], angles[1]), scaled_curvature)
+        found = from_arc(given, (angles[0], angles[1]), scaled_curvature)
     ratio = 0.5
     while factor > 1.0:
         trial = max(factor * ratio, 1.0)
@@ -106,7 +113,7 @@ def contact(
             zero, one, None, (angles[0], angles[1]), (trial * curvatures[0], trial * curvatures[1])
         )
         bodies = given.bodies.swapped(found.flipped)
-        new = solve(given._replace(bodies=bodies), found.waist, found.chart, found.flipped)
+        new = solve(given._replace(bodies=bodies), found.log_neck, found.chart, found.flipped)
         if new.good[0]:
             factor, found = trial, new
         elif ratio > 0.999:
@@ -120,16 +127,18 @@ def contact(
 def branch(
     angle_lower: float, angle_upper: float, curvature_lower: float, curvature_upper: float
 ) -> Branch | FreeBranch:
-    """Curve of bridges of unit volume up to its limit; not for two flats at right angles."""
+    """Branch of bridges of unit volume up to its limit; not for two flats at right angles."""
     refuse_spreading(angle_lower, angle_upper)
-    angle_lower, angle_upper = whole_angle(angle_lower), whole_angle(angle_upper)
+    angle_lower, angle_upper = rounded_angle(angle_lower), rounded_angle(angle_upper)
     with np.errstate(all="ignore"):
         if curvature_lower == curvature_upper == 0.0:
             angles = np.array([angle_lower]), np.array([angle_upper])
             lower, upper = (solids(angle, np.zeros(1)) for angle in angles)
             flip = bool(abs(upper.cosine[0]) > abs(lower.cosine[0]))
-            twin = np.array([angle_lower == angle_upper])
-            return flat_branch(Pair(upper, lower, twin) if flip else Pair(lower, upper, twin), flip)
+            symmetric = np.array([angle_lower == angle_upper])
+            return flat_branch(
+                Pair(upper, lower, symmetric) if flip else Pair(lower, upper, symmetric), flip
+            )
         return _curved(angle_lower, angle_upper, curvature_lower, curvature_upper)
 
 
@@ -137,19 +146,19 @@ def _curved(lower: float, upper: float, below: float, above: float) -> Branch | 
     try:
         start = _start(lower, upper, below, above)
         return march(
-            start.bodies, bool(start.flipped[0]), float(start.waist[0]), float(start.chart[0])
+            start.bodies, bool(start.flipped[0]), float(start.log_neck[0]), float(start.chart[0])
         )
     except ConvergenceError:
         return _free_branch(lower, upper, below, above)
 
 
 def _free_branch(lower: float, upper: float, below: float, above: float) -> FreeBranch:
-    """Curve of unit volume with free ends, from a bridge between bodies perhaps more curved."""
+    """Branch of unit volume with free ends, by continuation from more curved bodies if needed."""
     angles = np.array([lower]), np.array([upper])
     one, curvatures = np.ones(1), (np.array([below]), np.array([above]))
     lost: list[ConvergenceError] = []
     for factor, gap in itertools.product(_FACTORS, _FREE_STARTS):
-        if len(lost) == _MOST_LOST:
+        if len(lost) == _MAX_FAILED:
             break
         more = (factor * curvatures[0], factor * curvatures[1])
         found = from_arc(problem(np.array([gap]), one, None, angles, more), angles, more)
@@ -157,7 +166,7 @@ def _free_branch(lower: float, upper: float, below: float, above: float) -> Free
             bodies = problem(np.array([gap]), one, None, angles, curvatures).bodies
             try:
                 start = found.unknowns[:, 0]
-                return march_free(bodies, unbend(bodies, factor, start, gap), gap)
+                return march_free(bodies, relax_curvature(bodies, factor, start, gap), gap)
             except ConvergenceError as error:
                 lost.append(error)
     raise ConvergenceError(
@@ -169,13 +178,13 @@ def _free_branch(lower: float, upper: float, below: float, above: float) -> Free
 def _start(
     angle_lower: float, angle_upper: float, curvature_lower: float, curvature_upper: float
 ) -> Solution:
-    """A stable bridge of unit volume from which the gap grows as zeta falls."""
+    """Stable bridge of unit volume from which the gap increases with decreasing zeta."""
     angles = np.array([angle_lower]), np.array([angle_upper])
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
     for gap in _STARTS:
         given = problem(np.array([gap]), np.ones(1), None, angles, curvatures)
         found = from_arc(given, angles, curvatures)
-        if found.good[0] and found.found.volume_waist[0] > 0.0:
+        if found.good[0] and found.found.volume_by_neck[0] > 0.0:
             return found
     return contact(angle_lower, angle_upper, curvature_lower, curvature_upper)
 
@@ -186,13 +195,13 @@ def _length(value: float) -> str:
     return f"{value / unit:.4g} {name}"
 
 
-def no_bridge(limit: float) -> InfeasibleError:
-    """Error that names the gap [m] beyond which there is no bridge."""
+def no_bridge_error(limit: float) -> InfeasibleError:
+    """Error that names the stability limit [m]."""
     return InfeasibleError(f"no bridge beyond {_length(limit)}: there it breaks")
 
 
 def is_cylinder(lower: float, upper: float, below: float, above: float) -> bool:
-    """Whether two flats are met at right angles, so that all bridges are cylinders."""
+    """Whether both bodies are flats at right contact angles, so that all bridges are cylinders."""
     return below == above == 0.0 and lower == upper == 0.5 * math.pi
 
 
@@ -214,16 +223,16 @@ def stability_limit(
     curvature_lower: ArrayLike = 0.0,
     curvature_upper: ArrayLike = 0.0,
 ) -> Limit:
-    r"""Largest gap at which a bridge of given volume holds, and its state there.
+    r"""Maximum gap of a stable bridge of given volume, and the bridge at that gap.
 
-    It is the first gap, from small ones up, at which an axisymmetric neutral mode appears: the
-    fold where the gap has its maximum along the curve of bridges; between equal bodies and
-    angles above about 31.1 degrees (flats) the pitchfork before it, where the profile may tilt,
+    It is the smallest gap at which an axisymmetric neutral mode appears: the fold, where the gap
+    has its maximum along the branch; between equal bodies and for angles above about 31.1 degrees
+    (flats) the pitchfork before it, an antisymmetric mode of the profile,
 
     .. math:: (P/2 - f/r^2) \cos\beta = \kappa \cos(\theta + \beta), \quad f = F/(2\pi\gamma);
 
-    on a body that repels the liquid wholly (180 degrees) the height of the drop that is left on
-    the other one, where the contact circle has shrunk to nothing.
+    on a body with a contact angle of 180 degrees detachment, where the contact circle has shrunk to
+    a point and the gap is the height of the drop on the other body.
 
     Parameters
     ----------
@@ -251,8 +260,8 @@ def stability_limit(
     Notes
     -----
     Relative errors are near 1e-14. Each combination of angles and of curvatures over the cube
-    root of the volume is followed once, in some ten milliseconds, and remembered. Left out:
-    lateral motion (see `bridge_exact.bridge`), pinned contact lines, and gravity.
+    root of the volume is followed once, in some ten milliseconds, and cached. Neglected: lateral
+    motion (see `bridge.bridge`), pinned contact lines, and gravity.
 
     References
     ----------
@@ -268,7 +277,7 @@ def stability_limit(
     >>> float(round(limit.gap / limit.radius_lower - math.pi, 12)), LIMITS[int(limit.kind)]
     (0.0, 'pitchfork')
     """
-    arrays = _checked(
+    arrays = checked_arguments(
         {
             "gap": 1.0,
             "volume": volume,
@@ -282,7 +291,7 @@ def stability_limit(
     size = np.cbrt(volumes)
     keys = np.stack((rest[0], rest[1], rest[2] * size, rest[3] * size))
     unique, which = np.unique(keys, axis=1, return_inverse=True)
-    with np.errstate(all="ignore"):  # what fails on the way is found out
+    with np.errstate(all="ignore"):  # failures are detected
         found = np.array([_limit(*key) for key in unique.T.tolist()]).reshape(-1, 6)
     columns = found[which.reshape(-1)].T
     shape = arrays["volume"].shape

@@ -1,16 +1,16 @@
-r"""The force of the exact bridge between flats as a law of the gap, without numpy, made once.
+r"""Force of the exact bridge between flats as a tabulated function of the gap, without numpy.
 
-Conventions and symbols are those of `delaunay`. Between flats a bridge is, but for its size, one
-of a family of one parameter, in which everything is explicit; a law is a spline through some
-hundreds of members of the family. Two laws serve two kinds of film:
+Conventions and symbols are those of `exact.delaunay`. Between flats a bridge is, up to its size, a
+member of a one-parameter family (`family`); the law is a spline through some hundreds of members.
+There are two laws:
 
-* *free*: of constant volume; lengths are over its cube root;
-* *pinned*: held by the rim of the smaller face, which its larger contact circle has reached;
-  lengths are over that radius, and the volume follows.
+* *free*: constant volume; lengths are over its cube root;
+* *pinned*: the larger contact circle is pinned at the rim of the smaller face; lengths are over
+  that radius, and the volume follows.
 
-The splines are in :math:`u = \sqrt{\ln(h_{end}/h)}`, in which a force that ends in a fold, with
-an infinite slope, is smooth as well. A film so thin that the arc of a circle errs by 1e-8 is
-taken for that arc, and its error for one that falls with the thickness over the radius.
+The splines are in :math:`u = \sqrt{\ln(h_{end}/h)}`, in which the force is smooth also at a fold,
+where its slope is infinite. Films thin enough for the circular approximation to be accurate to 1e-8
+use it, with a correction proportional to thickness over radius.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from .sampling import members_along
 
 __all__ = ["FlatLaw", "flat_end", "flat_law"]
 
-_THIN = 1e-8  # gap over radius below which a film is taken for its arc
+_THIN = 1e-8  # gap over radius below which the circular approximation is used
 _RIGHT_CLOSE = 1e-12  # cosine of two angles that make a cylinder
 
 
 class FlatLaw(NamedTuple):
-    """Force and volume of bridges between flats at a gap up to `end`, lengths over the law's.
+    """Force and volume of bridges between flats at a gap up to `end`, over the reference length.
 
-    The force is over surface tension and length, the volume over the cube of length.
+    The force is over surface tension and length, the volume over the cube of the length.
     """
 
     end: float
@@ -47,17 +47,17 @@ class FlatLaw(NamedTuple):
 def flat_law(
     angle_lower: float, angle_upper: float, *, pinned: bool = False, rtol: float = 1e-9
 ) -> FlatLaw:
-    """Law of the exact bridge between flats, for two contact angles [rad].
+    """Force law of the exact bridge between flats for two contact angles.
 
     Parameters
     ----------
     angle_lower, angle_upper : float
         Contact angles [rad], 0 to pi.
     pinned : bool
-        Whether the larger contact circle keeps its radius, rather than the bridge its volume.
+        Whether the radius of the larger contact circle is constant, instead of the volume.
     rtol : float
-        Error allowed to the splines [-], relative to what the curvatures of the rim, taken one by
-        one, would pull.
+        Tolerance of the splines [-], relative to the sum of the force contributions of the two
+        principal curvatures.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def flat_law(
 
     @lru_cache(maxsize=1)
     def lacks() -> tuple[float, float]:
-        """What the arc lacks at the floor, of the scaled force and of the volume."""
+        """Error of the circular approximation at the floor: scaled force, volume."""
         force = (thin.force - arc_force(floor)) / measure.scale(floor)
         return force, thin.volume / arc_volume(floor) - 1.0
 
@@ -113,7 +113,7 @@ def flat_law(
 def flat_end(
     angle_lower: float, angle_upper: float, *, pinned: bool = False
 ) -> tuple[float, float]:
-    """Largest gap of a law and the volume there, without the law; arguments as in `flat_law`.
+    """Maximum gap of a law and the volume there; arguments as in `flat_law`.
 
     Examples
     --------
@@ -129,29 +129,29 @@ def flat_end(
 
 
 class _Measure(NamedTuple):
-    """What the splines run along and what they are of."""
+    """Independent and dependent variables of the splines."""
 
     end: float
     cosines: float
     pinned: bool
 
     def depth(self, gap: float) -> float:
-        """Place of a gap along the splines, zero at the end."""
+        """Spline coordinate of a gap, zero at the end."""
         return math.sqrt(max(math.log(self.end / gap), 0.0))
 
     def scale(self, gap: float) -> float:
-        """Force that the splines are relative to: that of both curvatures, one by one."""
+        """Reference force of the splines: sum of the contributions of both curvatures."""
         radius = 1.0 if self.pinned else math.sqrt(1.0 / (math.pi * gap))
         return math.pi * radius * (radius * self.cosines / gap + 1.0)
 
     def columns(self, member: Member) -> tuple[float, ...]:
-        """What the splines follow: the scaled force and, at a rim, the volume over a disc's."""
+        """Values of the splines: scaled force and, if pinned, volume over that of a disc."""
         force = member.force / self.scale(member.gap)
         return (force, member.volume / (math.pi * member.gap)) if self.pinned else (force,)
 
     @property
     def thinnest(self) -> float:
-        """Gap below which a film is an arc."""
+        """Gap below which the circular approximation is used."""
         return _THIN if self.pinned else (_THIN**2 / math.pi) ** (1.0 / 3.0)
 
 
@@ -172,7 +172,7 @@ def _cylinder(pinned: bool) -> FlatLaw:
 def _points(
     members: list[Member], measure: _Measure
 ) -> tuple[list[float], list[float], list[float]]:
-    """Depths of splines, and there the scaled force, and the volume over that of a disc."""
+    """Spline coordinates, scaled forces, and volumes over that of a disc."""
     places, good = [0.0], [members[0]]
     for member in members[1:]:
         if member.gap > 0.0 and (place := measure.depth(member.gap)) > places[-1]:

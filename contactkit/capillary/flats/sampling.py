@@ -1,9 +1,9 @@
-r"""Members of the family of bridges between flats, as close together as a spline needs them.
+r"""Adaptive sampling of the family of bridges between flats for a spline.
 
-A force may end smoothly, in a fold, or where a contact circle shrinks to a point: there it
-vanishes like :math:`\delta / \ln\delta`, over the way :math:`\delta` that is left, and no even
-spacing follows that. So members are added where the spline between two of them misses the one
-half way, in its value or in its slope.
+A force may end smoothly, in a fold, or where a contact circle shrinks to a point: there it vanishes
+like :math:`\delta / \ln\delta` with the remaining distance :math:`\delta`, which uniform steps do
+not resolve. Members are added where the spline misses the member half way between two knots, in
+value or in slope.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from .family import Member
 
 __all__ = ["members_along"]
 
-_COARSE = 64  # members along a law before any is added
-_FAR = 500.0  # chart coordinate of a film thinner than any
-_SLOPES = 30.0  # error of a slope, over that of a value
-_ROUNDING = 5e-16  # of the logarithm of the gap, to which the places of members are known
-_MOST = 20_000  # members; what is still missed is noise
+_COARSE = 64  # initial number of members
+_FAR = 500.0  # chart coordinate of a film thinner than any other
+_SLOPES = 30.0  # tolerance of a slope over that of a value
+_ROUNDING = 5e-16  # round-off of the logarithm of the gap
+_MAX_MEMBERS = 20_000  # members; what is still missed is noise
 
 Place = Callable[[float], float]
 Columns = Callable[[Member], tuple[float, ...]]
@@ -33,28 +33,28 @@ def members_along(
     thinnest: float,
     rtol: float,
 ) -> list[Member]:
-    """Members from the longest to one no thicker than `thinnest`, for splines in the depth.
+    """Members from the maximum gap down to one no thicker than `thinnest`, for splines in depth.
 
     Parameters
     ----------
     one : callable
-        Member of a chart coordinate.
+        Member as a function of the chart coordinate.
     last : Member
-        The longest.
+        Member of maximum gap.
     depth : callable
-        Place of a gap along the splines, zero at the longest.
+        Spline coordinate of a gap, zero at the maximum.
     columns : callable
-        What the splines are to follow, numbers of order one.
+        Values to interpolate, of order one.
     thinnest : float
-        Gap, in the length of the family.
+        Gap, over the reference length of the family.
     rtol : float
-        Error allowed to the splines [-].
+        Tolerance of the splines [-].
     """
     found = _spread(one, last, depth, thinnest, depth(thinnest) / _COARSE)
     wanted = [True] * (len(found) - 1)
-    while any(wanted) and len(found) < _MOST:
+    while any(wanted) and len(found) < _MAX_MEMBERS:
         found, missed = _halved(one, found, wanted, depth, columns, rtol)
-        # An error may vanish half way by chance, but not in two stretches side by side.
+        # An error may vanish at a midpoint by chance, but not in two adjacent intervals.
         wanted = [any(missed[max(i - 1, 0) : i + 2]) for i in range(len(missed))]
     return found
 
@@ -62,7 +62,7 @@ def members_along(
 def _spread(
     one: Callable[[float], Member], last: Member, depth: Place, thinnest: float, distance: float
 ) -> list[Member]:
-    """Members from the longest to a thin one, at most a distance of depth apart."""
+    """Members from the maximum gap to a thin one, at most a given depth apart."""
     far, step = last, 1.0
     while far.gap > thinnest and far.chart < _FAR:
         far = one(last.chart + step)
@@ -92,7 +92,7 @@ def _halved(
     columns: Columns,
     rtol: float,
 ) -> tuple[list[Member], list[bool]]:
-    """Members, with one more half way where wanted, and the stretches where splines miss it."""
+    """Members with midpoints added where wanted, and the intervals where the spline misses them."""
     places = [depth(member.gap) for member in found]
     values = zip(*(columns(member) for member in found), strict=True)
     curves = [cubic_spline(places, column) for column in values]
@@ -122,8 +122,8 @@ def _halved(
 def _misses(
     value: float, slope: float, exact: float, place: float, width: float, rtol: float
 ) -> bool:
-    """Whether a spline is off half way along a stretch, in its value or in its slope."""
-    # The spline of the halves errs sixteen times less in values, eight times in slopes.
+    """Whether a spline misses the midpoint of an interval, in value or in slope."""
+    # Halving reduces the error of values by 16, that of slopes by 8.
     fine = rtol * min(8.0, _SLOPES * width * (abs(slope) + place * abs(value)))
     noise = _ROUNDING * (abs(slope) / place + 1.0)
     return abs(value - exact) > max(fine, noise)

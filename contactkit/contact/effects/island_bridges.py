@@ -38,11 +38,11 @@ class IslandPart(NamedTuple):
     """Meniscus force [N] of bridges on islands, and what it is made of; arrays by island, (n,).
 
     `law` names what was used. `area` is that of the islands without contact [m2], `n_dry` the
-    number of islands that no bridge of this liquid spans, which are in no array. `cover` is the
+    number of islands that no bridge of this liquid spans, which are in no array. `coverage` is the
     sum of the contact circles over the window [-], `n_overlapping` the number of bridges whose
     circles overlap with a neighbour's: their forces are no longer each other's strangers.
-    `largest_share` is the largest island over the window [-]; from a tenth on it is no summit any
-    more. `point` (n, 2) are the summits (y, x), `gap` their gaps, `radius` those of the spheres
+    `largest_fraction` is the largest island over the window [-]; from a tenth on it is no summit
+    any more. `point` (n, 2) are the summits (y, x), `gap` their gaps, `radius` those of the spheres
     that stand for them, `contact_radius` the larger contact radius of each bridge [m]; `volume`
     [m3], `forces` [N].
     """
@@ -53,9 +53,9 @@ class IslandPart(NamedTuple):
     area: float
     n_menisci: int
     n_dry: int
-    cover: float
+    coverage: float
     n_overlapping: int
-    largest_share: float
+    largest_fraction: float
     point: Floats
     gap: Floats
     radius: Floats
@@ -147,10 +147,10 @@ class IslandBridges(Observer):
     def observe(self, contact: Contact) -> IslandPart:
         """See `Observer.observe`."""
         part = bridges_of(self, contact)
-        if contact.grid.periodic and part.largest_share > _WIDEST:
+        if contact.grid.periodic and part.largest_fraction > _WIDEST:
             warnings.warn(
-                f"the largest island covers {100.0 * part.largest_share:.0f} % of the window: the "
-                "menisci have joined, and one bridge under a sphere is no model of it; use "
+                f"the largest island covers {100.0 * part.largest_fraction:.0f} % of the window: "
+                "the menisci have joined, and one bridge under a sphere is no model of it; use "
                 "FilmMeniscus, or a thinner film",
                 ValidityWarning,
                 stacklevel=2,
@@ -170,7 +170,7 @@ def scalars_of(part: Any) -> dict[str, tuple[float, str]]:
         "island_area": (part.area, "m2"),
         "n_island_bridges": (part.n_menisci, "-"),
         "n_dry_islands": (part.n_dry, "-"),
-        "island_cover": (part.cover, "-"),
+        "island_cover": (part.coverage, "-"),
         "n_overlapping": (part.n_overlapping, "-"),
     }
 
@@ -294,9 +294,9 @@ def _part(
         area=float(is_meniscus.sum()) * grid.pixel_area,
         n_menisci=int(exists.sum()),
         n_dry=int((~exists).sum()),
-        cover=float(np.pi * np.square(state.radius).sum()) / grid.area,
+        coverage=float(np.pi * np.square(state.radius).sum()) / grid.area,
         n_overlapping=int(overlap.sum()),
-        largest_share=float(found.area.max(initial=0.0)) / grid.area,
+        largest_fraction=float(found.area.max(initial=0.0)) / grid.area,
         point=point,
         gap=found.gap[exists],
         radius=1.0 / curvature[exists],

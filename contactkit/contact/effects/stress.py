@@ -207,7 +207,7 @@ def scan(
 
     measures = {
         "von_mises": von_mises,
-        "tension": stress_measures.largest_tension,
+        "tension": stress_measures.max_principal_stress,
         "tresca": stress_measures.tresca,
         "sigma_xz": lambda stress: np.abs(stress[4]),
     }

@@ -1,8 +1,8 @@
-"""Subsurface stress under a pressure map.
+"""Subsurface stress under a map of pressure and tangential traction.
 
-isolated  Fields of a load that acts once, from transforms that repeat it: the repetitions are taken
-maxima    Where a stress measure is largest, found in one pass over planes of which one is in memory
-measures  What a stress means for a material: equivalent and principal stresses, and where they peak
-periodic  Fourier modes of a map and the stresses each of them causes on one plane of a layered soli
-planes    Stresses on planes in a layered solid under a map of pressure and of tangential tractions.
+planes    Stresses on planes at depth.
+measures  Equivalent stresses: von Mises, Tresca, principal stresses, interface shear.
+maxima    Maxima of these measures and their locations.
+periodic  Stresses on one plane, mode by mode of a periodic map.
+isolated  Removal of periodic images, for isolated contacts.
 """

@@ -1,13 +1,14 @@
-"""Fields of a load that acts once, from transforms that repeat it: the repetitions are taken away.
+"""Removal of periodic images: fields of an isolated load from periodic transforms.
 
-A map in a window of zeros twice its size still feels its own repetitions, slowly decaying ones
-under stiff layers.  What they cause is smooth within the map.  It is the difference between the
-fields in that window and in one four times as wide, and both can be had on coarse pixels from a
-smoothed load, since what is near and sharp drops out of the difference.  Two such steps leave
-repetitions 32 maps away, at the cost of grids of 64 and 256 points a side.
+A map in a zero-padded window of twice its size is still affected by its periodic images, whose
+fields decay slowly under stiff layers but are smooth within the map.  Their contribution is the
+difference between the fields in that window and in one four times as wide, and both are computed on
+coarse pixels from a smoothed load, because the sharp near field cancels in the difference.  Two
+such steps leave images at a distance of 32 maps, at the cost of grids of 64 and 256 points per
+side.
 
 The smoothing multiplies the spectrum by ``(1 + s + s^2/2 + s^3/6) exp(-s)`` with
-``s = (k w)^2/2``: it keeps the moments of the load up to the seventh and leaves 2e-10 at the
+``s = (k w)^2/2``: it conserves the moments of the load up to the seventh and is 2e-10 at the
 highest wavenumber of the coarse grid.
 """
 
@@ -29,7 +30,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Pair = tuple[float, float]
 
-COARSE = 64  # points a side of the repeating window of a step
+COARSE = 64  # points per side of the periodic window of a step
 WIDER = 4  # ratio of windows from step to step
 NARROWEST = 2.0  # side of the first window over that of the map
 SMOOTHING = 2.5  # width w of the smoothing in coarse pixels
@@ -37,7 +38,7 @@ MARGIN = 6  # coarse points beyond the map, so that its edge is not the edge of 
 
 
 class Grid(NamedTuple):
-    """Spectra of the loads (None: not there) on a repeating grid, and the part that is wanted."""
+    """Spectra of the loads (None: no load) on a periodic grid, and the window to return."""
 
     loads: list[Complex | None]
     modes: Modes
@@ -46,7 +47,7 @@ class Grid(NamedTuple):
 
 
 class Step(NamedTuple):
-    """Two coarse grids of one load, and the splines from their points to those of the map."""
+    """Two coarse grids of one load, and the splines from their points to the map."""
 
     wide: Grid
     narrow: Grid
@@ -56,7 +57,7 @@ class Step(NamedTuple):
 
 
 def padded_shape(window: tuple[int, int], pixel_size: Pair, padding: float) -> tuple[int, int]:
-    """Shape of a grid about as wide as high, `padding` times the map, in sizes that are fast.
+    """Shape of a nearly square grid, `padding` times the map, with fast transform sizes.
 
     Examples
     --------
@@ -75,7 +76,7 @@ def single_load(
     padding: float,
     workers: int | None = None,
 ) -> tuple[Grid, list[Step]]:
-    """The grid of a load that acts once, and the steps that take its repetitions away.
+    """Grid of an isolated load, and the steps that remove its periodic images.
 
     Parameters
     ----------
@@ -86,14 +87,14 @@ def single_load(
     pixel_size : (dy, dx)
         [m].
     padding : float
-        Distance of the repetitions that are left, over the side of the map.
+        Distance of the remaining images, over the side of the map.
     workers : int, optional
         Threads of the transforms.
 
     Returns
     -------
     Grid, list of Step
-        No step if `padding` is at most 4: then the grid is that large itself.
+        No step if `padding` is at most 4: the grid itself is then that large.
 
     Examples
     --------
@@ -121,7 +122,7 @@ def single_load(
 
 
 def added(field: Array, wide: Array, narrow: Array, step: Step) -> None:
-    """Add what a step says to one field of a map, in place.
+    """Add the correction of a step to one field of a map, in place.
 
     Examples
     --------
@@ -137,7 +138,7 @@ def added(field: Array, wide: Array, narrow: Array, step: Step) -> None:
 def _step(
     lows: list[Complex | None], period: Pair, window: tuple[int, int], pixel_size: Pair
 ) -> tuple[Step, list[Complex | None]]:
-    """One step, and the long waves of its wide grid for the next.
+    """One step, and the long waves of its wide grid for the next one.
 
     `lows` are transforms (integrals, about the centre of the map) on the modes of a grid of
     COARSE points a side.
@@ -179,7 +180,7 @@ def _splines(count: int, pixel: float, coarse: float) -> tuple[slice, Array]:
 
 
 def _low(values: Complex, shape: tuple[int, int]) -> Complex:
-    """The modes of a grid that a coarse one has too, without those at its own highest."""
+    """Modes of a grid that a coarse grid resolves, without its Nyquist modes."""
     half = COARSE // 2
     low = np.zeros((COARSE, half + 1), dtype=np.complex128)
     up, across = min(half, (shape[0] + 1) // 2), min(half, (shape[1] + 1) // 2)

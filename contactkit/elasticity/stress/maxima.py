@@ -1,7 +1,7 @@
-"""Where a stress measure is largest, found in one pass over planes of which one is in memory.
+"""Maxima of stress measures and their locations, in one pass over the planes.
 
 z points into the solid; x and y count from the first pixel of the map.  In-plane stresses jump at
-an interface, so a maximum often sits on one of its faces; nothing here looks across.
+an interface, so that a maximum often lies on one of its sides; no fit crosses an interface.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Measure = Callable[[Array], Array]
 
 
 class Maximum(NamedTuple):
-    """Largest value of a measure and where it is: lengths in [m], side and layer as of a plane."""
+    """Maximum of a measure and its location: lengths in [m], side and layer of the plane."""
 
     value: float
     x: float
@@ -30,7 +30,7 @@ class Maximum(NamedTuple):
 
 
 class StressPlane(Protocol):
-    """Any plane with its stresses, such as `stress_planes.Plane`."""
+    """A plane with its stresses, such as `planes.Plane`."""
 
     @property
     def depth(self) -> float:
@@ -56,7 +56,7 @@ class StressPlane(Protocol):
 def plane_maximum(
     values: Array, pixel_size: tuple[float, float], depth: float, side: str, layer: int
 ) -> Maximum:
-    """Largest value on one plane; x and y are those of the pixel, from the first one of the map.
+    """Maximum on one plane; x and y are those of the pixel, from the first one of the map.
 
     Parameters
     ----------
@@ -88,20 +88,20 @@ def maxima(
     *,
     refine: bool = False,
 ) -> dict[str, Maximum]:
-    """Largest value of each measure over all planes.
+    """Maximum of each measure over all planes.
 
     Parameters
     ----------
     planes : iterable of planes
-        Such as `stress_planes.planes`, each with depth, side, layer and stress (6, ny, nx).
+        Such as `planes.planes`, each with depth, side, layer and stress (6, ny, nx).
     measures : mapping of str to callable
-        Stress (6, ny, nx) to values (ny, nx), such as those of `stress_measures`.
+        Stress (6, ny, nx) to values (ny, nx), such as those of `measures`.
     pixel_size : (dy, dx)
         [m].
     refine : bool, optional
-        Fit a parabola in depth to the largest values of three planes of one layer, the middle one
-        of which holds the maximum.  A maximum on a face of an interface or on the surface stays
-        there, and no fit crosses an interface.
+        Fit a parabola in depth to the maxima of three planes of one layer, the middle one of which
+        has the largest.  A maximum at an interface or on the surface is not moved, and no fit
+        crosses an interface.
 
     Returns
     -------

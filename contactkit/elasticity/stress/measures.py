@@ -1,4 +1,4 @@
-"""What a stress means for a material: equivalent and principal stresses, and where they peak.
+"""Equivalent stresses: von Mises, Tresca, principal stresses, interface shear.
 
 Conventions: tension positive, z into the solid, components ordered xx, yy, zz, xy, xz, yz along
 the first axis.  s1 >= s2 >= s3 are the principal stresses of the three-dimensional tensor; J2 is
@@ -18,7 +18,7 @@ from .maxima import Maximum, maxima, plane_maximum
 __all__ = [
     "Maximum",
     "interface_shear",
-    "largest_tension",
+    "max_principal_stress",
     "maxima",
     "plane_maximum",
     "principal_stresses",
@@ -29,7 +29,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-BLOCK = 16384  # points treated at once, so that what is between stays in the cache
+BLOCK = 16384  # points per block, so that intermediate results stay in the cache
 
 
 def sqrt_j2(stress: Array) -> Array:
@@ -59,7 +59,7 @@ def sqrt_j2(stress: Array) -> Array:
 
 
 def von_mises(stress: Array) -> Array:
-    """Equivalent stress of von Mises, ``sqrt(3 J2)``: that of a uniaxial tension of this size.
+    """Von Mises stress, ``sqrt(3 J2)``: the uniaxial tension of equal J2.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def principal_stresses(stress: Array) -> Array:
     ``s = mean + 2 sqrt(J2/3) cos(t + 2 pi k/3)`` with ``tan 3t = sqrt(D)/(3 sqrt(3) J3)``.  The
     discriminant ``D = 4 J2^3 - 27 J3^2`` is formed as a sum of squares (the determinant of Gram of
     1, B and B^2 for the deviator B; Parlett, Linear Algebra Appl. 355, 2002, 85), so that two
-    stresses that are nearly equal are as exact as all others: a few rounding units of the largest.
+    nearly equal stresses are as accurate as all others: a few units of round-off of the largest.
 
     Parameters
     ----------
@@ -113,8 +113,8 @@ def principal_stresses(stress: Array) -> Array:
     return out.reshape(3, *np.shape(stress)[1:])
 
 
-def largest_tension(stress: Array) -> Array:
-    """Largest principal stress s1, negative where every direction is compressed.
+def max_principal_stress(stress: Array) -> Array:
+    """Maximum principal stress s1, negative where all directions are in compression.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def largest_tension(stress: Array) -> Array:
 
     Examples
     --------
-    >>> float(largest_tension(np.array([0.0, 0.0, 0.0, 0.0, 0.0, 2.0])).round(12))
+    >>> float(max_principal_stress(np.array([0.0, 0.0, 0.0, 0.0, 0.0, 2.0])).round(12))
     2.0
     """
     first: Array = principal_stresses(stress)[0]
@@ -136,7 +136,7 @@ def largest_tension(stress: Array) -> Array:
 
 
 def tresca(stress: Array) -> Array:
-    """Largest shear stress on any plane, ``(s1 - s3)/2``.
+    """Maximum shear stress (Tresca), ``(s1 - s3)/2``.
 
     Parameters
     ----------

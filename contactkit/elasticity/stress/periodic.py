@@ -1,11 +1,11 @@
-"""Fourier modes of a map and the stresses each of them causes on one plane of a layered solid.
+"""Stresses on one plane of a layered solid, mode by mode of a periodic map of tractions.
 
 Conventions as in `layered`: z into the solid, tension positive, ``exp(+i (xi x + eta y))`` carries
 a mode, components ordered xx, yy, zz, xy, xz, yz (then the displacements x, y, z).
 
-The states of a plane depend on the length of the wave vector alone, so they are evaluated once for
-each length and looked up.  A mode whose alpha z is beyond the cut-off is left out, and with it the
-rows and columns of the transforms that hold no other.
+The states of a plane depend on the length of the wave vector alone and are evaluated once for each
+length.  Modes with alpha z beyond the cut-off are omitted, with the rows and columns of the
+transforms that contain no other.
 """
 
 from __future__ import annotations
@@ -24,16 +24,17 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
-IMAGINARY = (4, 5, 6, 7)  # components a quarter of a wave apart from the load of their equation
-SWAPPED = (1, 0, 2, 3, 5, 4, 7, 6, 8)  # the component that x and y exchanged make of each
+IMAGINARY = (4, 5, 6, 7)  # components a quarter of a wavelength out of phase with the load
+SWAPPED = (1, 0, 2, 3, 5, 4, 7, 6, 8)  # component after exchange of x and y
 
 
 class Modes(NamedTuple):
-    """Half plane of modes of a periodic grid, or the part of it that reaches a plane.
+    """Half plane of modes of a periodic grid, or the part below the cut-off of a plane.
 
-    `length` are the distinct wavenumbers, ascending, without zero; `rank` counts them from 1 for
-    each mode (0 is the mean).  `x` and `y` are the cosines of the wave vector, zero at the highest
-    wavenumber of an even grid, where an odd function has no mode; `xx` and `yy` their squares.
+    `length` are the distinct wavenumbers, ascending, without zero; `rank` is the index of each mode
+    among them from 1 (0 is the mean).  `x` and `y` are the direction cosines of the wave vector,
+    zero at the Nyquist wavenumber of an even grid, where an odd function has no mode; `xx` and
+    `yy` are their squares.
     """
 
     shape: tuple[int, int]
@@ -73,7 +74,7 @@ def grid_of_modes(shape: tuple[int, int], pixel_size: tuple[float, float]) -> Mo
 
 
 def within(modes: Modes, count: int, pixel_size: tuple[float, float]) -> Modes:
-    """The modes in the smallest box around the `count` longest waves.
+    """Modes in the smallest box around the `count` longest waves.
 
     Examples
     --------
@@ -84,9 +85,9 @@ def within(modes: Modes, count: int, pixel_size: tuple[float, float]) -> Modes:
     if count >= modes.length.size:
         return modes
     (ny, nx), (dy, dx) = modes.shape, pixel_size
-    most = modes.length[count - 1] * (1.0 + 1e-12) if count else 0.0
-    up = min(int(most * ny * dy / (2.0 * np.pi)), ny // 2)
-    across = min(int(most * nx * dx / (2.0 * np.pi)), nx // 2) + 1
+    longest = modes.length[count - 1] * (1.0 + 1e-12) if count else 0.0
+    up = min(int(longest * ny * dy / (2.0 * np.pi)), ny // 2)
+    across = min(int(longest * nx * dx / (2.0 * np.pi)), nx // 2) + 1
     down = min(up, (ny - 1) // 2)
     rows = np.concatenate([np.arange(up + 1), np.arange(ny - down, ny)])
     if rows.size == ny and across == modes.rank.shape[1]:
@@ -110,7 +111,7 @@ def spectrum(values: Array, shape: tuple[int, int], workers: int | None = None) 
 def into_space(
     values: Complex, modes: Modes, window: tuple[int, int], workers: int | None = None
 ) -> Array:
-    """Real map of a spectrum given on some of the modes, cut to a window at the origin.
+    """Real map from a spectrum on some of the modes, restricted to a window at the origin.
 
     Examples
     --------
@@ -129,7 +130,7 @@ def into_space(
 def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> tuple[Array, Array]:
     """Rows LL, TT, S, T, U, W for a unit pressure and for a unit traction, then V, Q, uV.
 
-    Zeros stand before and after the wavenumbers, for the mean and for those left out.
+    Zeros are inserted before and after the wavenumbers, for the mean and the omitted ones.
 
     Examples
     --------
@@ -155,7 +156,7 @@ def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> tuple
 def component(
     k: int, loads: list[Complex | None], tables: tuple[Array, Array], modes: Modes
 ) -> Complex:
-    """Spectrum of component k caused by a pressure and by tractions along x and y.
+    """Spectrum of component k due to a pressure and tractions along x and y.
 
     Parameters
     ----------

@@ -5,15 +5,15 @@ xx, yy, zz, xy, xz, yz.  A traction q_x > 0 pulls the surface of the solid towar
 sigma_xz = -q_x there: a slider moving in +x with friction mu has q_x = mu p, and the largest
 tension is at the trailing edge, x < 0.
 
-Planes come one at a time, so that the memory is that of one plane.  Two readings of a map:
+Planes are computed one at a time, so that the memory is that of one plane.  A map is either
 
 periodic
-    The map repeats for ever.  Its mean causes the uniform stresses of a solid that cannot strain
-    sideways, sigma_xx = sigma_yy = -nu/(1 - nu) p and sigma_zz = -p.
+    Its mean causes the uniform stresses of uniaxial strain,
+    sigma_xx = sigma_yy = -nu/(1 - nu) p and sigma_zz = -p.
 free
-    Nothing acts outside of the map.  It is transformed in a larger window of zeros, wavenumber
-    zero takes the mean over all directions of the limit of long waves, and repetitions nearer
-    than `padding` maps are taken away (`stress_images`).
+    No load acts outside of the map (isolated contact).  It is transformed in a larger zero-padded
+    window, wavenumber zero takes the mean over all directions of the limit of long waves, and
+    images nearer than `padding` maps are removed (`isolated`).
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ Complex = NDArray[np.complex128]
 Mean = Literal["periodic", "free"]
 Pair = tuple[float, float]
 
-CUTOFF = 40.0  # of alpha z: what is beyond carries (1 + 40) exp(-40) = 2e-16 of its load
+CUTOFF = 40.0  # of alpha z: modes beyond carry (1 + 40) exp(-40) = 2e-16 of their load
 
 
 class Plane(NamedTuple):
@@ -73,23 +73,23 @@ def planes(
     Parameters
     ----------
     pressure, traction_x, traction_y : array_like, shape (ny, nx), or None
-        Tractions on the surface [Pa]; what is None costs nothing.
+        Tractions on the surface [Pa]; None is skipped.
     pixel_size : (dy, dx)
         [m].
     young_modulus, poisson_ratio, thickness : array_like
         As in `layered.compliance`.
     depths, sides
-        As in `layer_planes.locate`, in order of layer and depth.
+        As in `depths.locate`, in order of layer and depth.
     mean : {"periodic", "free"}, optional
-        What is outside of the map: its repetitions, or nothing.
+        Outside of the map: periodic images, or no load.
     padding : float, optional
-        For "free": distance of the repetitions that are left over side of the map.  Up to 4 the
-        map is padded to that size; beyond, coarse grids do it at a cost that hardly grows.
+        For "free": distance of the remaining images over the side of the map.  Up to 4 the map is
+        padded to that size; beyond, coarse grids are used, at a cost that hardly grows.
     displacement : bool, optional
-        Also give the displacements, without their mean; for "periodic" only, since those of a
-        single load decay too slowly for any window.
+        Also return the displacements, without their mean; for "periodic" only, because those of an
+        isolated load decay too slowly for any window.
     workers : int, optional
-        Threads of the transforms; None leaves it to ``scipy.fft.set_workers``.
+        Threads of the transforms; None: that of ``scipy.fft.set_workers``.
 
     Yields
     ------
@@ -99,15 +99,15 @@ def planes(
     Raises
     ------
     DescriptionError
-        For maps that differ in shape or hold something that is not finite, no map at all, a
-        padding below 1, and as `layered_fields.plane_states`.
+        For maps of different shapes or with non-finite values, no map, a padding below 1, and as
+        `layered_fields.plane_states`.
 
     Notes
     -----
     Between its points the map is the trigonometric polynomial through them.  "periodic" is exact
-    for it to about 1e-14 of the largest traction.  "free" leaves the repetitions at a distance of
-    `padding` times the map, whose effect falls with the cube of the distance or faster: let it
-    be 40 radii of the contact or more under stiff layers.
+    for it to about 1e-14 of the maximum traction.  "free" leaves the images at a distance of
+    `padding` times the map, whose effect decreases with the cube of the distance or faster: use
+    40 contact radii or more under stiff layers.
 
     Examples
     --------
@@ -147,7 +147,7 @@ def planes(
 def _grids(
     maps: list[Array | None], pixel_size: Pair, mean: Mean, padding: float, workers: int | None
 ) -> tuple[list[Grid], list[Step]]:
-    """The grid of the map, then the wide and the narrow one of each step."""
+    """Grid of the map, then the wide and the narrow grid of each step."""
     window = next(m.shape for m in maps if m is not None)
     window = window[0], window[1]
     if mean == "free":
@@ -203,7 +203,7 @@ def _mean_stress(states: PlaneStates, stack: Stack, mean: Mean) -> Array:
     share = nu / (1.0 - nu)
     lateral = -share
     if mean == "free":
-        # All layers follow the long waves of the substrate's surface; half of LL + TT is left.
+        # All layers follow the long waves of the substrate; half of LL + TT remains.
         strain = states.shear_modulus * (1.0 - 2.0 * stack.nu[-1]) / stack.G[-1]
         lateral = -0.5 * strain * (1.0 + nu) / (1.0 - nu) - share
     uniform = np.zeros((3, 6))
@@ -226,8 +226,8 @@ def normal_displacement_of_traction(
 ) -> Array:
     """Normal displacement of the surface under tangential tractions.
 
-    ``uz^ = -i F12 (xi qx^ + eta qy^)/alpha``: the coupling that Goodman's simplification leaves
-    out of the normal problem; zero where the surface is homogeneous with nu = 1/2.
+    ``uz^ = -i F12 (xi qx^ + eta qy^)/alpha``: the coupling that Goodman's approximation neglects
+    in the normal problem; zero for a homogeneous solid with nu = 1/2.
 
     Parameters
     ----------

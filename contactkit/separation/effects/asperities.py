@@ -123,9 +123,9 @@ class AsperityMenisci(SeparationForce):
         pressure = scene.interface.meniscus.pressure
         return float(meniscus_height(pressure, tension, _wetting(scene)))
 
-    def cover(self, scene: SeparationScene, gap: float) -> float:
+    def coverage(self, scene: SeparationScene, gap: float) -> float:
         """Contact circles of all menisci over the area of the face at a gap [m], thin films."""
-        return self.sums(scene, gap).cover
+        return self.sums(scene, gap).coverage
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
         """See `SeparationForce.prepare`."""

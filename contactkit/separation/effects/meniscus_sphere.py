@@ -25,7 +25,7 @@ __all__ = ["exact_end", "sphere_law"]
 
 _DEGREES = 24, 48, 96  # of the polynomials
 _CLOSE = 1e-3  # of a curve, a stretch at its end that is not divided further
-_MOST_NODES = 4097  # of one of its stretches
+_MAX_NODES = 4097  # of one of its stretches
 
 
 class _Bridges(NamedTuple):
@@ -74,9 +74,9 @@ def exact_end(scene: SeparationScene) -> float:
     """Gap [m] at which the exact bridge on a sphere ends."""
     meniscus = scene.interface.meniscus
     if meniscus.pressure is not None:
-        from ...capillary.exact.at_pressure import longest_at_pressure
+        from ...capillary.exact.at_pressure import max_gap_at_pressure
 
-        return longest_at_pressure(meniscus.pressure / surface_tension(scene), *_fixed(scene))
+        return max_gap_at_pressure(meniscus.pressure / surface_tension(scene), *_fixed(scene))
     from ...capillary.exact.stability import stability_limit
 
     return float(stability_limit(film_shape(scene).volume, *_fixed(scene)).gap)
@@ -195,7 +195,7 @@ def _nodes(
     from scipy.interpolate import CubicSpline
 
     nodes, error = 65, math.inf
-    while error > max(rtol, 1e-12) and nodes <= _MOST_NODES:
+    while error > max(rtol, 1e-12) and nodes <= _MAX_NODES:
         x = np.linspace(a, b, 2 * nodes - 1)
         f = series(x)
         spline = CubicSpline(x[::2], f[::2])
