@@ -170,7 +170,7 @@ class PublishedFormula(NamedTuple):
     arguments: tuple[str, ...]
     unit: str
     printed: Callable[..., Any]
-    corrected: Callable[..., Any] | None = None
+    right: Callable[..., Any] | None = None
     by: str = "as printed, which is correct"
     errata: tuple[str, ...] = ()
 
