@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from .analyses.adhesion_curve import adhesion_curve
     from .analyses.division import critical_meniscus, divide_meniscus
     from .analyses.humidity_curve import humidity_curve
-    from .analyses.load_displacement.solve import stop_curve
+    from .analyses.load_displacement.solve import load_displacement
     from .as_published.lookup import PUBLISHED, published
     from .contact.effects.elasticity import HalfSpace, LayeredHalfSpace
     from .contact.effects.film import FilmMeniscus
@@ -179,7 +179,7 @@ _HOMES = {
     "save_scene": "files.scenes",
     "simulate": "separation.simulate",
     "solve": "contact.solve",
-    "stop_curve": "analyses.load_displacement.solve",
+    "load_displacement": "analyses.load_displacement.solve",
     "study": "studies.study",
 }
 
@@ -252,6 +252,7 @@ __all__ = [
     "divide_meniscus",
     "divide_sliding",
     "humidity_curve",
+    "load_displacement",
     "load_liquid",
     "load_material",
     "load_result",
@@ -263,7 +264,6 @@ __all__ = [
     "save_scene",
     "simulate",
     "solve",
-    "stop_curve",
     "study",
 ]
 

@@ -175,14 +175,14 @@ class OpenedContact:
 
     def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
         """See `OpenedScene.fmu_start`."""
-        from ..analyses.load_displacement.solve import stop_curve
+        from ..analyses.load_displacement.solve import load_displacement
 
         try:
-            return "contact-stop", {"curve": stop_curve(self.scene, accuracy=self.accuracy)}
+            return "contact-stop", {"curve": load_displacement(self.scene, accuracy=self.accuracy)}
         except PlanError as error:
             raise PlanError(
-                "of a contact scene the FMU contact-stop is built, whose tables are its stop "
-                f"curve, force and areas over the approach; {error}"
+                "of a contact scene the FMU contact-stop is built, whose tables are its "
+                f"load-displacement curve, force and areas over the approach; {error}"
             ) from error
 
 

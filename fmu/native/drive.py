@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from ...analyses.load_displacement.curve import HERTZ, StopCurve, way_of
+from ...analyses.load_displacement.curve import HERTZ, LoadDisplacementCurve, way_of
 from ...errors import PlanError
 from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
 from ..framework.description import Description
@@ -28,7 +28,7 @@ def build_native_drive(
     out: str | os.PathLike[str],
     *,
     start: Mapping[str, Any] | None = None,
-    curve: StopCurve | None = None,
+    curve: LoadDisplacementCurve | None = None,
     platforms: Sequence[str] | None = None,
     compiler: str = "auto",
     fmi: Literal[2, 3] = 2,
@@ -45,7 +45,7 @@ def build_native_drive(
     start : mapping, optional
         Start values by variable; a text carries its unit (``"25 um"``). As in `build`, a ``curve``
         may be among them.
-    curve : StopCurve, optional
+    curve : LoadDisplacementCurve, optional
         Rough faces in front of the spring ``k_stop``.
     platforms, compiler, fmi
         See `native_build.build_native`. In FMI 3.0 a step may end early where the voltage switches.
@@ -83,11 +83,11 @@ def build_native_drive(
         log_categories=CATEGORIES,
         experiment=ValveDrive.experiment,
     )
-    tables = face_numbers(StopCurve.from_data(faces) if faces is not None else None)
+    tables = face_numbers(LoadDisplacementCurve.from_data(faces) if faces is not None else None)
     return write_native(_NAME, about, tables, place, fmi, chosen_platforms(platforms), compiler)
 
 
-def face_numbers(curve: StopCurve | None) -> list[float]:
+def face_numbers(curve: LoadDisplacementCurve | None) -> list[float]:
     """Numbers of rough faces, in the order in which ``native/data.c`` reads them.
 
     Every curve is its nodes, values and slopes, those of forces in logarithms.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import DescriptionError
 from ...models.end_stop.solve import curve_of_scene
 
@@ -18,7 +18,7 @@ __all__ = ["bake", "default_curve"]
 STOP_AREA = 10e-6  # [m2], assumption: a shoulder 0.5 mm wide around the spool of the injector
 
 
-def default_curve() -> StopCurve:
+def default_curve() -> LoadDisplacementCurve:
     """Curve of the scene ``contact-stop`` of this package, for its window."""
     return curve_of_scene("contact-stop")
 
@@ -51,8 +51,8 @@ def bake(name: str, start: dict[str, Any]) -> dict[str, Any]:
         curve = default_curve()
         start.setdefault("scale", STOP_AREA / curve.nominal_area)
     if isinstance(curve, Mapping):
-        curve = StopCurve.from_data(curve)
-    if not isinstance(curve, StopCurve):
-        expected = "be a StopCurve, as contactkit.stop_curve makes it"
+        curve = LoadDisplacementCurve.from_data(curve)
+    if not isinstance(curve, LoadDisplacementCurve):
+        expected = "be a LoadDisplacementCurve, as contactkit.load_displacement makes it"
         raise DescriptionError("curve", curve, expected)
     return {"curve": curve.to_data()}

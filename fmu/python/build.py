@@ -99,7 +99,7 @@ def build(
     start : mapping, optional
         Start values to bake in, by variable; a text carries its unit (``"2.5 um"``).
         ``contact-stop``, ``valve-drive`` and ``tip-contact`` also take a ``curve``, a
-        `StopCurve`; that of ``tip-contact`` is of one tip.
+        `LoadDisplacementCurve`; that of ``tip-contact`` is of one tip.
 
     Returns
     -------

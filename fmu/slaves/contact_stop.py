@@ -1,6 +1,6 @@
 """The FMU ``contact-stop``: rough faces that meet at an end stop; gap in, force out.
 
-The contact was solved when the FMU was built (`contactkit.stop_curve`); what it carries are
+The contact was solved when the FMU was built (`contactkit.load_displacement`); what it carries are
 tables. Force and areas follow the gap at once; the one thing remembered is the largest approach,
 which decides the way out of a plastic contact. It is remembered when a step is accepted, so
 a host that goes back to an earlier state takes back what was pressed since.
@@ -18,7 +18,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from pythonfmu.enums import Fmi2Status
 
-from ...analyses.load_displacement.curve import StopBranch, StopCurve, StopPoint
+from ...analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch, StopPoint
 from ...analyses.load_displacement.impact import in_series
 from ...errors import DescriptionError
 from ..framework.ports import Port
@@ -136,7 +136,7 @@ class ContactStop(PortSlave):
         "stepSize": 1e-6,
     }
 
-    curve: StopCurve
+    curve: LoadDisplacementCurve
     memory: _Memory
     lost_before: float
     answered: tuple[tuple[float, float, float], tuple[StopPoint, float]] | None
@@ -150,7 +150,7 @@ class ContactStop(PortSlave):
                 "no tables",
                 "be built by contactkit.fmu.python.build, which makes them",
             )
-        self.curve = StopCurve.from_data(self.data["curve"]).scaled(values["scale"])
+        self.curve = LoadDisplacementCurve.from_data(self.data["curve"]).scaled(values["scale"])
         if values["d_max0"] > self.curve.most:
             expected = f"not exceed {self.curve.most:.6g} m, where the tables end"
             raise DescriptionError("d_max0", values["d_max0"], expected, unit="m")

@@ -8,8 +8,8 @@ acceleration of the root at the start of a step and takes the mean force over th
 impulse without loss; the force at the end, which follows height and speed at once, serves a host
 that cannot.
 
-Built with a ``curve``, a `StopCurve` of one apex on its site, the site gives: tips strike it,
-bounce and leave a dent. Without one they land for good on a rigid site.
+Built with a ``curve``, a `LoadDisplacementCurve` of one apex on its site, the site deforms: tips
+impact, rebound and leave a residual indentation. Without one they land for good on a rigid site.
 
 The tips start landed where the root starts at height 0 or below, else free and unbent. The law of
 the meniscus under a sphere is prepared with numpy, so the host's Python needs numpy (and scipy),
@@ -26,7 +26,7 @@ from typing import Any, ClassVar
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import DescriptionError, PlanError
 from ...liquids.liquid import Liquid
 from ...models.micromirror.flight import Root
@@ -326,7 +326,7 @@ class TipContact(PortSlave):
         """Faces of apex and site, if the build has a curve of them."""
         damping = self.values["d_stop"]
         if "curve" in self.data:
-            return TipStop(StopCurve.from_data(self.data["curve"]), damping)
+            return TipStop(LoadDisplacementCurve.from_data(self.data["curve"]), damping)
         if damping > 0.0:
             raise DescriptionError(
                 "d_stop",

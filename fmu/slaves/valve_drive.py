@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 
 from pythonfmu.enums import Fmi2Status
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import DescriptionError
 from ...models.injector import valve as law
 from ..framework.places import Place, read, write
@@ -299,7 +299,7 @@ class ValveDrive(PortSlave):
         check_drive(self.values)
         self.valve = write(PLACES, _VALVE, self.values)
         faces = self.data.get("curve")
-        self.faces = StopCurve.from_data(faces) if faces is not None else None
+        self.faces = LoadDisplacementCurve.from_data(faces) if faces is not None else None
         self.largest = 0.0
         self.values |= {"flux": 0.0, "dF_ext": 0.0, "F_mag": 0.0}
         self.values["u"] = law.voltage(self.valve.profile, self.start_time)

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
-from ...analyses.load_displacement.curve import StopCurve
-from ...analyses.load_displacement.solve import stop_curve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
+from ...analyses.load_displacement.solve import load_displacement
 from ...errors import DescriptionError
 from ...files.scenes import read_contact, read_tables, scene_kind
 from ...scene.contact_scene import ContactScene
@@ -18,7 +18,7 @@ from .faces import StopFaces
 __all__ = ["curve_of_scene", "solved"]
 
 
-def solved(faces: StopFaces) -> StopCurve:
+def solved(faces: StopFaces) -> LoadDisplacementCurve:
     """Solve the contact of faces, for their whole area.
 
     Raises
@@ -32,7 +32,7 @@ def solved(faces: StopFaces) -> StopCurve:
 
 
 @lru_cache(maxsize=8)
-def curve_of_scene(given: str) -> StopCurve:
+def curve_of_scene(given: str) -> LoadDisplacementCurve:
     """Solve a contact scene, for its window.
 
     Parameters
@@ -60,4 +60,4 @@ def curve_of_scene(given: str) -> StopCurve:
             hint="contact-stop and tip-landing are two of contactkit",
         )
     scene, accuracy, _ = read_contact(tables, origin)
-    return stop_curve(scene, accuracy=accuracy)
+    return load_displacement(scene, accuracy=accuracy)

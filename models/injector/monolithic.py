@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import ConvergenceError, PlanError
 from ...separation.plan import Film, Plan
 from ..ode_events import crossing, slopes_of, watch
@@ -52,7 +52,7 @@ def simulate(
     *,
     rtol: float = 1e-8,
     times: Sequence[float] | _Floats | None = None,
-    faces: StopCurve | None = None,
+    faces: LoadDisplacementCurve | None = None,
 ) -> MonolithicResult:
     """Integrate spool, film and coil from time 0 to `end`.
 
@@ -68,7 +68,7 @@ def simulate(
         Tolerance of the solver, relative to the gap, the speed and the flux.
     times : sequence of float, optional
         Where to give the curves [s]. None: at the steps of the solver, both sides of an event.
-    faces : StopCurve, optional
+    faces : LoadDisplacementCurve, optional
         Rough faces in front of the stop of the valve, solved.
 
     Raises
@@ -102,7 +102,12 @@ class _Run:
     """
 
     def __init__(
-        self, plan: Plan, drive: Drive, mass: float, rtol: float, faces: StopCurve | None
+        self,
+        plan: Plan,
+        drive: Drive,
+        mass: float,
+        rtol: float,
+        faces: LoadDisplacementCurve | None,
     ) -> None:
         self.plan, self.drive, self.mass, self.rtol = plan, drive, mass, rtol
         self.faces, self.pressing = faces, True

@@ -12,7 +12,7 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...separation.motion.state import MotionState, outputs
 from ...separation.plan import Plan
 from . import valve as law
@@ -157,7 +157,7 @@ def read(
     events: Sequence[Event],
     times: _Floats | None,
     counts: tuple[int, int],
-    faces: StopCurve | None = None,
+    faces: LoadDisplacementCurve | None = None,
 ) -> MonolithicResult:
     """Read curves and cycles off the pieces of a simulation."""
     rows: list[tuple[float, ...]] = []
@@ -186,7 +186,7 @@ def _inside(piece: Piece, times: _Floats, last: bool) -> _Floats:
 
 
 def _rows(
-    plan: Plan, drive: Drive, piece: Piece, times: _Floats, faces: StopCurve | None
+    plan: Plan, drive: Drive, piece: Piece, times: _Floats, faces: LoadDisplacementCurve | None
 ) -> list[tuple[float, ...]]:
     """Values of all columns at times in one piece."""
     mode = piece.mode

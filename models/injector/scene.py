@@ -15,7 +15,7 @@ from ...validators import as_tuple, part, positive
 from .valve import Valve
 
 if TYPE_CHECKING:
-    from ...analyses.load_displacement.curve import StopCurve
+    from ...analyses.load_displacement.curve import LoadDisplacementCurve
 
 __all__ = ["InjectorScene", "Study", "end_stop_curve"]
 
@@ -100,7 +100,7 @@ class InjectorScene:
         return profile.start_delay + profile.cycles * profile.period
 
 
-def end_stop_curve(valve: Valve) -> StopCurve | None:
+def end_stop_curve(valve: Valve) -> LoadDisplacementCurve | None:
     """Load-displacement curve of the rough faces of the end stop, if it has any."""
     if valve.stop.faces is None:
         return None

@@ -17,7 +17,7 @@ from typing import Any
 
 from attrs import Attribute, field, frozen
 
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...analyses.load_displacement.impact import in_series
 from ...errors import DescriptionError
 from ...units import si
@@ -223,7 +223,7 @@ def stop_force(stop: Stop, gap: float, speed: float) -> float:
 
 
 def rough_stop_force(
-    stop: Stop, faces: StopCurve, largest: float, gap: float, speed: float
+    stop: Stop, faces: LoadDisplacementCurve, largest: float, gap: float, speed: float
 ) -> tuple[float, float]:
     """Force [N] of a stop whose rough faces lie in series with its stiffness; positive closes.
 
@@ -231,7 +231,7 @@ def rough_stop_force(
     ----------
     stop : Stop
         The bodies behind the faces, and the damping, as in `stop_force`.
-    faces : StopCurve
+    faces : LoadDisplacementCurve
         The faces.
     largest : float
         Largest approach they have had [m].
@@ -248,7 +248,7 @@ def rough_stop_force(
 
 
 def stopping(
-    stop: Stop, faces: StopCurve | None, largest: float, gap: float, speed: float
+    stop: Stop, faces: LoadDisplacementCurve | None, largest: float, gap: float, speed: float
 ) -> float:
     """Force [N] of a stop with or without rough faces; positive closes."""
     if faces is None:

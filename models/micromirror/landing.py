@@ -1,7 +1,7 @@
 r"""How hard a spring tip lands on its site, and whether its apex bounces.
 
 `contactkit.models.micromirror.tip` lets a tip land without a bounce of its apex, on a site that
-does not give. Here the site gives: the apex meets it as a `StopCurve`, by the energy of one blow,
+is rigid. Here the site deforms by its `LoadDisplacementCurve`; the energy of one impact decides,
 
 .. math:: \tfrac12 m v^2 + w = W(d_m), \qquad e^2 = 1 - \text{lost} / \tfrac12 m v^2
 
@@ -17,9 +17,9 @@ import math
 from typing import NamedTuple
 
 from ...accuracy import Accuracy
-from ...analyses.load_displacement.curve import StopCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...analyses.load_displacement.impact import impact
-from ...analyses.load_displacement.solve import stop_curve
+from ...analyses.load_displacement.solve import load_displacement
 from ...contact.effects.elasticity import HalfSpace
 from ...contact.effects.plasticity import HardnessLimit
 from ...errors import DescriptionError, InfeasibleError, PlanError
@@ -56,7 +56,7 @@ def tip_faces(
     *,
     material: Material = _ALUMINIUM,
     accuracy: Accuracy | None = None,
-) -> StopCurve:
+) -> LoadDisplacementCurve:
     """Curve of the apex of a tip on its site, up to an approach [m]; both of one material.
 
     Raises
@@ -83,15 +83,17 @@ def tip_faces(
         pressing=Pressing(approach=most),
         effects=(HalfSpace(), HardnessLimit(rule="material")),
     )
-    return stop_curve(scene, points=24, decades=3.0, accuracy=accuracy or Accuracy(grid=128))
+    return load_displacement(scene, points=24, decades=3.0, accuracy=accuracy or Accuracy(grid=128))
 
 
-def land(faces: StopCurve, mass: float, speed: float, attraction: float = 0.0) -> TipLanding:
+def land(
+    faces: LoadDisplacementCurve, mass: float, speed: float, attraction: float = 0.0
+) -> TipLanding:
     """One landing of a tip, by its energy.
 
     Parameters
     ----------
-    faces : StopCurve
+    faces : LoadDisplacementCurve
         Apex on site, as `tip_faces` makes it.
     mass, speed : float
         Of the tip as it lands [kg], [m/s].
@@ -107,8 +109,9 @@ def land(faces: StopCurve, mass: float, speed: float, attraction: float = 0.0) -
 
     Examples
     --------
-    >>> faces = StopCurve(approach=(1e-9, 2e-9), force=(1e-7, 3e-7), contact_area=(1e-17, 2e-17),
-    ...                   plastic_area=(0.0, 0.0), elastic_limit=2e-9, nominal_area=1e-13)
+    >>> faces = LoadDisplacementCurve(
+    ...     approach=(1e-9, 2e-9), force=(1e-7, 3e-7), contact_area=(1e-17, 2e-17),
+    ...     plastic_area=(0.0, 0.0), elastic_limit=2e-9, nominal_area=1e-13)
     >>> land(faces, 4e-16, 0.2).restitution
     1.0
     """

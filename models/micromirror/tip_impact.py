@@ -1,15 +1,15 @@
-r"""A spring tip on a site that gives: the blow of its apex, step by step, and how it then rests.
+r"""Impact of a spring tip on a deformable landing site: stepped in time, then at rest in contact.
 
 .. math:: m\ddot d = A - k\,(z + d) - F(d, d_{max})\,\max(1 + c\,\dot d, 0)
 
-with d the approach of apex and site from first touch, F their `StopCurve`, z the height of the
-root and A the attraction of film and solids, taken as it is at touch as long as they touch. A blow
-ends where F does, and the tip is off again; or it has come to its deepest point with less energy
-than would lead it out, and rests where F balances the rest: what rings on is taken as lost at
-once. So the site takes what yields, what is damped, and that.
+with d the approach of apex and site from first touch, F their `LoadDisplacementCurve`, z the
+height of the root, and A the attraction of film and solids, taken at its value at touch. An impact
+ends where F vanishes and the tip rebounds; or the tip turns with less energy than a rebound takes,
+and rests in equilibrium, the ringing dissipated at once. The site thus dissipates plastic work,
+damping work, and that energy.
 
-Errors: A as at touch misses some A d, a few per cent of a blow that matters. Left out: waves that
-run away in the tip. Plain floats only: this also runs inside an FMU.
+Errors: A as at touch misses some A d, a few per cent of an impact that matters. Left out: elastic
+waves radiated into the tip. Plain floats only: this also runs inside an FMU.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from enum import IntEnum
 from itertools import pairwise
 from typing import NamedTuple
 
-from ...analyses.load_displacement.curve import StopCurve, area_below
+from ...analyses.load_displacement.curve import LoadDisplacementCurve, area_below
 from ...analyses.load_displacement.impact import in_series
 from ...errors import ConvergenceError, InfeasibleError
 from ...numerics.roots import bracketed_root
@@ -60,7 +60,7 @@ _Rates = Callable[[float, _Four], _Four]
 class TipStop(NamedTuple):
     """What the apex of one tip meets: curve of the faces, and damping over force [s/m]."""
 
-    curve: StopCurve
+    curve: LoadDisplacementCurve
     damping: float = 0.0
 
 
@@ -142,7 +142,7 @@ def rest_depth(contact: Contact, largest: float, time: float, near: float = 0.0)
     return _known(curve, max(faces, curve.residual(largest)), time)
 
 
-def sprung_back(curve: StopCurve, depth: float, largest: float) -> float:
+def sprung_back(curve: LoadDisplacementCurve, depth: float, largest: float) -> float:
     """Work [J] that comes back from an approach on the way out from the largest."""
     begin = curve.residual(largest)
     length = depth - begin
@@ -154,7 +154,7 @@ def sprung_back(curve: StopCurve, depth: float, largest: float) -> float:
     )
 
 
-def _known(curve: StopCurve, depth: float, time: float) -> float:
+def _known(curve: LoadDisplacementCurve, depth: float, time: float) -> float:
     if depth > curve.most * (1.0 + 1e-12):
         raise InfeasibleError(
             f"at t = {time:.9g} s a tip is pressed {depth:.4g} m deep, beyond {curve.most:.4g} m "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, Unloading
 
 
 def rough(most=1e-6, limit=0.25, count=5):
@@ -14,7 +14,7 @@ def rough(most=1e-6, limit=0.25, count=5):
         Unloading(d, 0.4 * (d - limit * most), shares, tuple(s**1.7 for s in shares), shares, 0.0)
         for d in ends
     ]
-    return StopCurve(
+    return LoadDisplacementCurve(
         approach=depths,
         force=[3e11 * d**1.4 for d in depths],
         contact_area=depths,

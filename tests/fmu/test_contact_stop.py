@@ -14,7 +14,7 @@ import pytest
 
 import contactkit as ck
 from contactkit import cli
-from contactkit.analyses.load_displacement.curve import StopBranch, StopCurve
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch
 from contactkit.analyses.load_displacement.impact import in_series
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
@@ -40,7 +40,7 @@ def curve():
         pressing=ck.Pressing(pressure=80e6),
         effects=(ck.HalfSpace(), ck.HardnessLimit(rule="material")),
     )
-    found = ck.stop_curve(scene, points=24, ways=8, accuracy=ck.Accuracy(grid=64))
+    found = ck.load_displacement(scene, points=24, ways=8, accuracy=ck.Accuracy(grid=64))
     return found.scaled(10e-6 / found.nominal_area)
 
 
@@ -265,14 +265,14 @@ def test_a_build_is_repeatable_and_its_tables_are_under_the_hash(curve, stop_fmu
 def test_the_default_is_the_stop_of_the_injector():
     start = {}
     data = bake("contact-stop", start)
-    curve = StopCurve.from_data(data["curve"])
+    curve = LoadDisplacementCurve.from_data(data["curve"])
     assert curve == default_curve()
     assert start["scale"] * curve.force[-1] == pytest.approx(100e6 * STOP_AREA)
     assert 0.0 < curve.elastic_limit < curve.most
     assert curve.error < 0.05
     assert bake("valve-drive", {}) == {}
     for wrong in (3.0, {"approach": []}):
-        with pytest.raises(ck.DescriptionError, match="StopCurve"):
+        with pytest.raises(ck.DescriptionError, match="LoadDisplacementCurve"):
             bake("contact-stop", {"curve": wrong})
 
 

@@ -21,7 +21,7 @@ if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
 from contactkit import cli  # noqa: E402  # the packages must be there
-from contactkit.analyses.load_displacement.curve import StopCurve  # noqa: E402
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve  # noqa: E402
 from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.errors import DescriptionError, PlanError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
@@ -286,7 +286,7 @@ def test_what_cannot_be_built_is_refused(tmp_path):
         build_native_drive(out, start={"h_stopp": 1.0}, **ONE)
     with pytest.raises(DescriptionError, match="is an output"):
         build_native_drive(out, start={"u": 1.0}, **ONE)
-    with pytest.raises(DescriptionError, match="be a StopCurve"):
+    with pytest.raises(DescriptionError, match="be a LoadDisplacementCurve"):
         build_native_drive(out, start={"curve": 3.0}, **ONE)
     with pytest.raises(DescriptionError, match="at least one of"):
         build_native_drive(out, platforms=[])
@@ -363,7 +363,9 @@ def test_a_rough_stop_remembers_as_the_python_fmu_does(curve, tmp_path, open_fmu
 
 def test_faces_without_yield_are_one_curve(tmp_path, open_fmu):
     curve = rough()
-    curve = StopCurve.from_data(curve.to_data() | {"unloading": [], "elastic_limit": curve.most})
+    curve = LoadDisplacementCurve.from_data(
+        curve.to_data() | {"unloading": [], "elastic_limit": curve.most}
+    )
     assert face_numbers(curve)[2] == 0.0
     host = open_fmu(build_native_drive(tmp_path / "x.fmu", curve=curve, **ONE)).start()
     for share in (0.3, 0.8, 0.3):  # as stiff bodies: the depth is that of the faces

@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 from attrs import evolve
 
-from contactkit.analyses.load_displacement.curve import StopCurve, Unloading
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, Unloading
 from contactkit.app.run.micromirror.cosimulation import couple_fmus, tip_start
 from contactkit.app.run.micromirror.landing_sites import landing_numbers
 from contactkit.app.scenes import open_scene
@@ -40,7 +40,7 @@ def hertz(factor=1.0, most=4e-9, yields=True):
         Unloading(d, 0.2 * d, tuple(shares), tuple(s**1.5 for s in shares), tuple(shares), 0.0)
         for d in depths[4:]
     ]
-    return StopCurve(
+    return LoadDisplacementCurve(
         approach=depths,
         force=force,
         contact_area=area,

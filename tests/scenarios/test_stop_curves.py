@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.analyses.load_displacement.curve import StopBranch, StopCurve
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch
 from contactkit.analyses.load_displacement.impact import impact, in_series
 from contactkit.app.scenes import open_scene
 from contactkit.models.micromirror.landing import land, tip_faces
@@ -44,7 +44,7 @@ def ball():
     smooth = scene(
         ck.Paraboloid(radius=RADIUS), ck.Pressing(force=0.2), width=30e-6, periodic=False
     )
-    return ck.stop_curve(smooth, points=12, decades=2.0, accuracy=ck.Accuracy(grid=96))
+    return ck.load_displacement(smooth, points=12, decades=2.0, accuracy=ck.Accuracy(grid=96))
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +55,7 @@ def rough_scene():
 
 @pytest.fixture(scope="module")
 def rough(rough_scene):
-    return ck.stop_curve(rough_scene, points=24, ways=8, accuracy=GRID)
+    return ck.load_displacement(rough_scene, points=24, ways=8, accuracy=GRID)
 
 
 # The kernel -----------------------------------------------------------------------------------
@@ -166,7 +166,7 @@ def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
     The first way lies where the contact is a handful of pixels.
     """
     between = [math.sqrt(a * b) for a, b in zip(rough.approach, rough.approach[1:], strict=False)]
-    fresh = ck.stop_curve(rough_scene, approaches=between[-8:], ways=3, accuracy=GRID)
+    fresh = ck.load_displacement(rough_scene, approaches=between[-8:], ways=3, accuracy=GRID)
     for approach, force in zip(fresh.approach, fresh.force, strict=True):
         assert rough.at(approach).force == pytest.approx(force, rel=min(rough.error, 0.03))
     for one, share in zip(fresh.unloading, (0.06, 0.01, 0.01), strict=True):
@@ -239,7 +239,7 @@ def test_it_scales_and_travels_as_data(rough):
     twice = rough.scaled(2.0)
     assert twice.at(1e-7).force == pytest.approx(2.0 * rough.at(1e-7).force)
     assert twice.lost(rough.most) == pytest.approx(2.0 * rough.lost(rough.most))
-    again = StopCurve.from_data(json.loads(json.dumps(rough.to_data())))
+    again = LoadDisplacementCurve.from_data(json.loads(json.dumps(rough.to_data())))
     assert again == rough
     assert again.at(1.3e-7, rough.most) == rough.at(1.3e-7, rough.most)
 
@@ -250,7 +250,7 @@ def test_it_scales_and_travels_as_data(rough):
 def test_one_pixel_carries_the_lightest_load():
     """Below the pixel the summit is taken to be round."""
     light = scene(ROUGH, ck.Pressing(pressure=1e-2))
-    curve = ck.stop_curve(light, points=4, decades=2.0, accuracy=ck.Accuracy(grid=32))
+    curve = ck.load_displacement(light, points=4, decades=2.0, accuracy=ck.Accuracy(grid=32))
     pixel = (60e-6 / 32) ** 2
     assert curve.contact_area == pytest.approx([pixel] * 4)
     assert (
@@ -262,7 +262,9 @@ def test_one_pixel_carries_the_lightest_load():
 def test_near_the_hardness_nothing_elastic_is_left_but_the_tables_stand():
     limit = ck.HardnessLimit(rule="material")
     heavy = scene(ROUGH, ck.Pressing(pressure=0.98 * HARDNESS), limit)
-    curve = ck.stop_curve(heavy, points=8, decades=1.0, ways=2, accuracy=ck.Accuracy(grid=32))
+    curve = ck.load_displacement(
+        heavy, points=8, decades=1.0, ways=2, accuracy=ck.Accuracy(grid=32)
+    )
     assert curve.elastic_limit == 0.0
     assert curve.plastic_area[-1] > 0.9 * curve.nominal_area
     last = curve.unloading[-1]
@@ -270,13 +272,13 @@ def test_near_the_hardness_nothing_elastic_is_left_but_the_tables_stand():
     small = curve.at(0.5 * curve.approach[0] * 0.9, 0.5 * curve.approach[0])
     assert small.branch is StopBranch.UNLOADING  # the first way out serves all below it
     with pytest.raises(ck.InfeasibleError, match="hardness"):
-        ck.stop_curve(scene(ROUGH, ck.Pressing(pressure=HARDNESS), limit), accuracy=GRID)
+        ck.load_displacement(scene(ROUGH, ck.Pressing(pressure=HARDNESS), limit), accuracy=GRID)
 
 
 def test_faces_without_an_approach_of_their_own_are_refused():
     flat = scene(ck.Wave(amplitude=1e-12, wavelength=60e-6), ck.Pressing(pressure=1e8))
     with pytest.raises(ck.InfeasibleError, match="full contact"):
-        ck.stop_curve(flat, points=4, accuracy=ck.Accuracy(grid=16))
+        ck.load_displacement(flat, points=4, accuracy=ck.Accuracy(grid=16))
 
 
 def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
@@ -290,7 +292,7 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
         effects=(ck.LayeredHalfSpace(), ck.HardnessLimit()),
     )
     with pytest.raises(ck.InfeasibleError, match=r"dents of smaller loads are forgotten.*material"):
-        ck.stop_curve(made, points=12, ways=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6))
+        ck.load_displacement(made, points=12, ways=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6))
 
 
 @pytest.mark.parametrize(
@@ -309,7 +311,7 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
 )
 def test_impossible_questions_are_refused(rough_scene, choice, said):
     with pytest.raises(ck.DescriptionError, match=said):
-        ck.stop_curve(rough_scene, **choice)
+        ck.load_displacement(rough_scene, **choice)
 
 
 def test_what_acts_back_on_the_contact_is_refused_and_what_looks_at_it_is_not_run(rough_scene):
@@ -318,11 +320,11 @@ def test_what_acts_back_on_the_contact_is_refused_and_what_looks_at_it_is_not_ru
         effects=(*rough_scene.effects, ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),
     )
     with pytest.raises(ck.PlanError, match="leave out friction-coupling"):
-        ck.stop_curve(rubbed)
+        ck.load_displacement(rubbed)
     watched = evolve(rough_scene, effects=(ck.HalfSpace(), ck.FrictionTraction(coefficient=0.2)))
-    assert ck.stop_curve(watched, points=4, accuracy=ck.Accuracy(grid=32)).unloading == ()
-    with pytest.raises(ck.DescriptionError, match="be positive for a stop curve"):
-        ck.stop_curve(evolve(rough_scene, pressing=ck.Pressing(force=0.0)))
+    assert ck.load_displacement(watched, points=4, accuracy=ck.Accuracy(grid=32)).unloading == ()
+    with pytest.raises(ck.DescriptionError, match="be positive for a load-displacement curve"):
+        ck.load_displacement(evolve(rough_scene, pressing=ck.Pressing(force=0.0)))
 
 
 @pytest.mark.parametrize(
@@ -338,7 +340,7 @@ def test_what_acts_back_on_the_contact_is_refused_and_what_looks_at_it_is_not_ru
 )
 def test_data_that_is_no_curve_is_refused(rough, change, said):
     with pytest.raises(ck.DescriptionError, match=said):
-        StopCurve.from_data(rough.to_data() | change)
+        LoadDisplacementCurve.from_data(rough.to_data() | change)
 
 
 # A stop in a machine --------------------------------------------------------------------------

@@ -28,7 +28,7 @@ from ...units import si
 __all__ = [
     "HERTZ",
     "StopBranch",
-    "StopCurve",
+    "LoadDisplacementCurve",
     "StopPoint",
     "Unloading",
     "Way",
@@ -108,7 +108,7 @@ def as_floats(values: Sequence[float]) -> tuple[float, ...]:
 
 
 def unloading_of(data: Mapping[str, Any]) -> Unloading:
-    """Make a way out of what `StopCurve.to_data` gave."""
+    """Make a way out of what `LoadDisplacementCurve.to_data` gave."""
     made = Unloading(**data)
     return made._replace(
         ways=as_floats(made.ways), forces=as_floats(made.forces), areas=as_floats(made.areas)
@@ -205,7 +205,7 @@ _SAME = 1e-12  # approaches closer than this, relatively, are one
 
 
 @frozen(kw_only=True)
-class StopCurve:
+class LoadDisplacementCurve:
     """Force, stiffness and areas of a contact over its approach, with the memory of plasticity.
 
     Tables are monotone cubics, for force and area in logarithms. They start as a power law of an
@@ -252,11 +252,11 @@ class StopCurve:
         rows = (self.force, self.contact_area, self.plastic_area)
         if n < 2 or any(len(row) != n for row in rows):
             expected = "be two or more, each with a force and two areas"
-            raise DescriptionError("StopCurve.approach", n, expected)
+            raise DescriptionError("LoadDisplacementCurve.approach", n, expected)
         ends = [u.largest_approach for u in self.unloading]
         if ends and not self.elastic_limit < ends[0] <= ends[-1] <= self.approach[-1]:
             expected = f"lie above {self.elastic_limit:g} m and not above {self.approach[-1]:g} m"
-            raise DescriptionError("StopCurve.unloading", ends, expected, unit="m")
+            raise DescriptionError("LoadDisplacementCurve.unloading", ends, expected, unit="m")
         self._keep(_first=power_curve(self.approach, self.force, HERTZ))
         self._keep(_area=power_curve(self.approach, self.contact_area, 1.0))
         self._keep(_plastic=monotone_curve((0.0, *self.approach), (0.0, *self.plastic_area)))
@@ -323,7 +323,9 @@ class StopCurve:
         `plastic_area` is what has yielded so far: it stays on the way out.
         """
         if math.isnan(approach) or math.isnan(largest):
-            raise DescriptionError("StopCurve.at", (approach, largest), "be numbers", unit="m")
+            raise DescriptionError(
+                "LoadDisplacementCurve.at", (approach, largest), "be numbers", unit="m"
+            )
         largest = min(max(largest, 0.0), self.most)
         if approach > self.most * (1.0 + _SAME) and not beyond:
             raise InfeasibleError(
@@ -421,10 +423,12 @@ class StopCurve:
 
     # other forms ------------------------------------------------------------------------------
 
-    def scaled(self, factor: float) -> StopCurve:
+    def scaled(self, factor: float) -> LoadDisplacementCurve:
         """Return the curve of so many equal contacts side by side."""
         if not (math.isfinite(factor) and factor > 0.0):
-            raise DescriptionError("StopCurve.scaled(factor)", factor, "be positive and finite")
+            raise DescriptionError(
+                "LoadDisplacementCurve.scaled(factor)", factor, "be positive and finite"
+            )
         more: dict[str, Any] = {
             name: tuple(factor * value for value in getattr(self, name))
             for name in ("force", "contact_area", "plastic_area")
@@ -450,7 +454,7 @@ class StopCurve:
         }
 
     @classmethod
-    def from_data(cls, data: Mapping[str, Any]) -> StopCurve:
+    def from_data(cls, data: Mapping[str, Any]) -> LoadDisplacementCurve:
         """Make a curve of what `to_data` gave.
 
         Raises
@@ -465,4 +469,6 @@ class StopCurve:
         except (AttributeError, TypeError, ValueError) as error:
             if isinstance(error, DescriptionError):
                 raise
-            raise DescriptionError("StopCurve", str(error), "have the tables of a curve") from error
+            raise DescriptionError(
+                "LoadDisplacementCurve", str(error), "have the tables of a curve"
+            ) from error

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from ...errors import DescriptionError, InfeasibleError
 from ...numerics.roots import bracketed_root, newton_root
-from .curve import StopCurve, StopPoint, area_below
+from .curve import LoadDisplacementCurve, StopPoint, area_below
 
 __all__ = ["StopImpact", "impact", "in_series"]
 
@@ -33,7 +33,7 @@ class StopImpact(NamedTuple):
 
 
 def in_series(
-    curve: StopCurve,
+    curve: LoadDisplacementCurve,
     approach: float,
     largest: float,
     stiffness: float,
@@ -45,7 +45,7 @@ def in_series(
 
     Parameters
     ----------
-    curve : StopCurve
+    curve : LoadDisplacementCurve
         The faces.
     approach : float
         Approach of faces and spring together, from first touch [m].
@@ -54,7 +54,7 @@ def in_series(
     stiffness : float
         Stiffness of the spring behind them [N/m]; 0: rigid.
     beyond : bool
-        See `StopCurve.at`.
+        See `LoadDisplacementCurve.at`.
     near : float
         Approach of the faces not long ago, to begin with [m]; 0: unknown.
 
@@ -68,13 +68,14 @@ def in_series(
     Raises
     ------
     InfeasibleError, DescriptionError
-        See `StopCurve.at`; a stiffness that is negative or not finite.
+        See `LoadDisplacementCurve.at`; a stiffness that is negative or not finite.
 
     Examples
     --------
-    >>> from contactkit.analyses.load_displacement.curve import StopCurve
-    >>> faces = StopCurve(approach=(1e-7, 2e-7), force=(1.0, 3.0), contact_area=(1e-12, 2e-12),
-    ...                   plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
+    >>> from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
+    >>> faces = LoadDisplacementCurve(
+    ...     approach=(1e-7, 2e-7), force=(1.0, 3.0), contact_area=(1e-12, 2e-12),
+    ...     plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
     >>> point, approach = in_series(faces, 2e-7, 0.0, 1e7)
     >>> round(point.force, 3), round((approach + point.force / 1e7) * 1e9, 9)
     (1.0, 200.0)
@@ -91,7 +92,7 @@ def in_series(
 
 
 def _shared(
-    curve: StopCurve, approach: float, largest: float, stiffness: float, near: float
+    curve: LoadDisplacementCurve, approach: float, largest: float, stiffness: float, near: float
 ) -> float:
     """Approach of the faces: what they and the spring share rises with it, so Newton, bracketed."""
 
@@ -103,13 +104,18 @@ def _shared(
 
 
 def impact(
-    curve: StopCurve, mass: float, speed: float, *, largest: float = 0.0, stiffness: float = 0.0
+    curve: LoadDisplacementCurve,
+    mass: float,
+    speed: float,
+    *,
+    largest: float = 0.0,
+    stiffness: float = 0.0,
 ) -> StopImpact:
     """One blow of a free mass on a stop, by its energy.
 
     Parameters
     ----------
-    curve : StopCurve
+    curve : LoadDisplacementCurve
         The faces.
     mass, speed : float
         What arrives [kg], and how fast [m/s].
@@ -135,9 +141,10 @@ def impact(
     --------
     An elastic stop gives back everything:
 
-    >>> from contactkit.analyses.load_displacement.curve import StopCurve
-    >>> faces = StopCurve(approach=(1e-7, 2e-7), force=(1.0, 2.0**1.5), contact_area=(1e-12,) * 2,
-    ...                   plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
+    >>> from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
+    >>> faces = LoadDisplacementCurve(
+    ...     approach=(1e-7, 2e-7), force=(1.0, 2.0**1.5), contact_area=(1e-12,) * 2,
+    ...     plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
     >>> blow = impact(faces, 1e-3, 0.01)
     >>> f"{blow.force:.4f} N", blow.restitution
     ('1.1433 N', 1.0)
@@ -168,7 +175,7 @@ def impact(
 
 
 def _within(
-    curve: StopCurve, energy: float, largest: float, stiffness: float
+    curve: LoadDisplacementCurve, energy: float, largest: float, stiffness: float
 ) -> tuple[float, float]:
     """Where a blow ends that stays on the way of an earlier one, by integrating that way."""
     begin = curve.residual(largest)

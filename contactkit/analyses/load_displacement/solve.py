@@ -25,14 +25,14 @@ from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanE
 from ...numerics.monotone_cubic import power_curve
 from ...scene.bodies import Pressing
 from ...scene.contact_scene import ContactScene
-from .curve import HERTZ, StopCurve, Unloading
+from .curve import HERTZ, LoadDisplacementCurve, Unloading
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Map = NDArray[np.float64]
 
-__all__ = ["stop_curve"]
+__all__ = ["load_displacement"]
 
 Progress = Callable[[float], None]
 
@@ -51,7 +51,7 @@ class _Node(NamedTuple):
     overlap: Map | None
 
 
-def stop_curve(
+def load_displacement(
     scene: ContactScene,
     *,
     loads: Sequence[float] | None = None,
@@ -61,7 +61,7 @@ def stop_curve(
     ways: int = 12,
     accuracy: Accuracy | None = None,
     progress: Progress | None = None,
-) -> StopCurve:
+) -> LoadDisplacementCurve:
     r"""Force and areas of a contact over its approach, with what plasticity does to the way out.
 
     Parameters
@@ -87,7 +87,7 @@ def stop_curve(
 
     Returns
     -------
-    StopCurve
+    LoadDisplacementCurve
         Monotone tables that need no numpy, for the area of the window.
 
     Raises
@@ -126,7 +126,7 @@ def stop_curve(
     ...     pressing=ck.Pressing(force=0.2),
     ...     effects=(ck.HalfSpace(),),
     ... )
-    >>> curve = stop_curve(scene, points=8, decades=1.0, accuracy=ck.Accuracy(grid=96))
+    >>> curve = load_displacement(scene, points=8, decades=1.0, accuracy=ck.Accuracy(grid=96))
     >>> f"{curve.at(50e-9).force:.4f} N, Hertz {4 / 3 * 2.3077e11 * 1e-3**0.5 * 50e-9**1.5:.4f} N"
     '0.1088 N, Hertz 0.1088 N'
     """
@@ -161,7 +161,7 @@ def _plain(scene: ContactScene) -> ContactScene:
     if acting:
         names = ", ".join(e.name for e in acting)
         raise PlanError(
-            f"a stop curve is that of a dry contact without friction; leave out {names}"
+            f"load-displacement curves are of a dry contact without friction; leave out {names}"
         )
     return evolve(scene, effects=kept)
 
@@ -169,7 +169,7 @@ def _plain(scene: ContactScene) -> ContactScene:
 def _count(name: str, value: int, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise DescriptionError(
-            f"stop_curve({name})", value, f"be a whole number of at least {least}"
+            f"load_displacement({name})", value, f"be a whole number of at least {least}"
         )
     return value
 
@@ -183,7 +183,7 @@ def _ladder(
 ) -> tuple[str, list[float]]:
     """What is imposed, and its values."""
     if loads is not None and approaches is not None:
-        raise DescriptionError("stop_curve", "both", "be given loads [N] or approaches [m]")
+        raise DescriptionError("load_displacement", "both", "be given loads [N] or approaches [m]")
     given = loads if loads is not None else approaches
     if given is not None:
         key, unit = ("force", "N") if loads is not None else ("approach", "m")
@@ -191,16 +191,18 @@ def _ladder(
         pairs = zip([0.0, *values], values, strict=False)
         if len(values) < 2 or not all(a < b < math.inf for a, b in pairs):
             expected = "be two or more, positive and ascending"
-            raise DescriptionError(f"stop_curve({key})", given, expected, unit=unit)
+            raise DescriptionError(f"load_displacement({key})", given, expected, unit=unit)
         return key, values
     _count("points", points, 4)
     if not (math.isfinite(decades) and decades > 0.0):
-        raise DescriptionError("stop_curve(decades)", decades, "be positive and finite")
+        raise DescriptionError("load_displacement(decades)", decades, "be positive and finite")
     for key in ("pressure", "force", "approach"):
         most = getattr(scene.pressing, key)
         if most is not None:
             if most <= 0.0:
-                raise DescriptionError(f"Pressing.{key}", most, "be positive for a stop curve")
+                raise DescriptionError(
+                    f"Pressing.{key}", most, "be positive for a load-displacement curve"
+                )
             reach = decades / HERTZ if key == "approach" else decades
             return key, [float(x) for x in np.geomspace(most * 10.0**-reach, most, points)]
     raise AssertionError("exactly one is imposed")
@@ -234,7 +236,7 @@ def _tables(
     accuracy: Accuracy,
     last: ContactResult,
     tell: Progress,
-) -> StopCurve:
+) -> LoadDisplacementCurve:
     plastic = [i for i, node in enumerate(nodes) if node.overlap is not None]
     begins = plastic[0] if plastic else len(nodes)
     limit = nodes[begins - 1].approach if begins else 0.0
@@ -246,7 +248,7 @@ def _tables(
             out.append(_way_out(engine, node, accuracy))
         tell(0.5 + 0.5 * (i + 1) / len(picked))
     approach, force = [node.approach for node in nodes], [node.force for node in nodes]
-    return StopCurve(
+    return LoadDisplacementCurve(
         approach=tuple(approach),
         force=tuple(force),
         # Counted in pixels, areas may fall by rounding of a contact condition.
