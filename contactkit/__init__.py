@@ -11,7 +11,7 @@ Examples
 >>> film = ck.Meniscus(liquid=oil, volume=1.583e-10)
 >>> scene = ck.SeparationScene(
 ...     interface=ck.Interface(lower=face, upper=face, meniscus=film),
-...     opening=ck.Opening(initial_gap=5e-6, final_gap=25e-6, speed=0.04),
+...     loading=ck.ImposedSpeed(speed=0.04, initial_gap=5e-6, final_gap=25e-6),
 ...     effects=(ck.MeniscusForce(), ck.ViscousForce(), ck.TensionLimit(tension=1e6)),
 ... )
 >>> print(ck.plan(scene))
@@ -63,21 +63,28 @@ if TYPE_CHECKING:
     from .liquids.liquid import Liquid
     from .planning import plan
     from .scene.asperity_population import AsperityPopulation
-    from .scene.bodies import Body, ContactInterface, Pressing, Window
-    from .scene.contact_scene import ContactScene
-    from .scene.interface import Interface, Meniscus, Opening, Sliding, Vibration
+    from .scene.interface import Body, Interface
+    from .scene.loading import (
+        Approach,
+        ImposedForce,
+        ImposedSpeed,
+        ImposedTime,
+        Pressing,
+        Sliding,
+        Vibration,
+    )
     from .scene.materials import Layer, Material, Stack
-    from .scene.scenes import SeparationScene, SlidingScene
-    from .scene.shapes import Flat, Sphere
-    from .scene.topography import (
+    from .scene.meniscus import Meniscus
+    from .scene.rough_surfaces import (
         CombinedSurface,
         GaussianRoughness,
         Heights,
         Measured,
-        Paraboloid,
         SelfAffineRoughness,
-        Wave,
     )
+    from .scene.scenes import ContactScene, SeparationScene, SlidingScene
+    from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
+    from .scene.window import Window
     from .separation.effects.registry import (
         AdhesiveContact,
         AsperityMenisci,
@@ -102,14 +109,14 @@ __version__ = "0.1.0"
 _HOMES = {
     "Accuracy": "accuracy",
     "AdhesiveContact": "separation.effects.registry",
+    "Approach": "scene.loading",
     "AsperityMenisci": "separation.effects.registry",
     "AsperityPopulation": "scene.asperity_population",
-    "Body": "scene.bodies",
-    "CombinedSurface": "scene.topography",
+    "Body": "scene.interface",
+    "CombinedSurface": "scene.rough_surfaces",
     "ContactAngleHysteresis": "separation.sliding.effects",
-    "ContactInterface": "scene.bodies",
     "ContactPlan": "contact.plan",
-    "ContactScene": "scene.contact_scene",
+    "ContactScene": "scene.scenes",
     "ContactkitError": "errors",
     "ConvergenceError": "errors",
     "CouetteForce": "separation.sliding.effects",
@@ -117,14 +124,17 @@ _HOMES = {
     "EFFECTS": "effects",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.motion.state",
-    "Flat": "scene.shapes",
+    "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
-    "GaussianRoughness": "scene.topography",
+    "GaussianRoughness": "scene.rough_surfaces",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
     "HardnessMap": "contact.effects.plasticity",
-    "Heights": "scene.topography",
+    "Heights": "scene.rough_surfaces",
+    "ImposedForce": "scene.loading",
+    "ImposedSpeed": "scene.loading",
+    "ImposedTime": "scene.loading",
     "InfeasibleError": "errors",
     "Interface": "scene.interface",
     "IslandBridges": "contact.effects.island_bridges",
@@ -133,35 +143,34 @@ _HOMES = {
     "LimitKind": "separation.motion.state",
     "Liquid": "liquids.liquid",
     "Material": "scene.materials",
-    "Measured": "scene.topography",
-    "Meniscus": "scene.interface",
+    "Measured": "scene.rough_surfaces",
+    "Meniscus": "scene.meniscus",
     "MeniscusForce": "separation.effects.registry",
     "MotionState": "separation.motion.state",
     "NotSimulatedError": "errors",
-    "Opening": "scene.interface",
     "PUBLISHED": "as_published.lookup",
-    "Paraboloid": "scene.topography",
+    "Paraboloid": "scene.surfaces",
     "Plan": "separation.plan",
     "PlanError": "errors",
-    "Pressing": "scene.bodies",
+    "Pressing": "scene.loading",
     "Pull": "separation.motion.state",
     "Rupture": "separation.effects.registry",
-    "SelfAffineRoughness": "scene.topography",
+    "SelfAffineRoughness": "scene.rough_surfaces",
     "SeparationScene": "scene.scenes",
     "ShearLimit": "separation.effects.registry",
-    "Sliding": "scene.interface",
+    "Sliding": "scene.loading",
     "SlidingPlan": "separation.sliding.plan",
     "SlidingScene": "scene.scenes",
-    "Sphere": "scene.shapes",
+    "Sphere": "scene.surfaces",
     "Stack": "scene.materials",
     "SubsurfaceStress": "contact.effects.stress",
     "TensionLimit": "separation.effects.registry",
     "ValidityWarning": "errors",
     "VanDerWaalsForce": "separation.effects.registry",
-    "Vibration": "scene.interface",
+    "Vibration": "scene.loading",
     "ViscousForce": "separation.effects.registry",
-    "Wave": "scene.topography",
-    "Window": "scene.bodies",
+    "Wave": "scene.surfaces",
+    "Window": "scene.window",
     "adhesion_curve": "analyses.adhesion_curve",
     "advance": "separation.motion.advance",
     "critical_meniscus": "analyses.division",
@@ -186,12 +195,12 @@ _HOMES = {
 __all__ = [
     "Accuracy",
     "AdhesiveContact",
+    "Approach",
     "AsperityMenisci",
     "AsperityPopulation",
     "Body",
     "CombinedSurface",
     "ContactAngleHysteresis",
-    "ContactInterface",
     "ContactPlan",
     "ContactScene",
     "ContactkitError",
@@ -209,6 +218,9 @@ __all__ = [
     "HardnessLimit",
     "HardnessMap",
     "Heights",
+    "ImposedForce",
+    "ImposedSpeed",
+    "ImposedTime",
     "InfeasibleError",
     "Interface",
     "IslandBridges",
@@ -222,7 +234,6 @@ __all__ = [
     "MeniscusForce",
     "MotionState",
     "NotSimulatedError",
-    "Opening",
     "PUBLISHED",
     "Paraboloid",
     "Plan",

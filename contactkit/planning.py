@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, overload
 
 from .accuracy import Accuracy
-from .scene.contact_scene import ContactScene
-from .scene.scenes import SeparationScene, SlidingScene
+from .scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .separation.plan import Plan
 from .separation.plan import plan as plan_separation
 

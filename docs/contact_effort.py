@@ -34,14 +34,14 @@ def rough_scene(
     width = n * 10e-9
     surface = ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=width / 4, cutoff=80e-9)
     from contactkit.contact.grid import realise
-    from contactkit.scene.topography import Grid
+    from contactkit.scene.window import Grid
 
     heights = realise(surface, Grid((n, n), (10e-9, 10e-9), True))
     slope = float(rms_slope(heights, (10e-9, 10e-9), True))
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(lower=ck.Body(solid=solid), upper=ck.Body(surface=surface)),
+        interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Body(surface=surface)),
         window=ck.Window(width=width, periodic=periodic),
-        pressing=ck.Pressing(pressure=0.5 * area * slope * STEEL.plane_strain_modulus),
+        loading=ck.Pressing(pressure=0.5 * area * slope * STEEL.plane_strain_modulus),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
     return scene, ck.Accuracy(grid=n)
@@ -122,8 +122,8 @@ def ratio_table() -> str:
         count = run.work.n_operator_applications
         rows.append((label, f"{count}", f"{seconds:.2f}", f"{seconds / base:.2f}"))
     scene, accuracy = rough_scene(512, 0.05)
-    top = scene.pressing.pressure or 0.0
-    loads = {"pressing.pressure": [top * 2.0 ** (-0.5 * i) for i in range(19, -1, -1)]}
+    top = scene.loading.pressure or 0.0
+    loads = {"loading.pressure": [top * 2.0 ** (-0.5 * i) for i in range(19, -1, -1)]}
     curve, seconds = best_of(lambda: ck.study(scene, loads, accuracy), repeats=1)
     count = int(sum(p.n_operator_applications for p in curve.points))
     label = "load curve of 20 points up to it, with setup"

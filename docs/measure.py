@@ -47,7 +47,7 @@ def scene(case: dict[str, Any]) -> ck.SeparationScene:
         contact_angle_lower=theta,
         contact_angle_upper=theta,
     )
-    opening = ck.Opening(
+    loading = ck.ImposedForce(
         initial_gap=case["h0"],
         final_gap=case["h_rel"],
         force=case["F0"],
@@ -58,7 +58,7 @@ def scene(case: dict[str, Any]) -> ck.SeparationScene:
     limit = (ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        opening=opening,
+        loading=loading,
         effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce(), *limit),
     )
 
@@ -167,7 +167,7 @@ def meniscus_scenes() -> dict[str, ck.SeparationScene]:
     face, tip = ck.Flat(radius=1e-6), ck.Sphere(radius=1e-7)
     free = ck.Meniscus(liquid=water, volume=2e-21, **wets)
     small = ck.Meniscus(liquid=water, volume=1e-24, **wets)
-    moist = ck.Meniscus.from_humidity(liquid=water, relative_humidity=0.5, **wets)
+    moist = ck.Meniscus(liquid=water, relative_humidity=0.5, **wets)
     bodies = {
         "flats, free": ck.Interface(meniscus=free),
         "flats, first up to the rim": ck.Interface(
@@ -176,10 +176,10 @@ def meniscus_scenes() -> dict[str, ck.SeparationScene]:
         "sphere, volume": ck.Interface(upper=tip, meniscus=small),
         "sphere, humidity of 50 %": ck.Interface(upper=tip, meniscus=moist),
     }
-    opening = ck.Opening(initial_gap=5e-10, final_gap=1e-7, speed=1e-6)
+    loading = ck.ImposedSpeed(initial_gap=5e-10, final_gap=1e-7, speed=1e-6)
     exact = (ck.MeniscusForce(),)
     return {
-        name: ck.SeparationScene(interface=one, opening=opening, effects=exact)
+        name: ck.SeparationScene(interface=one, loading=loading, effects=exact)
         for name, one in bodies.items()
     }
 
@@ -263,7 +263,7 @@ def tension_table() -> str:
 def healing_table() -> str:
     """Gap left at the end of each cycle if the film never breaks and so heals at once."""
     injector = open_scene("fuel-injector").scene
-    profile, rest = injector.valve.profile, injector.opening.rest_gap
+    profile, rest = injector.valve.profile, injector.loading.rest_gap
     ends = [profile.start_delay + (n + 1) * profile.period for n in range(profile.cycles)]
     head = " | ".join(f"after cycle {n + 1} [um]" for n in range(len(ends)))
     lines = [f"| temperature | {head} |", "|---" * (1 + len(ends)) + "|"]

@@ -43,11 +43,11 @@ def stack(layers: Sequence[Sequence[float]], unit: float = E, length: float = A0
 def sphere(solid: ck.Stack, width: float, cells: int, *effects: Any) -> ck.ContactResult:
     """Rigid sphere on a solid, without neighbours."""
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid), upper=ck.Body(surface=ck.Paraboloid(radius=RADIUS))
         ),
         window=ck.Window(width=width, periodic=False),
-        pressing=ck.Pressing(force=LOAD),
+        loading=ck.Pressing(force=LOAD),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
     return ck.solve(ck.plan(scene, ck.Accuracy(grid=cells)))
@@ -130,12 +130,12 @@ def wave_table() -> str:
 
 def _wave_errors(solid: ck.Stack, row: Mapping[str, float], n: int) -> tuple[float, float, float]:
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid),
             upper=ck.Body(surface=ck.Wave(amplitude=1.0, wavelength=1.0)),
         ),
         window=ck.Window(width=1.0, height=2.0 / n),
-        pressing=ck.Pressing(pressure=row["mean_pressure"]),
+        loading=ck.Pressing(pressure=row["mean_pressure"]),
         effects=(ck.LayeredHalfSpace(),),
     )
     run = ck.solve(ck.plan(scene, ck.Accuracy(grid=(2, n))))
@@ -181,11 +181,9 @@ def area_table() -> str:
     half_space = ck.Material(young_modulus=E, poisson_ratio=0.0)
     rough = ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=5e-7, cutoff=1e-7)
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
-            lower=ck.Body(solid=half_space), upper=ck.Body(surface=rough)
-        ),
+        interface=ck.Interface(lower=ck.Body(solid=half_space), upper=ck.Body(surface=rough)),
         window=ck.Window(width=2e-6),
-        pressing=ck.Pressing(pressure=3e5),
+        loading=ck.Pressing(pressure=3e5),
         effects=(ck.HalfSpace(),),
     )
     rows = []

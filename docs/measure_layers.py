@@ -50,9 +50,9 @@ def stack(layers: tuple[tuple[float, float], ...]) -> ck.Stack:
 def solved(solid: ck.Stack, rough: object, pressure: float) -> Cost:
     """One solve, its setup left out."""
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(lower=ck.Body(solid=solid), upper=ck.Body(surface=rough)),
+        interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Body(surface=rough)),
         window=ck.Window(width=WIDTH),
-        pressing=ck.Pressing(pressure=pressure),
+        loading=ck.Pressing(pressure=pressure),
         effects=(ck.LayeredHalfSpace(),),
     )
     made = ck.plan(scene, ck.Accuracy(grid=N))

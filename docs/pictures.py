@@ -44,7 +44,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
 }
 CURVES = ("wet-film-reported-only", "wet-film-pulls-too")
 COLUMNS = {  # of a load curve: heading and factor
-    "pressing.pressure": ("mean pressure [MPa]", 1e-6),
+    "loading.pressure": ("mean pressure [MPa]", 1e-6),
     "max_pressure": ("largest pressure [GPa]", 1e-9),
     "hardness": ("effective hardness [GPa]", 1e-9),
     "contact_fraction": ("contact [%]", 100.0),

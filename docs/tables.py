@@ -53,7 +53,8 @@ from contactkit.models.injector.valve import DriveProfile, Spring, Stop
 from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform
 from contactkit.models.micromirror.scene import MirrorStudy
-from contactkit.scene.bodies import Body
+from contactkit.scene.interface import Body
+from contactkit.scene.loading import CONTACT_LOADINGS, SEPARATION_LOADINGS, SLIDING_LOADINGS
 from contactkit.separation.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
 from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 from contactkit.separation.sliding.effects import SLIDING_EFFECTS, SlidingForce
@@ -178,9 +179,10 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "meniscus": lambda: keys(ck.Meniscus),
     "liquid": lambda: keys(ck.Liquid),
     "laws": lambda: named([(law.kind, law) for law in LAWS], "law"),
-    "opening": lambda: keys(ck.Opening),
+    "separation loadings": lambda: named(((k.kind, k) for k in SEPARATION_LOADINGS), "kind"),
+    "contact loadings": lambda: named(((k.kind, k) for k in CONTACT_LOADINGS), "kind"),
+    "sliding loading": lambda: named(((k.kind, k) for k in SLIDING_LOADINGS), "kind"),
     "vibration": lambda: keys(ck.Vibration),
-    "sliding": lambda: keys(ck.Sliding),
     "asperities": lambda: keys(ck.AsperityPopulation),
     "effect keys": lambda: named([(kind.name, kind) for kind in SEPARATION_EFFECTS], "effect"),
     "effects": lambda: effect_table(SEPARATION_EFFECTS),
@@ -189,14 +191,12 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
     "contact effects": lambda: effect_table(CONTACT_EFFECTS),
     "contact scene": lambda: keys(ck.ContactScene),
-    "contact interface": lambda: keys(ck.ContactInterface),
     "body": lambda: keys(Body),
     "material": lambda: keys(ck.Material),
     "stack": lambda: keys(ck.Stack),
     "layer": lambda: keys(ck.Layer),
     "surfaces": lambda: named(surface_kinds(), "shape"),
     "window": lambda: keys(ck.Window),
-    "pressing": lambda: keys(ck.Pressing),
     "materials": material_table,
     "head-disk": head_disk_table,
     "accuracy": lambda: keys(ck.Accuracy),

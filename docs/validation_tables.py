@@ -46,7 +46,7 @@ def division_table() -> str:
         )
         scene = ck.SeparationScene(
             interface=ck.Interface(meniscus=film),
-            opening=ck.Opening(initial_gap=gap, final_gap=1e-3, time=1e-7),
+            loading=ck.ImposedTime(initial_gap=gap, final_gap=1e-3, time=1e-7),
             effects=(ck.MeniscusForce(), ck.ViscousForce()),
         )
         exact = ck.divide_meniscus(scene, (1,))

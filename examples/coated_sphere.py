@@ -29,12 +29,12 @@ def pressed(thickness: float | None, friction: float, pixels: int = 36) -> ck.Co
     depths = tuple(radius * float(z) for z in np.linspace(0.0, 1.4, 15) ** 2)
     slid = (ck.FrictionTraction(coefficient=friction),) if friction else ()
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=ck.Stack(layers=layers, substrate=STEEL)),
             upper=ck.Body(surface=ck.Paraboloid(radius=RADIUS)),
         ),
         window=ck.Window(width=2.4 * radius, periodic=False),
-        pressing=ck.Pressing(force=LOAD),
+        loading=ck.Pressing(force=LOAD),
         effects=(ck.LayeredHalfSpace(), *slid, ck.SubsurfaceStress(depths=depths, window=16.0)),
     )
     return ck.solve(ck.plan(scene, ck.Accuracy(grid=pixels)))

@@ -29,9 +29,9 @@ def main(out: Path) -> float:
         window=evolve(opened.window, width=4 * um),
         effects=tuple(e for e in opened.effects if isinstance(e, wanted)),
     )
-    loads = {"pressing.pressure": [1 * MPa * 2.0**i for i in range(8)]}
+    loads = {"loading.pressure": [1 * MPa * 2.0**i for i in range(8)]}
     curve = ck.study(scene, loads, ck.Accuracy(grid=128))
-    pressure = curve.column("pressing.pressure") / MPa
+    pressure = curve.column("loading.pressure") / MPa
     contact, film = curve.column("contact_fraction"), curve.column("relative_meniscus_force")
     figure, (left, right) = plot.figure(1, 2, size=(11.0, 4.6))
     left.plot(pressure, 100.0 * contact, "o-", ms=3.5)

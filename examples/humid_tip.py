@@ -29,7 +29,7 @@ def curve(radius: float, gap: float, humidities: list[float]) -> HumidityCurve:
     film = ck.Meniscus(liquid=WATER)
     scene = ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=radius), meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=100 * nm, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=gap, final_gap=100 * nm, speed=1e-6),
         effects=(ck.MeniscusForce(),),
     )
     return ck.humidity_curve(scene, humidities)

@@ -33,7 +33,7 @@ def result(height: float, far: float, profile: str) -> ck.SeparationResult:
     )
     scene = ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=RADIUS), meniscus=film),
-        opening=ck.Opening(initial_gap=GAP, final_gap=far, time=0.1 * us),
+        loading=ck.ImposedTime(initial_gap=GAP, final_gap=far, time=0.1 * us),
         effects=(ck.MeniscusForce(profile=profile), ck.ViscousForce()),
     )
     with warnings.catch_warnings():

@@ -26,7 +26,7 @@ def scene(degrees: float) -> ck.SeparationScene:
     film = ck.Meniscus(liquid=oil, volume=math.pi * RADIUS**2 * GAP)
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        opening=ck.Opening(initial_gap=GAP, final_gap=FAR, force=PULL, mass=0.02),
+        loading=ck.ImposedForce(initial_gap=GAP, final_gap=FAR, force=PULL, mass=0.02),
         effects=(ck.ViscousForce(),),
         temperature=celsius(degrees),
     )

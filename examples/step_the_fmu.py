@@ -29,10 +29,12 @@ def scene() -> ck.SeparationScene:
     oil = ck.Liquid(name="cold oil", viscosity=0.1, surface_tension=0.03)
     face = ck.Flat(radius=3.175e-3)
     film = ck.Meniscus(liquid=oil, volume=math.pi * 3.175e-3**2 * 5e-6)
-    opening = ck.Opening(initial_gap=5e-6, final_gap=1e-4, force=PULL, rise_time=RISE, mass=0.02)
+    loading = ck.ImposedForce(
+        initial_gap=5e-6, final_gap=1e-4, force=PULL, rise_time=RISE, mass=0.02
+    )
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        opening=opening,
+        loading=loading,
         effects=(ck.MeniscusForce(), ck.ViscousForce(), ck.TensionLimit(tension=1e6)),
     )
 

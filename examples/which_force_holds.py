@@ -25,7 +25,7 @@ def equal_viscosity(gap: float) -> float:
     film = ck.Meniscus(liquid=oil, volume=math.pi * RADIUS**2 * gap)
     scene = ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=10.0 * gap, speed=SPEED),
+        loading=ck.ImposedSpeed(initial_gap=gap, final_gap=10.0 * gap, speed=SPEED),
         effects=(ck.MeniscusForce(), ck.ViscousForce()),
     )
     with warnings.catch_warnings():

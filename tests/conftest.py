@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import loadings
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -34,9 +35,9 @@ def viscous_cases():
 
 @pytest.fixture(scope="session")
 def release_scene(release_cases):
-    """Build the scene of a release case; keywords change its `Opening`."""
+    """Build the scene of a release case; keywords change its loading."""
 
-    def build(name, *more, effects=None, meniscus=None, **opening):
+    def build(name, *more, effects=None, meniscus=None, **loading):
         case = release_cases[name]["case"]
         oil = ck.Liquid(name="oil", viscosity=case["eta"], surface_tension=case["gamma"])
         film = {
@@ -62,7 +63,7 @@ def release_scene(release_cases):
             interface=ck.Interface(
                 lower=face, upper=face, meniscus=ck.Meniscus(**film | (meniscus or {}))
             ),
-            opening=ck.Opening(**imposed | opening),
+            loading=loadings.imposed(**imposed | loading),
             effects=(*effects, *more),
         )
 
@@ -71,12 +72,12 @@ def release_scene(release_cases):
 
 @pytest.fixture(scope="session")
 def film_scene():
-    """Build a scene of an oil film; keywords that are no part of the film go to `Opening`."""
+    """Build a scene of an oil film; keywords that are no part of the film go to the loading."""
 
-    def build(*effects, lower=None, upper=None, liquid=None, film=None, **opening):
+    def build(*effects, lower=None, upper=None, liquid=None, film=None, **loading):
         given = {"name": "oil", "viscosity": 0.1, "surface_tension": 0.03}
         face = ck.Flat(radius=1e-3)
-        motion = {"initial_gap": 1e-6, "final_gap": 1e-5} | opening
+        motion = {"initial_gap": 1e-6, "final_gap": 1e-5} | loading
         if not motion.keys() & {"speed", "force", "time"}:
             motion["speed"] = 1e-6
         return ck.SeparationScene(
@@ -85,7 +86,7 @@ def film_scene():
                 upper=upper or face,
                 meniscus=ck.Meniscus(liquid=ck.Liquid(**given | (liquid or {})), **(film or {})),
             ),
-            opening=ck.Opening(**motion),
+            loading=loadings.imposed(**motion),
             effects=effects or (ck.MeniscusForce(), ck.ViscousForce()),
         )
 

@@ -74,8 +74,8 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
     >>> film = ck.Meniscus(liquid=ck.Liquid(name="air"))
     >>> body = ck.Interface(upper=ck.Sphere(radius=1e-5), meniscus=film)
     >>> rubber = ck.AdhesiveContact(model="jkr", work_of_adhesion=0.05, reduced_modulus=1e9)
-    >>> opening = ck.Opening(initial_gap=1e-9, final_gap=1e-6, speed=1e-6)
-    >>> scene = ck.SeparationScene(interface=body, opening=opening, effects=(rubber,))
+    >>> loading = ck.ImposedSpeed(initial_gap=1e-9, final_gap=1e-6, speed=1e-6)
+    >>> scene = ck.SeparationScene(interface=body, loading=loading, effects=(rubber,))
     >>> curve = ck.adhesion_curve(scene, [0.0, 1e-6])
     >>> (curve.contact_radius * 1e9).round(1), f"{curve.numbers.pull_off_force:.4g} N"
     (array([413.5, 439.7]), '2.356e-06 N')

@@ -102,7 +102,7 @@ class DivisionResult:
 
     @property
     def _volumes(self) -> Floats:
-        volume = self.scene.interface.meniscus.volume
+        volume = self.scene.meniscus.volume
         assert volume is not None
         return np.asarray(volume / self.counts)
 
@@ -160,7 +160,7 @@ def divide_meniscus(
     ...     contact_angle_lower=math.pi / 3, contact_angle_upper=math.pi / 3)
     >>> scene = ck.SeparationScene(
     ...     interface=ck.Interface(meniscus=film),
-    ...     opening=ck.Opening(initial_gap=2e-9, final_gap=1e-6, time=1e-7),
+    ...     loading=ck.ImposedTime(initial_gap=2e-9, final_gap=1e-6, time=1e-7),
     ...     effects=(ck.MeniscusForce(), ck.ViscousForce()))
     >>> print(divide_meniscus(scene, law="as-published"))
     division by the as-published law: best 285 menisci, 4.159e-05 N in total; at most 23108052 are stable
@@ -195,7 +195,7 @@ def divide_meniscus(
 
 
 def _volume(scene: SeparationScene) -> float:
-    volume = scene.interface.meniscus.volume
+    volume = scene.meniscus.volume
     if volume is None:
         raise PlanError("a division needs interface.meniscus.volume [m3]: what is to be divided")
     return volume
@@ -261,12 +261,12 @@ def critical_meniscus(scene: SeparationScene, *, law: Name | None = None) -> Cri
     ...     liquid=water, contact_angle_lower=math.pi / 3, contact_angle_upper=math.pi / 3)
     >>> scene = ck.SeparationScene(
     ...     interface=ck.Interface(meniscus=film),
-    ...     opening=ck.Opening(initial_gap=2e-9, final_gap=1e-3, time=1e-7),
+    ...     loading=ck.ImposedTime(initial_gap=2e-9, final_gap=1e-3, time=1e-7),
     ...     effects=(ck.MeniscusForce(), ck.ViscousForce()))
     >>> round(critical_meniscus(scene, law="as-published").area * 1e12, 4)
     0.0694
     """
-    gap = scene.opening.initial_gap
+    gap = scene.loading.initial_gap
     made = law_of(scene, law, gap**3 if gap > 0.0 else 1.0)
     meniscus, viscous = made.demand(MeniscusForce), made.demand(ViscousForce)
     one = np.asarray(1.0)
@@ -278,7 +278,7 @@ def critical_meniscus(scene: SeparationScene, *, law: Name | None = None) -> Cri
     least = math.log(gap**3) - 3.0 * math.log(float(made.limit(np.asarray(gap**3))) / gap)
     low = least + 1e-3
     high = max(low, math.log(gap**3)) + 1.0
-    film = scene.interface.meniscus
+    film = scene.meniscus
     if math.cos(film.contact_angle_lower) + math.cos(film.contact_angle_upper) < -1e-12:
         # Attractive only near rupture, which is not a size to compare at.
         raise InfeasibleError("the meniscus repels: there is no size at which it balances the film")

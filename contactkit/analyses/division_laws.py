@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import InfeasibleError, NotSimulatedError, PlanError
 from ..lubrication import squeeze_film as squeeze
+from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime, SeparationLoading
 from ..separation.effects.as_published import mixed
 from ..separation.effects.registry import MeniscusForce, ViscousForce
 
@@ -65,7 +66,7 @@ def law_of(scene: SeparationScene, name: Name | None, min_volume: float) -> Divi
     effect = scene.effect(MeniscusForce)
     name = name or _own_law(scene)
     _check(scene, name)
-    gap, limit = scene.opening.initial_gap, _limits(scene, name, min_volume)
+    gap, limit = scene.loading.initial_gap, _limits(scene, name, min_volume)
     meniscus, radius = _meniscus(scene, name)
     viscous = _viscous(scene, name, limit) if scene.effect(ViscousForce) is not None else None
     return DivisionLaw(name, gap, meniscus if effect is not None else None, viscous, radius, limit)
@@ -84,7 +85,7 @@ def _own_law(scene: SeparationScene) -> Name:
 
 def _check(scene: SeparationScene, name: str) -> None:
     """Refuse scenes other than a film between two flats with the necessary data."""
-    interface, opening = scene.interface, scene.opening
+    interface, loading = scene.interface, scene.loading
     known = (MeniscusForce, ViscousForce)
     others = [type(e).__name__ for e in scene.effects if not isinstance(e, known)]
     if name not in SOURCES:
@@ -105,14 +106,14 @@ def _check(scene: SeparationScene, name: str) -> None:
             "a division is of a film between two flats; for asperities in place of a sphere see "
             "AsperityPopulation.split and AsperityMenisci"
         )
-    if opening.imposed == "force" and viscous is not None:
+    if isinstance(loading, ImposedForce) and viscous is not None:
         raise PlanError(
-            "a division needs Opening.time [s] or Opening.speed [m/s]: under an imposed force "
+            "a division needs loading = ImposedTime(...) or ImposedSpeed(...): under a force "
             "there is no mean viscous force to compare, only a time"
         )
-    if opening.initial_gap <= 0.0:
-        raise InfeasibleError("Opening.initial_gap is 0 m: touching flats hold no film to divide")
-    state = interface.meniscus.liquid.at(scene.temperature)
+    if loading.initial_gap <= 0.0:
+        raise InfeasibleError("loading.initial_gap is 0 m: touching flats hold no film to divide")
+    state = scene.meniscus.liquid.at(scene.temperature)
     lacks = {
         "liquid.surface_tension [N/m]": state.surface_tension is None,
         "liquid.viscosity [Pa.s]": viscous is not None and state.viscosity is None,
@@ -122,7 +123,7 @@ def _check(scene: SeparationScene, name: str) -> None:
 
 
 def _angles(scene: SeparationScene) -> tuple[float, float]:
-    meniscus = scene.interface.meniscus
+    meniscus = scene.meniscus
     return meniscus.contact_angle_lower, meniscus.contact_angle_upper
 
 
@@ -142,8 +143,8 @@ def _limits(scene: SeparationScene, name: str, volume: float) -> Callable[[Float
 def _meniscus(
     scene: SeparationScene, name: str
 ) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats], Floats]]:
-    gap, angles = scene.opening.initial_gap, _angles(scene)
-    tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+    gap, angles = scene.loading.initial_gap, _angles(scene)
+    tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None  # checked by `_check`
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
@@ -174,21 +175,27 @@ def _viscous(
     scene: SeparationScene, name: str, limit: Callable[[Floats], Floats]
 ) -> Callable[[Floats, Floats], Floats]:
     """Mean viscous force over the opening, up to rupture or the final gap."""
-    opening, effect = scene.opening, scene.effect(ViscousForce)
+    loading, effect = scene.loading, scene.effect(ViscousForce)
     assert effect is not None
-    viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
+    viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
     assert viscosity is not None
-    start = opening.initial_gap
+    start = loading.initial_gap
     constant = effect.closure != "volume-conserving" or name == "as-published"
 
     def force(volume: Floats, number: Floats) -> Floats:
-        end = np.minimum(limit(volume), opening.final_gap)
+        end = np.minimum(limit(volume), loading.final_gap)
         if constant:  # at constant radius, as printed
             radius = squeeze.disc_radius(volume, start)
             impulse = squeeze.disc_impulse_flooded(radius, start, end, viscosity)
         else:
             impulse = squeeze.disc_impulse_conserved(volume, start, end, viscosity)
-        duration = opening.time or (end - start) / (opening.speed or math.inf)
-        return np.asarray(number * impulse / duration)
+        return np.asarray(number * impulse / _duration(loading, end - start))
 
     return force
+
+
+def _duration(loading: SeparationLoading, way: Floats) -> Floats | float:
+    """Time [s] in which a gap opens by a length [m]."""
+    if isinstance(loading, ImposedTime):
+        return loading.time
+    return way / loading.speed if isinstance(loading, ImposedSpeed) else math.inf

@@ -141,7 +141,7 @@ def humidity_curve(
     >>> scene = ck.SeparationScene(
     ...     interface=ck.Interface(
     ...         upper=ck.Sphere(radius=1e-6), meniscus=ck.Meniscus(liquid=ck.load_liquid("water"))),
-    ...     opening=ck.Opening(initial_gap=0.3e-9, final_gap=1e-7, speed=1e-6),
+    ...     loading=ck.ImposedSpeed(initial_gap=0.3e-9, final_gap=1e-7, speed=1e-6),
     ...     effects=(ck.MeniscusForce(),))
     >>> found = humidity_curve(scene, [0.3, 0.6, 0.9])
     >>> [round(1e9 * f) for f in found.force]
@@ -186,19 +186,17 @@ def _column(values: list[float | None]) -> Floats | None:
 
 def _meniscus(wetted: SeparationScene | ContactResult) -> tuple[Meniscus, float]:
     if isinstance(wetted, SeparationScene):
-        return wetted.interface.meniscus, wetted.temperature
+        return wetted.meniscus, wetted.temperature
     if not isinstance(wetted, ContactResult):
         raise PlanError(f"a humidity curve is of a SeparationScene or a ContactResult: {wetted!r}")
     scene = wetted.plan.scene
-    if scene.interface.meniscus is None:
-        raise PlanError("a humidity curve needs interface.meniscus: the liquid that condenses")
-    return scene.interface.meniscus, scene.temperature
+    return scene.meniscus, scene.temperature
 
 
 def _scene(
     scene: SeparationScene, pressure: Floats, gap: float | None, accuracy: Accuracy
 ) -> tuple[str, list[_Point], float | None]:
-    gap = scene.opening.initial_gap if gap is None else gap
+    gap = scene.loading.initial_gap if gap is None else gap
     if not (math.isfinite(gap) and gap >= 0.0):
         raise DescriptionError("humidity_curve(gap)", gap, "be zero or positive, and finite")
     rough = scene.effect(AsperityMenisci)
@@ -215,7 +213,7 @@ def _scene(
 
 
 def _at(scene: SeparationScene, pressure: float) -> SeparationScene:
-    meniscus = evolve(scene.interface.meniscus, volume=None, pressure=pressure)
+    meniscus = evolve(scene.meniscus, volume=None, pressure=pressure, relative_humidity=None)
     return evolve(scene, interface=evolve(scene.interface, meniscus=meniscus))
 
 
@@ -235,11 +233,11 @@ def _asperities(
 def _sphere(scene: SeparationScene, pressure: Floats, gap: float) -> list[_Point]:
     from ..capillary.exact.bridge import bridge_at_pressure
 
-    interface, meniscus = scene.interface, scene.interface.meniscus
+    interface, meniscus = scene.interface, scene.meniscus
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-    curvatures = (interface.lower.curvature, interface.upper.curvature)
+    curvatures = interface.curvatures
     try:
         state = bridge_at_pressure(gap, pressure / tension, *angles, *curvatures, beyond="nan")
     except InfeasibleError as error:
@@ -285,8 +283,7 @@ def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float) -> _Poi
     """Laplace pressure on every gap smaller than the meniscus height, Eq. (2.43)."""
     from ..capillary.film_islands import film_force, meniscus_area
 
-    meniscus = contact.scene.interface.meniscus
-    assert meniscus is not None
+    meniscus = contact.scene.meniscus
     tension = meniscus.liquid.at(contact.scene.temperature).surface_tension
     assert tension is not None
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)

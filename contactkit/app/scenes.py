@@ -16,15 +16,13 @@ from ..files.scenes import (
     read_tables,
     scene_kind,
     structure,
-    without_humidity,
 )
 from ..models.end_stop.faces import beside
 from ..models.injector.scene import InjectorScene
 from ..models.library import bundled_scene
 from ..models.liquid_bridges.scene import Bridges
 from ..models.micromirror.scene import MicromirrorScene
-from ..scene.contact_scene import ContactScene
-from ..scene.scenes import SeparationScene, SlidingScene
+from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .report import Report
 
 __all__ = [
@@ -76,7 +74,6 @@ def open_scene(name: str) -> OpenedScene:
     device = tables.pop("device", None)
     if device is not None:
         return _open_device(device, beside(tables, path.parent), path.name)
-    tables = dict(without_humidity(tables, path.name))
     kind = scene_kind(tables)
     if kind is ContactScene:
         return OpenedContact(*read_contact(tables, path.name))

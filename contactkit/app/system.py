@@ -141,7 +141,7 @@ def _starts(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Start values of drive and mass; the drive sees the gap at which the mass begins."""
     mass = {**mass_values(scene.separation(scene.temperature)), **given[_MASS]}
-    gap = mass.get("h0", scene.opening.initial_gap)
+    gap = mass.get("h0", scene.loading.initial_gap)
     drive = {**drive_start(scene.valve), "h": gap, **given[_DRIVE]}
     return drive, mass
 

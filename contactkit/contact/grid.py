@@ -8,19 +8,16 @@ from typing import TYPE_CHECKING
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
-from ..scene.contact_scene import ContactScene
-from ..scene.shapes import Flat, Sphere
-from ..scene.topography import (
+from ..scene.rough_surfaces import (
     CombinedSurface,
     GaussianRoughness,
-    Grid,
     Heights,
     Measured,
-    Paraboloid,
     SelfAffineRoughness,
-    Topography,
-    Wave,
 )
+from ..scene.scenes import ContactScene
+from ..scene.surfaces import Flat, Paraboloid, Sphere, Surface, Wave
+from ..scene.window import Grid
 
 if TYPE_CHECKING:
     import numpy as np
@@ -48,7 +45,7 @@ def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
     }
     if len(brought) > 1:
         raise DescriptionError(
-            "ContactInterface",
+            "Interface",
             sorted(brought),
             "have surfaces of one grid, (shape, pixel size [m])",
             hint="resample one of the maps",
@@ -73,7 +70,7 @@ def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
     return Grid((ny, nx), (height / ny, window.width / nx), window.periodic)
 
 
-def _own_grids(surface: Topography) -> list[tuple[tuple[int, int], tuple[float, float]]]:
+def _own_grids(surface: Surface) -> list[tuple[tuple[int, int], tuple[float, float]]]:
     if isinstance(surface, CombinedSurface):
         return [grid for part in surface.parts for grid in _own_grids(part)]
     if isinstance(surface, Measured):
@@ -118,7 +115,7 @@ def combined_heights(scene: ContactScene, grid: Grid) -> Map:
     return realise(lower, grid) + realise(upper, grid)
 
 
-def realise(surface: Topography, grid: Grid) -> Map:
+def realise(surface: Surface, grid: Grid) -> Map:
     """Heights [m] of a surface on a grid, (ny, nx), peaks positive.
 
     Raises
@@ -151,7 +148,9 @@ def realise(surface: Topography, grid: Grid) -> Map:
         return _round(surface, grid)
     if isinstance(surface, Wave):
         return _wave(surface, grid)
-    return _rough(surface, grid)
+    if isinstance(surface, GaussianRoughness | SelfAffineRoughness):
+        return _rough(surface, grid)
+    raise TypeError(f"{type(surface).__name__} has no heights on a grid")
 
 
 def _round(surface: Paraboloid | Sphere, grid: Grid) -> Map:

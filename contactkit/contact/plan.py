@@ -6,9 +6,11 @@ from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
-from ..scene.contact_scene import ContactScene
 from ..scene.effect import check_listed, choices
-from ..scene.topography import Grid
+from ..scene.loading import Approach
+from ..scene.scenes import ContactScene
+from ..scene.surfaces import Flat
+from ..scene.window import Grid
 from .effects.base import Compliance, ContactEffect, DisplacementTerm, LoadTerm, PressureCap
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS
@@ -35,7 +37,7 @@ class ContactPlan:
     @property
     def mean_pressure(self) -> float | None:
         """Mean pressure over the window [Pa]; None if the approach is imposed."""
-        return self.scene.pressing.mean_pressure(self.grid.area)
+        return self.scene.loading.mean_pressure(self.grid.area)
 
     def cite(self) -> str:
         """Sources of the equations of this run, one to a line."""
@@ -49,7 +51,7 @@ class ContactPlan:
         (ny, nx), (dy, dx) = self.grid.shape, self.grid.pixel_size
         edges = "periodic" if self.grid.periodic else "free"
         title = (
-            f"{self.scene.name or 'contact'}: {_imposed(self.scene)}, window {nx * dx:g} m x "
+            f"{self.scene.name or 'contact'}: {self.scene.loading.summary}, window {nx * dx:g} m x "
             f"{ny * dy:g} m, {edges}, {nx} x {ny} pixels"
         )
         on = [f"  on   {e.name:18s} {choices(e)}" for e in self.scene.effects]
@@ -59,15 +61,6 @@ class ContactPlan:
             if not self.has(kind)
         ]
         return "\n".join([title, *on, *off])
-
-
-def _imposed(scene: ContactScene) -> str:
-    pressing = scene.pressing
-    if pressing.pressure is not None:
-        return f"mean pressure {pressing.pressure:g} Pa"
-    if pressing.force is not None:
-        return f"force {pressing.force:g} N"
-    return f"approach {pressing.approach:g} m"
 
 
 def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
@@ -87,10 +80,30 @@ def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> Conta
     InfeasibleError
         If the bodies cannot carry the load.
     """
+    _check_bodies(scene)
     _check_effects(scene)
     made = ContactPlan(scene, accuracy or Accuracy.standard, grid_of(scene, accuracy))
     _check_load(made)
     return made
+
+
+def _check_bodies(scene: ContactScene) -> None:
+    """Refuse bodies of which something would be left out, or none of which deforms."""
+    interface, problems = scene.interface, list[str]()
+    if not interface.stacks:
+        problems.append(
+            "interface.lower.solid must be a Material or a Stack where the upper body is rigid: "
+            "two rigid bodies touch in points; give one of them a material"
+        )
+    for name in ("lower", "upper"):
+        surface = getattr(interface, name).surface
+        if isinstance(surface, Flat) and surface.radius is not None:
+            problems.append(
+                f"interface.{name}.surface.radius = {surface.radius:g} m has no effect: a contact "
+                "knows no rim of a face; leave it out, or give the face as Heights"
+            )
+    if problems:
+        raise PlanError("; ".join(problems))
 
 
 def _check_effects(scene: ContactScene) -> None:
@@ -115,12 +128,12 @@ def _check_effects(scene: ContactScene) -> None:
         ]
     if problems:
         raise PlanError("; ".join(problems))
-    if scene.pressing.approach is not None:
+    if isinstance(scene.loading, Approach):
         for effect in scene.effects:
             if isinstance(effect, LoadTerm) and getattr(effect, "self_consistent", False):
                 raise PlanError(
                     f"{type(effect).__name__}(self_consistent=True) adds its force to a load, and "
-                    "Pressing(approach=...) imposes none; impose pressure or force, or leave it out"
+                    "Approach(approach=...) imposes none; impose pressure or force, or leave it out"
                 )
 
 

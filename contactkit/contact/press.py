@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..accuracy import Accuracy
-from ..scene.bodies import Body, ContactInterface, Pressing, Window
-from ..scene.contact_scene import ContactScene
+from ..errors import DescriptionError
+from ..scene.interface import Body, Interface
+from ..scene.loading import Pressing
 from ..scene.materials import Material, Stack
-from ..scene.topography import Heights
+from ..scene.rough_surfaces import Heights
+from ..scene.scenes import ContactScene
+from ..scene.window import Window
 from .effects.base import ContactEffect
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
 from .effects.plasticity import HardnessLimit, HardnessMap
@@ -78,6 +81,8 @@ def press(
     >>> result.status, round(result.contact_fraction, 2)
     ('converged', 0.23)
     """
+    if stack is None:
+        raise DescriptionError("press(stack)", None, "be a Stack or a Material: what the flat is")
     effects: list[ContactEffect] = [
         LayeredHalfSpace() if isinstance(stack, Stack) and stack.layers else HalfSpace()
     ]
@@ -85,12 +90,12 @@ def press(
         given = float(hardness) if np.ndim(hardness) == 0 else HardnessMap(hardness)
         effects.append(HardnessLimit(rule="constant", hardness=given))
     scene = ContactScene(
-        interface=ContactInterface(
+        interface=Interface(
             lower=Body(solid=stack),
             upper=Body(surface=Heights(heights=heights, pixel_size=_floats(pixel_size))),
         ),
         window=Window(periodic=periodic),
-        pressing=Pressing(pressure=float(mean_pressure)),
+        loading=Pressing(pressure=float(mean_pressure)),
         effects=tuple(effects),
     )
     return solve(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))

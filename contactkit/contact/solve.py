@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import ConvergenceError, DescriptionError
+from ..scene.loading import Approach
 from .effects.base import Contact, LoadTerm, Observer, PressureCap
 from .effects.film import FilmMeniscus
 from .effects.friction import FrictionCoupling
@@ -70,11 +71,11 @@ def solve(
     >>> import contactkit as ck
     >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
     >>> scene = ck.ContactScene(
-    ...     interface=ck.ContactInterface(
+    ...     interface=ck.Interface(
     ...         lower=ck.Body(solid=steel), upper=ck.Body(surface=ck.Paraboloid(radius=1e-3))
     ...     ),
     ...     window=ck.Window(width=30e-6, periodic=False),
-    ...     pressing=ck.Pressing(force=0.2),
+    ...     loading=ck.Pressing(force=0.2),
     ...     effects=(ck.HalfSpace(),),
     ... )
     >>> result = ck.solve(ck.plan(scene, ck.Accuracy(grid=96)))
@@ -112,8 +113,8 @@ def _target(
                 f"a result on {one.pressure.shape} pixels",
                 f"be one on {plan.grid.shape} pixels",
             )
-    approach = plan.scene.pressing.approach
-    level = engine.first_touch + approach if approach is not None else None
+    loading = plan.scene.loading
+    level = engine.first_touch + loading.approach if isinstance(loading, Approach) else None
     plastic = before[0].parts.get(HardnessLimit) if before else None
     hardness = getattr(plastic, "hardness", None)
     near = hardness if isinstance(hardness, float) else None

@@ -18,8 +18,8 @@ from ..contact.effects.registry import CONTACT_EFFECTS
 from ..contact.effects.stress import StressPart
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult, ContactWork, CouplingPart, PlasticPart
-from ..scene.contact_scene import ContactScene
-from ..scene.topography import Grid
+from ..scene.scenes import ContactScene
+from ..scene.window import Grid
 from .structure import structure, unstructure, with_arrays
 
 if TYPE_CHECKING:

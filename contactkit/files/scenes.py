@@ -10,23 +10,19 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import attrs
-
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
-from ..scene.contact_scene import ContactScene
-from ..scene.meniscus import Meniscus
-from ..scene.scenes import SeparationScene, SlidingScene
-from ..units import parse_quantity
+from ..scene.loading import ContactLoading, Sliding
+from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .structure import (
     FileError,
-    field_value,
     load_liquid,
     load_material,
     nearest,
     structure,
     unstructure,
 )
+from .unstructure import LOADING_KINDS
 
 __all__ = [
     "load_liquid",
@@ -40,67 +36,8 @@ __all__ = [
     "scene_kind",
     "structure",
     "unstructure",
-    "without_humidity",
     "write_whole",
 ]
-
-_KEY = "relative_humidity"
-
-
-def without_humidity(tables: Mapping[str, Any], origin: str) -> Mapping[str, Any]:
-    """Tables in which ``interface.meniscus.relative_humidity`` has become its ``pressure``.
-
-    Kelvin's equation is taken at the ``temperature`` of the scene; see `Meniscus.from_humidity`.
-    What has no such key comes back as it is.
-
-    Parameters
-    ----------
-    tables : mapping
-        As read from a scene file.
-    origin : str
-        Where they come from, for messages.
-
-    Raises
-    ------
-    DescriptionError
-        If a pressure or a volume stands beside the humidity, or it is not a share.
-    InfeasibleError
-        At no vapour, where nothing condenses, and at saturation, where all is flooded.
-
-    Examples
-    --------
-    >>> water = {"name": "water", "density": 998.2, "molar_mass": 0.018015}
-    >>> tables = {"interface": {"meniscus": {"liquid": water, "relative_humidity": "50 %"}}}
-    >>> f"{without_humidity(tables, 'moist.toml')['interface']['meniscus']['pressure']:.4g}"
-    '-9.361e+07'
-    """
-    interface = tables.get("interface")
-    meniscus = interface.get("meniscus") if isinstance(interface, Mapping) else None
-    if not isinstance(interface, Mapping) or not isinstance(meniscus, Mapping):
-        return tables
-    if _KEY not in meniscus:
-        return tables
-    where = f"  at interface.meniscus.{_KEY}"
-    for other in ("volume", "pressure"):
-        if other in meniscus:
-            raise FileError(origin, f"give {_KEY} or {other}, not both{where}")
-    if "liquid" not in meniscus:
-        return tables  # what is missing is said with everything else
-    temperature = attrs.fields(SeparationScene).temperature.default
-    assert temperature is not None  # the room
-    if "temperature" in tables:
-        temperature = float(field_value(SeparationScene, "temperature", tables["temperature"]))
-    share = parse_quantity(meniscus[_KEY], "-", f"{origin}: interface.meniscus.{_KEY}")
-    condensed = Meniscus.from_humidity(
-        liquid=field_value(Meniscus, "liquid", meniscus["liquid"]),
-        relative_humidity=share,
-        temperature=temperature,
-    )
-    left = {key: value for key, value in meniscus.items() if key != _KEY}
-    return {
-        **tables,
-        "interface": {**interface, "meniscus": {**left, "pressure": condensed.pressure}},
-    }
 
 
 class ContactFile(NamedTuple):
@@ -124,7 +61,7 @@ def read_contact(tables: Mapping[str, Any], origin: str) -> ContactFile:
     study = rest.pop("study", {})
     if not isinstance(study, Mapping) or not all(isinstance(v, list) for v in study.values()):
         raise DescriptionError(
-            f"{origin}, study", study, "be a table of lists", hint='"pressing.pressure" = [...]'
+            f"{origin}, study", study, "be a table of lists", hint='"loading.pressure" = [...]'
         )
     return ContactFile(structure(rest, ContactScene, origin), accuracy, study)
 
@@ -151,11 +88,14 @@ def read_tables(path: str | Path) -> dict[str, Any]:
 def scene_kind(
     tables: Mapping[str, Any],
 ) -> type[SeparationScene] | type[SlidingScene] | type[ContactScene]:
-    """Kind of scene that tables describe: what is pressed, or has a window, is a contact."""
-    if "sliding" in tables and "opening" not in tables:
-        return SlidingScene
-    is_pressed = "pressing" in tables or ("window" in tables and "opening" not in tables)
-    return ContactScene if is_pressed else SeparationScene
+    """Kind of scene that tables describe, by the kind of their loading."""
+    loading = tables.get("loading")
+    kind = LOADING_KINDS.get(str(loading.get("kind"))) if isinstance(loading, Mapping) else None
+    if kind is None:
+        return ContactScene if "window" in tables else SeparationScene
+    if issubclass(kind, ContactLoading):
+        return ContactScene
+    return SlidingScene if issubclass(kind, Sliding) else SeparationScene
 
 
 def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScene:
@@ -164,10 +104,8 @@ def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScen
     Parameters
     ----------
     path : str or Path
-        The file; its tables are the fields of `ContactScene` if there is one called
-        ``pressing``, of `SlidingScene` if there is one called ``sliding``, else of
-        `SeparationScene`. Quantities may carry a unit. In place of its volume or pressure a
-        meniscus may have a ``relative_humidity``, taken at the temperature of the scene.
+        The file; its tables are the fields of the scene that the kind of its ``loading`` belongs
+        to. Quantities may carry a unit.
 
     Raises
     ------
@@ -175,8 +113,7 @@ def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScen
         Listing every mistake in the file and where it is.
     """
     tables = read_tables(path)
-    name = Path(path).name
-    return structure(without_humidity(tables, name), scene_kind(tables), name)
+    return structure(tables, scene_kind(tables), Path(path).name)
 
 
 def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str | Path) -> Path:

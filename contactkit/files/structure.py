@@ -1,4 +1,4 @@
-"""Tables of plain values to nouns and back: quantities by their units, kinds by their names."""
+"""Tables of plain values to scene objects: quantities by their units, kinds by their names."""
 
 from __future__ import annotations
 
@@ -18,17 +18,18 @@ from ..contact.effects.plasticity import HardnessMap
 from ..errors import DescriptionError
 from ..liquids.liquid import Liquid
 from ..liquids.temperature_laws import TemperatureLaw
+from ..scene.interface import Body
+from ..scene.loading import Loading
 from ..scene.materials import Material, Stack
-from ..scene.shapes import Flat, Sphere
-from ..scene.topography import Shape, Topography
+from ..scene.surfaces import Surface
 from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
 from .unstructure import (
     ARRAY_FIELDS,
-    FACE_KINDS,
+    CONTACT_EFFECT_KINDS,
     LAW_KINDS,
-    OPENING_KINDS,
-    PRESSING_KINDS,
+    LOADING_KINDS,
+    SEPARATION_EFFECT_KINDS,
     SURFACE_KINDS,
     unstructure,
     with_arrays,
@@ -40,6 +41,7 @@ __all__ = [
     "load_liquid",
     "load_material",
     "nearest",
+    "renamed",
     "structure",
     "unstructure",
     "with_arrays",
@@ -52,6 +54,19 @@ def nearest(name: object, known: list[str]) -> str:
     """Hint at the nearest of the known names, or list them."""
     close = difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
     return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
+
+
+# Keys of earlier files, and what is in their place.
+_RENAMED = {
+    "opening": """[loading] with kind = "imposed-speed", "imposed-force" or "imposed-time\"""",
+    "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
+    "sliding": """[loading] with kind = "sliding\"""",
+}
+
+
+def renamed(key: str) -> str:
+    """Say what has taken the place of a key of earlier files; nothing if it never was one."""
+    return f"it is now {_RENAMED[key]}" if key in _RENAMED else ""
 
 
 def _tagged(tag: str, kinds: Mapping[str, type]) -> Callable[[Any, Any], Any]:
@@ -156,7 +171,7 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
                     f"{kind.__name__}.{key}",
                     value[key],
                     "be a known key",
-                    hint=nearest(key, known),
+                    hint=renamed(key) or nearest(key, known),
                 )
         return inner(value, target)
 
@@ -175,6 +190,45 @@ def _material(value: Any, _: Any) -> Material:
         return load_material(value)
     made: Material = _MATERIAL(value, Material)
     return made
+
+
+def _body(value: Any, _: Any) -> Body:
+    """A table of a surface and a solid; or of a surface alone, which is a rigid body."""
+    if isinstance(value, Mapping) and "shape" in value:
+        if "solid" in value or "surface" in value:
+            cure = "a body with a solid has its shape under surface: surface = { shape = ... }"
+            raise DescriptionError("Body.shape", value["shape"], "stand alone", hint=cure)
+        return Body(surface=_CONVERTER.structure(value, Surface))  # type: ignore[type-abstract]
+    if not isinstance(value, Mapping):
+        expected = "be a table with a key 'shape', or with surface and solid"
+        raise DescriptionError("Body", value, expected)
+    made: Body = _BODY(value, Body)
+    return made
+
+
+def _loading(value: Any, wanted: type[Loading]) -> Loading:
+    """A table with the kind of what is imposed, and the fields of that kind only."""
+    kinds = {name: kind for name, kind in LOADING_KINDS.items() if issubclass(kind, wanted)}
+    expected = f"name what is imposed: {' or '.join(map(repr, kinds))}"
+    if not isinstance(value, Mapping):
+        raise DescriptionError("loading", value, f"be a table with a key 'kind', to {expected}")
+    given, fields = value.get("kind"), {key: value[key] for key in value if key != "kind"}
+    kind = kinds.get(given) if isinstance(given, str) else None
+    if kind is None:
+        fits = [name for name, one in kinds.items() if fields.keys() <= _keys(one)]
+        hint = f"its keys are those of kind = {' or '.join(map(repr, fits))}" if fits else ""
+        raise DescriptionError("loading.kind", given, expected, hint=hint)
+    for key in sorted(fields.keys() - _keys(kind)):
+        owners = [name for name, one in LOADING_KINDS.items() if key in _keys(one)]
+        hint = f"it belongs to {' or '.join(owners)}; " if owners else ""
+        hint += nearest(key, sorted(_keys(kind)))
+        raise DescriptionError(f"loading.{key}", fields[key], f"be a key of {given}", hint=hint)
+    made: Loading = _LOADINGS[kind](fields, kind)
+    return made
+
+
+def _keys(kind: type) -> set[str]:
+    return {a.alias for a in attrs.fields(kind) if a.init}
 
 
 def _bool(value: Any, _: Any) -> bool:
@@ -197,17 +251,20 @@ def _solid(value: Any, _: Any) -> Material | Stack | None:
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
-_LIQUID, _MATERIAL = _attrs_class(Liquid), _attrs_class(Material)
 for _matches, _hook in (
     (lambda kind: kind is Liquid, _liquid),
     (lambda kind: kind is Material, _material),
     (lambda kind: kind == Material | Stack | None, _solid),
-    (lambda kind: kind == Flat | Sphere, _tagged("shape", FACE_KINDS)),
-    (lambda kind: kind in (Shape, Topography), _tagged("shape", SURFACE_KINDS)),
-    (lambda kind: kind is SeparationEffect, _tagged("effect", OPENING_KINDS)),
-    (lambda kind: kind is ContactEffect, _tagged("effect", PRESSING_KINDS)),
+    (lambda kind: kind is Body, _body),
+    (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
+    (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
+    (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
+    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECT_KINDS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
+# After the hooks, which these take for their fields.
+_LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs_class(Body)
+_LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
 _law = _tagged("law", LAW_KINDS)
 
 

@@ -1,4 +1,4 @@
-"""Nouns to tables of plain values, and the names that their kinds have there."""
+"""Scene objects to tables of plain values, and the names that their kinds have there."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from ..contact.effects.plasticity import HardnessMap
 from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError
 from ..liquids.liquid import LAWS
-from ..scene.shapes import Flat, Sphere
-from ..scene.topography import (
+from ..scene.interface import Body
+from ..scene.loading import CONTACT_LOADINGS, SEPARATION_LOADINGS, SLIDING_LOADINGS, Loading
+from ..scene.rough_surfaces import (
     CombinedSurface,
     GaussianRoughness,
     Heights,
     Measured,
-    Paraboloid,
     SelfAffineRoughness,
-    Wave,
 )
+from ..scene.surfaces import Flat, Paraboloid, Sphere, Surface, Wave
 from ..separation.effects.registry import SEPARATION_EFFECTS
 from ..separation.sliding.effects import SLIDING_EFFECTS
 
 __all__ = [
     "ARRAY_FIELDS",
-    "FACE_KINDS",
+    "CONTACT_EFFECT_KINDS",
     "LAW_KINDS",
-    "OPENING_KINDS",
-    "PRESSING_KINDS",
+    "LOADING_KINDS",
+    "SEPARATION_EFFECT_KINDS",
     "SURFACE_KINDS",
     "unstructure",
     "with_arrays",
@@ -42,24 +42,29 @@ if TYPE_CHECKING:
 
     Arrays = dict[str, NDArray[np.float64]]
 
-FACE_KINDS: dict[str, type] = {"flat": Flat, "sphere": Sphere}
-SURFACE_KINDS: dict[str, type] = FACE_KINDS | {
-    "paraboloid": Paraboloid,
-    "wave": Wave,
-    "gaussian-roughness": GaussianRoughness,
-    "self-affine-roughness": SelfAffineRoughness,
-    "measured": Measured,
-    "heights": Heights,
-    "combined": CombinedSurface,
-}
-OPENING_KINDS: dict[str, type] = {
+_SURFACES: tuple[type[Surface], ...] = (
+    Flat,
+    Sphere,
+    Paraboloid,
+    Wave,
+    GaussianRoughness,
+    SelfAffineRoughness,
+    Measured,
+    Heights,
+    CombinedSurface,
+)
+_LOADINGS: tuple[type[Loading], ...] = (*SEPARATION_LOADINGS, *CONTACT_LOADINGS, *SLIDING_LOADINGS)
+SURFACE_KINDS: dict[str, type] = {kind.kind: kind for kind in _SURFACES}
+LOADING_KINDS: dict[str, type[Loading]] = {kind.kind: kind for kind in _LOADINGS}
+SEPARATION_EFFECT_KINDS: dict[str, type] = {
     kind.name: kind for kind in (*SEPARATION_EFFECTS, *SLIDING_EFFECTS)
 }
-PRESSING_KINDS: dict[str, type] = {kind.name: kind for kind in CONTACT_EFFECTS}
+CONTACT_EFFECT_KINDS: dict[str, type] = {kind.name: kind for kind in CONTACT_EFFECTS}
 LAW_KINDS: dict[str, type] = {kind.kind: kind for kind in LAWS}
-_TAGS: tuple[tuple[str, dict[str, type]], ...] = (
+_TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
     ("shape", SURFACE_KINDS),
-    ("effect", OPENING_KINDS | PRESSING_KINDS),
+    ("kind", LOADING_KINDS),
+    ("effect", SEPARATION_EFFECT_KINDS | CONTACT_EFFECT_KINDS),
     ("law", LAW_KINDS),
 )
 # Fields that hold an array: what a file can have in its place.
@@ -89,6 +94,8 @@ def unstructure(value: Any, arrays: Arrays | None = None) -> Any:
     DescriptionError
         If there is an array and no place for it; says what to use instead.
     """
+    if isinstance(value, Body) and value.solid is None:
+        return unstructure(value.surface, arrays)  # a rigid body is written as its surface
     if attrs.has(type(value)):
         table: dict[str, Any] = {}
         for tag, kinds in _TAGS:

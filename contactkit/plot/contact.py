@@ -212,7 +212,7 @@ def load_curve(
     for ax, (name, label, factor) in zip(axes, panels_of(curves), strict=False):
         for (title, columns), style in zip(curves, ("o-", "s--", "^:"), strict=False):
             if name in columns:
-                imposed = columns.get("pressing.pressure", columns["mean_pressure"])
+                imposed = columns.get("loading.pressure", columns["mean_pressure"])
                 mean = np.asarray(imposed) / 1e6
                 ax.plot(mean, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
         ax.set(xscale="log", xlabel="mean pressure [MPa]", ylabel=label)

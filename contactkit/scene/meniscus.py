@@ -1,4 +1,4 @@
-"""The liquid between two bodies: how much of it, or at which pressure, and how it wets them.
+"""The liquid between two bodies: its amount, and how it wets them.
 
 Contact angles are measured through the liquid; a pressure is that of the liquid less that
 outside, so that it is negative in a hollow meniscus.
@@ -12,7 +12,7 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..liquids.liquid import Liquid
-from ..units import celsius, si
+from ..units import si
 from ..validators import angle, count, fraction, optional, part, positive, refuse
 
 __all__ = ["Meniscus"]
@@ -29,6 +29,11 @@ def _negative(owner: object, attribute: Attribute[float], value: float) -> None:
         raise refuse(owner, attribute, value, "be negative and finite", hint if number else "")
 
 
+def _humidity(owner: object, attribute: Attribute[float], value: float) -> None:
+    if not (_is_number(value) and 0.0 <= value <= 1.0):
+        raise refuse(owner, attribute, value, "lie between 0 and 1", "a fraction, not per cent")
+
+
 @frozen(kw_only=True)
 class Meniscus:
     """The liquid that joins the two bodies: how much, and how it wets them.
@@ -38,60 +43,52 @@ class Meniscus:
     liquid : Liquid
         What it is.
     volume : float, optional
-        Amount of liquid in all menisci together [m3]. With neither volume nor pressure the gap
-        stands in a bath and stays full to the rim however far it opens (flooded).
+        Amount of liquid in all menisci together [m3]. With no amount given the gap is flooded: it
+        stays full to the rim however far it opens.
     pressure : float, optional
         Pressure of the liquid less that outside [Pa], negative, in place of a volume: liquid
-        condenses or dries up until it is reached (`from_humidity`).
+        condenses or dries up until it is reached.
+    relative_humidity : float, optional
+        Pressure of the vapour over that of saturation [-], in place of a volume: the liquid has
+        the pressure of Kelvin's equation at the temperature of the scene. The bodies are in
+        equilibrium with the vapour at every gap, which is right if condensing is faster than the
+        motion. Films that vapour leaves on the bodies are left out; they add about twice their
+        thickness to the height of the meniscus.
     contact_angle_lower, contact_angle_upper : float
         Contact angles on the two bodies [rad], 0 (wets) to pi (repels).
     count : int
         Number of equal menisci the liquid is divided into.
     rewetting : float
-        Share of `volume` that is there again, at least, each time the bodies come back together
-        [-]. 0: what is lost by rupture stays lost.
+        Fraction of `volume` that is there again, at least, each time the bodies come back
+        together [-]. 0: what is lost by rupture stays lost.
     """
 
     liquid: Liquid = field(validator=part(Liquid))
     volume: float | None = field(default=None, validator=optional(positive), metadata=si("m3"))
     pressure: float | None = field(default=None, validator=optional(_negative), metadata=si("Pa"))
+    relative_humidity: float | None = field(
+        default=None, validator=optional(_humidity), metadata=si("-")
+    )
     contact_angle_lower: float = field(default=0.0, validator=angle, metadata=si("rad"))
     contact_angle_upper: float = field(default=0.0, validator=angle, metadata=si("rad"))
     count: int = field(default=1, validator=count, metadata=si("-"))
     rewetting: float = field(default=1.0, validator=fraction, metadata=si("-"))
 
     def __attrs_post_init__(self) -> None:
-        if self.volume is not None and self.pressure is not None:
+        amounts = ("volume", "pressure", "relative_humidity")
+        given = [name for name in amounts if getattr(self, name) is not None]
+        if len(given) > 1:
             raise DescriptionError(
                 "Meniscus",
-                ["volume", "pressure"],
-                "be given a volume [m3] or a pressure [Pa], not both",
-                hint="one follows from the other and the gap",
+                given,
+                "be given one of volume [m3], pressure [Pa] and relative_humidity [-] at most",
+                hint="each of them is the amount of liquid, and the others follow from the gap",
             )
 
-    @classmethod
-    def from_humidity(
-        cls,
-        *,
-        liquid: Liquid,
-        relative_humidity: float,
-        temperature: float = celsius(20.0),
-        contact_angle_lower: float = 0.0,
-        contact_angle_upper: float = 0.0,
-        count: int = 1,
-    ) -> Meniscus:
-        r"""Meniscus that has condensed from vapour: its `pressure` follows from Kelvin's equation.
+    def pressure_at(self, temperature: float) -> float | None:
+        r"""Pressure of the liquid [Pa] at a temperature [K]; None if the amount is a volume.
 
-        Parameters
-        ----------
-        liquid : Liquid
-            With surface tension, density and molar mass.
-        relative_humidity : float
-            Pressure of the vapour over that of saturation [-], above 0 and below 1.
-        temperature : float
-            Of liquid and vapour [K]; the one of the scene it goes into.
-        contact_angle_lower, contact_angle_upper, count
-            As in `Meniscus`.
+        A relative humidity gives that of Kelvin's equation: liquid and vapour in equilibrium.
 
         Raises
         ------
@@ -100,37 +97,19 @@ class Meniscus:
         DescriptionError
             If the liquid has no molar mass or no density.
 
-        Notes
-        -----
-        The bodies are in equilibrium with the vapour at every gap: right if condensing is faster
-        than the motion. Films that vapour leaves on the bodies are left out; they add about twice
-        their thickness to the height of the meniscus.
-
         Examples
         --------
         >>> water = Liquid(name="water", density=998.2, molar_mass=0.018015)
-        >>> moist = Meniscus.from_humidity(liquid=water, relative_humidity=0.5)
-        >>> f"{moist.pressure / 1e6:.1f} MPa"
+        >>> moist = Meniscus(liquid=water, relative_humidity=0.5)
+        >>> f"{moist.pressure_at(293.15) / 1e6:.1f} MPa"
         '-93.6 MPa'
         """
+        if self.relative_humidity is None:
+            return self.pressure
         from ..capillary.kelvin import laplace_pressure
 
-        if not (_is_number(relative_humidity) and 0.0 <= relative_humidity <= 1.0):
-            raise DescriptionError(
-                "Meniscus.from_humidity(relative_humidity)",
-                relative_humidity,
-                "lie between 0 and 1",
-                hint="it is a share, not per cent",
-            )
-        volume = liquid.molar_volume(temperature)
-        pressure = laplace_pressure(volume, temperature, relative_humidity)
-        return cls(
-            liquid=liquid,
-            pressure=pressure,
-            contact_angle_lower=contact_angle_lower,
-            contact_angle_upper=contact_angle_upper,
-            count=count,
-        )
+        volume = self.liquid.molar_volume(temperature)
+        return float(laplace_pressure(volume, temperature, self.relative_humidity))
 
     @classmethod
     def from_coverage(

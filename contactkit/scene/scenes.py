@@ -1,4 +1,4 @@
-"""What is there, and which physics it calls for. What is not listed is not run."""
+"""Scenes: what is there, what is imposed, and which physics they call for. No more is run."""
 
 from __future__ import annotations
 
@@ -6,28 +6,74 @@ from typing import TYPE_CHECKING, TypeVar
 
 from attrs import field, frozen
 
+from ..errors import PlanError
 from ..units import celsius, si
 from ..validators import as_tuple, part, positive
-from .interface import Interface, Opening, Sliding
+from .effect import Effect
+from .interface import Interface
+from .loading import (
+    CONTACT_LOADINGS,
+    SEPARATION_LOADINGS,
+    ContactLoading,
+    ImposedForce,
+    Loading,
+    SeparationLoading,
+    Sliding,
+)
+from .meniscus import Meniscus
+from .window import Window
 
 if TYPE_CHECKING:
+    from ..contact.effects.base import ContactEffect
     from ..separation.effects.base import SeparationEffect
 
-__all__ = ["SeparationScene", "SlidingScene"]
+__all__ = ["ContactScene", "Scene", "SeparationScene", "SlidingScene"]
 
-_E = TypeVar("_E", bound="SeparationEffect")
+_E = TypeVar("_E", bound=Effect)
 
 
 @frozen(kw_only=True)
-class SeparationScene:
-    """Two wetted bodies that are pulled apart along their common normal.
+class Scene:
+    """What every scene has: two bodies, what is imposed on them, and the effects to simulate."""
+
+    name: str = ""
+    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
+    interface: Interface = field(validator=part(Interface))
+    loading: Loading = field(validator=part(Loading))
+    effects: tuple[Effect, ...] = field(converter=as_tuple)
+
+    def effect(self, kind: type[_E]) -> _E | None:
+        """Return the effect of a kind; None if the scene does not call for it."""
+        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
+
+    @property
+    def meniscus(self) -> Meniscus:
+        """The meniscus of the interface; a scene without one is refused."""
+        if self.interface.meniscus is None:
+            raise PlanError(
+                f"a {type(self).__name__} with these effects needs interface.meniscus: the liquid, "
+                "its amount and its contact angles"
+            )
+        return self.interface.meniscus
+
+    @property
+    def liquid_pressure(self) -> float | None:
+        """Pressure of the liquid [Pa], given or of its relative humidity; None for a volume."""
+        return self.meniscus.pressure_at(self.temperature)
+
+
+@frozen(kw_only=True)
+class ContactScene(Scene):
+    """Two bodies pressed together, and slid if the effects say so.
 
     Parameters
     ----------
     interface : Interface
-        The bodies and the liquid between them.
-    opening : Opening
-        What is imposed: speed, force or time.
+        The bodies, and the liquid between them if any.
+    window : Window
+        The part of the interface that is looked at.
+    loading : Pressing or Approach
+        What is imposed: a pressure or a force, or the approach.
     effects : tuple of effects
         The physics to simulate, and nothing else.
     temperature : float
@@ -36,31 +82,56 @@ class SeparationScene:
         A title for tables and figures.
     """
 
-    interface: Interface = field(validator=part(Interface))
-    opening: Opening = field(validator=part(Opening))
-    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
-    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
-    name: str = ""
+    window: Window = field(factory=Window, validator=part(Window))
+    loading: ContactLoading = field(validator=part(*CONTACT_LOADINGS))
+    effects: tuple[ContactEffect, ...] = field(converter=as_tuple)
 
-    def effect(self, kind: type[_E]) -> _E | None:
-        """Return the effect of a kind; None if the scene does not call for it."""
-        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
+
+@frozen(kw_only=True)
+class SeparationScene(Scene):
+    """Two wetted bodies that are pulled apart along their common normal.
+
+    Parameters
+    ----------
+    interface : Interface
+        The bodies and the liquid between them.
+    loading : ImposedSpeed, ImposedForce or ImposedTime
+        What is imposed, and from which gap to which.
+    effects : tuple of effects
+        The physics to simulate, and nothing else.
+    temperature : float
+        Temperature of the liquid [K].
+    name : str
+        A title for tables and figures.
+    """
+
+    loading: SeparationLoading = field(validator=part(*SEPARATION_LOADINGS))
+    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
 
     @property
     def initial_gap(self) -> float:
         """Gap at the start [m]."""
-        return self.opening.initial_gap
+        return self.loading.initial_gap
+
+    @property
+    def imposed_force(self) -> ImposedForce:
+        """The imposed force and the mass it moves; another loading is refused."""
+        if not isinstance(self.loading, ImposedForce):
+            raise PlanError(
+                f"a motion needs loading = ImposedForce(...), got {type(self.loading).__name__}"
+            )
+        return self.loading
 
 
 @frozen(kw_only=True)
-class SlidingScene:
+class SlidingScene(Scene):
     """Two wetted bodies, one of which slides past the other at a held gap.
 
     Parameters
     ----------
     interface : Interface
         The bodies and the liquid between them.
-    sliding : Sliding
+    loading : Sliding
         What is imposed: the gap, and a speed or a time.
     effects : tuple of effects
         The physics to simulate, and nothing else.
@@ -70,17 +141,10 @@ class SlidingScene:
         A title for tables and figures.
     """
 
-    interface: Interface = field(validator=part(Interface))
-    sliding: Sliding = field(validator=part(Sliding))
+    loading: Sliding = field(validator=part(Sliding))
     effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
-    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
-    name: str = ""
-
-    def effect(self, kind: type[_E]) -> _E | None:
-        """Return the effect of a kind; None if the scene does not call for it."""
-        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
 
     @property
     def initial_gap(self) -> float:
         """Gap at the start [m], which is held."""
-        return self.sliding.gap
+        return self.loading.gap

@@ -31,9 +31,9 @@ def constant_force_time(plan: Plan, pull: float) -> float:
     if more := ", ".join(type(e).__name__ for e in others if not isinstance(e, known)):
         raise PlanError(
             f"the time at a constant force knows the film and its meniscus, not {more}; impose "
-            f"the force, Opening(force=..., mass=...), to get the motion"
+            f"the force, ImposedForce(force=..., mass=...), to get the motion"
         )
-    meniscus, opening = plan.scene.interface.meniscus, plan.scene.opening
+    meniscus, loading = plan.scene.meniscus, plan.scene.loading
     state = meniscus.liquid.at(plan.scene.temperature)
     assert state.viscosity is not None  # plan() has asked lacks() first
     wetting_tension = 0.0
@@ -45,15 +45,15 @@ def constant_force_time(plan: Plan, pull: float) -> float:
     share = pull / film.menisci
     if not plan.scene.interface.is_flat:
         return _sphere_time(plan, film, wetting_tension, share)
-    turn = min(max(film.full_gap, opening.initial_gap), opening.final_gap)
+    turn = min(max(film.full_gap, loading.initial_gap), loading.final_gap)
     time = 0.0
-    if opening.initial_gap < turn:
+    if loading.initial_gap < turn:
         time += constant_force.disc_time_flooded(
-            film.rim, opening.initial_gap, turn, state.viscosity, wetting_tension, share
+            film.rim, loading.initial_gap, turn, state.viscosity, wetting_tension, share
         )
-    if turn < opening.final_gap:
+    if turn < loading.final_gap:
         time += constant_force.disc_time_conserved(
-            film.volume, turn, opening.final_gap, state.viscosity, wetting_tension, share
+            film.volume, turn, loading.final_gap, state.viscosity, wetting_tension, share
         )
     return time
 
@@ -61,19 +61,19 @@ def constant_force_time(plan: Plan, pull: float) -> float:
 def _sphere_time(plan: Plan, film: FilmShape, wetting_tension: float, pull: float) -> float:
     from scipy.integrate import quad
 
-    opening, law = plan.scene.opening, plan.film.laws[ViscousForce]
+    loading, law = plan.scene.loading, plan.film.laws[ViscousForce]
 
     def laplace(gap: float) -> float:
         share = 1.0 - gap / film.height(gap)
         return 2.0 * math.pi * film.sphere_radius * wetting_tension * share
 
-    if pull <= max(laplace(opening.initial_gap), laplace(opening.final_gap)):
+    if pull <= max(laplace(loading.initial_gap), laplace(loading.final_gap)):
         return math.inf
 
     def integrand(log_gap: float) -> float:
         gap = math.exp(log_gap)
         return gap * law.force(gap, 1.0) / film.menisci / (pull - laplace(gap))
 
-    low, high = math.log(opening.initial_gap), math.log(opening.final_gap)
+    low, high = math.log(loading.initial_gap), math.log(loading.final_gap)
     value, _ = quad(integrand, low, high, epsabs=0.0, epsrel=1e-11, limit=500)
     return float(value)

@@ -31,7 +31,7 @@ def scene_errata(plan: Plan) -> tuple[PublishedValue, ...]:
 
 
 def _wetted(plan: Plan) -> dict[str, float]:
-    meniscus = plan.scene.interface.meniscus
+    meniscus = plan.scene.meniscus
     return {
         "angle_lower": meniscus.contact_angle_lower,
         "angle_upper": meniscus.contact_angle_upper,
@@ -42,8 +42,8 @@ def _meniscus(plan: Plan, number: str, effect: Any) -> PublishedValue:
     from ..as_published.lookup import published
 
     scene, film = plan.scene, film_shape(plan.scene)
-    gap, count = scene.opening.initial_gap, film.menisci
-    tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+    gap, count = scene.loading.initial_gap, film.menisci
+    tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
     given = {"gap": gap, "surface_tension": tension, **_wetted(plan)}
     if not scene.interface.is_flat:
         sphere = film.sphere_radius
@@ -61,8 +61,8 @@ def _at_volume(plan: Plan, film: FilmShape, made: PublishedValue) -> PublishedVa
     """The exact bridge of the volume of the scene, between flats."""
     from ..as_published.corrected import meniscus_at_volume
 
-    gap, wetted = plan.scene.opening.initial_gap, _wetted(plan)
-    tension = plan.scene.interface.meniscus.liquid.at(plan.scene.temperature).surface_tension
+    gap, wetted = plan.scene.loading.initial_gap, _wetted(plan)
+    tension = plan.scene.meniscus.liquid.at(plan.scene.temperature).surface_tension
     assert tension is not None  # plan() has asked lacks() first
     try:
         one = meniscus_at_volume(gap, film.volume, tension, *wetted.values())
@@ -81,9 +81,9 @@ def _viscous(plan: Plan, number: str, effect: Any) -> PublishedValue:
     from ..as_published.lookup import published
 
     scene, film = plan.scene, film_shape(plan.scene)
-    opening, count = scene.opening, film.menisci
-    start, end = opening.initial_gap, min(opening.final_gap, plan.film.end)
-    viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
+    loading, count = scene.loading, film.menisci
+    start, end = loading.initial_gap, min(loading.final_gap, plan.film.end)
+    viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
     # Over a time of one second, so that the number is the impulse.
     given = {
         "gap_start": start,
@@ -108,11 +108,8 @@ def _viscous(plan: Plan, number: str, effect: Any) -> PublishedValue:
 def _break(plan: Plan, number: str, effect: Any) -> PublishedValue:
     from ..as_published.lookup import published
 
-    interface = plan.scene.interface
-    bent = {
-        "curvature_lower": interface.lower.curvature,
-        "curvature_upper": interface.upper.curvature,
-    }
+    lower, upper = plan.scene.interface.curvatures
+    bent = {"curvature_lower": lower, "curvature_upper": upper}
     return published(number, volume=film_shape(plan.scene).volume, **_wetted(plan), **bent)
 
 

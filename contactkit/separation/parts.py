@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 from attrs import field, frozen
 
 from ..errors import DescriptionError, NotSimulatedError
+from ..scene.loading import ImposedForce, ImposedTime
 from .constant_force import constant_force_time
 from .plan import Plan
 
@@ -98,14 +99,16 @@ class ViscousPart:
         DescriptionError
             If no time is given, neither here nor with the scene.
         """
-        time = time if time is not None else self.plan.scene.opening.time
+        loading = self.plan.scene.loading
+        if time is None and isinstance(loading, ImposedTime):
+            time = loading.time
         if time is None or not time > 0.0:
             raise DescriptionError(
                 "mean_force(time)",
                 time,
                 "be positive",
                 unit="s",
-                hint="give the duration of the opening here, or as Opening(time=...)",
+                hint="give the duration of the opening here, or as ImposedTime(time=...)",
             )
         return self.impulse / time
 
@@ -120,14 +123,16 @@ class ViscousPart:
         DescriptionError
             If no force is given, neither here nor with the scene.
         """
-        force = force if force is not None else self.plan.scene.opening.force
+        loading = self.plan.scene.loading
+        if force is None and isinstance(loading, ImposedForce):
+            force = loading.force
         if force is None or not force > 0.0:
             raise DescriptionError(
                 "time_at_constant_force(force)",
                 force,
                 "be positive",
                 unit="N",
-                hint="give the pull here, or as Opening(force=...)",
+                hint="give the pull here, or as ImposedForce(force=...)",
             )
         return constant_force_time(self.plan, force)
 
@@ -157,7 +162,7 @@ def known(value: _T | None, what: str, plan: Plan) -> _T:
     """Return a value; refuse one that what is imposed does not determine."""
     if value is None:
         raise NotSimulatedError(
-            f"no {what}: with {plan.scene.opening.imposed} imposed it is not determined; impose "
+            f"no {what}: with {plan.scene.loading.imposed} imposed it is not determined; impose "
             f"a speed or a force to get it"
         )
     return value

@@ -11,7 +11,9 @@ from attrs import evolve, field, frozen
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
 from ..scene.effect import check_listed, choices
+from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.scenes import SeparationScene
+from .bodies import check_bodies
 from .effects.as_published import mixed
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, SeparationForce
 from .effects.film_shape import film_shape
@@ -37,10 +39,10 @@ class Plan:
 
     def film_with(self, volume_fraction: float) -> Film:
         """Return the film with a fraction of the volume the scene gives."""
-        if volume_fraction == 1.0 or self.scene.interface.meniscus.volume is None:
+        if volume_fraction == 1.0 or self.scene.meniscus.volume is None:
             return self.film
         if volume_fraction not in self._films:
-            meniscus = self.scene.interface.meniscus
+            meniscus = self.scene.meniscus
             assert meniscus.volume is not None
             less = evolve(meniscus, volume=volume_fraction * meniscus.volume)
             interface = evolve(self.scene.interface, meniscus=less)
@@ -72,14 +74,7 @@ class Plan:
         return "\n".join(lines)
 
     def __str__(self) -> str:
-        opening = self.scene.opening
-        title = (
-            f"{self.scene.name or 'separation'}: {opening.imposed} imposed, "
-            f"gap {opening.initial_gap:g} m to {opening.final_gap:g} m"
-        )
-        if opening.vibration is not None:
-            shaken = opening.vibration
-            title += f", shaken by {shaken.amplitude:g} m at {shaken.frequency:g} Hz"
+        title = f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
         on = [f"  on   {e.name:19s} {choices(e)}" for e in self.scene.effects]
         off = [
             f"  off  {kind.name:19s} {kind.summary}"
@@ -107,6 +102,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
         If the scene has no answer.
     """
     accuracy = accuracy or Accuracy.standard
+    check_bodies(scene)
     _check_effects(scene)
     if mixture := mixed(scene):
         raise PlanError(mixture)
@@ -128,7 +124,7 @@ def _check_effects(scene: SeparationScene) -> None:
         for effect in scene.effects
         for item in effect.lacks(scene)
     ]
-    if scene.interface.meniscus.pressure is not None:
+    if scene.liquid_pressure is not None:
         problems += [
             f"{type(e).__name__} needs interface.meniscus.volume [m3] in place of its pressure: it "
             "has no law at a fixed pressure"
@@ -143,9 +139,11 @@ def _check_effects(scene: SeparationScene) -> None:
 def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]:
     """What a film that lets go, and an imposed force or time, want besides."""
     problems: list[str] = []
-    if scene.opening.imposed == "force" and scene.opening.mass is None:
+    loading = scene.loading
+    massless = isinstance(loading, ImposedForce) and loading.mass is None
+    if massless:
         problems += [
-            f"{type(e).__name__} needs opening.mass [kg]: where the film lets go, nothing else "
+            f"{type(e).__name__} needs loading.mass [kg]: where the film lets go, nothing else "
             f"sets the speed"
             for e in scene.effects
             if isinstance(e, FilmLimit | FilmEnd)
@@ -156,11 +154,11 @@ def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]
             for e in scene.effects
             if isinstance(e, FilmLimit)
         ]
-        if scene.opening.imposed == "force" and scene.opening.mass is None:
+        if massless:
             problems.append(
-                "an imposed force needs opening.mass [kg], or ViscousForce(), to set a speed"
+                "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
             )
-    if scene.opening.imposed == "time":
+    if isinstance(loading, ImposedTime):
         problems += [
             f"{type(e).__name__} needs a speed or a force imposed: with only the time given, the "
             "path on which the limit acts is not known"
@@ -175,31 +173,31 @@ def _known() -> str:
 
 
 def _check_gap(scene: SeparationScene) -> None:
-    if scene.opening.initial_gap > 0.0:
+    if scene.loading.initial_gap > 0.0:
         return
-    if scene.opening.imposed == "force":
+    if isinstance(scene.loading, ImposedForce):
         raise InfeasibleError(
-            "Opening.initial_gap is 0 m: bodies that touch do not move as a film yields; give the "
+            "loading.initial_gap is 0 m: bodies that touch do not move as a film yields; give the "
             "gap that their roughness keeps open [m]"
         )
     if scene.interface.is_flat:
         raise InfeasibleError(
-            "Opening.initial_gap is 0 m between flats: touching flats are a contact problem; "
+            "loading.initial_gap is 0 m between flats: touching flats are a contact problem; "
             "give the gap that their roughness keeps open [m]"
         )
     if any(isinstance(e, ViscousForce) for e in scene.effects):
         raise InfeasibleError(
-            "Opening.initial_gap is 0 m: the viscous impulse from a touching sphere is infinite, "
+            "loading.initial_gap is 0 m: the viscous impulse from a touching sphere is infinite, "
             "it grows as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
         )
 
 
 def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
     """Error that names the largest gap, and the largest number of menisci where that is known."""
-    gap, meniscus = scene.opening.initial_gap, scene.interface.meniscus
+    gap, meniscus = scene.loading.initial_gap, scene.meniscus
     reach, cure = "volume", "give more volume or a smaller initial_gap"
-    if meniscus.pressure is not None:
-        reach = f"pressure of {meniscus.pressure:g} Pa"
+    if scene.liquid_pressure is not None:
+        reach = f"pressure of {scene.liquid_pressure:g} Pa"
         cure = "give one nearer to zero (a higher humidity) or a smaller initial_gap"
     elif meniscus.volume is None:
         reach, cure = "liquid", "give a smaller initial_gap"
@@ -226,6 +224,6 @@ def _prepare(scene: SeparationScene, accuracy: Accuracy) -> Film:
         elif isinstance(effect, FilmEnd):
             end = effect.prepare(scene, accuracy)
     end = min([end, *(law.end for law in laws.values())])
-    if end <= scene.opening.initial_gap:
+    if end <= scene.loading.initial_gap:
         raise _too_wide(scene, end)
     return Film(MappingProxyType(laws), tuple(limits), end, film_shape(scene).full_gap)

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scene.loading import ImposedSpeed, ImposedTime
 from .effects.registry import ViscousForce
 from .film import Film, impulse_name
 from .motion.state import LIMITS, FilmStatus
@@ -32,8 +33,8 @@ def _grid(plan: Plan) -> list[float]:
 
     Where something lets go before, the last gap that it spans is one of them.
     """
-    opening, film = plan.scene.opening, plan.film
-    low, high = opening.initial_gap, opening.final_gap
+    loading, film = plan.scene.loading, plan.film
+    low, high = loading.initial_gap, loading.final_gap
     if film.left(broken=True, detached=False) is None:  # no force of the solids is left
         high = min(high, film.end)
     # An offset keeps the first step finite where the curve begins at a touching sphere.
@@ -52,12 +53,12 @@ def acting(plan: Plan, gap: float) -> Film | None:
 
 def at_speed(plan: Plan, begun: float) -> SeparationResult:
     """Forces along the gap at an imposed speed."""
-    opening = plan.scene.opening
-    speed = opening.speed or 0.0
-    gaps = _grid(plan)
+    loading = plan.scene.loading
+    assert isinstance(loading, ImposedSpeed)
+    speed, gaps = loading.speed, _grid(plan)
     rows = [_forces(plan, gap, speed) for gap in gaps]
     columns = {
-        "time": frozen([(gap - opening.initial_gap) / speed for gap in gaps]),
+        "time": frozen([(gap - loading.initial_gap) / speed for gap in gaps]),
         "gap": frozen(gaps),
         "speed": frozen([speed] * len(gaps)),
         "pull": frozen([row["pull"] for row in rows]),
@@ -130,9 +131,9 @@ def _running(
 
 def newtonian_impulses(plan: Plan) -> dict[str, float]:
     """Impulse [N.s] of the film without limits; no path in time changes it."""
-    opening, impulse = plan.scene.opening, plan.film.laws[ViscousForce].impulse
+    loading, impulse = plan.scene.loading, plan.film.laws[ViscousForce].impulse
     assert impulse is not None  # a viscous force always has one
-    value = impulse(opening.initial_gap, min(opening.final_gap, plan.film.end))
+    value = impulse(loading.initial_gap, min(loading.final_gap, plan.film.end))
     return {"viscous_impulse": value, "newtonian_impulse": value}
 
 
@@ -149,8 +150,11 @@ def within_time(plan: Plan, begun: float) -> SeparationResult:
         assert impulse is not None
         last = plan.film.end
         columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
-    opening = plan.scene.opening
+    loading = plan.scene.loading
     validity = check(plan, path_of(plan, columns))
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
-    message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {opening.time:g} s"
+    assert isinstance(loading, ImposedTime)
+    assert isinstance(loading, ImposedTime)
+    assert isinstance(loading, ImposedTime)
+    message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from attrs import field, frozen
 
 from ..errors import DescriptionError, NotSimulatedError
+from ..scene.loading import ImposedTime
 from .columns import COLUMNS, Column
 from .effects.base import SeparationForce
 from .effects.registry import (
@@ -166,7 +167,7 @@ class SeparationResult:
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
         found = {name: (value, "N.s") for name, value in self.impulses.items()}
-        if self.plan.has(ViscousForce) and self.plan.scene.opening.time is not None:
+        if self.plan.has(ViscousForce) and isinstance(self.plan.scene.loading, ImposedTime):
             found["mean_viscous_force"] = (self.of(ViscousForce).mean_force(), "N")
         found |= _adhesion_numbers(self.plan)
         state = self.state

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, overload
 
 from ..errors import ConvergenceError
+from ..scene.loading import ImposedForce, ImposedSpeed
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
@@ -72,13 +73,12 @@ def simulate(
         slid = slide(plan, begun)
         warn(slid.validity)
         return slid
-    imposed = plan.scene.opening.imposed
-    if imposed == "force":
+    loading = plan.scene.loading
+    if isinstance(loading, ImposedForce):
         result = _motion(plan, begun, throw, progress)
-    elif plan.scene.opening.vibration is not None:
-        result = vibrating(plan, begun)
-    elif imposed == "speed":
-        result = at_speed(plan, begun)
+    elif isinstance(loading, ImposedSpeed):
+        shaken = loading.vibration is not None
+        result = vibrating(plan, begun) if shaken else at_speed(plan, begun)
     else:
         result = within_time(plan, begun)
     warn(result.validity)
@@ -87,11 +87,11 @@ def simulate(
 
 def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) -> SeparationResult:
     """Motion of a mass under a pull, one internal step at a time, to its release."""
-    opening = plan.scene.opening
+    loading = plan.scene.imposed_force
     pull = drive(plan)
     states = [start(plan)]
     problem = None
-    while states[-1].n_releases == 0 and states[-1].time < opening.time_limit:
+    while states[-1].n_releases == 0 and states[-1].time < loading.time_limit:
         if len(states) > plan.accuracy.max_steps:
             problem = (
                 f"not released after {plan.accuracy.max_steps} steps; raise Accuracy.max_steps"
@@ -114,7 +114,7 @@ def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) ->
 
 def drive(plan: Plan) -> Callable[[float], float]:
     """Pull [N] of the scene at a time [s]."""
-    force, rise = plan.scene.opening.force or 0.0, plan.scene.opening.rise_time
+    force, rise = plan.scene.imposed_force.force, plan.scene.imposed_force.rise_time
     if rise == 0.0:
         return lambda time: force
     return lambda time: -force * math.expm1(-time / rise)
@@ -122,25 +122,25 @@ def drive(plan: Plan) -> Callable[[float], float]:
 
 def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
     """Advance by one internal step, or to the next event."""
-    return internal_step(plan, state, pull, plan.scene.opening.time_limit)
+    return internal_step(plan, state, pull, plan.scene.imposed_force.time_limit)
 
 
 def _progress(plan: Plan, state: MotionState) -> float:
-    opening = plan.scene.opening
-    opened = math.log(max(state.gap / opening.initial_gap, 1.0))
-    return min(opened / math.log(opening.final_gap / opening.initial_gap), 1.0)
+    loading = plan.scene.imposed_force
+    opened = math.log(max(state.gap / loading.initial_gap, 1.0))
+    return min(opened / math.log(loading.final_gap / loading.initial_gap), 1.0)
 
 
 def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:
     """Whether the pull, once risen, can never open the gap from here."""
-    state, opening = states[-1], plan.scene.opening
+    state, loading = states[-1], plan.scene.imposed_force
     film = acting_film(plan, state)
     if film is None or len(states) < 2:
         return False
-    if opening.rise_time and state.time < 40.0 * opening.rise_time:
+    if loading.rise_time and state.time < 40.0 * loading.rise_time:
         return False
-    held = film.static_force(state.gap) + opening.stiffness * (state.gap - opening.initial_gap)
-    return pull(state.time) <= held and state.speed <= 0.0 and state.gap <= opening.initial_gap
+    held = film.static_force(state.gap) + loading.stiffness * (state.gap - loading.initial_gap)
+    return pull(state.time) <= held and state.speed <= 0.0 and state.gap <= loading.initial_gap
 
 
 def _motion_result(
@@ -187,7 +187,7 @@ def _columns(
 
 def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) -> tuple[str, str]:
     """Status of a motion, and the same as a sentence with its cure."""
-    limit = plan.scene.opening.time_limit
+    limit = plan.scene.imposed_force.time_limit
     if last.n_releases:
         return (
             "released",
@@ -198,7 +198,7 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
     if last.time >= limit:
         return (
             "time limit",
-            f"not released within Opening.time_limit = {limit:g} s; gap {last.gap:g} m",
+            f"not released within loading.time_limit = {limit:g} s; gap {last.gap:g} m",
         )
     held = outputs(plan, last, pull).static
     what = " and ".join(name.removesuffix("_force") for name in plan.film.static_columns)

@@ -12,6 +12,7 @@ from attrs import field, frozen
 from ..capillary.many_menisci import MAX_COVERAGE
 from ..errors import ValidityWarning
 from ..lubrication import dimensionless as numbers
+from ..scene.loading import ImposedTime
 from ..units import nm
 from .effects.film_shape import FilmShape, film_shape
 from .effects.registry import AdhesiveContact, AsperityMenisci, MeniscusForce, ViscousForce
@@ -63,7 +64,8 @@ def path_of(plan: Plan, columns: Mapping[str, Any]) -> list[tuple[float, float]]
     if "speed" in columns:
         speeds = columns["speed"]
     else:
-        time = plan.scene.opening.time or math.inf
+        loading = plan.scene.loading
+        time = loading.time if isinstance(loading, ImposedTime) else math.inf
         speeds = (gaps[-1] - gaps[0]) / time + 0.0 * gaps
     wet = whole & (gaps > 0.0)
     return list(zip(gaps[wet].tolist(), speeds[wet].tolist(), strict=True))
@@ -129,7 +131,7 @@ def _cover(plan: Plan, gaps: list[float]) -> ValidityNumber:
 
 
 def _viscous(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> list[ValidityNumber]:
-    state = plan.scene.interface.meniscus.liquid.at(plan.scene.temperature)
+    state = plan.scene.meniscus.liquid.at(plan.scene.temperature)
     density, viscosity = state.density, state.viscosity
     reynolds = None
     if density is not None and viscosity is not None:
@@ -159,7 +161,7 @@ def _viscous(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> l
 
 
 def _capillary(plan: Plan, film: FilmShape, gaps: list[float]) -> list[ValidityNumber]:
-    state = plan.scene.interface.meniscus.liquid.at(plan.scene.temperature)
+    state = plan.scene.meniscus.liquid.at(plan.scene.temperature)
     density, tension = state.density, state.surface_tension
     assert tension is not None  # plan() has asked lacks() first
     bond = None
@@ -210,7 +212,7 @@ def _lateral(plan: Plan, gaps: list[float], tension: float) -> ValidityNumber:
 
 
 def _both(plan: Plan, film: FilmShape, pairs: list[tuple[float, float]]) -> list[ValidityNumber]:
-    meniscus = plan.scene.interface.meniscus
+    meniscus = plan.scene.meniscus
     state = meniscus.liquid.at(plan.scene.temperature)
     tension, viscosity = state.surface_tension, state.viscosity
     assert tension is not None

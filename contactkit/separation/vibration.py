@@ -21,7 +21,7 @@ from scipy.interpolate import CubicSpline
 from ..errors import InfeasibleError
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.roots import bracketed_root, first_true
-from ..scene.imposed import Vibration
+from ..scene.loading import ImposedSpeed, Vibration
 from .effects.registry import SeparationEffect, ViscousForce
 from .film import impulse_name
 from .motion.state import LIMITS, FilmStatus
@@ -172,14 +172,15 @@ def vibrating(plan: Plan, begun: float) -> SeparationResult:
     InfeasibleError
         If the vibration takes the gap beyond the reach of the film at the start.
     """
-    opening, film = plan.scene.opening, plan.film
-    assert opening.vibration is not None and opening.speed is not None  # noqa: PT018
-    path = VibrationPath(opening.initial_gap, opening.speed, opening.vibration)
-    end = (opening.final_gap - opening.initial_gap) / opening.speed
+    loading, film = plan.scene.loading, plan.film
+    assert isinstance(loading, ImposedSpeed)
+    assert loading.vibration is not None
+    path = VibrationPath(loading.initial_gap, loading.speed, loading.vibration)
+    end = (loading.final_gap - loading.initial_gap) / loading.speed
     breaks = path.first_above(film.end, end) if math.isfinite(film.end) else math.inf
     if breaks <= 0.0:
         raise InfeasibleError(
-            f"Opening.vibration takes the gap to {path.gap(0.0):g} m at the start, but the film "
+            f"loading.vibration takes the gap to {path.gap(0.0):g} m at the start, but the film "
             f"reaches {film.end:g} m at most; shake less, or change Vibration.phase"
         )
     end = min(end, breaks)

@@ -10,9 +10,8 @@ import attrs
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
-from ..files.structure import field_value
-from ..scene.contact_scene import ContactScene
-from ..scene.scenes import SeparationScene, SlidingScene
+from ..files.structure import field_value, renamed
+from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..separation.effects.registry import Effect
 
 __all__ = ["Axis", "Scene", "axes", "changed"]
@@ -59,8 +58,8 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) ->
     >>> steel = ck.Material(young_modulus=210e9, poisson_ratio=0.3)
     >>> coated = ck.Stack(substrate=steel, layers=(ck.Layer(material=steel, thickness=1e-6),))
     >>> scene = ck.ContactScene(
-    ...     interface=ck.ContactInterface(lower=ck.Body(solid=coated)),
-    ...     pressing=ck.Pressing(pressure=1e6), effects=(ck.LayeredHalfSpace(),),
+    ...     interface=ck.Interface(lower=ck.Body(solid=coated)),
+    ...     loading=ck.Pressing(pressure=1e6), effects=(ck.LayeredHalfSpace(),),
     ... )
     >>> thickness = "interface.lower.solid.layers.0.thickness"
     >>> axes(scene, ck.Accuracy(), {thickness: ["5 nm", 1e-8]})[0].values
@@ -144,6 +143,7 @@ def _lost(path: str, segment: str, walked: str, at: Any, choices: list[str]) -> 
     if not choices:
         return DescriptionError("vary", path, f"end at {walked!r}", hint=f"that is {at!r}")
     close = difflib.get_close_matches(segment, choices, n=1, cutoff=0.5)
+    old = renamed(segment)
     guess = f"did you mean {'.'.join(filter(None, [walked, *close]))!r}? " if close else ""
     what = "has the items" if isinstance(at, tuple) else f"is a {type(at).__name__}, with"
     where = f"{walked!r} {what}" if walked else "there are"
@@ -151,7 +151,7 @@ def _lost(path: str, segment: str, walked: str, at: Any, choices: list[str]) -> 
         "vary",
         path,
         "lead to a field of the scene, or of accuracy",
-        hint=f"{guess}{where} {', '.join(choices)}",
+        hint=f"{f'{old}; ' if old else guess}{where} {', '.join(choices)}",
     )
 
 

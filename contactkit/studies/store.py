@@ -18,7 +18,7 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..files.scenes import write_whole
 from ..files.unstructure import unstructure
-from ..scene.topography import Measured
+from ..scene.rough_surfaces import Measured
 
 if TYPE_CHECKING:
     from .paths import Scene

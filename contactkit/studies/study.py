@@ -16,8 +16,7 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError, ValidityWarning
 from ..files.results import from_bytes
 from ..planning import plan
-from ..scene.contact_scene import ContactScene
-from ..scene.scenes import SeparationScene, SlidingScene
+from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .paths import Axis, Scene, axes, changed
 from .run import Done, Piece, Task, put, run_here, run_in_processes, run_on_client
 from .store import Store, StudyPoint
@@ -47,7 +46,7 @@ def study(
     scene : ContactScene, SeparationScene or SlidingScene
         The scene, with its constant parameters.
     vary : mapping of str to sequence
-        Values by the dotted path of a field: ``pressing.pressure``,
+        Values by the dotted path of a field: ``loading.pressure``,
         ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
         library. Along the last one each contact starts from the solution at the value before, and
@@ -89,15 +88,15 @@ def study(
     >>> import contactkit as ck
     >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
     >>> scene = ck.ContactScene(
-    ...     interface=ck.ContactInterface(
+    ...     interface=ck.Interface(
     ...         lower=ck.Body(solid=steel),
     ...         upper=ck.Body(surface=ck.Wave(amplitude=1e-8, wavelength=1e-6)),
     ...     ),
     ...     window=ck.Window(width=1e-6),
-    ...     pressing=ck.Pressing(pressure=1e6),
+    ...     loading=ck.Pressing(pressure=1e6),
     ...     effects=(ck.HalfSpace(),),
     ... )
-    >>> loads = {"pressing.pressure": ["1 GPa", "3 GPa"]}
+    >>> loads = {"loading.pressure": ["1 GPa", "3 GPa"]}
     >>> print(ck.study(scene, loads, ck.Accuracy(grid=32)).table("contact_fraction"))
     pressure [Pa]  contact_fraction [-]  status
             1e+09               0.28125  converged

@@ -16,8 +16,7 @@ from typing import Any, Literal
 from attrs import evolve
 
 from ...errors import DescriptionError, PlanError
-from ...scene.contact_scene import ContactScene
-from ...scene.scenes import SeparationScene
+from ...scene.scenes import ContactScene, SeparationScene
 from ..contents.document import license_text
 from ..contents.packing import write_archive
 from ..contents.terminals import terminal_files

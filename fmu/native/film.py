@@ -10,6 +10,7 @@ from attrs import evolve
 
 from ...accuracy import Accuracy
 from ...errors import ConvergenceError, DescriptionError
+from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
 from ...separation.effects.film_shape import FilmShape, film_shape
@@ -51,13 +52,20 @@ def moving(scene: SeparationScene, mass: float | None) -> SeparationScene:
     DescriptionError
         If there is no mass.
     """
-    mass = mass if mass is not None else scene.opening.mass
+    given = scene.loading
+    own = given if isinstance(given, ImposedForce) else None
+    if mass is None and own is not None:
+        mass = own.mass
     if mass is None:
         raise DescriptionError(
-            "m", None, "be given", unit="kg", hint="the scene has no opening.mass; set m=..."
+            "m", None, "be given", unit="kg", hint="the scene has no loading.mass; set m=..."
         )
-    opening = evolve(scene.opening, force=0.0, speed=None, time=None, vibration=None, mass=mass)
-    return evolve(scene, opening=opening)
+    if own is not None:
+        return evolve(scene, loading=evolve(own, force=0.0, mass=mass))
+    loading = ImposedForce(
+        force=0.0, mass=mass, initial_gap=given.initial_gap, final_gap=given.final_gap
+    )
+    return evolve(scene, loading=loading)
 
 
 def free_liquid(scene: SeparationScene) -> tuple[float, float]:
@@ -66,12 +74,12 @@ def free_liquid(scene: SeparationScene) -> tuple[float, float]:
     The viscous force is proportional to viscosity. The force of a meniscus is proportional to
     surface tension at a given volume, but not at a given pressure.
     """
-    state = scene.interface.meniscus.liquid.at(scene.temperature)
+    state = scene.meniscus.liquid.at(scene.temperature)
     viscosity = state.viscosity if scene.effect(ViscousForce) is not None else None
     adhesion = scene.effect(AdhesiveContact)
     fixed = (
         scene.effect(MeniscusForce) is None
-        or scene.interface.meniscus.pressure is not None
+        or scene.liquid_pressure is not None
         or scene.effect(AsperityMenisci) is not None
         or (adhesion is not None and adhesion.work_of_adhesion == "capillary")
     )
@@ -87,19 +95,19 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         If the scene cannot be planned, or a force is too rough for a table.
     """
     prepared = plan(scene, accuracy)
-    interface, opening = scene.interface, scene.opening
+    interface, loading = scene.interface, scene.loading
     shares = [1.0]
-    share = interface.meniscus.rewetting
-    if interface.meniscus.volume is not None and 0.0 < share < 1.0:
+    share = scene.meniscus.rewetting
+    if scene.meniscus.volume is not None and 0.0 < share < 1.0:
         shares.append(share)
     tension = scene.effect(TensionLimit)
     reynolds = tension is not None and tension.cavity == "reynolds"
     is_sphere = not interface.is_flat
-    lowest = max(1e-13, 1e-3 * opening.initial_gap)
+    lowest = max(1e-13, 1e-3 * loading.initial_gap)
     numbers = [
         float(is_sphere),
         interface.sphere_radius,
-        float(interface.meniscus.count),
+        float(scene.meniscus.count),
         float(reynolds),
         share,
         float(max(accuracy.max_steps, 1)),
@@ -125,7 +133,7 @@ def _film(prepared: Plan, share: float, lowest: float) -> list[float]:
 
 
 def _with_share(scene: SeparationScene, share: float) -> SeparationScene:
-    meniscus = scene.interface.meniscus
+    meniscus = scene.meniscus
     if share == 1.0 or meniscus.volume is None:
         return scene
     less = evolve(meniscus, volume=share * meniscus.volume)
@@ -161,7 +169,7 @@ def _law_table(
     lowest: float,
     force: Callable[[float], float],
 ) -> Table:
-    final = scene.opening.final_gap
+    final = scene.loading.final_gap
     # A meniscus on a sphere is a curve that was made up to twice the final gap, and stays there.
     is_curve = kind is MeniscusForce and not scene.interface.is_flat
     high = min(law.end, 2.0 * final) if is_curve else law.end
@@ -186,7 +194,7 @@ def _law_table(
 
 def _shape(scene: SeparationScene, film: Film, lowest: float) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    high = _FAR * scene.opening.final_gap
+    high = _FAR * scene.loading.final_gap
     if ViscousForce not in film.laws:
         return tabulate(lambda gap: 1.0, (lowest, high))
     shape = film_shape(scene, constant_radius=keeps_radius(scene))

@@ -101,12 +101,12 @@ def _absent(scene: SeparationScene, model: Model) -> set[str]:
 def _start_is_held(scene: SeparationScene) -> bool:
     """Whether the tables belong to one gap at the start."""
     adheres = scene.effect(AdhesiveContact) is not None
-    return adheres or (keeps_radius(scene) and scene.interface.meniscus.volume is not None)
+    return adheres or (keeps_radius(scene) and scene.meniscus.volume is not None)
 
 
 def start_of(scene: SeparationScene, model: Model = "stiction-mass") -> dict[str, Value]:
     """Start values that a scene gives the variables, by the places of the Python FMU."""
-    if scene.opening.mass is None:
+    if scene.imposed_force.mass is None:
         raise DescriptionError("m", None, "be given", unit="kg")
     named = _OF_MASS if model == "stiction-mass" else _OF_FILM
     settled = with_numbers(scene)

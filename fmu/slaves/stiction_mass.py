@@ -17,9 +17,11 @@ from attrs import evolve
 from ...accuracy import Accuracy
 from ...errors import DescriptionError, PlanError
 from ...liquids.liquid import Liquid
-from ...scene.interface import Interface, Meniscus, Opening
+from ...scene.interface import Interface
+from ...scene.loading import ImposedForce
+from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
-from ...scene.shapes import Flat
+from ...scene.surfaces import Flat
 from ...separation.effects.base import SeparationForce
 from ...separation.effects.registry import (
     MeniscusForce,
@@ -152,14 +154,14 @@ PORTS = (
 
 
 PLACES: Mapping[str, Place] = {
-    "m": Place("opening.mass"),
-    "h0": Place("opening.initial_gap"),
-    "v0": Place("opening.initial_speed"),
-    "k_s": Place("opening.stiffness"),
-    "h_rel": Place("opening.final_gap"),
-    "h_min": Place("opening.rest_gap"),
+    "m": Place("loading.mass"),
+    "h0": Place("loading.initial_gap"),
+    "v0": Place("loading.initial_speed"),
+    "k_s": Place("loading.stiffness"),
+    "h_rel": Place("loading.final_gap"),
+    "h_min": Place("loading.rest_gap"),
     "rewet": Place("interface.meniscus.rewetting"),
-    "R": Place(("interface.lower.radius", "interface.upper.radius")),
+    "R": Place(("interface.lower.surface.radius", "interface.upper.surface.radius")),
     "eta": Place("interface.meniscus.liquid.viscosity"),
     "gamma": Place("interface.meniscus.liquid.surface_tension", nothing=0.0),
     "theta1": Place("interface.meniscus.contact_angle_lower"),
@@ -188,7 +190,9 @@ _FILM = SeparationScene(
         upper=Flat(radius=1.0),
         meniscus=Meniscus(liquid=Liquid(name="liquid of the FMU", viscosity=1.0)),
     ),
-    opening=Opening(initial_gap=1.0, final_gap=2.0, force=0.0, mass=1.0),  # the pull is an input
+    loading=ImposedForce(
+        initial_gap=1.0, final_gap=2.0, force=0.0, mass=1.0
+    ),  # the pull is an input
     effects=(ViscousForce(),),
 )
 """Scene whose fields the parameters fill in."""
@@ -222,7 +226,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     PlanError
         If the FMU cannot represent the scene; says what stands against it.
     """
-    interface, opening = scene.interface, scene.opening
+    interface, loading = scene.interface, scene.loading
     viscous, film = scene.effect(ViscousForce), scene.effect(MeniscusForce)
     tension, rupture = scene.effect(TensionLimit), scene.effect(Rupture)
     against = [
@@ -230,8 +234,8 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
         for reason, holds in {
             "two flats": interface.is_flat,
             "a face with a radius [m]": math.isfinite(interface.rim_radius),
-            "opening.mass [kg]": opening.mass is not None,
-            "an opening without vibration": opening.vibration is None,
+            "loading = ImposedForce(...) with a mass [kg]": isinstance(loading, ImposedForce)
+            and loading.mass is not None,
             "no force of the solids": not any(
                 isinstance(e, SeparationForce) and not e.needs_film for e in scene.effects
             ),
@@ -256,7 +260,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
 
 def with_numbers(scene: SeparationScene) -> SeparationScene:
     """Scene with a liquid of constant properties, and the tension limit as a pressure [Pa]."""
-    meniscus = scene.interface.meniscus
+    meniscus = scene.meniscus
     state = meniscus.liquid.at(scene.temperature)
     liquid = Liquid(
         name=meniscus.liquid.name, viscosity=state.viscosity, surface_tension=state.surface_tension

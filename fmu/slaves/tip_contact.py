@@ -39,10 +39,11 @@ from ...models.micromirror.tip import (
     landed_start,
     tip_force,
 )
-from ...scene.interface import Interface, Opening
+from ...scene.interface import Interface
+from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
-from ...scene.shapes import Flat, Sphere
+from ...scene.surfaces import Flat, Sphere
 from ...separation.effects.registry import (
     MeniscusForce,
     VanDerWaalsForce,
@@ -202,11 +203,11 @@ PORTS = (
 
 
 PLACES: Mapping[str, Place] = {
-    "m": Place("opening.mass"),
-    "k": Place("opening.stiffness"),
-    "h0": Place(("opening.initial_gap", "opening.rest_gap")),
-    "h_free": Place("opening.final_gap"),
-    "R": Place("interface.upper.radius"),
+    "m": Place("loading.mass"),
+    "k": Place("loading.stiffness"),
+    "h0": Place(("loading.initial_gap", "loading.rest_gap")),
+    "h_free": Place("loading.final_gap"),
+    "R": Place("interface.upper.surface.radius"),
     "V": Place("interface.meniscus.volume", nothing=0.0),
     "gamma": Place("interface.meniscus.liquid.surface_tension"),
     "eta": Place("interface.meniscus.liquid.viscosity", nothing=0.0),
@@ -223,7 +224,9 @@ _TIP = SeparationScene(
         upper=Sphere(radius=1.0),
         meniscus=Meniscus(liquid=Liquid(name="liquid of the FMU", surface_tension=1.0)),
     ),
-    opening=Opening(initial_gap=1.0, final_gap=2.0, force=0.0, mass=1.0),  # what pulls is the root
+    loading=ImposedForce(
+        initial_gap=1.0, final_gap=2.0, force=0.0, mass=1.0
+    ),  # what pulls is the root
     effects=(),
 )
 """Scene whose fields the parameters fill in."""
@@ -261,14 +264,15 @@ def tip_values(tip: SeparationScene) -> dict[str, Any]:
     PlanError
         If the FMU cannot represent the scene; says what stands against it.
     """
-    interface, meniscus = tip.interface, tip.interface.meniscus
+    meniscus = tip.meniscus
+    site, apex = tip.interface.lower.surface, tip.interface.upper.surface
     film, solids = tip.effect(MeniscusForce), tip.effect(VanDerWaalsForce)
     viscous = tip.effect(ViscousForce)
     known = MeniscusForce | VanDerWaalsForce | ViscousForce
     needs = {
-        "an endless flat below and a sphere above": isinstance(interface.upper, Sphere)
-        and isinstance(interface.lower, Flat)
-        and interface.lower.radius is None,
+        "an endless flat below and a sphere above": isinstance(apex, Sphere)
+        and isinstance(site, Flat)
+        and site.radius is None,
         "meniscus-force, viscous-force and van-der-waals-force only": all(
             isinstance(e, known) for e in tip.effects
         ),

@@ -11,7 +11,7 @@ from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...analyses.load_displacement.solve import load_displacement
 from ...errors import DescriptionError
 from ...files.scenes import read_contact, read_tables, scene_kind
-from ...scene.contact_scene import ContactScene
+from ...scene.scenes import ContactScene
 from ..library import bundled_scene
 from .faces import StopFaces
 

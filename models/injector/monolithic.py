@@ -78,14 +78,14 @@ def simulate(
     ConvergenceError
         If the solver gives up.
     """
-    opening = plan.scene.opening
-    if opening.imposed != "force" or opening.mass is None:
-        raise PlanError("a monolithic simulation needs opening.force [N] and opening.mass [kg]")
+    loading = plan.scene.imposed_force
+    if loading.mass is None:
+        raise PlanError("a monolithic simulation needs loading.mass [kg]")
     if not all(kind.needs_film for kind in plan.film.laws):
         raise PlanError(
             "a monolithic simulation knows forces of the film only; leave out those of the solids"
         )
-    run = _Run(plan, drive, opening.mass, rtol, faces)
+    run = _Run(plan, drive, loading.mass, rtol, faces)
     switches = law.switching_times(drive.profile, 0.0, end) if isinstance(drive, Valve) else []
     for start, stop in pairwise([0.0, *switches, end]):
         run.to(start, stop)
@@ -111,14 +111,14 @@ class _Run:
     ) -> None:
         self.plan, self.drive, self.mass, self.rtol = plan, drive, mass, rtol
         self.faces, self.pressing = faces, True
-        self.opening = opening = plan.scene.opening
+        self.loading = loading = plan.scene.imposed_force
         self.valve = drive if isinstance(drive, Valve) else None
-        self.mode = Mode(opening.rest_gap >= opening.initial_gap and opening.initial_speed <= 0.0)
+        self.mode = Mode(loading.rest_gap >= loading.initial_gap and loading.initial_speed <= 0.0)
         self.time, self.applied, self._longest = 0.0, 0.0, math.inf
         if self.valve is not None:  # an explicit method must not try to step far into the stop
             self._longest = 2.0 * math.sqrt(mass / self.valve.stop.stiffness)
-        speed = 0.0 if self.mode.in_contact else opening.initial_speed
-        self.state = np.array([opening.initial_gap, speed, 0.0, 0.0, 0.0])
+        speed = 0.0 if self.mode.in_contact else loading.initial_speed
+        self.state = np.array([loading.initial_gap, speed, 0.0, 0.0, 0.0])
         self.pieces: list[Piece] = []
         self.events: list[Event] = []
         self.n_evaluations = self.n_steps = 0
@@ -155,14 +155,14 @@ class _Run:
         """Force [N] that would set a resting spool in motion; positive opens."""
         film, gap = self.film, float(self.state[0])
         static = film.static_force(gap) if film is not None else 0.0
-        spring = self.opening.stiffness * (gap - self.opening.initial_gap)
+        spring = self.loading.stiffness * (gap - self.loading.initial_gap)
         return self._pull(time, float(flux), gap, 0.0) - spring - static
 
     def _rates(self) -> _Rates:
         """Right-hand side of the present mode."""
         film, mass, applied, pull = self.film, self.mass, self.applied, self._pull
         coil = self.valve.coil if self.valve is not None and not self.mode.blocked else None
-        stiffness, origin = self.opening.stiffness, self.opening.initial_gap
+        stiffness, origin = self.loading.stiffness, self.loading.initial_gap
         in_contact = self.mode.in_contact
 
         def rates(time: float, unknowns: _Floats) -> list[float]:
@@ -202,7 +202,7 @@ class _Run:
             raise ConvergenceError(f"scipy stopped at {self.time:g} s: {solution.message}")
         self.n_steps += len(solution.t) - 1
         self.n_evaluations += solution.nfev
-        at = partial(in_si, solution.sol, self.opening.initial_gap, film is not None)
+        at = partial(in_si, solution.sol, self.loading.initial_gap, film is not None)
         self.pieces.append(Piece(self.mode, self.applied, solution.t, at))
         self.time, self.state = float(solution.t[-1]), at(solution.t[-1])
         self.mode = self.mode._replace(heading=0)
@@ -214,7 +214,7 @@ class _Run:
             )()
 
     def _unknowns(self, state: _Floats) -> _Floats:
-        unknowns: _Floats = state / np.array([self.opening.initial_gap, 1.0, FLUX, 1.0, 1.0])
+        unknowns: _Floats = state / np.array([self.loading.initial_gap, 1.0, FLUX, 1.0, 1.0])
         if self.film is not None:
             unknowns[0] = math.log(unknowns[0])
         return unknowns
@@ -244,8 +244,8 @@ class _Run:
 
     def _marks(self) -> list[tuple[float, int]]:
         """Nearest gaps above (1) and below (-1) at which something happens."""
-        film, opening, (gap, speed) = self.film, self.opening, self.state[:2]
-        marks = [opening.rest_gap, opening.initial_gap, opening.final_gap]
+        film, loading, (gap, speed) = self.film, self.loading, self.state[:2]
+        marks = [loading.rest_gap, loading.initial_gap, loading.final_gap]
         marks += [*film.kinks, film.end] if film is not None else []
         marks += [self.valve.stop.gap] if self.valve is not None else []
         towards = self.mode.heading or speed or self._balance(self.time, self.state[2])
@@ -291,19 +291,19 @@ class _Run:
 
     def _rise(self, mark: float) -> None:
         film = self.film
-        if mark == self.opening.final_gap:
+        if mark == self.loading.final_gap:
             self._note("released")
         if film is not None and mark == film.end:
             self.mode = self.mode._replace(broken=True)
             self._note("film breaks")
 
     def _fall(self, mark: float) -> None:
-        fraction = self.plan.scene.interface.meniscus.rewetting
-        dry = self.mode.broken and mark <= self.opening.initial_gap
+        fraction = self.plan.scene.meniscus.rewetting
+        dry = self.mode.broken and mark <= self.loading.initial_gap
         if dry and fraction > 0.0 and self.plan.film_with(fraction).end > mark:
             self.mode = self.mode._replace(broken=False, volume_fraction=fraction)
             self._note("film wets again")
-        if mark == self.opening.rest_gap:
+        if mark == self.loading.rest_gap:
             self._note("meets the end cap")
             self.mode = self.mode._replace(in_contact=True)
             self.state[1] = 0.0

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from attrs import evolve, field, frozen
 
 from ...errors import DescriptionError
-from ...scene.interface import Interface, Opening
+from ...scene.interface import Interface
+from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import SeparationEffect, TensionLimit
 from ...units import celsius, si
@@ -63,7 +64,7 @@ class InjectorScene:
     name: str = "fuel injector"
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
     interface: Interface = field(validator=part(Interface))
-    opening: Opening = field(validator=part(Opening))
+    loading: ImposedForce = field(validator=part(ImposedForce))
     effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
     valve: Valve
     study: Study
@@ -84,7 +85,7 @@ class InjectorScene:
             name=self.name,
             temperature=temperature,
             interface=self.interface,
-            opening=self.opening,
+            loading=self.loading,
             effects=kept,
         )
 

@@ -23,12 +23,12 @@ from ...analyses.load_displacement.solve import load_displacement
 from ...contact.effects.elasticity import HalfSpace
 from ...contact.effects.plasticity import HardnessLimit
 from ...errors import DescriptionError, InfeasibleError, PlanError
-from ...scene.bodies import Body, ContactInterface, Pressing, Window
-from ...scene.contact_scene import ContactScene
+from ...scene.interface import Body, Interface
+from ...scene.loading import Approach
 from ...scene.materials import Material
-from ...scene.scenes import SeparationScene
-from ...scene.shapes import Sphere
-from ...scene.topography import Paraboloid
+from ...scene.scenes import ContactScene, SeparationScene
+from ...scene.surfaces import Paraboloid, Sphere
+from ...scene.window import Window
 
 __all__ = ["TipLanding", "land", "tip_faces"]
 
@@ -66,7 +66,7 @@ def tip_faces(
     InfeasibleError
         If it is too blunt, or the approach too deep, for a paraboloid: beyond R/5.
     """
-    apex = tip.interface.upper
+    apex = tip.interface.upper.surface
     if not isinstance(apex, Sphere):
         raise PlanError("a landing needs the radius of the apex: interface.upper as a sphere")
     if not 0.0 < most <= 0.2 * apex.radius:
@@ -75,12 +75,12 @@ def tip_faces(
             "small slopes end; ask for less"
         )
     scene = ContactScene(
-        interface=ContactInterface(
+        interface=Interface(
             lower=Body(solid=material),
             upper=Body(surface=Paraboloid(radius=apex.radius), solid=material),
         ),
         window=Window(width=3.2 * math.sqrt(2.0 * apex.radius * most), periodic=False),
-        pressing=Pressing(approach=most),
+        loading=Approach(approach=most),
         effects=(HalfSpace(), HardnessLimit(rule="material")),
     )
     return load_displacement(scene, points=24, decades=3.0, accuracy=accuracy or Accuracy(grid=128))

@@ -79,7 +79,7 @@ def _tilt(owner: object, attribute: Attribute[Any], value: float) -> None:
 
 @frozen(kw_only=True)
 class SpringTips:
-    """The spring tips on each side; mass and stiffness of one are those of `Opening`.
+    """The spring tips on each side; mass and stiffness of one are those of `ImposedForce`.
 
     Parameters
     ----------

@@ -74,10 +74,10 @@ class _Integration:
     """Integration by events; `state` is tilt, rate, gap +, speed +, gap -, speed - in SI."""
 
     def __init__(self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float) -> None:
-        opening = plan.scene.opening
+        loading = plan.scene.imposed_force
         self.mirror, self.plan, self.rtol = mirror, plan, rtol
-        self.origin, self.stiffness = opening.initial_gap, opening.stiffness
-        self.mass, self.damping = opening.mass or 0.0, mirror.tips.damping
+        self.origin, self.stiffness = loading.initial_gap, loading.stiffness
+        self.mass, self.damping = loading.mass or 0.0, mirror.tips.damping
         far = self.origin + root_height(mirror.tips, start[0], -1.0)
         self.state = np.array([*start, self.origin, 0.0, far, 0.0])
         self.modes, self.broken = [LANDED, FREE], [False, True]
@@ -420,7 +420,7 @@ def simulate_monolithic(
     ----------
     mirror : Mirror
     plan : Plan
-        Film of one tip; mass and stiffness of its `Opening` are those of the tip.
+        Film of one tip; mass and stiffness of its `ImposedForce` are those of the tip.
     start : (float, float)
         Tilt [rad] and rate [rad/s] at the start.
     stop_time : float

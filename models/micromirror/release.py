@@ -56,7 +56,7 @@ def landing(scene: MicromirrorScene) -> Landing:
 
     mirror, (tilt, _) = scene.mirror, scene.start
     tips, hinge = mirror.tips, mirror.hinge
-    bend, stiffness = -root_height(tips, tilt, 1.0), tips.per_side * scene.opening.stiffness
+    bend, stiffness = -root_height(tips, tilt, 1.0), tips.per_side * scene.loading.stiffness
     return Landing(
         tilt=tilt,
         bend=bend,
@@ -94,7 +94,7 @@ def release(scene: MicromirrorScene, made: Plan, reset_voltage: float | None) ->
     motion = couple(
         mirror,
         scene.tips(made),
-        scene.opening.stiffness,
+        scene.loading.stiffness,
         scene.start,
         wave.reset_time + wave.release_time,
         scene.study.communication_step,

@@ -7,7 +7,8 @@ from typing import Any
 from attrs import evolve, field, frozen
 
 from ...errors import DescriptionError
-from ...scene.interface import Interface, Opening
+from ...scene.interface import Interface
+from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import (
     SeparationEffect,
@@ -72,10 +73,10 @@ class MirrorStudy:
 
 @frozen(kw_only=True)
 class MicromirrorScene:
-    """Everything the file of a micromirror says; `interface` and `opening` are those of one tip."""
+    """Everything the file of a micromirror says; `interface` and `loading` are those of one tip."""
 
     interface: Interface = field(validator=part(Interface))
-    opening: Opening = field(validator=part(Opening))
+    loading: ImposedForce = field(validator=part(ImposedForce))
     effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
     mirror: Mirror = field(validator=part(Mirror))
     study: MirrorStudy = field(validator=part(MirrorStudy))
@@ -83,19 +84,21 @@ class MicromirrorScene:
     name: str = "micromirror"
 
     def __attrs_post_init__(self) -> None:
-        opening = self.opening
-        if opening.rest_gap != opening.initial_gap:
+        loading = self.loading
+        if loading.rest_gap != loading.initial_gap:
             raise DescriptionError(
-                "Opening.rest_gap",
-                opening.rest_gap,
-                f"equal initial_gap = {opening.initial_gap:g} m",
+                "ImposedForce.rest_gap",
+                loading.rest_gap,
+                f"equal initial_gap = {loading.initial_gap:g} m",
                 unit="m",
                 hint="a tip that has landed rests on its roughness",
             )
-        if opening.mass is None or opening.stiffness == 0.0:
-            name, unit = ("mass", "kg") if opening.mass is None else ("stiffness", "N/m")
-            value = getattr(opening, name)
-            raise DescriptionError(f"Opening.{name}", value, "be that of a spring tip", unit=unit)
+        if loading.mass is None or loading.stiffness == 0.0:
+            name, unit = ("mass", "kg") if loading.mass is None else ("stiffness", "N/m")
+            value = getattr(loading, name)
+            raise DescriptionError(
+                f"ImposedForce.{name}", value, "be that of a spring tip", unit=unit
+            )
 
     @property
     def tip(self) -> SeparationScene:
@@ -104,7 +107,7 @@ class MicromirrorScene:
             name=self.name,
             temperature=self.temperature,
             interface=self.interface,
-            opening=self.opening,
+            loading=self.loading,
             effects=self.effects,
         )
 
@@ -112,13 +115,13 @@ class MicromirrorScene:
     def start(self) -> tuple[float, float]:
         """Tilt [rad] and rate [rad/s] of the mirror that rests under its bias."""
         volts = electrode_volts(self.mirror.waveform, -1.0)
-        tilt, stop = landed_tilt(self.mirror, self.opening.stiffness, volts), self.stop
+        tilt, stop = landed_tilt(self.mirror, self.loading.stiffness, volts), self.stop
         if stop is None:
             return tilt, 0.0
         for _ in range(_ROUNDS):
             # A site that gives makes the spring of a tip softer by what the apex sinks in.
             height, depth = self._sunk(stop, tilt)
-            softer = self.opening.stiffness * (1.0 + depth / height)
+            softer = self.loading.stiffness * (1.0 + depth / height)
             tilt = landed_tilt(self.mirror, softer, volts)
         return tilt, 0.0
 

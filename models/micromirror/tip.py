@@ -88,16 +88,16 @@ class TipState(NamedTuple):
 
 
 def free_gap(plan: Plan) -> float:
-    """Gap [m] beyond which a tip is free: `Opening.final_gap`, or where the film breaks beyond."""
+    """Gap [m] beyond which a tip is free: `final_gap`, or where the film breaks beyond."""
     end = plan.film.end
-    return max(plan.scene.opening.final_gap, end if math.isfinite(end) else 0.0)
+    return max(plan.scene.imposed_force.final_gap, end if math.isfinite(end) else 0.0)
 
 
 def landed_start(
     plan: Plan, time: float = 0.0, *, stop: TipStop | None = None, height: float = 0.0
 ) -> TipState:
     """State of a tip that rests on its landing site; one that gives by the height of the root."""
-    state = TipState(MotionState(time, plan.scene.opening.initial_gap, 0.0, in_contact=True))
+    state = TipState(MotionState(time, plan.scene.imposed_force.initial_gap, 0.0, in_contact=True))
     if stop is None:
         return state
     depth = rest_depth(contact_of(plan, stop, state, Root(height, time=time)), 0.0, time)
@@ -106,14 +106,14 @@ def landed_start(
 
 def free_start(plan: Plan, height: float, speed: float = 0.0, time: float = 0.0) -> TipState:
     """State of an unbent tip whose root is at a height [m] and moves at a speed [m/s]."""
-    gap = plan.scene.opening.initial_gap + height
+    gap = plan.scene.imposed_force.initial_gap + height
     return TipState(MotionState(time, gap, speed, broken=True, armed=False), free=True)
 
 
 def tip_force(plan: Plan, damping: float, state: TipState, height: float, speed: float) -> float:
     """Force [N] with which a tip pulls its root down, that being at a height and a speed."""
-    opening, motion = plan.scene.opening, state.motion
-    force = opening.stiffness * (opening.initial_gap + height - motion.gap + state.depth)
+    loading, motion = plan.scene.imposed_force, state.motion
+    force = loading.stiffness * (loading.initial_gap + height - motion.gap + state.depth)
     return force + damping * (speed - motion.speed) if state.free else force
 
 
@@ -131,14 +131,14 @@ def attraction(plan: Plan, state: TipState) -> float:
     """Force of film and solids at touch [N]."""
     motion = state.motion
     film = acting_film(plan, motion)
-    return film.static_force(plan.scene.opening.initial_gap) if film is not None else 0.0
+    return film.static_force(plan.scene.imposed_force.initial_gap) if film is not None else 0.0
 
 
 def contact_of(plan: Plan, stop: TipStop, state: TipState, root: Root) -> Contact:
     """Tip that touches, with a root that moves."""
-    opening = plan.scene.opening
+    loading = plan.scene.imposed_force
     held = attraction(plan, state)
-    return Contact(stop, held, opening.stiffness, opening.mass or 0.0, root)
+    return Contact(stop, held, loading.stiffness, loading.mass or 0.0, root)
 
 
 def pressed(stop: TipStop, state: TipState, depth: float, largest: float) -> TipState:
@@ -165,7 +165,7 @@ def advance_tip(
     Parameters
     ----------
     plan : Plan
-        Film of one tip; the mass and the stiffness of its `Opening` are those of the tip.
+        Film of one tip; the mass and the stiffness of its `ImposedForce` are those of the tip.
     damping : float
         Damping of the free tip [N.s/m].
     state : TipState
@@ -213,22 +213,22 @@ def advance_tip(
 
 def _one(plan: Plan, state: TipState, root: Root, end: float, gives: bool = False) -> TipState:
     """Take one internal step while the tip has landed or its film acts."""
-    before, opening = state.motion, plan.scene.opening
+    before, loading = state.motion, plan.scene.imposed_force
 
     def pull(time: float) -> float:
-        return opening.stiffness * root.height_at(time)
+        return loading.stiffness * root.height_at(time)
 
     after = internal_step(plan, before, pull, end)
-    elapsed, origin = after.time - before.time, opening.initial_gap
-    first = pull(before.time) - opening.stiffness * (before.gap - origin)
-    last = pull(after.time) - opening.stiffness * (after.gap - origin)
+    elapsed, origin = after.time - before.time, loading.initial_gap
+    first = pull(before.time) - loading.stiffness * (before.gap - origin)
+    last = pull(after.time) - loading.stiffness * (after.gap - origin)
     impulse = 0.5 * elapsed * (first + last)
     # What the trapezoid misses: the slopes at its ends differ by the spring times this speed.
-    bent, twelfth = root.acceleration * elapsed, elapsed * elapsed * opening.stiffness / 12.0
+    bent, twelfth = root.acceleration * elapsed, elapsed * elapsed * loading.stiffness / 12.0
     if before.in_contact:
         impulse -= twelfth * bent
     else:
-        mass = opening.mass or 0.0
+        mass = loading.mass or 0.0
         film = sum(
             impulse - before.impulses.get(name, 0.0) for name, impulse in after.impulses.items()
         )
@@ -257,20 +257,20 @@ def _landed(state: TipState, loss: float, time: float) -> TipState:
 
 
 def _flight(plan: Plan, damping: float, state: TipState, root: Root) -> Flight:
-    opening, motion = plan.scene.opening, state.motion
-    assert opening.mass is not None  # the device gives one
-    decay = 0.5 * damping / opening.mass
-    square = opening.stiffness / opening.mass - decay * decay
+    loading, motion = plan.scene.imposed_force, state.motion
+    assert loading.mass is not None  # the device gives one
+    decay = 0.5 * damping / loading.mass
+    square = loading.stiffness / loading.mass - decay * decay
     if square <= 0.0:
-        critical = 2.0 * math.sqrt(opening.stiffness * opening.mass)
+        critical = 2.0 * math.sqrt(loading.stiffness * loading.mass)
         raise DescriptionError(
             "SpringTips.damping",
             damping,
             f"be less than critical, {critical:g} N.s/m",
             unit="N.s/m",
         )
-    frequency, rest = math.sqrt(square), -opening.mass * root.acceleration / opening.stiffness
-    cosine = motion.gap - opening.initial_gap - root.height - rest
+    frequency, rest = math.sqrt(square), -loading.mass * root.acceleration / loading.stiffness
+    cosine = motion.gap - loading.initial_gap - root.height - rest
     sine = (motion.speed - root.speed + decay * cosine) / frequency
     return Flight(rest, decay, frequency, cosine, sine)
 
@@ -279,13 +279,13 @@ def _fly(
     plan: Plan, damping: float, state: TipState, root: Root, left: float, gives: bool
 ) -> TipState:
     """Let a free tip swing for a time [s], or until it lands."""
-    opening, motion = plan.scene.opening, state.motion
+    loading, motion = plan.scene.imposed_force, state.motion
     flight = _flight(plan, damping, state, root)
     lands = landing_time(flight, root, left)
     elapsed = left if lands is None else lands
     (bend, rate), there = flight.at(elapsed), root.after(elapsed)
-    gap, speed = opening.initial_gap + there.height + bend, there.speed + rate
-    mass = opening.mass or 0.0
+    gap, speed = loading.initial_gap + there.height + bend, there.speed + rate
+    mass = loading.mass or 0.0
     impulse = mass * (speed - motion.speed)
     state = state._replace(
         motion=motion._replace(time=motion.time + elapsed, gap=gap, speed=speed, step=0.0),
@@ -296,11 +296,11 @@ def _fly(
 
 def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
     """Land after a flight: the tip stops, or strikes a site that gives; its film is there again."""
-    opening, motion = plan.scene.opening, state.motion
-    fraction = plan.scene.interface.meniscus.rewetting
+    loading, motion = plan.scene.imposed_force, state.motion
+    fraction = plan.scene.meniscus.rewetting
     wets = fraction > 0.0
     moved = motion._replace(
-        gap=opening.initial_gap,
+        gap=loading.initial_gap,
         speed=motion.speed if gives else 0.0,
         in_contact=not gives,
         broken=not wets,
@@ -308,7 +308,7 @@ def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
         armed=True,
         detached=False,
     )
-    loss = 0.0 if gives else 0.5 * (opening.mass or 0.0) * motion.speed * motion.speed
+    loss = 0.0 if gives else 0.5 * (loading.mass or 0.0) * motion.speed * motion.speed
     return _landed(state, loss, motion.time)._replace(motion=moved, free=False, touching=gives)
 
 

@@ -67,7 +67,7 @@ class Adhesion(NamedTuple):
 
 def _kelvin(scene: SeparationScene, humidity: float) -> tuple[float, float]:
     """Pressure over surface tension [1/m], and surface tension [N/m]."""
-    liquid = scene.interface.meniscus.liquid
+    liquid = scene.meniscus.liquid
     tension = liquid.at(scene.temperature).surface_tension
     if tension is None:
         raise InfeasibleError(f"{liquid.name} has no surface tension [N/m], and holds no meniscus")
@@ -87,7 +87,7 @@ def condensed_volume(scene: SeparationScene, humidity: float, gap: float | None 
     gap : float, optional
         Gap [m]; the initial one if not given.
     """
-    gap = scene.opening.initial_gap if gap is None else gap
+    gap = scene.loading.initial_gap if gap is None else gap
     if humidity == 0.0:
         return 0.0
     pressure, _ = _kelvin(scene, humidity)
@@ -106,14 +106,13 @@ def _volume_at(scene: SeparationScene, gap: float, pressure: float) -> float:
 def _at_pressure(scene: SeparationScene, gap: Any, pressure: float) -> ExactBridge:
     from ...capillary.exact.bridge import bridge_at_pressure
 
-    interface, meniscus = scene.interface, scene.interface.meniscus
+    meniscus = scene.meniscus
     return bridge_at_pressure(
         gap,
         pressure,
         meniscus.contact_angle_lower,
         meniscus.contact_angle_upper,
-        interface.lower.curvature,
-        interface.upper.curvature,
+        *scene.interface.curvatures,
         beyond="nan",
     )
 
@@ -123,13 +122,13 @@ def tip_scene(scene: SeparationScene, humidity: float) -> SeparationScene:
     """Scene of one tip with the liquid that condensed at a humidity; dry without its effects."""
     volume = condensed_volume(scene, humidity)
     if volume > 0.0:
-        meniscus = evolve(scene.interface.meniscus, volume=volume)
+        meniscus = evolve(scene.meniscus, volume=volume, relative_humidity=None)
         return evolve(scene, interface=evolve(scene.interface, meniscus=meniscus))
     dry = tuple(e for e in scene.effects if not isinstance(e, MeniscusForce | ViscousForce))
     if not dry:
         raise InfeasibleError(
             f"at a relative humidity of {humidity:g} no liquid spans the gap of "
-            f"{scene.opening.initial_gap:g} m, and nothing else holds a tip; list "
+            f"{scene.loading.initial_gap:g} m, and nothing else holds a tip; list "
             "van-der-waals-force, or give more humidity"
         )
     return evolve(scene, effects=dry)
@@ -145,12 +144,12 @@ def tip_law(scene: SeparationScene, humidity: float, rtol: float = 1e-7) -> Plan
 def adhesion(scene: SeparationScene, humidity: float) -> Adhesion:
     """What holds one tip at a humidity, while landed and until it is free."""
     made = tip_law(scene, humidity)
-    gap, volume = scene.opening.initial_gap, made.scene.interface.meniscus.volume
+    gap, volume = scene.loading.initial_gap, made.scene.meniscus.volume
     law = made.film.laws.get(MeniscusForce)
     meniscus = law.force(gap, 0.0) if law is not None else 0.0
     radius = 0.0
     if law is not None:
-        liquid = scene.interface.meniscus.liquid
+        liquid = scene.meniscus.liquid
         _, tension = _kelvin(scene, humidity)
         molar = liquid.molar_volume(scene.temperature)
         radius = float(kelvin_radius(tension, molar, scene.temperature, humidity))
@@ -169,7 +168,7 @@ def separation_energy(made: Plan) -> float:
     """Work [J] of the forces that do not depend on speed, from landed until a tip is free."""
     from scipy.integrate import quad
 
-    start, end = made.scene.opening.initial_gap, free_gap(made)
+    start, end = made.scene.loading.initial_gap, free_gap(made)
     broken = min(made.film.end, end)
     left = made.film_left(1.0, broken=True, detached=False) if broken < end else None
 

@@ -215,11 +215,11 @@ def test_jkr_is_least_energy():
 def test_adhesion_that_vanishes_leaves_hertz():
     film = ck.Meniscus(liquid=ck.Liquid(name="air"))
     body = ck.Interface(upper=ck.Sphere(radius=1e-3), meniscus=film)
-    opening = ck.Opening(initial_gap=1e-30, final_gap=1e-6, speed=1e-6)
+    loading = ck.ImposedSpeed(initial_gap=1e-30, final_gap=1e-6, speed=1e-6)
     expected = hertz.sphere(1e-3, 1e-3, 1e9)
     for model in ("jkr", "dmt", "maugis-dugdale"):
         faint = ck.AdhesiveContact(model=model, work_of_adhesion=1e-16, reduced_modulus=1e9)
-        scene = ck.SeparationScene(interface=body, opening=opening, effects=(faint,))
+        scene = ck.SeparationScene(interface=body, loading=loading, effects=(faint,))
         found = ck.adhesion_curve(scene, [1e-3])
         assert found.contact_radius[0] == approx(expected.contact_radius, 1e-6)
         assert found.approach[0] == approx(expected.approach, 1e-6)

@@ -130,7 +130,7 @@ ANGLE = 0.0  # no line tension: the published meniscus is then the Laplace press
 PULLED = {"initial_gap": START, "final_gap": END}
 
 
-def injector(film_scene, *effects, volume=VOLUME, face=FACE, **opening):
+def injector(film_scene, *effects, volume=VOLUME, face=FACE, **loading):
     flat = ck.Flat(radius=face)
     return film_scene(
         *effects,
@@ -138,7 +138,7 @@ def injector(film_scene, *effects, volume=VOLUME, face=FACE, **opening):
         upper=flat,
         liquid={"surface_tension": WETTING / 2.0},
         film={"volume": volume, "contact_angle_lower": ANGLE, "contact_angle_upper": ANGLE},
-        **(PULLED | opening),
+        **(PULLED | loading),
     )
 
 

@@ -11,12 +11,12 @@ SOFT = ck.Material(young_modulus=1e9, poisson_ratio=0.0)
 
 
 def pressed(surface, grid, **window):
-    interface = ck.ContactInterface(lower=ck.Body(solid=SOFT), upper=ck.Body(surface=surface))
-    pressing = window.pop("pressing")
+    interface = ck.Interface(lower=ck.Body(solid=SOFT), upper=ck.Body(surface=surface))
+    loading = window.pop("loading")
     scene = ck.ContactScene(
         interface=interface,
         window=ck.Window(**window),
-        pressing=pressing,
+        loading=loading,
         effects=(ck.HalfSpace(),),
     )
     return ck.solve(ck.plan(scene, ck.Accuracy(grid=grid, rtol=1e-6)))
@@ -28,7 +28,7 @@ def test_a_disc_of_hertz_has_its_area():
     force = 4.0 * 1e9 * radius**3 / (3.0 * 1e-3)
     ball = ck.Paraboloid(radius=1e-3)
     runs = [
-        pressed(ball, n, width=2.5e-6, periodic=False, pressing=ck.Pressing(force=force))
+        pressed(ball, n, width=2.5e-6, periodic=False, loading=ck.Pressing(force=force))
         for n in range(60, 120, 8)
     ]
     exact = np.pi * radius**2
@@ -41,7 +41,7 @@ def test_a_disc_of_hertz_has_its_area():
 def test_a_rough_contact_converges_much_sooner():
     rough = ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=5e-7, cutoff=1e-7)
     fine, coarse = (
-        pressed(rough, n, width=2e-6, pressing=ck.Pressing(pressure=3e5)) for n in (512, 128)
+        pressed(rough, n, width=2e-6, loading=ck.Pressing(pressure=3e5)) for n in (512, 128)
     )
     exact = fine.corrected_contact_area
     assert coarse.contact_area / exact - 1.0 > 0.1
@@ -58,7 +58,7 @@ def test_the_edges_are_counted_along_both_axes_and_round_the_window(periodic):
         width=1e-6,
         height=0.125e-6,
         periodic=periodic,
-        pressing=ck.Pressing(pressure=1e5),
+        loading=ck.Pressing(pressure=1e5),
     )
     rows, columns = run.contact.sum(0).max(), run.contact.sum(1).max()
     share = (np.pi - 1.0 + np.log(2.0)) / 24.0

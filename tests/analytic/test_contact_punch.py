@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import loadings
 import numpy as np
 import pytest
 
@@ -20,17 +21,17 @@ def distance(n_pixels, pixel):
     return np.hypot(x[:, None], x[None, :])
 
 
-def punch(cells, solid=UNIT, **pressing):
+def punch(cells, solid=UNIT, **loading):
     """A punch of radius 1, `cells` pixels to the radius, in a window of 2.5 radii."""
     grid, pixel = int(2.5 * cells), 1.0 / cells
     on = distance(grid, pixel) <= 1.0
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid),
             upper=ck.Body(surface=ck.Heights(heights=np.where(on, 0.0, -1.0), pixel_size=pixel)),
         ),
         window=ck.Window(periodic=False),
-        pressing=ck.Pressing(**pressing),
+        loading=loadings.pressed(**loading),
         effects=(ck.HalfSpace(),),
     )
     return ck.solve(ck.plan(scene)), on

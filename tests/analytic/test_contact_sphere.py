@@ -39,11 +39,11 @@ def stack(layers):
 def sphere_scene(width, *effects, lower=SOLID, upper=None, force=LOAD, shape=None, height=None):
     ball = shape or ck.Paraboloid(radius=RADIUS)
     return ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=lower), upper=ck.Body(surface=ball, solid=upper)
         ),
         window=ck.Window(width=width, height=height, periodic=False),
-        pressing=ck.Pressing(force=force),
+        loading=ck.Pressing(force=force),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
 

@@ -29,11 +29,11 @@ MODULI = ([m.young_modulus for m in COATED.materials], [NU, NU], list(COATED.thi
 def wave_scene(pressure, *effects, solid=UNIT, upper=None, wavelength_y=None, **window):
     crest = ck.Wave(amplitude=1.0, wavelength=1.0, wavelength_y=wavelength_y)
     return ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid), upper=ck.Body(surface=crest, solid=upper)
         ),
         window=ck.Window(width=1.0, **window),
-        pressing=ck.Pressing(pressure=pressure),
+        loading=ck.Pressing(pressure=pressure),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
 

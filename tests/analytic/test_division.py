@@ -6,6 +6,7 @@ import json
 import math
 from pathlib import Path
 
+import loadings
 import numpy as np
 import pytest
 
@@ -29,7 +30,7 @@ def scene(gap=2e-9, volume=2e-21, effects=BOTH, angle=60.0, face=None, **imposed
     flat = ck.Flat(radius=face)
     return ck.SeparationScene(
         interface=ck.Interface(lower=flat, upper=flat, meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=1e-3, **(imposed or {"time": 1e-7})),
+        loading=loadings.imposed(initial_gap=gap, final_gap=1e-3, **(imposed or {"time": 1e-7})),
         effects=effects,
     )
 
@@ -204,7 +205,7 @@ REFUSED = [
     ),
     (
         lambda: divide_meniscus(scene(force=1e-6, mass=1e-9), law="exact"),
-        r"needs Opening.time \[s\] or Opening.speed \[m/s\]",
+        r"needs loading = ImposedTime\(...\) or ImposedSpeed\(...\)",
         ck.PlanError,
     ),
     (lambda: divide_meniscus(scene(), law="parabola"), "no law 'parabola'", ck.PlanError),

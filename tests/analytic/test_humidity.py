@@ -29,7 +29,7 @@ def near_sphere(radius, gap=0.0, lower=0.0, upper=0.0):
     film = ck.Meniscus(liquid=WATER, contact_angle_lower=lower, contact_angle_upper=upper)
     return ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=radius), meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=1e-3, speed=1.0),
+        loading=ck.ImposedSpeed(initial_gap=gap, final_gap=1e-3, speed=1.0),
         effects=(ck.MeniscusForce(),),
         temperature=ROOM,
     )
@@ -155,16 +155,15 @@ def test_force_is_the_slope_of_the_energy_at_fixed_pressure():
 
 def rough_scene(rms=1e-9, gap=3e-9, radius=1e-6, **choices):
     population = ck.AsperityPopulation(density=5e13, radius=radius, rms_height=rms)
-    film = ck.Meniscus.from_humidity(
+    film = ck.Meniscus(
         liquid=WATER,
         relative_humidity=0.5,
-        temperature=ROOM,
         contact_angle_lower=0.4,
         contact_angle_upper=0.2,
     )
     return ck.SeparationScene(
         interface=ck.Interface(lower=ck.Flat(radius=1e-5), meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=20e-9, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=gap, final_gap=20e-9, speed=1e-6),
         effects=(ck.AsperityMenisci(asperities=population, **choices),),
         temperature=ROOM,
     )
@@ -223,13 +222,13 @@ def test_a_smooth_ball_in_contact_is_one_island_with_the_bridge_of_its_sphere():
     solid = ck.Material(young_modulus=1e15, poisson_ratio=0.3)
     radius = 2e-6
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid),
             upper=ck.Body(surface=ck.Paraboloid(radius=radius)),
             meniscus=ck.Meniscus(liquid=WATER, contact_angle_lower=0.3, contact_angle_upper=0.3),
         ),
         window=ck.Window(width=1e-6, periodic=False),
-        pressing=ck.Pressing(force=1e-12),
+        loading=ck.Pressing(force=1e-12),
         effects=(ck.HalfSpace(),),
         temperature=ROOM,
     )
@@ -254,12 +253,12 @@ def test_the_cross_cut_is_that_of_the_film_islands():
     heights = ck.Heights(heights=2e-9 * rng.normal(size=(24, 24)), pixel_size=5e-8)
     solid = ck.Material(young_modulus=1e10, poisson_ratio=0.3)
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid),
             upper=ck.Body(surface=heights),
             meniscus=ck.Meniscus(liquid=WATER),
         ),
-        pressing=ck.Pressing(pressure=1e6),
+        loading=ck.Pressing(pressure=1e6),
         effects=(ck.HalfSpace(),),
         temperature=ROOM,
     )
@@ -277,7 +276,7 @@ def test_the_cross_cut_is_that_of_the_film_islands():
 def _flats():
     scene = near_sphere(1e-6, 1e-9)
     flats = ck.Interface(meniscus=scene.interface.meniscus)
-    return ck.SeparationScene(interface=flats, opening=scene.opening, effects=scene.effects)
+    return ck.SeparationScene(interface=flats, loading=scene.loading, effects=scene.effects)
 
 
 REFUSED = [
@@ -333,7 +332,7 @@ def test_a_volume_has_no_law_for_asperities():
         ck.plan(
             ck.SeparationScene(
                 interface=ck.Interface(lower=flat, meniscus=film),
-                opening=scene.opening,
+                loading=scene.loading,
                 effects=scene.effects,
             )
         )
@@ -341,7 +340,7 @@ def test_a_volume_has_no_law_for_asperities():
         ck.plan(
             ck.SeparationScene(
                 interface=ck.Interface(meniscus=scene.interface.meniscus),
-                opening=scene.opening,
+                loading=scene.loading,
                 effects=scene.effects,
             )
         )

@@ -257,7 +257,7 @@ def scene(effects=(), **changes):
     meniscus = ck.Meniscus(
         liquid=oil, volume=given["volume"], contact_angle_lower=0.2, contact_angle_upper=0.2
     )
-    opening = ck.Opening(
+    loading = ck.ImposedForce(
         initial_gap=5e-6,
         final_gap=1e-4,
         force=40.0,
@@ -269,7 +269,7 @@ def scene(effects=(), **changes):
     return ck.plan(
         ck.SeparationScene(
             interface=ck.Interface(lower=face, upper=face, meniscus=meniscus),
-            opening=opening,
+            loading=loading,
             effects=(ck.ViscousForce(), *effects),
         )
     )

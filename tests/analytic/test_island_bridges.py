@@ -34,11 +34,11 @@ def pressed(surface, *effects, solid=RIGID, load=1e-9, angles=(0.0, 0.0), period
         liquid=LIQUID, contact_angle_lower=angles[0], contact_angle_upper=angles[1], **film
     )
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid), upper=ck.Body(surface=surface), meniscus=meniscus
         ),
         window=ck.Window(periodic=periodic),
-        pressing=ck.Pressing(force=load),
+        loading=ck.Pressing(force=load),
         effects=(ck.HalfSpace(), *effects),
     )
     return ck.solve(ck.plan(scene))

@@ -91,13 +91,13 @@ def test_its_force_is_pressure_times_the_area_of_a_parabola():
 
 def test_a_meniscus_of_a_humidity_has_the_pressure_of_its_own_liquid():
     water = ck.load_liquid("water")
-    made = ck.Meniscus.from_humidity(liquid=water, relative_humidity=0.5, temperature=ROOM)
+    made = ck.Meniscus(liquid=water, relative_humidity=0.5)
     density = water.at(ROOM).density
-    assert made.volume is None
-    assert made.pressure == pytest.approx(
+    assert (made.volume, made.pressure) == (None, None)
+    assert made.pressure_at(ROOM) == pytest.approx(
         kelvin.GAS_CONSTANT * ROOM * math.log(0.5) * density / 0.018015, rel=1e-13
     )
-    assert ck.Meniscus.from_humidity(liquid=water, relative_humidity=0.5).pressure > made.pressure
+    assert made.pressure_at(293.15) > made.pressure_at(ROOM)
 
 
 def test_a_volume_of_a_coverage_is_that_of_upright_rims():
@@ -113,12 +113,12 @@ REFUSED = [
     (lambda w: ck.Meniscus(liquid=w, pressure=0.0), "pressure must be negative and finite"),
     (lambda w: ck.Meniscus(liquid=w, pressure=1e5), r"\[Pa\], got 100000.0; liquid of a positive"),
     (lambda w: ck.Meniscus(liquid=w, pressure=-math.inf), "be negative and finite"),
-    (lambda w: ck.Meniscus(liquid=w, pressure=-1e5, volume=1e-20), "not both"),
+    (lambda w: ck.Meniscus(liquid=w, pressure=-1e5, volume=1e-20), "one of volume"),
     (
-        lambda w: ck.Meniscus.from_humidity(liquid=w, relative_humidity=50.0),
-        "lie between 0 and 1, got 50.0; it is a share, not per cent",
+        lambda w: ck.Meniscus(liquid=w, relative_humidity=50.0),
+        "lie between 0 and 1, got 50.0; a fraction, not per cent",
     ),
-    (lambda w: ck.Meniscus.from_humidity(liquid=w, relative_humidity=math.nan), "between 0 and 1"),
+    (lambda w: ck.Meniscus(liquid=w, relative_humidity=math.nan), "between 0 and 1"),
     (
         lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=1.1, area=1.0, gap=1.0),
         r"from_coverage\(coverage\) must lie above 0 and not above 1",
@@ -153,7 +153,7 @@ def test_what_is_impossible_is_refused(make, message):
 @pytest.mark.parametrize("humidity", [0.0, 1.0])
 def test_dry_and_saturated_air_make_no_meniscus(humidity):
     with pytest.raises(InfeasibleError, match="meniscus"):
-        ck.Meniscus.from_humidity(liquid=ck.load_liquid("water"), relative_humidity=humidity)
+        ck.Meniscus(liquid=ck.load_liquid("water"), relative_humidity=humidity).pressure_at(ROOM)
 
 
 @frozen(kw_only=True)
@@ -174,7 +174,7 @@ def test_an_effect_without_a_law_at_fixed_pressure_refuses_it():
             upper=ck.Sphere(radius=1e-6),
             meniscus=ck.Meniscus(liquid=ck.load_liquid("water"), pressure=-1e7),
         ),
-        opening=ck.Opening(initial_gap=1e-9, final_gap=1e-7, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=1e-9, final_gap=1e-7, speed=1e-6),
         effects=(OfAVolume(),),
     )
     with pytest.raises(

@@ -153,16 +153,16 @@ def _study(job):
     solid = ck.Material(young_modulus=UNIT * 1e9, poisson_ratio=POISSON)
     given = ck.Heights(heights=heights * 1e-6, pixel_size=1e-6 / job["n"])
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(lower=ck.Body(solid=solid), upper=ck.Body(surface=given)),
+        interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Body(surface=given)),
         window=ck.Window(periodic=True),
-        pressing=ck.Pressing(pressure=loads[0]),
+        loading=ck.Pressing(pressure=loads[0]),
         effects=(ck.HalfSpace(),),
     )
     accuracy = ck.Accuracy(threads=job["threads"])
 
     def curve(some):
         begun = time.process_time()
-        found = ck.study(scene, {"pressing.pressure": some}, accuracy)
+        found = ck.study(scene, {"loading.pressure": some}, accuracy)
         return time.process_time() - begun, found
 
     singles = sum(curve([load])[0] for load in loads[::6]) / len(loads[::6])

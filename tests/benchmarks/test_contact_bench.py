@@ -73,7 +73,7 @@ def test_curve_of_ten_loads(benchmark):
     scene = head_disk()
     loads = [f"{8 * 1.3**i} MPa" for i in range(10)]
     found = benchmark.pedantic(
-        ck.study, (scene, {"pressing.pressure": loads}, ck.Accuracy(grid=N)), rounds=3
+        ck.study, (scene, {"loading.pressure": loads}, ck.Accuracy(grid=N)), rounds=3
     )
     assert {point.status for point in found.points} == {"converged"}
 

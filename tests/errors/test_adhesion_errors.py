@@ -16,18 +16,18 @@ from contactkit.separation.simulate import simulate
 pytestmark = pytest.mark.filterwarnings("ignore:.*thinnest gap:contactkit.errors.ValidityWarning")
 
 WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.072)
-OPENING = ck.Opening(initial_gap=1e-10, final_gap=1e-8, speed=1e-6)
+OPENING = ck.ImposedSpeed(initial_gap=1e-10, final_gap=1e-8, speed=1e-6)
 HARD = {"work_of_adhesion": 0.05, "reduced_modulus": 5e10}
 VAN_DER_WAALS = ck.VanDerWaalsForce(hamaker_constant=1e-19)
 
 
-def scene(*effects, upper=None, opening=OPENING, liquid=WATER, **film):
+def scene(*effects, upper=None, loading=OPENING, liquid=WATER, **film):
     return ck.SeparationScene(
         interface=ck.Interface(
             upper=upper or ck.Sphere(radius=1e-6),
             meniscus=ck.Meniscus(liquid=liquid, **({"volume": 1e-23} | film)),
         ),
-        opening=opening,
+        loading=loading,
         effects=effects,
     )
 
@@ -39,11 +39,11 @@ def test_bodies_that_do_not_touch_do_not_adhere(model):
         ck.InfeasibleError,
         match=says(
             f"AdhesiveContact ({model}) lets go at a gap of",
-            "Opening.initial_gap is 1e-09 m",
+            "loading.initial_gap is 1e-09 m",
             "start closer, or take VanDerWaalsForce()",
         ),
     ):
-        ck.plan(scene(ck.AdhesiveContact(model=model, **HARD), opening=far))
+        ck.plan(scene(ck.AdhesiveContact(model=model, **HARD), loading=far))
 
 
 CAPILLARY = ck.AdhesiveContact(work_of_adhesion="capillary", reduced_modulus=1e9, strength=1e6)
@@ -59,9 +59,9 @@ REFUSED = {
     "vibration": (
         scene(
             ck.AdhesiveContact(**HARD),
-            opening=attrs.evolve(OPENING, vibration=ck.Vibration(amplitude=1e-11, frequency=1e3)),
+            loading=attrs.evolve(OPENING, vibration=ck.Vibration(amplitude=1e-11, frequency=1e3)),
         ),
-        "AdhesiveContact needs an opening without vibration",
+        "AdhesiveContact needs a loading without vibration",
     ),
     "counted twice": (
         scene(ck.AdhesiveContact(**HARD), VAN_DER_WAALS),
@@ -150,7 +150,7 @@ def test_what_does_not_know_solids_refuses_them():
 def test_the_one_system_reference_refuses_solids():
     from contactkit.models.injector import monolithic
 
-    pulled = ck.Opening(initial_gap=1e-10, final_gap=1e-8, force=1e-6, mass=1e-12)
-    made = ck.plan(scene(VAN_DER_WAALS, opening=pulled))
+    pulled = ck.ImposedForce(initial_gap=1e-10, final_gap=1e-8, force=1e-6, mass=1e-12)
+    made = ck.plan(scene(VAN_DER_WAALS, loading=pulled))
     with pytest.raises(ck.PlanError, match="knows forces of the film only"):
         monolithic.simulate(made, lambda time: 1e-6, 1e-6)

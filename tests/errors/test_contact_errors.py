@@ -41,9 +41,9 @@ STRESS, WET = ck.SubsurfaceStress(), ck.FilmMeniscus(film_thickness=1e-9)
 
 
 def scene(*effects, solid=STEEL, surface=ROUGH, upper=None, meniscus=None, **given):
-    given = {"window": WINDOW, "pressing": PRESSURE, "effects": effects or (HALF_SPACE,)} | given
+    given = {"window": WINDOW, "loading": PRESSURE, "effects": effects or (HALF_SPACE,)} | given
     return ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid),
             upper=ck.Body(surface=surface, solid=upper),
             meniscus=meniscus,
@@ -86,7 +86,7 @@ FIELDS = [
     (WINDOW, "height", "m", POSITIVE, [0.0, -1e-6]),
     (PRESSURE, "pressure", "Pa", "be zero or positive", [-1.0]),
     (ck.Pressing(force=1.0), "force", "N", "be zero or positive", [-1.0]),
-    (ck.Pressing(approach=1.0), "approach", "m", FINITE, []),
+    (ck.Approach(approach=1.0), "approach", "m", FINITE, []),
     (scene(), "temperature", "K", POSITIVE, [0.0, -20.0, None]),
     (ck.IslandBridges(), "film_thickness", "m", POSITIVE, [0.0, -1e-9]),
     (ck.IslandBridges(), "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
@@ -189,13 +189,12 @@ def test_what_is_more_than_one_number_is_named_too(build, says_what):
     [
         ({}, "'none'"),
         ({"pressure": 1.0, "force": 1.0}, "['pressure', 'force']"),
-        ({"pressure": 1.0, "force": 1.0, "approach": 1.0}, "['pressure', 'force', 'approach']"),
     ],
 )
 def test_exactly_one_quantity_is_imposed(given, shown):
     refuses(
         lambda: ck.Pressing(**given),
-        "Pressing must be given exactly one of pressure [Pa], force [N] or approach [m]",
+        "Pressing must be given exactly one of pressure [Pa] or force [N]",
         f"got {shown}",
     )
 
@@ -233,13 +232,13 @@ def test_an_unknown_choice_is_refused_with_the_known_ones(build, field, right):
         (lambda: ck.Stack(layers=(STEEL,), substrate=STEEL), "Stack.layers"),
         (lambda: ck.Stack(substrate=COATED), "Stack.substrate"),
         (lambda: ck.CombinedSurface(parts=(WAVE, "rough")), "CombinedSurface.parts"),
-        (lambda: ck.ContactInterface(lower=STEEL), "ContactInterface.lower"),
+        (lambda: ck.Interface(lower=STEEL), "Interface.lower"),
         (
-            lambda: ck.ContactInterface(lower=ck.Body(solid=STEEL), meniscus=OIL),
-            "ContactInterface.meniscus",
+            lambda: ck.Interface(lower=ck.Body(solid=STEEL), meniscus=OIL),
+            "Interface.meniscus",
         ),
         (lambda: scene(window=1e-6), "ContactScene.window"),
-        (lambda: scene(pressing=1e6), "ContactScene.pressing"),
+        (lambda: scene(loading=1e6), "ContactScene.loading must be a Pressing or Approach"),
         (lambda: ck.Window(periodic="no"), "Window.periodic"),
         (
             lambda: ck.FilmMeniscus(film_thickness=1e-9, self_consistent="yes"),
@@ -253,11 +252,21 @@ def test_a_part_of_another_kind_is_refused_where_it_is_given(build, field):
 
 
 def test_two_rigid_bodies_are_refused():
+    rigid = attrs.evolve(scene(), interface=ck.Interface(upper=WAVE))
     refuses(
-        lambda: ck.ContactInterface(lower=ck.Body()),
-        "ContactInterface.lower.solid must be a Material or a Stack where the upper body is rigid",
-        "got None",
+        lambda: ck.plan(rigid),
+        "interface.lower.solid must be a Material or a Stack where the upper body is rigid",
         "give one of them",
+        error=ck.PlanError,
+    )
+
+
+def test_a_rim_that_no_contact_knows_is_refused():
+    faces = ck.Interface(lower=ck.Body(solid=STEEL, surface=ck.Flat(radius=1e-6)), upper=WAVE)
+    refuses(
+        lambda: ck.plan(attrs.evolve(scene(), interface=faces)),
+        "interface.lower.surface.radius = 1e-06 m has no effect",
+        error=ck.PlanError,
     )
 
 
@@ -351,8 +360,8 @@ def test_an_effect_of_something_else_is_refused_with_the_known_ones(effect):
         ),
         (
             (HALF_SPACE, ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True)),
-            {"meniscus": ck.Meniscus(liquid=OIL), "pressing": ck.Pressing(approach=1e-9)},
-            ("self_consistent=True", "Pressing(approach=...) imposes none", "pressure or force"),
+            {"meniscus": ck.Meniscus(liquid=OIL), "loading": ck.Approach(approach=1e-9)},
+            ("self_consistent=True", "Approach(approach=...) imposes none", "pressure or force"),
         ),
     ],
 )
@@ -378,7 +387,7 @@ def test_a_load_beyond_the_hardness_is_infeasible_with_both_numbers():
         "1e-12 m2",
         "lower the load",
         effects=(HALF_SPACE, ck.HardnessLimit()),
-        pressing=ck.Pressing(pressure=8e9),
+        loading=ck.Pressing(pressure=8e9),
         error=ck.InfeasibleError,
     )
 
@@ -446,9 +455,7 @@ def test_a_surface_that_does_not_fit_the_window_is_refused(given, parts):
 
 def test_two_maps_of_different_grids_are_refused():
     other = ck.Heights(heights=np.zeros((4, 4)), pixel_size=1e-8)
-    interface = ck.ContactInterface(
-        lower=ck.Body(solid=STEEL, surface=other), upper=ck.Body(surface=MAP)
-    )
+    interface = ck.Interface(lower=ck.Body(solid=STEEL, surface=other), upper=ck.Body(surface=MAP))
     refuses(
         lambda: ck.plan(attrs.evolve(scene(), interface=interface, window=ck.Window())),
         "surfaces of one grid",
@@ -571,7 +578,7 @@ def test_a_tolerance_below_round_off_is_told_from_a_lack_of_steps(method):
     spikes[*rng.integers(0, 128, (2, 40))] = 1e-6 + 1e-14 * rng.standard_normal(40)
     surface = ck.Heights(heights=spikes, pixel_size=(1e-8, 1e-8))
     window = ck.Window(width=1.28e-6)
-    contact = scene(surface=surface, window=window, pressing=ck.Pressing(pressure=1e3))
+    contact = scene(surface=surface, window=window, loading=ck.Pressing(pressure=1e3))
     with pytest.raises(ck.ConvergenceError, match="round-off keeps it") as caught:
         ck.solve(ck.plan(contact, ck.Accuracy(rtol=1e-11, method=method)))
     assert ("method='active-set'" in str(caught.value)) == (method != "active-set")

@@ -84,14 +84,14 @@ def test_an_impossible_study_is_refused(scene, change, message):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"rest_gap": 0.0}, "Opening.rest_gap must equal initial_gap = 4e-10 m [m], got 0.0"),
-        ({"mass": None}, "Opening.mass must be that of a spring tip [kg], got None"),
-        ({"stiffness": 0.0}, "Opening.stiffness must be that of a spring tip [N/m], got 0.0"),
+        ({"rest_gap": 0.0}, "ImposedForce.rest_gap must equal initial_gap = 4e-10 m [m], got 0.0"),
+        ({"mass": None}, "ImposedForce.mass must be that of a spring tip [kg], got None"),
+        ({"stiffness": 0.0}, "ImposedForce.stiffness must be that of a spring tip [N/m], got 0.0"),
     ],
 )
 def test_a_tip_needs_mass_spring_and_site(scene, change, message):
     with pytest.raises(DescriptionError, match=re.escape(message)):
-        evolve(scene, opening=evolve(scene.opening, **change))
+        evolve(scene, loading=evolve(scene.loading, **change))
 
 
 def test_a_misspelt_key_names_the_right_one(tmp_path):

@@ -141,13 +141,13 @@ PUBLISHED = ck.MeniscusForce(profile="as-published")
 ZERO_NECK = ck.Rupture(criterion="zero-neck")
 
 
-def scene(film_scene, *effects, **opening):
-    return film_scene(*effects, film={"volume": 1e-12}, **opening)
+def scene(film_scene, *effects, **loading):
+    return film_scene(*effects, film={"volume": 1e-12}, **loading)
 
 
 def test_a_scene_does_not_mix_the_two_modes(film_scene):
     printed = ck.ViscousForce(closure="as-published")
-    for effects, opening, names in (
+    for effects, loading, names in (
         ((ck.MeniscusForce(), printed), {"speed": 1e-3}, "ViscousForce.*MeniscusForce"),
         ((PUBLISHED, ck.ViscousForce()), {"time": 1.0}, "MeniscusForce.*ViscousForce"),
         ((PUBLISHED, ck.Rupture()), {"speed": 1e-3}, "MeniscusForce.*Rupture"),
@@ -156,11 +156,11 @@ def test_a_scene_does_not_mix_the_two_modes(film_scene):
         with pytest.raises(
             ck.PlanError, match=rf"{names}.*as printed or the consistent ones.*choose one mode"
         ):
-            ck.plan(scene(film_scene, *effects, **opening))
+            ck.plan(scene(film_scene, *effects, **loading))
 
 
 def test_a_scene_of_one_mode_is_planned(film_scene):
-    for effects, opening in (
+    for effects, loading in (
         ((PUBLISHED, ck.ViscousForce(closure="as-published"), ZERO_NECK), {"time": 1.0}),
         ((ck.MeniscusForce(profile="arc"), ZERO_NECK), {"speed": 1e-3}),
         ((PUBLISHED, ck.Rupture(gap=5e-6)), {"speed": 1e-3}),
@@ -168,4 +168,4 @@ def test_a_scene_of_one_mode_is_planned(film_scene):
         ((ck.MeniscusForce(), ck.ViscousForce()), {"time": 1.0}),
         ((ck.ViscousForce(closure="as-published"),), {"time": 1.0}),
     ):
-        ck.plan(scene(film_scene, *effects, **opening))
+        ck.plan(scene(film_scene, *effects, **loading))

@@ -28,12 +28,14 @@ from contactkit.units import parse_quantity, parse_unit
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
 FILM = ck.Meniscus(liquid=OIL, volume=1e-12)
 FACES = ck.Interface(lower=ck.Flat(radius=1e-3), upper=ck.Flat(radius=1e-3), meniscus=FILM)
-AT_SPEED = ck.Opening(initial_gap=1e-6, final_gap=1e-5, speed=1e-6)
+GAPS = {"initial_gap": 1e-6, "final_gap": 1e-5}
+AT_SPEED = ck.ImposedSpeed(**GAPS, speed=1e-6)
+IN_TIME, PULLED = ck.ImposedTime(**GAPS, time=1.0), ck.ImposedForce(**GAPS, force=1.0)
 VISCOUS, MENISCUS = ck.ViscousForce(), ck.MeniscusForce()
 
 
-def scene(*effects, interface=FACES, opening=AT_SPEED, **more):
-    return ck.SeparationScene(interface=interface, opening=opening, effects=effects, **more)
+def scene(*effects, interface=FACES, loading=AT_SPEED, **more):
+    return ck.SeparationScene(interface=interface, loading=loading, effects=effects, **more)
 
 
 def refuses_plan(*parts, error=ck.PlanError, **given):
@@ -47,6 +49,7 @@ ACCURACY = ck.Accuracy()
 LIMIT, SHEAR, BREAK = ck.TensionLimit(tension=1e6), ck.ShearLimit(strength=1e6), ck.Rupture()
 ATTRACTION = ck.VanDerWaalsForce(hamaker_constant=1e-19)
 MOIST = ck.Meniscus(liquid=OIL, pressure=-1e6)
+HUMID = ck.Meniscus(liquid=OIL, relative_humidity=0.5)
 SUMMITS = ck.AsperityPopulation(density=1e12, radius=1e-6)
 STICKY = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
 
@@ -55,6 +58,7 @@ FIELDS = [
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
     (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),
+    (HUMID, "relative_humidity", "", BETWEEN, [-0.1, 50.0]),
     (SUMMITS, "density", "1/m2", POSITIVE, [0.0, -1e12, None]),
     (SUMMITS, "radius", "m", POSITIVE, [0.0, -1e-6, None]),
     (SUMMITS, "rms_height", "m", NON_NEGATIVE, [-1e-9, None]),
@@ -63,17 +67,23 @@ FIELDS = [
     (FILM, "contact_angle_upper", "rad", ANGLE, [-0.1, 181.0, None]),
     (FILM, "count", "", WHOLE, [0, -1, 1.0, 2.5, None]),
     (FILM, "rewetting", "", BETWEEN, [-0.1, 1.1, None]),
-    (AT_SPEED, "initial_gap", "m", NON_NEGATIVE, [-1e-6, None]),
-    (AT_SPEED, "final_gap", "m", POSITIVE, [0.0, -1e-6, None]),
-    (AT_SPEED, "speed", "m/s", POSITIVE, [0.0, -1.0]),
-    (AT_SPEED, "time", "s", POSITIVE, [0.0, -1.0]),
-    (AT_SPEED, "force", "N", FINITE, []),
-    (AT_SPEED, "mass", "kg", POSITIVE, [0.0, -1.0]),
-    (AT_SPEED, "stiffness", "N/m", NON_NEGATIVE, [-1.0, None]),
-    (AT_SPEED, "rise_time", "s", NON_NEGATIVE, [-1.0, None]),
-    (AT_SPEED, "initial_speed", "m/s", FINITE, [None]),
-    (AT_SPEED, "rest_gap", "m", NON_NEGATIVE, [-1e-9, None]),
-    (AT_SPEED, "time_limit", "s", POSITIVE, [0.0, -1.0, None]),
+    *[
+        row
+        for loading in (AT_SPEED, IN_TIME, PULLED)
+        for row in (
+            (loading, "initial_gap", "m", NON_NEGATIVE, [-1e-6, None]),
+            (loading, "final_gap", "m", POSITIVE, [0.0, -1e-6, None]),
+        )
+    ],
+    (AT_SPEED, "speed", "m/s", POSITIVE, [0.0, -1.0, None]),
+    (IN_TIME, "time", "s", POSITIVE, [0.0, -1.0, None]),
+    (PULLED, "force", "N", FINITE, [None]),
+    (PULLED, "mass", "kg", POSITIVE, [0.0, -1.0]),
+    (PULLED, "stiffness", "N/m", NON_NEGATIVE, [-1.0, None]),
+    (PULLED, "rise_time", "s", NON_NEGATIVE, [-1.0, None]),
+    (PULLED, "initial_speed", "m/s", FINITE, [None]),
+    (PULLED, "rest_gap", "m", NON_NEGATIVE, [-1e-9, None]),
+    (PULLED, "time_limit", "s", POSITIVE, [0.0, -1.0, None]),
     (scene(VISCOUS), "temperature", "K", POSITIVE, [0.0, -20.0, None]),
     (LIMIT, "tension", "Pa", POSITIVE, [0.0, -1e5, "vacuum", None]),
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
@@ -123,32 +133,36 @@ def test_not_every_angle_is_suspected_of_degrees(value):
 def test_a_gap_closes_not():
     refuses(
         lambda: attrs.evolve(AT_SPEED, final_gap=1e-6),
-        "Opening.final_gap must exceed initial_gap = 1e-06 m",
+        "ImposedSpeed.final_gap must exceed initial_gap = 1e-06 m",
         "got 1e-06",
     )
 
 
 def test_asperities_are_not_higher_than_the_gap():
     refuses(
-        lambda: attrs.evolve(AT_SPEED, rest_gap=2e-6),
-        "Opening.rest_gap must not exceed initial_gap = 1e-06 m [m], got 2e-06",
+        lambda: attrs.evolve(PULLED, rest_gap=2e-6),
+        "ImposedForce.rest_gap must not exceed initial_gap = 1e-06 m [m], got 2e-06",
     )
 
 
 @pytest.mark.parametrize(
-    ("given", "shown"),
+    ("kind", "given"),
     [
-        ({}, "'none'"),
-        ({"speed": 1.0, "force": 1.0}, "['speed', 'force']"),
-        ({"speed": 1.0, "time": 1.0, "force": 1.0}, "['speed', 'force', 'time']"),
+        (ck.ImposedSpeed, {"speed": 1.0, "mass": 5.0}),
+        (ck.ImposedSpeed, {"speed": 1.0, "force": 1.0}),
+        (ck.ImposedTime, {"time": 1.0, "speed": 1.0}),
+        (ck.ImposedForce, {"force": 1.0, "vibration": None}),
     ],
 )
-def test_exactly_one_quantity_is_imposed(given, shown):
-    refuses(
-        lambda: ck.Opening(initial_gap=1e-6, final_gap=1e-5, **given),
-        "Opening must be given exactly one of speed [m/s], force [N] or time [s]",
-        f"got {shown}",
-    )
+def test_a_field_of_another_kind_of_loading_cannot_be_written(kind, given):
+    with pytest.raises(TypeError, match="unexpected keyword argument"):
+        kind(**GAPS, **given)
+
+
+@pytest.mark.parametrize("given", [{}, {"mass": 1.0}])
+def test_what_is_imposed_is_required(given):
+    with pytest.raises(TypeError, match=r"missing .* 'force'"):
+        ck.ImposedForce(**GAPS, **given)
 
 
 # Choices and parts --------------------------------------------------------------------------
@@ -175,7 +189,7 @@ def test_an_unknown_choice_is_refused_with_the_known_ones(effect, field, right):
         (lambda: ck.Interface(meniscus=OIL), "Interface.meniscus"),
         (lambda: ck.Interface(lower="flat", meniscus=FILM), "Interface.lower"),
         (lambda: scene(VISCOUS, interface=FILM), "SeparationScene.interface"),
-        (lambda: scene(VISCOUS, opening=FACES), "SeparationScene.opening"),
+        (lambda: scene(VISCOUS, loading=FACES), "SeparationScene.loading"),
     ],
 )
 def test_a_part_of_another_kind_is_refused_where_it_is_given(build, field):
@@ -224,21 +238,21 @@ def test_a_limit_needs_the_force_it_bounds():
 
 
 def test_a_limit_needs_a_path_in_time():
-    opening = ck.Opening(initial_gap=1e-6, final_gap=1e-5, time=1.0)
+    loading = ck.ImposedTime(initial_gap=1e-6, final_gap=1e-5, time=1.0)
     refuses_plan(
         "TensionLimit needs a speed or a force imposed: with only the time given",
         "ShearLimit needs a speed or a force imposed",
         effects=(VISCOUS, LIMIT, SHEAR),
-        opening=opening,
+        loading=loading,
     )
 
 
 def test_a_pull_needs_something_to_set_the_speed():
-    opening = ck.Opening(initial_gap=1e-6, final_gap=1e-5, force=1.0)
+    loading = ck.ImposedForce(initial_gap=1e-6, final_gap=1e-5, force=1.0)
     refuses_plan(
-        "an imposed force needs opening.mass [kg], or ViscousForce(), to set a speed",
+        "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed",
         effects=(MENISCUS,),
-        opening=opening,
+        loading=loading,
     )
 
 
@@ -323,8 +337,8 @@ def viscous_only():
 
 @pytest.fixture(scope="module")
 def within_time():
-    opening = ck.Opening(initial_gap=1e-6, final_gap=1e-5, time=1.0)
-    return ck.simulate(ck.plan(scene(VISCOUS, opening=opening)))
+    loading = ck.ImposedTime(initial_gap=1e-6, final_gap=1e-5, time=1.0)
+    return ck.simulate(ck.plan(scene(VISCOUS, loading=loading)))
 
 
 def test_the_curve_of_an_absent_effect_names_the_effect_to_add(viscous_only):
@@ -391,7 +405,7 @@ def test_a_mean_force_needs_a_time(viscous_only, time):
     refuses(
         lambda: viscous_only.of(ck.ViscousForce).mean_force(time),
         f"mean_force(time) must be positive [s], got {time!r}",
-        "give the duration of the opening here, or as Opening(time=...)",
+        "give the duration of the opening here, or as ImposedTime(time=...)",
     )
 
 
@@ -400,7 +414,7 @@ def test_a_time_at_constant_force_needs_a_force(viscous_only, force):
     refuses(
         lambda: viscous_only.of(ck.ViscousForce).time_at_constant_force(force),
         f"time_at_constant_force(force) must be positive [N], got {force!r}",
-        "give the pull here, or as Opening(force=...)",
+        "give the pull here, or as ImposedForce(force=...)",
     )
 
 
@@ -417,7 +431,7 @@ def test_curves_are_read_only(viscous_only):
 def test_a_model_outside_its_range_says_which_and_by_how_much():
     fast = attrs.evolve(AT_SPEED, speed=1.0)
     with pytest.warns(ck.ValidityWarning) as caught:
-        ck.simulate(ck.plan(scene(VISCOUS, MENISCUS, opening=fast)))
+        ck.simulate(ck.plan(scene(VISCOUS, MENISCUS, loading=fast)))
     said = [str(warning.message) for warning in caught]
     assert any(re.match(r"fingering number = .*\(at most 1\): OUT OF RANGE", s) for s in said)
     assert any(s.startswith("viscous over capillary pressure = 1.59e+06 ") for s in said)
@@ -451,7 +465,8 @@ name = "oil"
 viscosity = "100 mPa.s"
 surface_tension = "30 mN/m"
 
-[opening]
+[loading]
+kind = "imposed-speed"
 initial_gap = "2 um"
 final_gap = "20 um"
 speed = "1 mm/s"
@@ -477,7 +492,7 @@ def write(folder, *changes):
 
 def test_a_right_file_is_read(tmp_path):
     found = ck.load_scene(write(tmp_path))
-    assert found.opening.initial_gap == 2e-6
+    assert found.loading.initial_gap == 2e-6
     assert found.interface.meniscus.contact_angle_lower == math.pi / 3.0
     assert found.effects == (VISCOUS, ck.TensionLimit(tension=1e5))
     assert found.temperature == 313.15
@@ -488,21 +503,21 @@ MISTAKES = {
     "wrong unit": (
         [('"2 um"', '"2 N"')],
         [
-            "Opening.initial_gap must be in a unit that converts to m, got '2 N'",
+            "ImposedSpeed.initial_gap must be in a unit that converts to m, got '2 N'",
             "2.5 m",
-            "at opening.initial_gap",
+            "at loading.initial_gap",
         ],
     ),
     "no unit": (
         [('"2 um"', '"2"')],
-        ["Opening.initial_gap must carry a unit [m], got '2'", "for example '2.5 m'"],
+        ["ImposedSpeed.initial_gap must carry a unit [m], got '2'", "for example '2.5 m'"],
     ),
     "no number": ([('"2 um"', '"two um"')], ["must be a number and a unit [m], got 'two um'"]),
     "unknown unit": (
         [('"2 um"', '"2 parsec"')],
-        ["unit must be made of known symbols ('parsec' is not one)", "at opening.initial_gap"],
+        ["unit must be made of known symbols ('parsec' is not one)", "at loading.initial_gap"],
     ),
-    "a boolean": ([('"2 um"', "true")], ["Opening.initial_gap must be", "[m], got True"]),
+    "a boolean": ([('"2 um"', "true")], ["ImposedSpeed.initial_gap must be", "[m], got True"]),
     "impossible": (
         [('"3 mm"', '"-3 mm"')],
         ["Flat.radius must be positive", "got -0.003", "at interface.lower"],
@@ -513,7 +528,7 @@ MISTAKES = {
     ),
     "misspelt key": (
         [("initial_gap", "inital_gap")],
-        ["Opening.inital_gap must be a known key", "did you mean 'initial_gap'?", "at opening"],
+        ["loading.inital_gap must be a key of imposed-speed", "'initial_gap'?", "at loading"],
     ),
     "strange key": (
         [('shape = "flat"', 'shape = "flat"\nzzz = 1')],
@@ -553,7 +568,7 @@ MISTAKES = {
             "did you mean 'engine-oil-15w-40'?",
         ],
     ),
-    "missing key": ([('final_gap = "20 um"\n', "")], ["missing key 'final_gap'", "at opening"]),
+    "missing key": ([('final_gap = "20 um"\n', "")], ["missing key 'final_gap'", "at loading"]),
     "missing table": (
         [(LIBRARY + 'surface_tension = "30 mN/m"\n', "")],
         ["missing key 'liquid'", "at interface.meniscus"],
@@ -576,7 +591,7 @@ MISTAKES = {
     ),
     "two imposed": (
         [("speed =", 'force = "1 N"\nspeed =')],
-        ["Opening must be given exactly one of", "['speed', 'force']", "at opening"],
+        ["loading.force must be a key of imposed-speed", "belongs to imposed-force", "at loading"],
     ),
     "part of a meniscus": (
         [('"60 deg"', '"60 deg"\ncount = 2.5')],
@@ -587,7 +602,7 @@ MISTAKES = {
             ('[interface.upper]\nshape = "sphere"\nradius = "5 mm"\n', ""),
             ("[interface.lower]", "[interface]\nupper = 3\n\n[interface.lower]"),
         ],
-        ["shape must be a table with a key 'shape', got 3", "at interface.upper"],
+        ["Body must be a table with a key 'shape', or with surface", "got 3", "at interface.upper"],
     ),
 }
 
@@ -611,7 +626,7 @@ def test_several_mistakes_are_listed_at_once(tmp_path):
     lines = str(error.value).splitlines()[1:]
     assert len(lines) == 4
     for field in (
-        "Opening.initial_gap",
+        "ImposedSpeed.initial_gap",
         "Liquid.surface_tension",
         "TensionLimit.tention",
         "effect",
@@ -621,7 +636,7 @@ def test_several_mistakes_are_listed_at_once(tmp_path):
 
 @pytest.mark.parametrize(
     ("text", "missing"),
-    [("", ["interface", "opening", "effects"]), ("[pressing]\n", ["interface", "effects"])],
+    [("", ["interface", "loading", "effects"]), ("[window]\n", ["interface", "effects"])],
 )
 def test_an_empty_file_lacks_everything(tmp_path, text, missing):
     path = tmp_path / "empty.toml"
@@ -631,7 +646,7 @@ def test_an_empty_file_lacks_everything(tmp_path, text, missing):
 
 def test_what_is_not_toml_is_refused_with_its_line(tmp_path):
     refuses(
-        lambda: ck.load_scene(write(tmp_path, ("[opening]", "[opening"))),
+        lambda: ck.load_scene(write(tmp_path, ("[loading]", "[loading"))),
         "spool.toml cannot be used:",
         "not TOML:",
         "at line 21",

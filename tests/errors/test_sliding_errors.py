@@ -28,10 +28,10 @@ STICKS = ck.ContactAngleHysteresis(advancing_lower=1.0, receding_lower=0.8)
 DRAG, SPHERE = ck.CouetteForce(), ck.Sphere(radius=1e-7)
 
 
-def scene(*effects, sliding=HELD, meniscus=FILM, upper=None, lower=None):
+def scene(*effects, loading=HELD, meniscus=FILM, upper=None, lower=None):
     faces = {"upper": upper or ck.Flat(), "lower": lower or ck.Flat()}
     interface = ck.Interface(meniscus=meniscus, **faces)
-    return ck.SlidingScene(interface=interface, sliding=sliding, effects=effects)
+    return ck.SlidingScene(interface=interface, loading=loading, effects=effects)
 
 
 FIELDS = [
@@ -42,6 +42,7 @@ FIELDS = [
     (SHAKEN, "amplitude", "m", POSITIVE, [0.0, -1e-9, None]),
     (SHAKEN, "frequency", "Hz", POSITIVE, [0.0, -1e3, None]),
     (SHAKEN, "phase", "rad", FINITE, [None]),
+    (SHAKEN, "rest_gap", "m", NON_NEGATIVE, [-1e-9, None]),
     (STICKS, "advancing_lower", "rad", ANGLE, [-0.1, 3.2]),
     (STICKS, "receding_lower", "rad", ANGLE, [-0.1, 3.2]),
     (STICKS, "advancing_upper", "rad", ANGLE, [-0.1, 3.2]),
@@ -81,35 +82,29 @@ def test_an_angle_needs_its_partner():
     refuses(lambda: ck.CouetteForce(closure="exact"), "'local-film', 'lubrication', 'as-published'")
 
 
-OPENING = {"initial_gap": 1e-6, "final_gap": 1e-5}
+GAPS = {"initial_gap": 1e-6, "final_gap": 1e-5}
 
 
 def test_a_vibration_does_not_touch():
     shaken = ck.Vibration(amplitude=1e-6, frequency=1e3)
     message = ("Vibration.amplitude must be below initial_gap = 1e-06 m", "[m], got 1e-06", "touch")
-    refuses(lambda: ck.Opening(**OPENING, speed=1.0, vibration=shaken), *message)
-    less = ck.Vibration(amplitude=0.5e-6, frequency=1e3)
-    rests = {"speed": 1.0, "vibration": less, "rest_gap": 0.6e-6}
-    refuses(lambda: ck.Opening(**OPENING, **rests), "less rest_gap = 6e-07 m")
-
-
-@pytest.mark.parametrize("imposed", [{"time": 1.0}, {"force": 1.0, "mass": 1.0}])
-def test_a_vibration_needs_a_path(imposed):
-    message = ("Opening.vibration must stand beside a speed [m/s]", "is not given")
-    refuses(lambda: ck.Opening(**OPENING, **imposed, vibration=SHAKEN), *message)
+    refuses(lambda: ck.ImposedSpeed(**GAPS, speed=1.0, vibration=shaken), *message)
+    less = ck.Vibration(amplitude=0.5e-6, frequency=1e3, rest_gap=0.6e-6)
+    rests = {"speed": 1.0, "vibration": less}
+    refuses(lambda: ck.ImposedSpeed(**GAPS, **rests), "less rest_gap = 6e-07 m")
 
 
 def test_a_vibration_that_tears_the_film_at_once_is_refused():
     film = ck.Meniscus(liquid=WATER, volume=1e-12)
     shaken = ck.Vibration(amplitude=0.9e-6, frequency=1e3, phase=math.pi / 2)
-    opening = ck.Opening(**OPENING, speed=1e-3, vibration=shaken)
+    loading = ck.ImposedSpeed(**GAPS, speed=1e-3, vibration=shaken)
     torn = ck.SeparationScene(
         interface=ck.Interface(meniscus=film),
-        opening=opening,
+        loading=loading,
         effects=(ck.ViscousForce(), ck.Rupture(gap=1.5e-6)),
     )
     made = ck.plan(torn)
-    message = ("Opening.vibration takes the gap to 1.9e-06 m", "reaches 1.5e-06 m", "shake less")
+    message = ("loading.vibration takes the gap to 1.9e-06 m", "reaches 1.5e-06 m", "shake less")
     refuses(lambda: ck.simulate(made), *message, error=ck.InfeasibleError)
 
 
@@ -125,9 +120,9 @@ def test_a_vibration_that_tears_the_film_at_once_is_refused():
         ),
         (
             lambda: scene(
-                DRAG, ck.ShearLimit(strength=1e6), sliding=ck.Sliding(gap=1e-9, time=1.0)
+                DRAG, ck.ShearLimit(strength=1e6), loading=ck.Sliding(gap=1e-9, time=1.0)
             ),
-            ("ShearLimit needs Sliding.speed [m/s]", "path"),
+            ("ShearLimit needs loading.speed [m/s]", "path"),
         ),
         (
             lambda: scene(
@@ -166,21 +161,21 @@ def test_a_scene_that_does_not_fit_is_refused(made, parts):
 def test_a_closed_gap_is_infinite_drag(closure):
     touching = ck.Sliding(gap=0.0, speed=1.0)
     drag = ck.CouetteForce(closure=closure)
-    message = ("Sliding.gap is 0 m", "ln(1/gap)", "cut-off gap [m]")
+    message = ("loading.gap is 0 m", "ln(1/gap)", "cut-off gap [m]")
     refuses(
-        lambda: ck.plan(scene(drag, sliding=touching, upper=SPHERE)),
+        lambda: ck.plan(scene(drag, loading=touching, upper=SPHERE)),
         *message,
         error=ck.InfeasibleError,
     )
     refuses(
-        lambda: ck.plan(scene(drag, sliding=touching)), "between flats", error=ck.InfeasibleError
+        lambda: ck.plan(scene(drag, loading=touching)), "between flats", error=ck.InfeasibleError
     )
 
 
 def test_a_force_along_the_bodies_does_not_open_a_gap():
-    opening = ck.Opening(**OPENING, speed=1.0)
+    loading = ck.ImposedSpeed(**GAPS, speed=1.0)
     mixed = ck.SeparationScene(
-        interface=ck.Interface(meniscus=FILM), opening=opening, effects=(ck.ViscousForce(), DRAG)
+        interface=ck.Interface(meniscus=FILM), loading=loading, effects=(ck.ViscousForce(), DRAG)
     )
     refuses(lambda: ck.plan(mixed), "CouetteForce needs a SlidingScene", error=ck.PlanError)
     eyring = ck.ShearLimit(strength=1e6, law="eyring")
@@ -189,7 +184,7 @@ def test_a_force_along_the_bodies_does_not_open_a_gap():
 
 
 def test_what_was_not_simulated_says_what_to_add():
-    result = ck.simulate(ck.plan(scene(STICKS, sliding=ck.Sliding(gap=3e-9, time=1.0))))
+    result = ck.simulate(ck.plan(scene(STICKS, loading=ck.Sliding(gap=3e-9, time=1.0))))
     absent = ck.NotSimulatedError
     refuses(lambda: result.couette_force, "add CouetteForce()", error=absent)
     refuses(lambda: result.of(ck.CouetteForce), "add CouetteForce()", error=absent)

@@ -18,11 +18,11 @@ ACCURACY = ck.Accuracy(grid=16, rtol=1e-4)
 def contact(*effects, surface=None, **lower):
     wave = ck.Wave(amplitude=1e-8, wavelength=1e-6)
     return ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(**{"solid": STEEL} | lower), upper=ck.Body(surface=surface or wave)
         ),
         window=ck.Window(width=1e-6),
-        pressing=ck.Pressing(pressure=1e9),
+        loading=ck.Pressing(pressure=1e9),
         effects=(ck.HalfSpace(), *effects),
     )
 
@@ -49,8 +49,9 @@ def nothing_solved(monkeypatch):
 
 
 PATHS = {
-    "pressing.presure": ("did you mean 'pressing.pressure'?", "pressure, force, approach"),
-    "presing.pressure": ("did you mean 'pressing'?", "interface, window, pressing, effects"),
+    "loading.presure": ("did you mean 'loading.pressure'?", "pressure, force"),
+    "pressing.pressure": ("it is now [loading]", "interface, window, loading, effects"),
+    "loadin.pressure": ("did you mean 'loading'?", "interface, window, loading, effects"),
     "interface.lower.solid.young_moduli": ("'interface.lower.solid.young_modulus'", "poisson"),
     "interface.lower.solid.layers.0.thickness": ("'interface.lower.solid' is a Material",),
     "interface.upper.surface.rms": ("is a Wave, with amplitude, wavelength",),
@@ -59,11 +60,11 @@ PATHS = {
         "half-space, friction-traction",
     ),
     "effects.0.coefficient": ("'effects' has the items half-space",),
-    "pressing.pressure.value": ("must end at 'pressing.pressure'", "that is 1000000000.0"),
+    "loading.pressure.value": ("must end at 'loading.pressure'", "that is 1000000000.0"),
     "accuracy.rtoll": ("did you mean 'accuracy.rtol'?", "grid, rtol"),
     "accuracy": ("such as 'accuracy.rtol'",),
     "interface.meniscus.volume": ("must end at 'interface.meniscus'", "that is None"),
-    "": ("there are accuracy, interface",),
+    "": ("there are accuracy, name",),
 }
 
 
@@ -77,13 +78,13 @@ def test_a_path_that_leads_nowhere_is_put_right(nothing_solved, path):
     ("vary", "parts"),
     [
         ({}, ("vary must name at least one field", "{}")),
-        ("pressing.pressure", ("vary must name at least one field",)),
-        ({"pressing.pressure": []}, ("vary['pressing.pressure'] must have at least one value",)),
-        ({"pressing.pressure": "5 MPa"}, ("must be a sequence of values", "'5 MPa'")),
-        ({"pressing.pressure": 5e6}, ("must be a sequence of values", "5000000.0")),
-        ({"pressing.pressure": ["5 nm"]}, ("Pressing.pressure must be in a unit", "Pa")),
-        ({"pressing.pressure": [1e6, -1.0]}, ("Pressing.pressure must be zero or positive",)),
-        ({"pressing.force": [1e-3]}, ("exactly one of pressure", "force")),
+        ("loading.pressure", ("vary must name at least one field",)),
+        ({"loading.pressure": []}, ("vary['loading.pressure'] must have at least one value",)),
+        ({"loading.pressure": "5 MPa"}, ("must be a sequence of values", "'5 MPa'")),
+        ({"loading.pressure": 5e6}, ("must be a sequence of values", "5000000.0")),
+        ({"loading.pressure": ["5 nm"]}, ("Pressing.pressure must be in a unit", "Pa")),
+        ({"loading.pressure": [1e6, -1.0]}, ("Pressing.pressure must be zero or positive",)),
+        ({"loading.force": [1e-3]}, ("exactly one of pressure", "force")),
         ({"interface.lower.solid": ["stel"]}, ("be a material of the library", "stel")),
         ({"accuracy.rtol": [2.0]}, ("Accuracy.rtol must lie between",)),
         ({"accuracy.method": ["active"]}, ("Accuracy.method must be one of",)),
@@ -98,7 +99,7 @@ def test_what_cannot_be_varied_is_refused_before_any_solve(nothing_solved, vary,
 
 
 def test_numbers_of_workers_and_scenes_are_checked(nothing_solved):
-    vary = {"pressing.pressure": [1e9]}
+    vary = {"loading.pressure": [1e9]}
     for workers in (0, -1, 1.5, True):
         refuses(lambda n=workers: ck.study(contact(), vary, workers=n), "workers must be a whole")
     kinds = "be a ContactScene, a SeparationScene or a"
@@ -107,7 +108,7 @@ def test_numbers_of_workers_and_scenes_are_checked(nothing_solved):
 
 def test_effects_that_do_not_fit_are_refused_before_any_solve(nothing_solved):
     refuses(
-        lambda: ck.study(contact(ck.HardnessLimit()), {"pressing.pressure": [1e9]}, ACCURACY),
+        lambda: ck.study(contact(ck.HardnessLimit()), {"loading.pressure": [1e9]}, ACCURACY),
         "HardnessLimit needs hardness [Pa] of 'steel'",
         error=ck.PlanError,
     )
@@ -116,7 +117,7 @@ def test_effects_that_do_not_fit_are_refused_before_any_solve(nothing_solved):
 def test_a_study_of_refused_points_only_is_refused():
     rough = ck.GaussianRoughness(rms=1e-9, correlation_length=3e-7, cutoff=1e-8)
     refuses(
-        lambda: ck.study(contact(surface=rough), {"pressing.pressure": [1e8, 2e8]}, ACCURACY),
+        lambda: ck.study(contact(surface=rough), {"loading.pressure": [1e8, 2e8]}, ACCURACY),
         "every point of the study is refused",
         "at least two pixels",
         error=ck.PlanError,
@@ -124,7 +125,7 @@ def test_a_study_of_refused_points_only_is_refused():
 
 
 def test_an_unknown_column_gets_a_guess():
-    study = ck.study(contact(), {"pressing.pressure": [1e9]}, ACCURACY)
+    study = ck.study(contact(), {"loading.pressure": [1e9]}, ACCURACY)
     refuses(lambda: study.column("contact_aria"), "did you mean 'contact_area'?")
     refuses(lambda: study.unit("pressure"), "column must be one of the study")
     refuses(lambda: study.table("lod"), "did you mean 'load'?")
@@ -136,7 +137,7 @@ def test_an_error_that_is_not_ours_is_not_swallowed(monkeypatch):
 
     monkeypatch.setattr(study_run, "solve", solve)
     with pytest.raises(ZeroDivisionError, match="a bug"):
-        ck.study(contact(), {"pressing.pressure": [1e9, 2e9]}, ACCURACY)
+        ck.study(contact(), {"loading.pressure": [1e9, 2e9]}, ACCURACY)
 
 
 DIES = """
@@ -150,7 +151,7 @@ import test_study_errors as scenes
 study_run.solve = lambda *arguments, **named: os._exit(1)  # in the workers too
 if __name__ == "__main__":
     try:
-        ck.study(scenes.contact(), {"pressing.pressure": [1e9, 2e9]}, scenes.ACCURACY, workers=2)
+        ck.study(scenes.contact(), {"loading.pressure": [1e9, 2e9]}, scenes.ACCURACY, workers=2)
     except ck.ContactkitError as error:
         print(error)
 """
@@ -216,7 +217,8 @@ cutoff = "20 nm"
 [window]
 width = "1 um"
 periodic = true
-[pressing]
+[loading]
+kind = "pressing"
 pressure = "10 MPa"
 """
 
@@ -224,7 +226,7 @@ pressure = "10 MPa"
 @pytest.mark.parametrize(
     ("old", "new", "parts"),
     [
-        ("pressure =", "presure =", ("presure", "did you mean 'pressure'?", "at pressing")),
+        ("pressure =", "presure =", ("presure", "did you mean 'pressure'?", "at loading")),
         ('"dlc"', '"dcl"', ("dcl", "did you mean 'dlc'?", "layers[0]")),
         ('"ni-p"', '"rigid"', ("be a material of the library", "substrate")),
         ("thickness", "thicknes", ("Layer.thicknes", "did you mean 'thickness'?")),
@@ -240,7 +242,7 @@ pressure = "10 MPa"
 def test_a_mistake_in_a_scene_file_is_found_and_put_right(tmp_path, old, new, parts):
     path = tmp_path / "slider.toml"
     path.write_text(TEXT, encoding="utf-8")
-    assert ck.load_scene(path).pressing.pressure == 1e7
+    assert ck.load_scene(path).loading.pressure == 1e7
     assert old in TEXT
     path.write_text(TEXT.replace(old, new), encoding="utf-8")
     refuses(lambda: ck.load_scene(path), "slider.toml cannot be used", *parts)

@@ -41,12 +41,12 @@ def scene(
         contact_angle_upper=angles[1],
         **meniscus,
     )
-    opening = ck.Opening(
+    loading = ck.ImposedForce(
         initial_gap=gap, final_gap=final, force=1.0, mass=mass, rest_gap=rest, stiffness=stiffness
     )
     return ck.SeparationScene(
         interface=ck.Interface(lower=lower, upper=upper, meniscus=liquid),
-        opening=opening,
+        loading=loading,
         effects=effects,
     )
 

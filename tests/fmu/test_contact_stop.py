@@ -35,9 +35,9 @@ def curve():
     soft = ck.Material(name="soft", young_modulus=70e9, poisson_ratio=0.33, hardness=0.9e9)
     rough = ck.SelfAffineRoughness(rms=0.3e-6, hurst=0.8, rolloff=30e-6, cutoff=6e-6, seed=2)
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(lower=ck.Body(solid=soft), upper=ck.Body(surface=rough)),
+        interface=ck.Interface(lower=ck.Body(solid=soft), upper=ck.Body(surface=rough)),
         window=ck.Window(width=60e-6),
-        pressing=ck.Pressing(pressure=80e6),
+        loading=ck.Pressing(pressure=80e6),
         effects=(ck.HalfSpace(), ck.HardnessLimit(rule="material")),
     )
     found = ck.load_displacement(scene, points=24, ways=8, accuracy=ck.Accuracy(grid=64))

@@ -87,8 +87,8 @@ def test_variables_are_those_of_the_python_fmu(native):
 def test_forces_are_those_of_the_plan_of_any_scene(name, native, open_fmu):
     film = plan(moving(SCENES[name], None), FINE).film
     host = open_fmu(native(name)).start()
-    first = SCENES[name].opening.initial_gap
-    last = min(0.97 * film.end, 0.97 * film.release, 2.0 * SCENES[name].opening.final_gap)
+    first = SCENES[name].loading.initial_gap
+    last = min(0.97 * film.end, 0.97 * film.release, 2.0 * SCENES[name].loading.final_gap)
     speeds = (0.0, 1e-3, -1e-3, 1.0, 0.0, 1e-3, -1e-3)
     gaps = np.geomspace(1.001 * first, last, len(speeds)).tolist()
     for gap, speed in zip(gaps, speeds, strict=True):
@@ -180,7 +180,7 @@ def test_impulses_are_integrals_of_the_forces(name, native, open_fmu):
     """Over kinks and limits, by 20 000 midpoints of the Python laws at the mean speed."""
     film = plan(moving(SCENES[name], None), FINE).film
     host = open_fmu(native(name)).start(exchange=int(Exchange.IMPULSE))
-    begin = SCENES[name].opening.initial_gap
+    begin = SCENES[name].loading.initial_gap
     for ratio, length in ((3.0, 1e-3), (1.5, 1e-2)):
         end, before = ratio * begin, host.outputs()
         gap = host.get("h") if ratio == 1.5 else begin
@@ -198,7 +198,7 @@ def test_solids_hold_on_after_the_film_broke(native, open_fmu):
     """A tip that sticks: rupture and parting in one step, then joined and wet again."""
     film = plan(moving(SCENES["tip that sticks"], None), FINE).film
     host = open_fmu(native("tip that sticks")).start(exchange=int(Exchange.IMPULSE))
-    gap = SCENES["tip that sticks"].opening.initial_gap
+    gap = SCENES["tip that sticks"].loading.initial_gap
     alone = film.left(broken=True, detached=False)
     move(host, 1e-6, 1.5 * max(film.end, film.release))
     assert (host.get("n_break"), host.get("state"), host.get("F")) == (1, FilmStatus.BROKEN, 0.0)
@@ -264,7 +264,7 @@ def test_a_state_brings_back_film_and_doubts(native, open_fmu):
 
 def test_a_broken_film_is_there_again_with_its_share(native, open_fmu):
     host = open_fmu(native("rewetting")).start(exchange=int(Exchange.IMPULSE))
-    gap = SCENES["rewetting"].opening.initial_gap
+    gap = SCENES["rewetting"].loading.initial_gap
     half = plan(moving(SCENES["rewetting"], None), FINE).film_with(0.5)
     move(host, 1e-3, 1e-3)
     assert (host.get("state"), host.get("h_below")) == (FilmStatus.BROKEN, gap)
@@ -306,7 +306,7 @@ def test_what_cannot_be_built_is_refused(tmp_path):
 
 def test_the_name_alone_gives_the_film_of_the_python_fmu():
     made, start = native_scene("stiction-force")
-    assert made.opening.initial_gap == 5e-6
+    assert made.loading.initial_gap == 5e-6
     assert start == {}
 
 
@@ -321,7 +321,7 @@ def derivative(host, unknown, known):
 @pytest.mark.parametrize("name", ["drop", "sphere", "stieber", "shear", "tip that sticks"])
 def test_directional_derivatives_are_those_of_the_force(name, native, open_fmu):
     host = open_fmu(native(name)).start()
-    gap, speed = 1.3 * SCENES[name].opening.initial_gap, 2e-2
+    gap, speed = 1.3 * SCENES[name].loading.initial_gap, 2e-2
     host.set(h=gap, v=speed)
     there = host.outputs()
     found = {(a, b): derivative(host, a, b) for a in ("F", "F_m", "F_v") for b in ("h", "v")}

@@ -85,7 +85,7 @@ def slope(function, gap, share=4e-4):
 def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, tmp_path):
     scene = moving(SCENES[name], None)
     film = plan(scene, FINE).film
-    high = min(0.98 * film.end, 0.98 * film.release, 2.0 * scene.opening.final_gap)
+    high = min(0.98 * film.end, 0.98 * film.release, 2.0 * scene.loading.final_gap)
     gaps = np.geomspace(1.1 * numbers(name).lowest, high, 301).tolist()
     speeds = np.linspace(-1e-3, 1.0, 301).tolist()
     limits = {effect.name: effect for effect in scene.effects}
@@ -134,7 +134,7 @@ def test_a_meniscus_is_the_bridge_solved_at_every_gap_up_to_its_end(degrees, pro
 def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, tmp_path):
     scene = moving(SCENES[name], None)
     film = plan(scene, FINE).film
-    gap = 2.0 * scene.opening.initial_gap
+    gap = 2.0 * scene.loading.initial_gap
     speeds = np.geomspace(1e-3, 1.0, 9)
     tension, strength = (
         (0.0, 1e5) if name == "shear" else (1e5 if name == "stieber" else 101325.0, 0.0)
@@ -156,7 +156,7 @@ def test_slopes_under_a_sphere_are_differences_of_the_kernel_itself(
     tension, strength, ratio, probe, numbers, tmp_path
 ):
     """With a limiting shear strength, which the scenes do not have under a sphere."""
-    gap, share = ratio * SCENES["sphere"].opening.initial_gap, 1e-4
+    gap, share = ratio * SCENES["sphere"].loading.initial_gap, 1e-4
     places = (-2, -1, 1, 2)
     for speed in (-0.3, 1e-3, 0.3):
         gaps = [gap] + [gap * (1.0 + k * share) for k in places] + [gap] * 4
@@ -200,8 +200,8 @@ def test_motion_is_that_of_the_python_model(name, tmp_path):
         compiler="cc",
         start=given | {"rtol": 1e-8},
     )
-    opening = attrs.evolve(scene.opening, rest_gap=given.get("h_min", scene.opening.rest_gap))
-    prepared = plan(moving(attrs.evolve(scene, opening=opening), None), FINE)
+    loading = attrs.evolve(scene.loading, rest_gap=given.get("h_min", scene.loading.rest_gap))
+    prepared = plan(moving(attrs.evolve(scene, loading=loading), None), FINE)
     # The laws behind the tables are finer than those of the tolerance of the motion.
     prepared = type(prepared)(prepared.scene, attrs.evolve(FINE, time_rtol=1e-8), prepared.film)
     state = start(prepared)

@@ -120,7 +120,7 @@ def test_values_are_those_of_the_scene_in_both_places(structure, unpacked):
             assert float(one[0].get("value")) == float(baked[one.get("name")])
             seen += 1
     assert seen > 35
-    assert float(baked["m"]) == scene.opening.mass
+    assert float(baked["m"]) == scene.loading.mass
     assert float(baked["dp_cav"]) == 1e6
 
 

@@ -72,7 +72,7 @@ def test_the_scene_comes_back_from_its_parameters(scene):
     made, theirs = tip_scene(values), scene_of_tip(scene.tip, 0.5)
     assert {type(e) for e in made.effects} == {type(e) for e in theirs.effects}
     assert made.interface.meniscus.volume == theirs.interface.meniscus.volume
-    assert made.opening.mass == theirs.opening.mass
+    assert made.loading.mass == theirs.loading.mass
 
 
 def test_the_fmu_gives_what_the_script_gives(scene, host):

@@ -83,7 +83,7 @@ def until_off(made, stop, speed, height=1e-12, most=200):
 
 def energy(made, state, height):
     """Kinetic, of the spring, and of the site at rest, over that of a tip at touch [J]."""
-    bend = made.scene.opening.initial_gap + height - (state.motion.gap - state.depth)
+    bend = made.scene.loading.initial_gap + height - (state.motion.gap - state.depth)
     return 0.5 * MASS * state.motion.speed**2 + 0.5 * STIFFNESS * bend**2
 
 
@@ -242,7 +242,7 @@ def hertz_scene():
             "upper": {"solid": film, "surface": {"shape": "paraboloid", "radius": 1e-7}},
         },
         "window": {"width": 9e-8, "periodic": False},
-        "pressing": {"approach": 4e-9},
+        "loading": {"kind": "approach", "approach": 4e-9},
         "effects": [{"effect": "half-space"}, {"effect": "hardness-limit", "rule": "material"}],
         "accuracy": {"grid": 32, "rtol": 1e-4},
     }
@@ -257,7 +257,7 @@ def test_a_pair_of_fmus_bounces_as_one_system_does(soft, tmp_path):
     path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_start(soft, 0.0))
     run = couple_fmus(soft, path, soft.mirror, end, 20e-9)
     tips = soft.tips(plan)
-    couple(soft.mirror, tips, soft.opening.stiffness, soft.start, end, 20e-9)
+    couple(soft.mirror, tips, soft.loading.stiffness, soft.start, end, 20e-9)
     plus, minus = run.sites
     assert run.free_time == pytest.approx(whole.first("is free"), rel=3e-5)
     assert minus["n_land"] == tips[1].state.n_landings == len(lands) == 2
@@ -274,7 +274,7 @@ def test_a_pair_of_fmus_bounces_as_one_system_does(soft, tmp_path):
 def test_it_starts_at_rest(soft):
     plan = tip_law(soft.tip, 0.0, 1e-7)
     still = evolve(soft.mirror, waveform=evolve(soft.mirror.waveform, start_delay=1.0))
-    motion = couple(still, soft.tips(plan), soft.opening.stiffness, soft.start, 1e-6, 5e-8)
+    motion = couple(still, soft.tips(plan), soft.loading.stiffness, soft.start, 1e-6, 5e-8)
     assert abs(motion["tilt"] - soft.start[0]).max() < 1e-9
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import attrs
+import loadings
 import numpy as np
 import pytest
 
@@ -21,11 +22,11 @@ SOFT = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e8)
 PLATE = ck.VanDerWaalsForce(hamaker_constant=6e-20)
 
 
-def scene(*effects, gap=1e-10, final=30e-9, lower=None, volume=1e-23, **opening):
+def scene(*effects, gap=1e-10, final=30e-9, lower=None, volume=1e-23, **loading):
     film = ck.Meniscus(liquid=WATER, volume=volume)
     return ck.SeparationScene(
         interface=ck.Interface(lower=lower or ck.Flat(), upper=TIP, meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=final, **opening),
+        loading=loadings.imposed(initial_gap=gap, final_gap=final, **loading),
         effects=effects,
     )
 
@@ -191,7 +192,7 @@ def test_a_contact_that_let_go_is_there_again_when_the_gap_has_closed():
 
 
 def start(made):
-    return ck.MotionState(0.0, made.scene.opening.initial_gap, made.scene.opening.initial_speed)
+    return ck.MotionState(0.0, made.scene.loading.initial_gap, made.scene.loading.initial_speed)
 
 
 def test_a_weak_pull_is_held_by_the_solids_and_says_so():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import attrs
+import loadings
 import numpy as np
 import pytest
 
@@ -32,16 +33,16 @@ def made(
     height=None,
     periodic=True,
     accuracy=None,
-    **pressing,
+    **loading,
 ):
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=lower),
             upper=ck.Body(surface=surface, solid=upper),
             meniscus=meniscus,
         ),
         window=ck.Window(width=width, height=height, periodic=periodic),
-        pressing=ck.Pressing(**pressing),
+        loading=loadings.pressed(**loading),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
     return ck.plan(scene, ck.Accuracy(grid=grid, **(accuracy or {})))

@@ -26,7 +26,7 @@ def near_sphere(radius, gap=0.0, lower=0.0, upper=0.0):
     film = ck.Meniscus(liquid=WATER, contact_angle_lower=lower, contact_angle_upper=upper)
     return ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=radius), meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=1e-3, speed=1.0),
+        loading=ck.ImposedSpeed(initial_gap=gap, final_gap=1e-3, speed=1.0),
         effects=(ck.MeniscusForce(),),
     )
 
@@ -127,7 +127,7 @@ def rough(**choices):
         interface=ck.Interface(
             lower=ck.Flat(radius=1e-5), meniscus=ck.Meniscus(liquid=WATER, pressure=-5e7)
         ),
-        opening=ck.Opening(initial_gap=3e-9, final_gap=50e-9, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=3e-9, final_gap=50e-9, speed=1e-6),
         effects=(ck.AsperityMenisci(asperities=population, **choices),),
     )
 
@@ -143,7 +143,7 @@ def test_far_away_the_force_has_gone_without_an_end():
 def test_identical_asperities_let_go_together():
     scene = evolve(
         rough(law="identical"),
-        opening=ck.Opening(initial_gap=0.5e-9, final_gap=50e-9, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=0.5e-9, final_gap=50e-9, speed=1e-6),
     )
     made = ck.plan(scene)
     end = max_gap_on_sphere(-5e7 / 0.072, 0.0, 0.0, 1e6)
@@ -157,8 +157,8 @@ def test_a_rough_face_with_a_mass_comes_off_and_pays_the_work_of_its_menisci():
     """Energy: the pull's work less that of the menisci is what moves the mass at the end."""
     quiet = rough(profile="thin-film")
     pull = 2.0 * ck.plan(quiet).film.static_force(5e-9)
-    opening = ck.Opening(initial_gap=5e-9, final_gap=100e-9, force=pull, mass=1e-9)
-    scene = evolve(quiet, opening=opening)
+    loading = ck.ImposedForce(initial_gap=5e-9, final_gap=100e-9, force=pull, mass=1e-9)
+    scene = evolve(quiet, loading=loading)
     result = ck.simulate(ck.plan(scene))
     assert result.status == "released"
     gaps = np.linspace(5e-9, 100e-9, 20001)
@@ -197,7 +197,7 @@ def divided(volume, gap, lower, upper):
     )
     return ck.SeparationScene(
         interface=ck.Interface(meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=1.0, time=1e-3),
+        loading=ck.ImposedTime(initial_gap=gap, final_gap=1.0, time=1e-3),
         effects=(ck.MeniscusForce(), ck.ViscousForce()),
     )
 

@@ -53,7 +53,7 @@ def test_an_impossible_step_is_refused(wet, dt):
 @pytest.mark.parametrize("factor", [1e-3, 1e3])
 def test_a_mass_ratio_of_a_million(scene, factor):
     """The tip follows its spring whatever it weighs; the heavy one later."""
-    tip = evolve(scene.tip, opening=evolve(scene.tip.opening, mass=4e-16 * factor))
+    tip = evolve(scene.tip, loading=evolve(scene.tip.loading, mass=4e-16 * factor))
     made = tip_law(tip, 0.5)
     state = advance_tip(made, 0.0, landed_start(made), Root(-1e-8, 0.05), 5e-5 * factor**0.5)
     assert state.free
@@ -124,7 +124,7 @@ def test_without_solids_and_vapour_nothing_holds(scene):
 
 
 def test_a_step_beyond_stability_is_refused(scene, wet):
-    longest = longest_step(scene.mirror, scene.opening.stiffness)
+    longest = longest_step(scene.mirror, scene.loading.stiffness)
     with pytest.raises(InfeasibleError, match="the longest with which the spring tips can be"):
         couple(scene.mirror, scene.tips(wet), 1.0, scene.start, 1e-6, 0.51 * longest)
     for stop, step in ((0.0, 1e-9), (1e-6, math.nan)):

@@ -373,7 +373,7 @@ def test_a_spring_stronger_than_the_pull_keeps_the_gap_below_the_release(release
     assert result.status == "time limit"
     # At rest where pull, spring and meniscus balance.
     assert result.state.gap == approx(20e-6 + 40.0 / 1e6, 0.01)
-    assert "not released within Opening.time_limit = 0.1 s" in result.message
+    assert "not released within loading.time_limit = 0.1 s" in result.message
 
 
 # Limits -------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ import json
 import math
 from pathlib import Path
 
+import loadings
 import numpy as np
 import pytest
 from attrs import evolve
@@ -77,7 +78,7 @@ def water_scene(*effects, gap, volume, angle=60.0, other=None, count=1, upper=No
     motion = {"initial_gap": gap, "final_gap": 20.0 * gap or 1e-6} | (imposed or {"speed": 1e-9})
     return ck.SeparationScene(
         interface=ck.Interface(upper=upper or ck.Flat(), meniscus=film),
-        opening=ck.Opening(**motion),
+        loading=loadings.imposed(**motion),
         effects=effects or (ck.MeniscusForce(),),
     )
 
@@ -301,7 +302,9 @@ def test_a_scene_ends_at_the_limit(sphere):
     bend = 0.0 if sphere is None else 1e6
     limit = float(stability_limit(1e-21, 60 * DEG, 60 * DEG, 0.0, bend).gap)
     assert made.film.end == approx(limit, 1e-8)
-    wide = evolve(scene, opening=ck.Opening(initial_gap=1.001 * limit, final_gap=1e-6, speed=1e-9))
+    wide = evolve(
+        scene, loading=ck.ImposedSpeed(initial_gap=1.001 * limit, final_gap=1e-6, speed=1e-9)
+    )
     with pytest.raises(ck.InfeasibleError, match=rf"this volume reaches {limit:.6g} m at most"):
         ck.plan(wide)
 

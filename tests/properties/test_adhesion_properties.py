@@ -41,7 +41,7 @@ def sticky(model="maugis-dugdale", length=1.0, stress=1.0, count=1, **more):
         interface=ck.Interface(
             upper=ck.Sphere(radius=1e-6 * length), meniscus=ck.Meniscus(liquid=AIR, count=count)
         ),
-        opening=ck.Opening(initial_gap=1e-11 * length, final_gap=1e-8 * length, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=1e-11 * length, final_gap=1e-8 * length, speed=1e-6),
         effects=(effect,),
     )
 
@@ -144,7 +144,7 @@ def test_a_scene_with_adhesion_survives_its_file(model, wet):
 
 def test_a_result_with_adhesion_survives_its_file(tmp_path):
     scene = attrs.evolve(
-        sticky(), opening=ck.Opening(initial_gap=1e-11, final_gap=1e-8, force=1e-6, mass=1e-12)
+        sticky(), loading=ck.ImposedForce(initial_gap=1e-11, final_gap=1e-8, force=1e-6, mass=1e-12)
     )
     result = simulate(ck.plan(scene))
     again = ck.load_result(ck.save_result(result, tmp_path / "sticky"))
@@ -165,7 +165,7 @@ def wet(pressure, model="maugis-dugdale", modulus=1e9, angle=0.5, gap=1e-12):
     effect = ck.AdhesiveContact(model=model, work_of_adhesion="capillary", reduced_modulus=modulus)
     return ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=1e-6), meniscus=film),
-        opening=ck.Opening(initial_gap=gap, final_gap=1e-6, speed=1e-6),
+        loading=ck.ImposedSpeed(initial_gap=gap, final_gap=1e-6, speed=1e-6),
         effects=(effect,),
     )
 

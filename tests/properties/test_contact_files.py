@@ -77,7 +77,7 @@ menisci = st.builds(
     count=st.integers(1, 9),
 )
 interfaces = st.builds(
-    ck.ContactInterface,
+    ck.Interface,
     lower=st.builds(ck.Body, surface=surfaces, solid=solids),
     upper=st.builds(ck.Body, surface=surfaces, solid=st.none() | solids),
     meniscus=st.none() | menisci,
@@ -85,7 +85,7 @@ interfaces = st.builds(
 pressings = st.one_of(
     st.builds(ck.Pressing, pressure=stresses),
     st.builds(ck.Pressing, force=decades(-9.0, 3.0)),
-    st.builds(ck.Pressing, approach=st.floats(-1e-6, 1e-6)),
+    st.builds(ck.Approach, approach=st.floats(-1e-6, 1e-6)),
 )
 hardness_rules = st.builds(
     ck.HardnessLimit,
@@ -128,7 +128,7 @@ scenes = st.builds(
     window=st.builds(
         ck.Window, width=st.none() | lengths, height=st.none() | lengths, periodic=st.booleans()
     ),
-    pressing=pressings,
+    loading=pressings,
     effects=st.tuples(*EFFECTS.values()).flatmap(
         lambda every: st.lists(st.sampled_from(every), unique=True)
     ),
@@ -184,7 +184,8 @@ def test_a_file_may_use_names_of_the_library_and_units(tmp_path):
         [window]
         width = "2 um"
         periodic = false
-        [pressing]
+        [loading]
+        kind = "pressing"
         force = "10 mN"
         """,
         encoding="utf-8",
@@ -194,7 +195,7 @@ def test_a_file_may_use_names_of_the_library_and_units(tmp_path):
     assert scene == ck.ContactScene(
         name="slider on disk",
         temperature=298.15,
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(
                 solid=ck.Stack(
                     layers=(
@@ -210,7 +211,7 @@ def test_a_file_may_use_names_of_the_library_and_units(tmp_path):
             ),
         ),
         window=ck.Window(width=2e-6, periodic=False),
-        pressing=ck.Pressing(force=0.01),
+        loading=ck.Pressing(force=0.01),
         effects=(
             ck.LayeredHalfSpace(),
             ck.FrictionTraction(coefficient=0.3, direction=90.0 * ck.units.deg),
@@ -232,11 +233,11 @@ FRICTION = ck.FrictionTraction(coefficient=0.2, direction=0.3)
 
 def contact(*effects, pressure=1e8, surface=ROUGH, **accuracy):
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=SOLID), upper=ck.Body(surface=surface), meniscus=WATER
         ),
         window=ck.Window(width=1e-6),
-        pressing=ck.Pressing(pressure=pressure),
+        loading=ck.Pressing(pressure=pressure),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
     accuracy = {"grid": 16, "rtol": 1e-6} | accuracy
@@ -333,7 +334,7 @@ def test_a_file_needs_neither_pickle_nor_contactkit(tmp_path):
         header = json.loads(str(file["header"]))
         assert float(file["pressure"].max()) == result.max_pressure
     assert header["scalars"]["contact_area"] == [result.contact_area, "m2"]
-    assert header["scene"]["pressing"] == {"pressure": 1e8}
+    assert header["scene"]["loading"] == {"kind": "pressing", "pressure": 1e8}
     assert header["contactkit"] == ck.__version__
 
 

@@ -221,12 +221,12 @@ def test_the_heights_may_be_on_either_body(heights, pixel, load, periodic):
             "upper": ck.Heights(heights=upper, pixel_size=pixel),
         }
         scene = ck.ContactScene(
-            interface=ck.ContactInterface(
+            interface=ck.Interface(
                 lower=ck.Body(surface=surface["lower"], solid=SOLID if solid == "lower" else None),
                 upper=ck.Body(surface=surface["upper"], solid=SOLID if solid == "upper" else None),
             ),
             window=ck.Window(periodic=periodic),
-            pressing=ck.Pressing(pressure=load),
+            loading=ck.Pressing(pressure=load),
             effects=(ck.HalfSpace(),),
         )
         return ck.solve(ck.plan(scene))
@@ -245,12 +245,12 @@ IN_Y = np.array([EVEN, EVEN, EVEN, ODD, EVEN, ODD])[:, None, None, None]
 
 def stresses(heights, pixel, solid, friction, angle, periodic):
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=solid),
             upper=ck.Body(surface=ck.Heights(heights=heights, pixel_size=pixel)),
         ),
         window=ck.Window(periodic=periodic),
-        pressing=ck.Pressing(pressure=3e6),
+        loading=ck.Pressing(pressure=3e6),
         effects=(
             ck.LayeredHalfSpace(),
             ck.FrictionTraction(coefficient=friction, direction=angle),

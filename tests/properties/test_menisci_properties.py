@@ -92,7 +92,7 @@ def divided(scale, lower, upper):
     )
     return ck.SeparationScene(
         interface=ck.Interface(meniscus=film),
-        opening=ck.Opening(initial_gap=1e-6 * scale, final_gap=1.0 * scale, time=1e-3 * scale),
+        loading=ck.ImposedTime(initial_gap=1e-6 * scale, final_gap=1.0 * scale, time=1e-3 * scale),
         effects=(ck.MeniscusForce(), ck.ViscousForce()),
     )
 

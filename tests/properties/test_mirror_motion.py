@@ -49,9 +49,9 @@ def lossless(scene):
 
 def stored(made, state, height):
     """Kinetic and elastic energy of a tip [J]."""
-    opening = made.scene.opening
-    bend = opening.initial_gap + height - state.gap
-    return 0.5 * (opening.mass * state.motion.speed**2 + opening.stiffness * bend**2)
+    loading = made.scene.loading
+    bend = loading.initial_gap + height - state.gap
+    return 0.5 * (loading.mass * state.motion.speed**2 + loading.stiffness * bend**2)
 
 
 @pytest.mark.parametrize("law", ["wet", "dry"])
@@ -72,25 +72,25 @@ def test_momentum_of_a_flight(wet):
     """Once free, the root gives what the tip gains; damping included."""
     state = free_start(wet, 2e-7, 0.3)
     later = advance_tip(wet, 1e-9, state, Root(2e-7, 0.1, 1e6), 3e-7)
-    gained = wet.scene.opening.mass * (later.motion.speed - 0.3)
+    gained = wet.scene.loading.mass * (later.motion.speed - 0.3)
     assert later.impulse - state.impulse == pytest.approx(gained, rel=1e-12)
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-9])
 def test_a_flight_is_what_an_integrator_gives(wet, damping):
-    opening = wet.scene.opening
+    loading = wet.scene.loading
     root = Root(3e-7, -0.5, 2e5)
 
     def rates(time, y):
         moving = root.speed + root.acceleration * time
-        force = opening.stiffness * (opening.initial_gap + root.height_at(time) - y[0])
-        return [y[1], (force + damping * (moving - y[1])) / opening.mass]
+        force = loading.stiffness * (loading.initial_gap + root.height_at(time) - y[0])
+        return [y[1], (force + damping * (moving - y[1])) / loading.mass]
 
     def lands(time, y):
-        return y[0] - opening.initial_gap
+        return y[0] - loading.initial_gap
 
     lands.terminal, lands.direction = True, -1
-    start = opening.initial_gap + root.height + 5e-8
+    start = loading.initial_gap + root.height + 5e-8
     found = solve_ivp(
         rates, (0.0, 1e-6), [start, 0.2], method="DOP853", events=lands, rtol=1e-12, atol=1e-18
     )
@@ -100,7 +100,7 @@ def test_a_flight_is_what_an_integrator_gives(wet, damping):
     assert state.landing_time == pytest.approx(found.t[-1], rel=1e-9)
     assert state.motion.in_contact
     speed = found.y[1, -1]
-    assert state.landing_loss == pytest.approx(0.5 * opening.mass * speed**2, rel=1e-7)
+    assert state.landing_loss == pytest.approx(0.5 * loading.mass * speed**2, rel=1e-7)
 
 
 def test_a_swing_that_dips_between_two_looks_is_seen():
@@ -135,7 +135,7 @@ def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
 
 def test_without_losses_energy_stays(scene, wet):
     """What bent tips and hinge stored is motion, or was spent on the menisci."""
-    mirror, opening, n = lossless(scene), scene.opening, scene.mirror.tips.per_side
+    mirror, loading, n = lossless(scene), scene.loading, scene.mirror.tips.per_side
     tips, tilt = scene.tips(wet), scene.start[0]
 
     def energy(tilt, rate):
@@ -146,7 +146,7 @@ def test_without_losses_energy_stays(scene, wet):
         return total
 
     before = energy(tilt, 0.0)
-    found = couple(mirror, tips, opening.stiffness, scene.start, 1.5e-6, 5e-9)
+    found = couple(mirror, tips, loading.stiffness, scene.start, 1.5e-6, 5e-9)
     state = tips[0].state
     assert state.free
     spent = n * (separation_energy(wet) + state.motion.dissipated_work)
@@ -161,7 +161,7 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
     held = evolve(mirror.waveform, reset_time=1e-6)
     mirror = evolve(mirror, waveform=held)
     tips = scene.tips(dry)
-    found = couple(mirror, tips, scene.opening.stiffness, scene.start, 3e-7, 2e-9)
+    found = couple(mirror, tips, scene.loading.stiffness, scene.start, 3e-7, 2e-9)
     tilt, rate, volts = found["tilt"], found["rate"], electrode_volts(held, 1e-9)
     work = sum(
         0.5
@@ -170,7 +170,7 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
         for v, s in zip(volts, (1.0, -1.0), strict=True)
     )
     lost = mirror.hinge.damping * np.trapezoid(rate**2, found["time"])
-    n, stiffness = mirror.tips.per_side, scene.opening.stiffness
+    n, stiffness = mirror.tips.per_side, scene.loading.stiffness
 
     def energy(i):
         bend = root_height(mirror.tips, tilt[i], 1.0)
@@ -190,7 +190,7 @@ def test_the_coupling_converges_to_one_system(scene, wet):
     assert whole.first("leaves") < whole.first("breaks") < freed
     for step in (40e-9, 20e-9, 10e-9):
         tips = scene.tips(wet)
-        couple(mirror, tips, scene.opening.stiffness, scene.start, 8.4e-7, step)
+        couple(mirror, tips, scene.loading.stiffness, scene.start, 8.4e-7, step)
         errors.append(abs(tips[0].state.free_time / freed - 1.0))
     assert errors[1] < 1e-5
     assert errors[2] < 2e-6
@@ -204,5 +204,5 @@ def test_the_start_is_at_rest(scene, wet):
     force = scene.tips(wet)[0].read(root_height(mirror.tips, tilt, 1.0), 0.0)[1]
     scale = acceleration(mirror, tilt, rate, volts, 0.0)
     assert abs(acceleration(mirror, tilt, rate, volts, force)) < 1e-9 * scale
-    still = couple(mirror, scene.tips(wet), scene.opening.stiffness, scene.start, 1e-6, 5e-8)
+    still = couple(mirror, scene.tips(wet), scene.loading.stiffness, scene.start, 1e-6, 5e-8)
     assert np.ptp(still["tilt"]) < 1e-12

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import attrs
+import loadings
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
@@ -44,10 +45,10 @@ class Film:
     count: int = 1
     sphere: float | None = None
 
-    def scene(self, *effects, **opening):
+    def scene(self, *effects, **loading):
         face = ck.Flat(radius=self.radius)
         lower = ck.Sphere(radius=self.sphere) if self.sphere else face
-        motion = {"initial_gap": self.gap, "final_gap": self.final_gap} | opening
+        motion = {"initial_gap": self.gap, "final_gap": self.final_gap} | loading
         return ck.SeparationScene(
             interface=ck.Interface(
                 lower=lower,
@@ -62,12 +63,12 @@ class Film:
                     count=self.count,
                 ),
             ),
-            opening=ck.Opening(**motion),
+            loading=loadings.imposed(**motion),
             effects=effects or FORCES,
         )
 
-    def plan(self, *effects, **opening):
-        return ck.plan(self.scene(*effects, **(opening or {"speed": 1.0})))
+    def plan(self, *effects, **loading):
+        return ck.plan(self.scene(*effects, **(loading or {"speed": 1.0})))
 
 
 films = st.builds(
@@ -186,8 +187,8 @@ def test_a_film_of_another_size_has_the_force_of_its_dimensions(film, size, spee
 # Motion -------------------------------------------------------------------------------------
 
 
-def released(film, *effects, **opening):
-    result = ck.simulate(ck.plan(film.scene(*effects, **opening)))
+def released(film, *effects, **loading):
+    result = ck.simulate(ck.plan(film.scene(*effects, **loading)))
     assert result.status == "released"
     return result.state
 
@@ -299,21 +300,21 @@ interfaces = st.builds(ck.Interface, lower=faces, upper=faces, meniscus=menisci)
 
 
 @st.composite
-def openings(draw):
-    imposed = draw(
-        st.sampled_from([{"speed": 0.1}, {"time": 1e-3}, {"force": 40.0}, {"force": -3.0}])
-    )
+def all_loadings(draw):
     first = draw(lengths)
-    return ck.Opening(
-        initial_gap=first,
-        final_gap=first * draw(st.floats(1.001, 1e3)),
+    gaps = {"initial_gap": first, "final_gap": first * draw(st.floats(1.001, 1e3))}
+    imposed = draw(st.sampled_from([{"speed": 0.1}, {"time": 1e-3}, {"force": 40.0, "mass": 1.0}]))
+    if "force" not in imposed:
+        return loadings.imposed(**gaps, **imposed)
+    return ck.ImposedForce(
+        **gaps,
+        force=draw(st.sampled_from([40.0, -3.0])),
         mass=draw(st.none() | positives),
         stiffness=draw(st.floats(0.0, 1e6)),
         rise_time=draw(st.floats(0.0, 1.0)),
         initial_speed=draw(st.floats(-1.0, 1.0)),
         rest_gap=draw(st.sampled_from([0.0, first])),
         time_limit=draw(positives),
-        **imposed,
     )
 
 
@@ -336,7 +337,7 @@ effects = st.tuples(
 scenes = st.builds(
     ck.SeparationScene,
     interface=interfaces,
-    opening=openings(),
+    loading=all_loadings(),
     effects=effects.flatmap(lambda all_five: st.lists(st.sampled_from(all_five), unique=True)),
     temperature=st.floats(200.0, 500.0),
     name=st.text(max_size=20),

@@ -96,7 +96,7 @@ for meniscus in (ck.MeniscusForce(), ck.MeniscusForce(profile="as-published")):
     for cavity in ("truncated", "reynolds"):
         made = ck.plan(ck.SeparationScene(
             interface=ck.Interface(lower=face, upper=face, meniscus=film),
-            opening=ck.Opening(initial_gap=1e-6, final_gap=1e-5, force=10.0, mass=1e-3),
+            loading=ck.ImposedForce(initial_gap=1e-6, final_gap=1e-5, force=10.0, mass=1e-3),
             effects=(meniscus, ck.ViscousForce(), ck.ShearLimit(strength=1e6), ck.Rupture(gap=5e-6),
                      ck.TensionLimit(tension=1e6, cavity=cavity)),
         ))

@@ -89,13 +89,13 @@ def press(effects, edges, shape="heights"):
     is_layered = any(isinstance(effect, ck.LayeredHalfSpace) for effect in effects)
     known = shape == "heights"
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=LAYERED if is_layered else SOFT),
             upper=ck.Body(surface=SURFACES[shape]),
             meniscus=ck.Meniscus(liquid=WATER),
         ),
         window=ck.Window(width=None if known else 4e-7, periodic=edges == "periodic"),
-        pressing=ck.Pressing(pressure=1e6),
+        loading=ck.Pressing(pressure=1e6),
         effects=effects,
     )
     return solve(ck.plan(scene, ck.Accuracy(grid=None if known else 16)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import loadings
 import pytest
 from poison import by_kind, label, pairwise, poison_all_but, product_of, survives, unknown
 
@@ -125,7 +126,7 @@ def scene_of(effects, body, imposed):
     film = ck.Meniscus(liquid=OIL, volume=volume, contact_angle_lower=0.3, contact_angle_upper=0.4)
     return ck.SeparationScene(
         interface=ck.Interface(lower=FACE, upper=BODIES[body], meniscus=film),
-        opening=ck.Opening(initial_gap=1e-6, final_gap=1e-5, **motion),
+        loading=loadings.imposed(initial_gap=1e-6, final_gap=1e-5, **motion),
         effects=effects,
     )
 

@@ -61,7 +61,7 @@ def run(effects, body, imposed):
     film = ck.Meniscus(liquid=WATER, volume=math.pi * 1e-6 * 3e-16)
     scene = ck.SlidingScene(
         interface=ck.Interface(upper=BODIES[body], meniscus=film),
-        sliding=ck.Sliding(gap=1e-8, **{imposed: 1e-3}),
+        loading=ck.Sliding(gap=1e-8, **{imposed: 1e-3}),
         effects=effects,
     )
     return separation.simulate(ck.plan(scene))
@@ -111,6 +111,6 @@ def test_a_sliding_is_described_without_numpy():
         "import sys; sys.modules['numpy'] = None\n"
         "import contactkit as ck\n"
         "ck.SlidingScene(interface=ck.Interface(meniscus=ck.Meniscus(liquid=ck.Liquid(name='x'))),"
-        " sliding=ck.Sliding(gap=1e-9, speed=1.0), effects=(ck.CouetteForce(),))"
+        " loading=ck.Sliding(gap=1e-9, speed=1.0), effects=(ck.CouetteForce(),))"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

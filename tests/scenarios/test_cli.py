@@ -27,7 +27,8 @@ name = "oil"
 viscosity = "10 mPa.s"
 surface_tension = "30 mN/m"
 density = "870 kg/m3"
-[opening]
+[loading]
+kind = "imposed-force"
 initial_gap = "5 um"
 final_gap = "50 um"
 force = "40 N"
@@ -72,9 +73,13 @@ def test_run_writes_curves_and_figures(scene, tmp_path, capsys):
     assert "written" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("imposed", ['speed = "10 mm/s"', 'time = "1 ms"'])
-def test_run_takes_every_kind_of_opening(scene, tmp_path, imposed, capsys):
+@pytest.mark.parametrize(
+    ("kind", "imposed"),
+    [("imposed-speed", 'speed = "10 mm/s"'), ("imposed-time", 'time = "1 ms"')],
+)
+def test_run_takes_every_kind_of_loading(scene, tmp_path, kind, imposed, capsys):
     text = scene.read_text().replace('force = "40 N"', imposed).replace('mass = "20 g"', "")
+    text = text.replace("imposed-force", kind)
     scene.write_text(text)
     assert main(["run", str(scene), "--out", str(tmp_path / "out")]) == 0
     assert "newtonian_impulse" in capsys.readouterr().out

@@ -18,7 +18,7 @@ COATED = ck.Stack(layers=(ck.Layer(material=DLC, thickness=5e-9),), substrate=ST
 WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07275)
 SCENE = ck.ContactScene(
     name="slider on a disk",
-    interface=ck.ContactInterface(
+    interface=ck.Interface(
         lower=ck.Body(solid=COATED),
         upper=ck.Body(
             surface=ck.GaussianRoughness(rms=1e-9, correlation_length=2e-7, cutoff=8e-8),
@@ -27,7 +27,7 @@ SCENE = ck.ContactScene(
         meniscus=ck.Meniscus(liquid=WATER, contact_angle_lower=1.0, contact_angle_upper=1.0),
     ),
     window=ck.Window(width=1e-6),
-    pressing=ck.Pressing(pressure=3e7),
+    loading=ck.Pressing(pressure=3e7),
     effects=(ck.LayeredHalfSpace(),),
 )
 ALL = (
@@ -250,8 +250,8 @@ def test_menisci_higher_than_the_film_stand_only_on_islands_that_touch_it():
 
 def test_a_force_is_the_pressure_over_the_window():
     window = ck.Window(width=1e-6, height=0.5e-6)
-    force = solved(window=window, pressing=ck.Pressing(force=1.5e-5), grid=(24, 48))
-    pressure = solved(window=window, pressing=ck.Pressing(pressure=3e7), grid=(24, 48))
+    force = solved(window=window, loading=ck.Pressing(force=1.5e-5), grid=(24, 48))
+    pressure = solved(window=window, loading=ck.Pressing(pressure=3e7), grid=(24, 48))
     np.testing.assert_allclose(force.pressure, pressure.pressure, rtol=1e-9)
     assert force.load == pytest.approx(1.5e-5, rel=1e-12)
 
@@ -261,11 +261,11 @@ def test_press_is_the_scene_in_one_line():
     hardness = np.full((20, 24), 5e9)
     run = ck.press(heights, (1e-8, 2e-8), COATED, 2e8, hardness=hardness)
     scene = ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(solid=COATED),
             upper=ck.Body(surface=ck.Heights(heights=heights, pixel_size=(1e-8, 2e-8))),
         ),
-        pressing=ck.Pressing(pressure=2e8),
+        loading=ck.Pressing(pressure=2e8),
         effects=(
             ck.LayeredHalfSpace(),
             ck.HardnessLimit(rule="constant", hardness=5e9),
@@ -303,7 +303,7 @@ def test_outer_iterations_that_run_out_say_so_and_hand_over_what_they_reached(
     loop, effects, problem, monkeypatch
 ):
     monkeypatch.setattr(f"contactkit.contact.{loop}._MOST_ROUNDS", 1)
-    plan = made(*effects, grid=32, pressing=ck.Pressing(pressure=3e8))
+    plan = made(*effects, grid=32, loading=ck.Pressing(pressure=3e8))
     with pytest.raises(ck.ConvergenceError, match=problem) as caught:
         ck.solve(plan)
     reached = ck.solve(plan, throw=False)

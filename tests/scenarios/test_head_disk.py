@@ -33,7 +33,8 @@ contact_angle_upper = "60 deg"
 [window]
 width = "2 um"
 
-[pressing]
+[loading]
+kind = "pressing"
 pressure = "40 MPa"
 
 [accuracy]
@@ -41,7 +42,7 @@ grid = 48
 rtol = 1e-4
 
 [study]
-"pressing.pressure" = ["10 MPa", "40 MPa"]
+"loading.pressure" = ["10 MPa", "40 MPa"]
 
 [[effects]]
 effect = "layered-half-space"

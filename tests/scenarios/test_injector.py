@@ -89,7 +89,7 @@ def test_momentum_balances_over_the_first_opening(short, runs):
     first = int(np.argmax(moving)) - 1
     given = np.trapezoid(signals["F_ext"][first : end + 1], time[first : end + 1])
     taken = signals["J"][end] + signals["J_m"][end] - signals["J"][first] - signals["J_m"][first]
-    momentum = short.scene.opening.mass * signals["v"][end]
+    momentum = short.scene.loading.mass * signals["v"][end]
     assert given - taken == pytest.approx(momentum, rel=0.02)
 
 

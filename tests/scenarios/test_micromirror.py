@@ -66,10 +66,9 @@ def test_the_condensed_volume_has_the_pressure_of_the_vapour(device, humidity):
     """At the landed gap the meniscus of fixed pressure and that of its volume pull alike."""
     tip = device.scene.tip
     angle = tip.interface.meniscus.contact_angle_lower
-    at_pressure = ck.Meniscus.from_humidity(
+    at_pressure = ck.Meniscus(
         liquid=tip.interface.meniscus.liquid,
         relative_humidity=humidity,
-        temperature=tip.temperature,
         contact_angle_lower=angle,
         contact_angle_upper=angle,
     )
@@ -77,7 +76,7 @@ def test_the_condensed_volume_has_the_pressure_of_the_vapour(device, humidity):
         tip, interface=evolve(tip.interface, meniscus=at_pressure), effects=(ck.MeniscusForce(),)
     )
     made, held = ck.plan(scene), adhesion(tip, humidity)
-    gap = tip.opening.initial_gap
+    gap = tip.loading.initial_gap
     assert made.film.static_force(gap) == pytest.approx(held.meniscus_force, rel=1e-6)
     # Kept at its pressure it lets go sooner than with its volume, and with less work.
     assert made.film.end < held.break_gap

@@ -22,7 +22,7 @@ from contactkit.units import celsius
 MODEL = Path(__file__).parents[2] / "models" / "injector" / "fuel_injector.toml"
 
 
-def injector(temperature=20.0, without=(), **opening):
+def injector(temperature=20.0, without=(), **loading):
     tables = read_tables(MODEL)
     valve = structure(tables.pop("valve"), Valve, MODEL.name)
     for key in ("device", "study"):
@@ -32,7 +32,7 @@ def injector(temperature=20.0, without=(), **opening):
         scene,
         temperature=celsius(temperature),
         effects=[e for e in scene.effects if not isinstance(e, tuple(without))],
-        opening=evolve(scene.opening, **opening),
+        loading=evolve(scene.loading, **loading),
     ), valve
 
 
@@ -168,7 +168,7 @@ def test_energy_of_the_whole_system_is_conserved():
     """Spool and film between leaving the end cap and meeting the stop."""
     scene, valve = injector(80.0)
     result = simulate(plan(scene), valve, 1.46e-3, rtol=1e-10)
-    moving = result.gap > scene.opening.rest_gap
+    moving = result.gap > scene.loading.rest_gap
     gap, speed = result.gap[moving], result.speed[moving]
     put_in = np.trapezoid(result.pull[moving], gap)
     meniscus = np.trapezoid(result.meniscus_force[moving], gap)
@@ -180,7 +180,7 @@ def test_a_film_that_heals_at_once_keeps_the_cold_valve_from_closing():
     """Without rupture the closing spool has to squeeze the oil out, 33 N.s at -20 degC."""
     scene, valve = injector(-20.0, [ck.Rupture])
     cycles = simulate(plan(scene), valve, 21e-3).cycles
-    assert cycles[1].start_gap > 3.0 * scene.opening.initial_gap
+    assert cycles[1].start_gap > 3.0 * scene.loading.initial_gap
 
 
 def test_curves_can_be_asked_for_at_any_times():

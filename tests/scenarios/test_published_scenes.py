@@ -3,6 +3,7 @@
 import json
 import math
 
+import loadings
 import numpy as np
 import pytest
 
@@ -33,8 +34,8 @@ def run(*effects, upper=None, count=1, face=None, volume=V, **imposed):
     interface = ck.Interface(
         lower=face or ck.Flat(), upper=upper or face or ck.Flat(), meniscus=film(count, volume)
     )
-    opening = ck.Opening(initial_gap=1e-6, final_gap=5e-6, **(imposed or {"speed": 1e-3}))
-    scene = ck.SeparationScene(interface=interface, opening=opening, effects=effects)
+    loading = loadings.imposed(initial_gap=1e-6, final_gap=5e-6, **(imposed or {"speed": 1e-3}))
+    scene = ck.SeparationScene(interface=interface, loading=loading, effects=effects)
     return ck.simulate(ck.plan(scene))
 
 

@@ -25,21 +25,21 @@ def approx(value, rel=1e-12):
     return pytest.approx(value, rel=rel, abs=0.0)
 
 
-def flats(*effects, x=1e-7, count=1, **sliding):
-    gap = sliding.setdefault("gap", 2e-9)
+def flats(*effects, x=1e-7, count=1, **loading):
+    gap = loading.setdefault("gap", 2e-9)
     film = ck.Meniscus(liquid=WATER, volume=math.pi * x * x * gap, count=count)
     interface = ck.Interface(meniscus=film)
     return ck.SlidingScene(
-        interface=interface, sliding=ck.Sliding(**sliding), effects=effects or (ck.CouetteForce(),)
+        interface=interface, loading=ck.Sliding(**loading), effects=effects or (ck.CouetteForce(),)
     )
 
 
-def sphere(*effects, radius=1e-7, s=2e-9, **sliding):
-    gap = sliding.setdefault("gap", 1e-9)
+def sphere(*effects, radius=1e-7, s=2e-9, **loading):
+    gap = loading.setdefault("gap", 1e-9)
     film = ck.Meniscus(liquid=WATER, volume=math.pi * radius * (s - gap) * (s + gap))
     interface = ck.Interface(upper=ck.Sphere(radius=radius), meniscus=film)
     return ck.SlidingScene(
-        interface=interface, sliding=ck.Sliding(**sliding), effects=effects or (ck.CouetteForce(),)
+        interface=interface, loading=ck.Sliding(**loading), effects=effects or (ck.CouetteForce(),)
     )
 
 
@@ -97,7 +97,7 @@ def test_the_powers_of_the_number_of_menisci(drag):
         (sphere, {"radius": radius, "s": 2e-7, "gap": 1e-7}, 0.5, 0.25),
     ):
         at_speed = make(drag, **size, speed=1.0)
-        in_time = attrs.evolve(at_speed, sliding=ck.Sliding(gap=1e-7, time=1e-7))
+        in_time = attrs.evolve(at_speed, loading=ck.Sliding(gap=1e-7, time=1e-7))
         for number in numbers[1:]:
             start = run(ck.divide_sliding(at_speed, number)).couette_force[0]
             assert start / run(at_speed).couette_force[0] == approx(number**speed_power, 1e-11)
@@ -168,7 +168,7 @@ def test_a_film_full_to_the_rim_slides_with_the_faces():
     film = ck.Meniscus(liquid=WATER)
     flooded = ck.SlidingScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        sliding=ck.Sliding(gap=1e-6, speed=1.0),
+        loading=ck.Sliding(gap=1e-6, speed=1.0),
         effects=(ck.CouetteForce(),),
     )
     assert run(flooded).plan.wetted_radius == 1e-3
@@ -247,6 +247,6 @@ def test_the_command_line_runs_it(tmp_path, capsys):
 
 
 def test_a_study_varies_it():
-    found = ck.study(flats(speed=1.0), {"sliding.speed": ["1 mm/s", 1.0]})
+    found = ck.study(flats(speed=1.0), {"loading.speed": ["1 mm/s", 1.0]})
     table = found.table("peak_tangential_force")
     assert "peak_tangential_force" in str(table)

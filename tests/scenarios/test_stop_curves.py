@@ -25,12 +25,12 @@ MODULUS, RADIUS = 210e9 / (1.0 - 0.3**2), 1e-3
 GRID = ck.Accuracy(grid=64)
 
 
-def scene(upper, pressing, *effects, width=60e-6, periodic=True):
-    interface = ck.ContactInterface(lower=ck.Body(solid=STEEL), upper=ck.Body(surface=upper))
+def scene(upper, loading, *effects, width=60e-6, periodic=True):
+    interface = ck.Interface(lower=ck.Body(solid=STEEL), upper=ck.Body(surface=upper))
     return ck.ContactScene(
         interface=interface,
         window=ck.Window(width=width, periodic=periodic),
-        pressing=pressing,
+        loading=loading,
         effects=(ck.HalfSpace(), *effects),
     )
 
@@ -286,9 +286,9 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
     hard = ck.Material(name="hard", young_modulus=140e9, poisson_ratio=0.25, hardness=15e9)
     stack = ck.Stack(substrate=hard, layers=(ck.Layer(material=soft, thickness=50e-9),))
     made = ck.ContactScene(
-        interface=ck.ContactInterface(lower=ck.Body(solid=stack), upper=ck.Body(surface=ROUGH)),
+        interface=ck.Interface(lower=ck.Body(solid=stack), upper=ck.Body(surface=ROUGH)),
         window=ck.Window(width=60e-6),
-        pressing=ck.Pressing(pressure=1e8),
+        loading=ck.Pressing(pressure=1e8),
         effects=(ck.LayeredHalfSpace(), ck.HardnessLimit()),
     )
     with pytest.raises(ck.InfeasibleError, match=r"dents of smaller loads are forgotten.*material"):
@@ -324,7 +324,7 @@ def test_what_acts_back_on_the_contact_is_refused_and_what_looks_at_it_is_not_ru
     watched = evolve(rough_scene, effects=(ck.HalfSpace(), ck.FrictionTraction(coefficient=0.2)))
     assert ck.load_displacement(watched, points=4, accuracy=ck.Accuracy(grid=32)).unloading == ()
     with pytest.raises(ck.DescriptionError, match="be positive for a load-displacement curve"):
-        ck.load_displacement(evolve(rough_scene, pressing=ck.Pressing(force=0.0)))
+        ck.load_displacement(evolve(rough_scene, loading=ck.Pressing(force=0.0)))
 
 
 @pytest.mark.parametrize(

@@ -32,14 +32,14 @@ def contact(*effects, pressure=1e7, **upper):
     dlc = ck.Material(name="DLC", young_modulus=280e9, poisson_ratio=0.25, hardness=24e9)
     rough = ck.GaussianRoughness(rms=1e-9, correlation_length=3e-7, cutoff=1.25e-7)
     return ck.ContactScene(
-        interface=ck.ContactInterface(
+        interface=ck.Interface(
             lower=ck.Body(
                 solid=ck.Stack(layers=(ck.Layer(material=dlc, thickness=2e-8),), substrate=steel)
             ),
             upper=ck.Body(**{"surface": rough} | upper),
         ),
         window=ck.Window(width=1e-6),
-        pressing=ck.Pressing(pressure=pressure),
+        loading=ck.Pressing(pressure=pressure),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
 
@@ -64,12 +64,12 @@ def same(one, other, rtol=1e-6):
 
 
 def test_each_point_is_the_contact_that_its_values_describe():
-    study = ck.study(contact(), {"pressing.pressure": PRESSURES}, ACCURACY)
+    study = ck.study(contact(), {"loading.pressure": PRESSURES}, ACCURACY)
     alone = [single(contact(pressure=p)) for p in PRESSURES]
     assert study.column("contact_area") == pytest.approx([r.contact_area for r in alone], rel=1e-9)
     assert study.column("max_pressure") == pytest.approx([r.max_pressure for r in alone], rel=1e-5)
-    assert study.column("pressing.pressure").tolist() == PRESSURES
-    assert study.unit("pressing.pressure") == "Pa"
+    assert study.column("loading.pressure").tolist() == PRESSURES
+    assert study.unit("loading.pressure") == "Pa"
     assert study.unit("contact_area") == "m2"
     assert all(isinstance(p, StudyPoint) and p.seconds > 0.0 for p in study.points)
     assert (study.column("n_operator_applications") > 0).all()
@@ -79,7 +79,7 @@ def test_each_point_is_the_contact_that_its_values_describe():
 def test_the_last_thing_varied_varies_fastest():
     study = ck.study(
         contact(ck.FrictionTraction(coefficient=0.1)),
-        {THICKNESS: ["10 nm", 4e-8], FRICTION: [0.1, 0.2], "pressing.pressure": ["10 MPa", 4e7]},
+        {THICKNESS: ["10 nm", 4e-8], FRICTION: [0.1, 0.2], "loading.pressure": ["10 MPa", 4e7]},
         ACCURACY,
     )
     wanted = list(itertools.product([1e-8, 4e-8], [0.1, 0.2], [1e7, 4e7]))
@@ -98,7 +98,7 @@ def test_a_chain_makes_its_engine_once(monkeypatch):
             super().__init__(plan)
 
     monkeypatch.setattr(study_run, "Engine", Counted)
-    vary = {THICKNESS: [1e-8, 2e-8], "pressing.pressure": PRESSURES}
+    vary = {THICKNESS: [1e-8, 2e-8], "loading.pressure": PRESSURES}
     study = ck.study(contact(), vary, ACCURACY)
     assert len(made) == 2
     assert len(study.points) == 8
@@ -114,7 +114,7 @@ def test_a_chain_starts_from_its_neighbour(monkeypatch):
 
     monkeypatch.setattr(study_run, "solve", solve)
     scene = contact(ck.HardnessLimit(rule="material"))
-    ck.study(scene, {THICKNESS: [1e-8, 2e-8], "pressing.pressure": [1e8, 3e10, 2e8]}, ACCURACY)
+    ck.study(scene, {THICKNESS: [1e-8, 2e-8], "loading.pressure": [1e8, 3e10, 2e8]}, ACCURACY)
     assert starts == pytest.approx([None, 1e8] * 2)
     starts.clear()
     ck.study(scene, {"accuracy.grid": [16, 32, (32, 32)]}, ck.Accuracy.draft)
@@ -155,7 +155,7 @@ def test_values_that_belong_together_are_set_together():
 
 def test_a_separation_may_be_studied_too(film_scene):
     viscous = ck.ViscousForce()
-    study = ck.study(film_scene(viscous), {"opening.speed": ["10 nm/s", 2e-8]}, ck.Accuracy.draft)
+    study = ck.study(film_scene(viscous), {"loading.speed": ["10 nm/s", 2e-8]}, ck.Accuracy.draft)
     scenes = [film_scene(viscous, speed=v) for v in (1e-8, 2e-8)]
     alone = [ck.simulate(ck.plan(scene, ck.Accuracy.draft)) for scene in scenes]
     wanted = [r.scalars()["peak_force"][0] for r in alone]
@@ -166,11 +166,11 @@ def test_a_separation_may_be_studied_too(film_scene):
 
 
 def test_results_are_kept_when_asked_for():
-    study = ck.study(contact(), {"pressing.pressure": PRESSURES[:2]}, ACCURACY, keep_maps=True)
+    study = ck.study(contact(), {"loading.pressure": PRESSURES[:2]}, ACCURACY, keep_maps=True)
     for point, result in zip(study.points, study.results, strict=True):
         assert result.load == pytest.approx(point.scalars["load"][0], rel=1e-12)
         assert result.pressure.shape == (32, 32)
-    without = ck.study(contact(), {"pressing.pressure": PRESSURES[:1]}, ACCURACY)
+    without = ck.study(contact(), {"loading.pressure": PRESSURES[:1]}, ACCURACY)
     with pytest.raises(ck.NotSimulatedError, match="keep_maps=True"):
         _ = without.results
 
@@ -180,7 +180,7 @@ def test_results_are_kept_when_asked_for():
 
 def test_a_point_without_an_answer_stops_nothing():
     scene = contact(ck.HardnessLimit(rule="material"))
-    study = ck.study(scene, {"pressing.pressure": [1e7, 3e10, 4e7]}, ACCURACY, keep_maps=True)
+    study = ck.study(scene, {"loading.pressure": [1e7, 3e10, 4e7]}, ACCURACY, keep_maps=True)
     assert [p.status for p in study.points] == ["converged", "infeasible", "converged"]
     assert "reaches H*A" in study.points[1].message
     assert study.failed == (study.points[1],)
@@ -204,7 +204,7 @@ def test_a_solve_that_gives_up_says_so(film_scene):
 def test_a_warning_of_a_model_is_given_once_and_noted(film_scene):
     scene = film_scene(ck.ViscousForce(), ck.MeniscusForce(), film={"volume": 3e-12})
     with pytest.warns(ck.ValidityWarning, match=r"2 of 2 points .*viscous over capillary") as seen:
-        study = ck.study(scene, {"opening.speed": [1.0, 2.0]}, ck.Accuracy.draft)
+        study = ck.study(scene, {"loading.speed": [1.0, 2.0]}, ck.Accuracy.draft)
     assert len(seen) == 1
     assert all("ValidityWarning" in p.notes[0] for p in study.points)
 
@@ -213,7 +213,7 @@ def test_a_warning_of_a_model_is_given_once_and_noted(film_scene):
 
 
 def test_a_table_has_units_and_a_file_has_everything(tmp_path):
-    study = ck.study(contact(), {"pressing.pressure": PRESSURES[:2]}, ACCURACY)
+    study = ck.study(contact(), {"loading.pressure": PRESSURES[:2]}, ACCURACY)
     table = study.table("contact_fraction")
     assert table.splitlines()[0].split() == [
         "pressure",
@@ -231,11 +231,11 @@ def test_a_table_has_units_and_a_file_has_everything(tmp_path):
 
 
 def test_a_finished_point_is_not_solved_again(tmp_path):
-    first = ck.study(contact(), {"pressing.pressure": PRESSURES[:2]}, ACCURACY, store=tmp_path)
+    first = ck.study(contact(), {"loading.pressure": PRESSURES[:2]}, ACCURACY, store=tmp_path)
     shares = []
     study = ck.study(
         contact(),
-        {"pressing.pressure": PRESSURES},
+        {"loading.pressure": PRESSURES},
         ACCURACY,
         store=tmp_path,
         progress=shares.append,
@@ -244,13 +244,13 @@ def test_a_finished_point_is_not_solved_again(tmp_path):
     assert shares == [0.5, 0.75, 1.0]
     assert study.column("energy")[:2].tolist() == first.column("energy").tolist()  # to the bit
     assert "2 points from the store" in study.table()
-    again = ck.study(contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path)
+    again = ck.study(contact(), {"loading.pressure": PRESSURES}, ACCURACY, store=tmp_path)
     assert again.n_solved == 0
     assert same(again, study, rtol=0.0)
 
 
 def test_the_store_tells_scenes_and_settings_apart(tmp_path):
-    vary = {"pressing.pressure": PRESSURES[:1]}
+    vary = {"loading.pressure": PRESSURES[:1]}
     ck.study(contact(), vary, ACCURACY, store=tmp_path)
     finer = ck.study(contact(), vary, ck.Accuracy(grid=32, rtol=1e-8), store=tmp_path)
     other = ck.study(contact(ck.FrictionTraction(coefficient=0.1)), vary, ACCURACY, store=tmp_path)
@@ -263,7 +263,7 @@ def test_the_store_sees_that_a_height_map_has_changed(tmp_path):
     path, store = tmp_path / "map.npy", tmp_path / "store"
     scene = contact(surface=ck.Measured(path=str(path), pixel_size=1e-6 / 16, unit="m"))
     np.save(path, 1e-9 * rng.standard_normal((16, 16)))
-    vary, accuracy = {"pressing.pressure": [1e8]}, ck.Accuracy(rtol=1e-6)
+    vary, accuracy = {"loading.pressure": [1e8]}, ck.Accuracy(rtol=1e-6)
     assert ck.study(scene, vary, accuracy, store=store).n_solved == 1
     assert ck.study(scene, vary, accuracy, store=store).n_solved == 0
     np.save(path, 2e-9 * rng.standard_normal((16, 16)))
@@ -272,7 +272,7 @@ def test_the_store_sees_that_a_height_map_has_changed(tmp_path):
 
 def test_arrays_in_hand_are_told_apart_by_their_content(tmp_path):
     heights = 1e-9 * np.random.default_rng(2).standard_normal((16, 16))
-    vary, accuracy = {"pressing.pressure": [1e8]}, ck.Accuracy(rtol=1e-6)
+    vary, accuracy = {"loading.pressure": [1e8]}, ck.Accuracy(rtol=1e-6)
 
     def solved(factor):
         surface = ck.Heights(heights=factor * heights, pixel_size=1e-6 / 16)
@@ -282,7 +282,7 @@ def test_arrays_in_hand_are_told_apart_by_their_content(tmp_path):
 
 
 def test_maps_come_back_from_the_store(tmp_path):
-    vary = {"pressing.pressure": PRESSURES[:2]}
+    vary = {"loading.pressure": PRESSURES[:2]}
     ck.study(contact(), vary, ACCURACY, store=tmp_path)
     first = ck.study(contact(), vary, ACCURACY, store=tmp_path, keep_maps=True)
     assert first.n_solved == 2  # the run before kept none
@@ -294,7 +294,7 @@ def test_maps_come_back_from_the_store(tmp_path):
 
 @pytest.mark.parametrize("suffix", ["json", "npz"])
 def test_a_damaged_file_is_solved_again_and_said_so(tmp_path, suffix):
-    vary = {"pressing.pressure": PRESSURES[:2]}
+    vary = {"loading.pressure": PRESSURES[:2]}
     whole = ck.study(contact(), vary, ACCURACY, store=tmp_path, keep_maps=True)
     damaged = next(tmp_path.glob(f"*.{suffix}"))
     damaged.write_bytes(damaged.read_bytes()[:-200])
@@ -322,7 +322,7 @@ def test_a_point_that_was_refused_is_tried_again(tmp_path):
 def test_workers_change_nothing(tmp_path):
     """One chain in two pieces, with a point that has no answer; progress by points."""
     scene = contact(ck.HardnessLimit(rule="material"))
-    vary, shares = {"pressing.pressure": [1e7, 2e7, 3e10, 4e7]}, []
+    vary, shares = {"loading.pressure": [1e7, 2e7, 3e10, 4e7]}, []
     one = ck.study(scene, vary, ACCURACY)
     two = ck.study(
         scene, vary, ACCURACY, workers=2, progress=shares.append, keep_maps=True, store=tmp_path
@@ -354,11 +354,11 @@ def test_chains_are_spread_and_cut():
         )
         return [len(p.tasks) for p in pieces]
 
-    many = {"window_width": [1e-6, 2e-6, 3e-6], "pressing_pressure": PRESSURES}
+    many = {"window_width": [1e-6, 2e-6, 3e-6], "loading_pressure": PRESSURES}
     assert lengths(1, **many) == lengths(2, **many) == lengths(3, **many) == [4, 4, 4]
     assert lengths(5, **many) == [2] * 6
-    assert lengths(3, pressing_pressure=PRESSURES) == [1, 1, 2]
-    assert lengths(9, pressing_pressure=PRESSURES) == [1] * 4
+    assert lengths(3, loading_pressure=PRESSURES) == [1, 1, 2]
+    assert lengths(9, loading_pressure=PRESSURES) == [1] * 4
 
 
 # Interruption -------------------------------------------------------------------------------
@@ -381,7 +381,7 @@ study_run.put = slowly  # here and in the workers, which run this file too
 if __name__ == "__main__":
     test_studies.whole(sys.argv[2], int(sys.argv[3]))
 """
-MANY = {THICKNESS: [1e-8, 2e-8], "pressing.pressure": [1e7 * 1.3**i for i in range(10)]}
+MANY = {THICKNESS: [1e-8, 2e-8], "loading.pressure": [1e7 * 1.3**i for i in range(10)]}
 
 
 def whole(store, workers=1):
@@ -446,10 +446,10 @@ def test_an_interruption_reaches_the_caller(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         ck.study(
-            contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path, progress=stop
+            contact(), {"loading.pressure": PRESSURES}, ACCURACY, store=tmp_path, progress=stop
         )
     assert (
-        ck.study(contact(), {"pressing.pressure": PRESSURES}, ACCURACY, store=tmp_path).n_solved
+        ck.study(contact(), {"loading.pressure": PRESSURES}, ACCURACY, store=tmp_path).n_solved
         == len(PRESSURES) - 1
     )
 
@@ -461,7 +461,7 @@ def test_a_point_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
 
     monkeypatch.setattr(Path, "write_text", half)
     with pytest.raises(OSError, match="disk full"):
-        ck.study(contact(), {"pressing.pressure": PRESSURES[:1]}, ACCURACY, store=tmp_path)
+        ck.study(contact(), {"loading.pressure": PRESSURES[:1]}, ACCURACY, store=tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -470,6 +470,6 @@ def test_what_a_killed_run_left_half_written_is_swept_away(tmp_path):
     for path in (old, new):
         path.write_text("half of")
     os.utime(old, (1.0, 1.0))
-    ck.study(contact(), {"pressing.pressure": PRESSURES[:1]}, ACCURACY, store=tmp_path)
+    ck.study(contact(), {"loading.pressure": PRESSURES[:1]}, ACCURACY, store=tmp_path)
     assert not old.exists()
     assert new.exists()

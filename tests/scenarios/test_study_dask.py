@@ -18,11 +18,9 @@ def scene(surface=None):
     steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
     rough = ck.GaussianRoughness(rms=1e-9, correlation_length=3e-7, cutoff=1.25e-7)
     return ck.ContactScene(
-        interface=ck.ContactInterface(
-            lower=ck.Body(solid=steel), upper=ck.Body(surface=surface or rough)
-        ),
+        interface=ck.Interface(lower=ck.Body(solid=steel), upper=ck.Body(surface=surface or rough)),
         window=ck.Window(width=1e-6),
-        pressing=ck.Pressing(pressure=1e7),
+        loading=ck.Pressing(pressure=1e7),
         effects=(ck.HalfSpace(), ck.HardnessLimit(rule="material")),
     )
 
@@ -45,7 +43,7 @@ def client():
 
 
 def test_a_cluster_changes_nothing(client, tmp_path):
-    vary, shares = {"pressing.pressure": [*PRESSURES, 3e10]}, []
+    vary, shares = {"loading.pressure": [*PRESSURES, 3e10]}, []
     here = ck.study(scene(), vary, ACCURACY)
     there = ck.study(
         scene(),
@@ -74,7 +72,7 @@ def test_a_chain_is_cut_for_the_workers_of_a_cluster(client):
             submitted.append(arguments)
             return client.submit(function, *arguments)
 
-    study = ck.study(scene(), {"pressing.pressure": PRESSURES}, ACCURACY, client=Watched())
+    study = ck.study(scene(), {"loading.pressure": PRESSURES}, ACCURACY, client=Watched())
     assert len(submitted) == 2
     assert study.column("load") == pytest.approx([p * 1e-12 for p in PRESSURES])
 
@@ -84,14 +82,12 @@ def test_a_large_map_travels_without_a_warning(client):
     heights = 1e-9 * np.random.default_rng(1).standard_normal((1200, 1200))
     large = scene(ck.Heights(heights=heights, pixel_size=1e-6 / 1200))
     # above what the hardness bears: nothing is to be solved
-    study = ck.study(large, {"pressing.pressure": [8e9, 9e9]}, client=client)
+    study = ck.study(large, {"loading.pressure": [8e9, 9e9]}, client=client)
     assert [p.status for p in study.points] == ["infeasible"] * 2
 
 
 def test_anything_that_gives_futures_will_do():
     """A pool of one thread, for one: nothing of a cluster is needed but `submit`."""
     with ThreadPoolExecutor(1) as pool:
-        study = ck.study(
-            scene(), {"pressing.pressure": PRESSURES}, ACCURACY, client=pool, workers=3
-        )
+        study = ck.study(scene(), {"loading.pressure": PRESSURES}, ACCURACY, client=pool, workers=3)
     assert study.column("load") == pytest.approx([p * 1e-12 for p in PRESSURES])

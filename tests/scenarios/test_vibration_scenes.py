@@ -6,6 +6,7 @@ import math
 from itertools import pairwise
 
 import attrs
+import loadings
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -25,12 +26,12 @@ def approx(value, rel=1e-9):
     return pytest.approx(value, rel=rel, abs=0.0)
 
 
-def scene(*effects, body=FACE, volume=9.4e-12, vibration=None, **opening):
+def scene(*effects, body=FACE, volume=9.4e-12, vibration=None, **loading):
     film = ck.Meniscus(liquid=OIL, volume=volume, contact_angle_lower=0.3, contact_angle_upper=0.3)
-    given = {"initial_gap": 5e-6, "final_gap": 1e-5, "speed": 1e-5} | opening
+    given = {"initial_gap": 5e-6, "final_gap": 1e-5, "speed": 1e-5} | loading
     return ck.SeparationScene(
         interface=ck.Interface(lower=FACE, upper=body, meniscus=film),
-        opening=ck.Opening(**given, vibration=vibration),
+        loading=loadings.imposed(**given, vibration=vibration),
         effects=effects,
     )
 
@@ -117,8 +118,8 @@ def test_cycles_left_out_are_bridged():
 
 def test_a_fast_vibration_late_in_a_long_run_is_computed_too():
     """After 500 s a double tells 1e-13 s apart, of a period of 2.5e-6 s."""
-    opening = {"vibration": shaken(1e-6, 4e5), "accuracy": ck.Accuracy(points=20)}
-    slow, slower = (run(VISCOUS, TENSION, speed=s, **opening) for s in (1e-7, 1e-8))
+    loading = {"vibration": shaken(1e-6, 4e5), "accuracy": ck.Accuracy(points=20)}
+    slow, slower = (run(VISCOUS, TENSION, speed=s, **loading) for s in (1e-7, 1e-8))
     assert slow.work.n_evaluations == slower.work.n_evaluations
     ratio = slower.impulses["pull_impulse"] / slow.impulses["pull_impulse"]
     assert ratio == approx(10.0, 1e-4)
@@ -165,7 +166,7 @@ def test_adhesive_solids_are_not_shaken():
     sticky = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
     sphere = ck.Sphere(radius=0.1)
     near = scene(VISCOUS, sticky, body=sphere, initial_gap=5e-8, vibration=shaken(1e-8))
-    with pytest.raises(ck.PlanError, match="AdhesiveContact needs an opening without vibration"):
+    with pytest.raises(ck.PlanError, match="AdhesiveContact needs a loading without vibration"):
         ck.plan(near)
 
 
@@ -173,7 +174,7 @@ def test_files_and_the_command_line(tmp_path, capsys):
     made = attrs.evolve(scene(VISCOUS, TENSION, vibration=shaken(1e-6)), name="a shaken plate")
     path = ck.save_scene(made, tmp_path / "scene.toml")
     assert ck.load_scene(path) == made
-    assert "shaken by 1e-06 m at 20 Hz" in str(ck.plan(made))
+    assert "vibration of 1e-06 m at 20 Hz" in str(ck.plan(made))
     result = ck.simulate(ck.plan(made))
     again = ck.load_result(ck.save_result(result, tmp_path / "result"))
     assert again.scalars() == result.scalars()

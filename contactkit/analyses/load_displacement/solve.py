@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from attrs import evolve
+from attrs import asdict, evolve
 
 from ...accuracy import Accuracy
 from ...contact.effects.base import Compliance, DisplacementTerm, LoadTerm, PressureCap
@@ -23,8 +23,8 @@ from ...contact.result import ContactResult
 from ...contact.solve import solve
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
 from ...numerics.monotone_cubic import power_curve
-from ...scene.bodies import Pressing
-from ...scene.contact_scene import ContactScene
+from ...scene.loading import Approach, ContactLoading, Pressing
+from ...scene.scenes import ContactScene
 from .curve import HERTZ, LoadDisplacementCurve, Unloading
 
 if TYPE_CHECKING:
@@ -119,11 +119,11 @@ def load_displacement(
     >>> import contactkit as ck
     >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
     >>> scene = ck.ContactScene(
-    ...     interface=ck.ContactInterface(
+    ...     interface=ck.Interface(
     ...         lower=ck.Body(solid=steel), upper=ck.Body(surface=ck.Paraboloid(radius=1e-3))
     ...     ),
     ...     window=ck.Window(width=30e-6, periodic=False),
-    ...     pressing=ck.Pressing(force=0.2),
+    ...     loading=ck.Pressing(force=0.2),
     ...     effects=(ck.HalfSpace(),),
     ... )
     >>> curve = load_displacement(scene, points=8, decades=1.0, accuracy=ck.Accuracy(grid=96))
@@ -133,7 +133,7 @@ def load_displacement(
     scene = _plain(scene)
     key, values = _ladder(scene, loads, approaches, points, decades)
     n_ways = _count("ways", ways, 1)
-    first = evolve(scene, pressing=Pressing(**{key: values[-1]}))
+    first = evolve(scene, loading=_loading(key, values[-1]))
     engine = Engine(plan_contact(first, accuracy))  # the largest load is checked before any work
     tell = progress or (lambda share: None)
     nodes: list[_Node] = []
@@ -141,7 +141,7 @@ def load_displacement(
     # Where pixels are capped, nested grids are a better start than the loads before.
     is_capped = scene.effect(PressureCap) is not None  # type: ignore[type-abstract]
     for i, value in enumerate(values):
-        at = evolve(scene, pressing=Pressing(**{key: value}))
+        at = evolve(scene, loading=_loading(key, value))
         result = solve(plan_contact(at, accuracy), start=before or None, engine=engine)
         before = [] if is_capped else [result, *before][:_MOST_BEFORE]
         if result.load > 0.0:
@@ -196,16 +196,22 @@ def _ladder(
     _count("points", points, 4)
     if not (math.isfinite(decades) and decades > 0.0):
         raise DescriptionError("load_displacement(decades)", decades, "be positive and finite")
-    for key in ("pressure", "force", "approach"):
-        most = getattr(scene.pressing, key)
-        if most is not None:
-            if most <= 0.0:
-                raise DescriptionError(
-                    f"Pressing.{key}", most, "be positive for a load-displacement curve"
-                )
-            reach = decades / HERTZ if key == "approach" else decades
-            return key, [float(x) for x in np.geomspace(most * 10.0**-reach, most, points)]
-    raise AssertionError("exactly one is imposed")
+    key, most = _imposed(scene.loading)
+    if most <= 0.0:
+        where = f"{type(scene.loading).__name__}.{key}"
+        raise DescriptionError(where, most, "be positive for a load-displacement curve")
+    reach = decades / HERTZ if key == "approach" else decades
+    return key, [float(x) for x in np.geomspace(most * 10.0**-reach, most, points)]
+
+
+def _imposed(loading: ContactLoading) -> tuple[str, float]:
+    """Name and value of what is imposed."""
+    given = asdict(loading)
+    return next((name, value) for name, value in given.items() if value is not None)
+
+
+def _loading(key: str, value: float) -> ContactLoading:
+    return Approach(approach=value) if key == "approach" else Pressing(**{key: value})
 
 
 def _node(result: ContactResult, nodes: list[_Node]) -> _Node:

@@ -15,7 +15,7 @@ from ...contact.effects.base import Compliance, PressureCap
 from ...contact.effects.plasticity import HardnessLimit, HardnessMap
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
 from ...planning import plan
-from ...scene.contact_scene import ContactScene
+from ...scene.scenes import ContactScene
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..report import Report
 from .effects import EffectCost, effect_costs

@@ -13,7 +13,7 @@ from ...contact.effects.base import Compliance, DisplacementTerm, PressureCap
 from ...contact.effects.friction import FrictionTraction
 from ...errors import ConvergenceError
 from ...planning import plan
-from ...scene.contact_scene import ContactScene
+from ...scene.scenes import ContactScene
 
 if TYPE_CHECKING:
     from ...contact.result import ContactResult

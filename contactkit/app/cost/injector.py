@@ -186,7 +186,7 @@ def _coupled_release(
         _spool(film),
         drive,
         scene.first_pulse_end,
-        release_gap=film.opening.final_gap,
+        release_gap=film.loading.final_gap,
         tolerance=tolerance,
         scheme=scheme,
         step=step,
@@ -204,6 +204,6 @@ def _coupled_release(
 def _spool(film: SeparationScene) -> Mass:
     from ...fmu.master.couple import Mass
 
-    opening = film.opening
-    assert opening.mass is not None  # the injector gives one
-    return Mass(mass=opening.mass, stiffness=opening.stiffness, rest_gap=opening.rest_gap)
+    loading = film.imposed_force
+    assert loading.mass is not None  # the injector gives one
+    return Mass(mass=loading.mass, stiffness=loading.stiffness, rest_gap=loading.rest_gap)

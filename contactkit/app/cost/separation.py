@@ -11,6 +11,7 @@ from attrs import evolve
 
 from ...accuracy import Accuracy
 from ...errors import PlanError, ValidityWarning
+from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import MeniscusForce, Rupture, SeparationEffect
 from ...separation.plan import plan
@@ -35,9 +36,9 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 
 def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecision:
     """Error of the release time of a pull over the tolerance of time, against another solver."""
-    if scene.opening.imposed != "force" or scene.opening.mass is None:
+    if not isinstance(scene.loading, ImposedForce) or scene.loading.mass is None:
         raise PlanError(
-            "cost needs a scene with opening.force [N] and opening.mass [kg]: a curve at an "
+            "cost needs a scene with loading.force [N] and loading.mass [kg]: a curve at an "
             "imposed speed or time is closed form and costs microseconds"
         )
     from ...separation.simulate import drive

@@ -12,7 +12,7 @@ from ...accuracy import Accuracy
 from ...contact.effects.film import FilmMeniscus
 from ...contact.effects.stress import SubsurfaceStress
 from ...planning import plan
-from ...scene.contact_scene import ContactScene
+from ...scene.scenes import ContactScene
 from ..report import Report
 
 if TYPE_CHECKING:

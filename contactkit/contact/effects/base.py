@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ...scene.contact_scene import ContactScene
-    from ...scene.topography import Grid
+    from ...scene.scenes import ContactScene
+    from ...scene.window import Grid
 
     Map = NDArray[np.float64]
     SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Map]

@@ -10,9 +10,9 @@ from attrs import frozen
 from .base import Compliance
 
 if TYPE_CHECKING:
-    from ...scene.contact_scene import ContactScene
     from ...scene.materials import Stack
-    from ...scene.topography import Grid
+    from ...scene.scenes import ContactScene
+    from ...scene.window import Grid
     from .base import Map, SymbolMaker
 
 __all__ = ["HalfSpace", "LayeredHalfSpace"]

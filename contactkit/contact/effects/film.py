@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ...scene.contact_scene import ContactScene
-    from ...scene.topography import Grid
+    from ...scene.scenes import ContactScene
+    from ...scene.window import Grid
 
 __all__ = ["FilmMeniscus", "FilmPart"]
 
@@ -90,16 +90,18 @@ class FilmMeniscus(LoadTerm):
             lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("a film thickness, not interface.meniscus.volume [m3]: leave that out")
-        if meniscus.pressure is not None:
-            lacking.append("a film thickness, not interface.meniscus.pressure [Pa]: leave that out")
+        if scene.liquid_pressure is not None:
+            lacking.append(
+                "a film thickness, not interface.meniscus.pressure [Pa] or relative_humidity [-]: "
+                "leave that out"
+            )
         return tuple(lacking)
 
     def _force(self, scene: ContactScene, area: float) -> float:
         """Meniscus force [N] of an area [m2], Eq. (2.43)."""
         from ...capillary.film_islands import film_force
 
-        meniscus = scene.interface.meniscus
-        assert meniscus is not None
+        meniscus = scene.meniscus
         tension = meniscus.liquid.at(scene.temperature).surface_tension
         assert tension is not None
         angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)

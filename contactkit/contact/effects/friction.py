@@ -12,8 +12,8 @@ from ...validators import finite, fraction
 from .base import Contact, DisplacementTerm, Observer
 
 if TYPE_CHECKING:
-    from ...scene.contact_scene import ContactScene
-    from ...scene.topography import Grid
+    from ...scene.scenes import ContactScene
+    from ...scene.window import Grid
     from .base import Map
 
 __all__ = ["FrictionCoupling", "FrictionPart", "FrictionTraction"]

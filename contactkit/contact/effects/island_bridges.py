@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ...scene.contact_scene import ContactScene
+    from ...scene.scenes import ContactScene
 
     Floats = NDArray[np.float64]
     from numpy.typing import NDArray
@@ -78,7 +78,7 @@ class IslandBridges(Observer):
     """A bridge on each island of the deformed gap that holds liquid, and the sum of their forces.
 
     The liquid comes from a film of given thickness, or condenses to the pressure of the meniscus
-    (`Meniscus.from_humidity`). It does not act back on the contact.
+    (`Meniscus.relative_humidity`). It does not act back on the contact.
 
     Parameters
     ----------
@@ -135,10 +135,10 @@ class IslandBridges(Observer):
             lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("interface.meniscus.volume [m3] left out: the islands set the volumes")
-        if (meniscus.pressure is None) == (self.film_thickness is None):
+        if (scene.liquid_pressure is None) == (self.film_thickness is None):
             lacking.append("either film_thickness [m] or interface.meniscus.pressure [Pa]")
         angles = meniscus.contact_angle_lower + meniscus.contact_angle_upper
-        if meniscus.pressure is not None and angles >= math.pi:
+        if scene.liquid_pressure is not None and angles >= math.pi:
             lacking.append(
                 "contact angles that add up to less than 180 deg: nothing condenses between others"
             )
@@ -179,9 +179,8 @@ def bridges_of(
     effect: IslandBridges, contact: Contact, pressure: float | None = None
 ) -> IslandPart:
     """Find the islands, put a bridge on each, and add up their forces."""
-    meniscus = contact.scene.interface.meniscus
-    assert meniscus is not None  # plan() has asked lacks() first
-    pressure = pressure if pressure is not None else meniscus.pressure
+    meniscus = contact.scene.meniscus
+    pressure = pressure if pressure is not None else contact.scene.liquid_pressure
     tension = meniscus.liquid.at(contact.scene.temperature).surface_tension
     assert tension is not None
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)

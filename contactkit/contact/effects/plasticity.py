@@ -14,9 +14,9 @@ from ...validators import choice, non_negative, positive
 from .base import Cap, PressureCap
 
 if TYPE_CHECKING:
-    from ...scene.contact_scene import ContactScene
     from ...scene.materials import Stack
-    from ...scene.topography import Grid
+    from ...scene.scenes import ContactScene
+    from ...scene.window import Grid
     from .base import Map
 
 __all__ = ["HardnessLimit", "HardnessMap"]

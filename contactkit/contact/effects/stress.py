@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...elasticity.stress.maxima import Maximum
-    from ...scene.contact_scene import ContactScene
-    from ...scene.topography import Grid
+    from ...scene.scenes import ContactScene
+    from ...scene.window import Grid
 
     Map = NDArray[np.float64]
 

@@ -12,6 +12,7 @@ from ...adhesion import dmt, jkr, maugis_dugdale
 from ...adhesion import parameters as adhesion_scales
 from ...adhesion.parameters import cohesive_stress
 from ...errors import InfeasibleError
+from ...scene.loading import ImposedSpeed
 from ...units import si
 from ...validators import choice, optional, positive
 from .base import ForceLaw, SeparationForce
@@ -86,8 +87,8 @@ class VanDerWaalsForce(SeparationForce):
         from ...adhesion import van_der_waals
 
         interface, hamaker, cutoff = scene.interface, self.hamaker_constant, self.cutoff
-        lower, upper = interface.lower.curvature, interface.upper.curvature
-        n = interface.meniscus.count
+        lower, upper = interface.curvatures
+        n = scene.meniscus.count
         area = math.pi * interface.rim_radius**2 if interface.is_flat else 0.0
 
         def between_flats(gap: float, speed: float) -> float:
@@ -177,9 +178,9 @@ class AdhesiveContact(SeparationForce):
         missing: list[str] = []
         if scene.interface.is_flat:
             missing.append("a Sphere: two flats touch all over; take VanDerWaalsForce()")
-        if scene.opening.vibration is not None:
+        if isinstance(scene.loading, ImposedSpeed) and scene.loading.vibration is not None:
             missing.append(
-                "an opening without vibration: a cycle that lets go and catches is not followed"
+                "a loading without vibration: a cycle that lets go and catches is not followed"
             )
         if self.work_of_adhesion != "capillary":
             if scene.effect(VanDerWaalsForce) is not None:
@@ -193,7 +194,7 @@ class AdhesiveContact(SeparationForce):
                     f"{type(other).__name__}() left out: the capillary work of adhesion is that "
                     "meniscus; give work_of_adhesion [J/m2] of the solids to have both"
                 )
-        meniscus = scene.interface.meniscus
+        meniscus = scene.meniscus
         if meniscus.liquid.at(scene.temperature).surface_tension is None:
             missing.append("liquid.surface_tension [N/m]")
         elif _capillary_work(scene) <= 0.0:
@@ -211,14 +212,14 @@ class AdhesiveContact(SeparationForce):
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
         """See `SeparationForce.prepare`."""
-        found, start = self.numbers(scene), scene.opening.initial_gap
+        found, start = self.numbers(scene), scene.loading.initial_gap
         if start >= found.release_gap:
             raise InfeasibleError(
                 f"AdhesiveContact ({self.model}) lets go at a gap of {found.release_gap:.4g} m, "
-                f"and Opening.initial_gap is {start:g} m: bodies that do not touch do not adhere; "
+                f"and loading.initial_gap is {start:g} m: bodies that do not touch do not adhere; "
                 f"start closer, or take VanDerWaalsForce(), which acts across a gap"
             )
-        return law(found, scene.interface.meniscus.count, start)
+        return law(found, scene.meniscus.count, start)
 
     def _work(self, scene: SeparationScene) -> float:
         if self.work_of_adhesion == "capillary":
@@ -231,13 +232,13 @@ class AdhesiveContact(SeparationForce):
             return self.strength
         if self.work_of_adhesion != "capillary":
             return float(cohesive_stress(work, self.equilibrium_distance))
-        pressure = scene.interface.meniscus.pressure
+        pressure = scene.liquid_pressure
         return None if pressure is None else -pressure
 
 
 def _capillary_work(scene: SeparationScene) -> float:
     """Work [J/m2] that the liquid does where it comes between two surfaces."""
-    meniscus = scene.interface.meniscus
+    meniscus = scene.meniscus
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None  # lacks() has asked first
     wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ...scene.loading import ImposedTime
+
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from .base import SeparationEffect
@@ -40,7 +42,7 @@ def mode(effect: SeparationEffect, scene: SeparationScene) -> str:
     if effect.name == "meniscus-force":
         return CONSISTENT
     if effect.name == "viscous-force":
-        mean = choice == "volume-conserving" and scene.opening.time is not None
+        mean = choice == "volume-conserving" and isinstance(scene.loading, ImposedTime)
         return CONSISTENT if mean and scene.interface.is_flat else ""
     if effect.name == "rupture" and getattr(effect, "gap", None) is None:
         by_neck = AS_PUBLISHED if "exact" in _profiles(scene) else ""
@@ -77,7 +79,7 @@ def _and(effects: list[SeparationEffect]) -> str:
 
 def printed_equations(scene: SeparationScene) -> tuple[tuple[SeparationEffect, str], ...]:
     """Effects of a scene that take a printed equation with an erratum, and its number."""
-    is_flat, several = scene.interface.is_flat, scene.interface.meniscus.count > 1
+    is_flat, several = scene.interface.is_flat, scene.meniscus.count > 1
     numbers = {
         "meniscus-force": ("3.33" if several else "3.11") if is_flat else "3.12",
         "viscous-force": ("3.34" if several else "3.19") if is_flat else "3.26",

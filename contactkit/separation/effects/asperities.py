@@ -25,8 +25,8 @@ class AsperityMenisci(SeparationForce):
     """Menisci at the summits of a rough flat face near a smooth one; the liquid condenses there.
 
     The gap of the scene is the distance of the smooth face from the mean plane of the summits.
-    How far a meniscus reaches is set by its pressure (`Meniscus.from_humidity`), or by the height
-    of a film.
+    How far a meniscus reaches is set by its pressure or relative humidity, or by the height of a
+    film.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class AsperityMenisci(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
-        meniscus, missing = scene.interface.meniscus, list[str]()
+        meniscus, missing = scene.meniscus, list[str]()
         if not scene.interface.is_flat:
             missing.append("two flats: the asperities stand on one of them")
         elif math.isinf(scene.interface.rim_radius):
@@ -94,7 +94,7 @@ class AsperityMenisci(SeparationForce):
                 "interface.meniscus.pressure [Pa] or meniscus_height [m], not a volume: which "
                 "summits share it is not known"
             )
-        elif (meniscus.pressure is None) == (self.meniscus_height is None):
+        elif (scene.liquid_pressure is None) == (self.meniscus_height is None):
             missing.append("either interface.meniscus.pressure [Pa] or meniscus_height [m]")
         if _wetting(scene) <= 0.0:
             missing.append(
@@ -119,8 +119,8 @@ class AsperityMenisci(SeparationForce):
 
         if self.meniscus_height is not None:
             return self.meniscus_height
-        tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
-        pressure = scene.interface.meniscus.pressure
+        tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
+        pressure = scene.liquid_pressure
         return float(meniscus_height(pressure, tension, _wetting(scene)))
 
     def coverage(self, scene: SeparationScene, gap: float) -> float:
@@ -140,7 +140,7 @@ class AsperityMenisci(SeparationForce):
         from ...capillary import asperities as laws
 
         population, wetting = self.asperities, _wetting(scene)
-        tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+        tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
         assert tension is not None  # plan() has asked lacks() first
         area = math.pi * scene.interface.rim_radius**2
         given = (population.radius, population.density, area, tension, wetting, self.height(scene))
@@ -153,7 +153,7 @@ def _wetting(scene: SeparationScene) -> float:
     """Sum of the cosines of both contact angles, right where they add up to 180 degrees."""
     from ...capillary.arc.shape import wetting
 
-    meniscus = scene.interface.meniscus
+    meniscus = scene.meniscus
     return float(wetting(meniscus.contact_angle_lower, meniscus.contact_angle_upper))
 
 
@@ -165,7 +165,7 @@ def exact_law(
 
     from ...capillary.asperity_bridges import force_curve, gaussian_average
 
-    meniscus, population = scene.interface.meniscus, effect.asperities
+    meniscus, population = scene.meniscus, effect.asperities
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None  # plan() has asked lacks() first
     pressure = -wetting / effect.height(scene)

@@ -34,9 +34,8 @@ class FilmShape(NamedTuple):
 
 def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
     """Ask for a volume or a rim where the film between two flats would have no end."""
-    interface = scene.interface
-    meniscus = interface.meniscus
-    if meniscus.pressure is not None:
+    interface, meniscus = scene.interface, scene.meniscus
+    if scene.liquid_pressure is not None:
         if interface.is_flat:
             return ("interface.meniscus.volume [m3] between flats",)
         wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
@@ -52,13 +51,13 @@ def film_shape(
     scene: SeparationScene | SlidingScene, *, constant_radius: bool = False
 ) -> FilmShape:
     """Shape of one film of the scene; with `constant_radius` it never draws in."""
-    interface, meniscus = scene.interface, scene.interface.meniscus
+    interface, meniscus = scene.interface, scene.meniscus
     n = meniscus.count
     volume = math.inf if meniscus.volume is None else meniscus.volume / n
     # The faces are shared out: n films, each with its part of the area.
     rim = interface.rim_radius / math.sqrt(n)
-    if meniscus.pressure is not None:
-        return _at_pressure(scene, rim)
+    if scene.liquid_pressure is not None:
+        return _at_pressure(scene, rim, scene.liquid_pressure)
     if interface.is_flat:
         return _between_flats(n, volume, rim, scene.initial_gap, constant_radius)
     return _under_sphere(
@@ -99,14 +98,13 @@ def _under_sphere(
     return FilmShape(n, volume, rim, full_gap, sphere, radius, height)
 
 
-def _at_pressure(scene: SeparationScene | SlidingScene, rim: float) -> FilmShape:
+def _at_pressure(scene: SeparationScene | SlidingScene, rim: float, pressure: float) -> FilmShape:
     """Film under a sphere whose rim keeps its height: that of the hollow arc of its pressure."""
-    meniscus, sphere = scene.interface.meniscus, scene.interface.sphere_radius
+    meniscus, sphere = scene.meniscus, scene.interface.sphere_radius
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None  # plan() has asked lacks() first
-    assert meniscus.pressure is not None
     wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
-    level = -tension * wetting / meniscus.pressure
+    level = -tension * wetting / pressure
 
     sag = rim * rim / (2.0 * sphere)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from attrs import field, frozen
 
 from ...as_published.printed import common as published
-from ...scene.shapes import Sphere
+from ...scene.surfaces import Sphere
 from ...validators import choice
 from .base import ForceLaw, SeparationForce
 from .film_shape import film_shape, needs_extent
@@ -85,15 +85,15 @@ class MeniscusForce(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
-        meniscus = scene.interface.meniscus
+        meniscus = scene.meniscus
         missing: tuple[str, ...] = ()
         if meniscus.liquid.at(scene.temperature).surface_tension is None:
             missing += ("liquid.surface_tension [N/m]",)
-        if meniscus.pressure is not None:
+        if scene.liquid_pressure is not None:
             return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a bath around a sphere has no meniscus",)
-        if self.profile == "as-published" and isinstance(scene.interface.lower, Sphere):
+        if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):
             missing += ("the sphere as the upper body: Eq. (3.12) is printed for that",)
         return missing + needs_extent(scene)
 
@@ -119,7 +119,7 @@ class MeniscusForce(SeparationForce):
         return exact_law(scene, accuracy) if self.profile == "exact" else arc_law(scene)
 
     def _published(self, scene: SeparationScene) -> ForceLaw:
-        meniscus, film = scene.interface.meniscus, film_shape(scene)
+        meniscus, film = scene.meniscus, film_shape(scene)
         tension = surface_tension(scene)
         n, radius = film.menisci, film.radius
         lower, upper, pulled = (

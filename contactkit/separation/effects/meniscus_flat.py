@@ -36,13 +36,13 @@ class _Film(NamedTuple):
 
 def surface_tension(scene: SeparationScene) -> float:
     """Surface tension [N/m] of the liquid of a scene that has one."""
-    tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+    tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None  # plan() has asked lacks() first
     return tension
 
 
 def _angles(scene: SeparationScene) -> tuple[float, float]:
-    meniscus = scene.interface.meniscus
+    meniscus = scene.meniscus
     return meniscus.contact_angle_lower, meniscus.contact_angle_upper
 
 

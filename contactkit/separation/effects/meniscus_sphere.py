@@ -47,9 +47,9 @@ def sphere_law(scene: SeparationScene, accuracy: Accuracy, profile: str) -> Forc
     Some dozens of bridges are solved, until the curve through them is known to a tenth of the
     tolerance of time, and a spline is what the loop calls: microseconds in place of milliseconds.
     """
-    n, tension = scene.interface.meniscus.count, surface_tension(scene)
+    n, tension = scene.meniscus.count, surface_tension(scene)
     bridges = _exact(scene) if profile == "exact" else _arcs(scene, profile == "as-published")
-    top = min(scene.opening.final_gap * 2.0, bridges.end * (1.0 - 1e-9))
+    top = min(scene.loading.final_gap * 2.0, bridges.end * (1.0 - 1e-9))
     curve = _curve(bridges, top, 0.1 * accuracy.time_rtol)
 
     def law(gap: float, speed: float) -> float:
@@ -61,29 +61,28 @@ def sphere_law(scene: SeparationScene, accuracy: Accuracy, profile: str) -> Forc
 
 def _fixed(scene: SeparationScene) -> tuple[float, float, float, float]:
     """Angles [rad] and curvatures [1/m] of the bodies."""
-    interface, meniscus = scene.interface, scene.interface.meniscus
+    meniscus = scene.meniscus
     return (
         meniscus.contact_angle_lower,
         meniscus.contact_angle_upper,
-        interface.lower.curvature,
-        interface.upper.curvature,
+        *scene.interface.curvatures,
     )
 
 
 def exact_end(scene: SeparationScene) -> float:
     """Gap [m] at which the exact bridge on a sphere ends."""
-    meniscus = scene.interface.meniscus
-    if meniscus.pressure is not None:
+    pressure = scene.liquid_pressure
+    if pressure is not None:
         from ...capillary.exact.at_pressure import max_gap_at_pressure
 
-        return max_gap_at_pressure(meniscus.pressure / surface_tension(scene), *_fixed(scene))
+        return max_gap_at_pressure(pressure / surface_tension(scene), *_fixed(scene))
     from ...capillary.exact.stability import stability_limit
 
     return float(stability_limit(film_shape(scene).volume, *_fixed(scene)).gap)
 
 
 def _exact(scene: SeparationScene) -> _Bridges:
-    pressure = scene.interface.meniscus.pressure
+    pressure = scene.liquid_pressure
     film, fixed, end = film_shape(scene), _fixed(scene), exact_end(scene)
     if pressure is None:
         from ...capillary.exact.bridge import bridge

@@ -65,21 +65,21 @@ class Rupture(FilmEnd):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
-        meniscus = scene.interface.meniscus
+        meniscus = scene.meniscus
         if self.gap is not None or meniscus.volume is not None:
             return ()
-        if meniscus.pressure is not None and self.criterion == "limit":
+        if scene.liquid_pressure is not None and self.criterion == "limit":
             return ()
         return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
 
     def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> float:
         """See `FilmEnd.prepare`."""
         if self.gap is not None:
-            if self.gap <= scene.opening.initial_gap:
+            if self.gap <= scene.loading.initial_gap:
                 raise DescriptionError(
                     "Rupture.gap",
                     self.gap,
-                    f"exceed initial_gap = {scene.opening.initial_gap:g} m",
+                    f"exceed initial_gap = {scene.loading.initial_gap:g} m",
                     unit="m",
                 )
             return self.gap
@@ -97,14 +97,10 @@ def _limit(scene: SeparationScene) -> float:
 
 def _zero_neck(scene: SeparationScene) -> float:
     """Gap [m] at which the neck of the arc closes."""
-    interface, meniscus, film = scene.interface, scene.interface.meniscus, film_shape(scene)
+    meniscus, film = scene.meniscus, film_shape(scene)
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
     if math.isinf(film.sphere_radius):
         return float(arc_flat.zero_neck_gap(arc_flat.shape(*angles), film.volume))
     from ...capillary.arc import sphere as arc_sphere
 
-    return float(
-        arc_sphere.zero_neck_gap(
-            film.volume, *angles, interface.lower.curvature, interface.upper.curvature
-        )
-    )
+    return float(arc_sphere.zero_neck_gap(film.volume, *angles, *scene.interface.curvatures))

@@ -23,7 +23,7 @@ __all__ = ["ShearLimit", "TensionLimit", "ViscousForce", "keeps_radius"]
 
 
 def _viscosity(scene: SeparationScene) -> float:
-    viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
+    viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
     assert viscosity is not None  # plan() has asked lacks() first
     return viscosity
 
@@ -71,7 +71,7 @@ class ViscousForce(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.lacks`."""
-        state = scene.interface.meniscus.liquid.at(scene.temperature)
+        state = scene.meniscus.liquid.at(scene.temperature)
         missing = () if state.viscosity is not None else ("liquid.viscosity [Pa.s]",)
         return missing + needs_extent(scene)
 

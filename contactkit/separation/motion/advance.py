@@ -73,7 +73,9 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
             return state if state.time == end else state._replace(time=end)
         state = internal_step(plan, state, pull, end)
     cure = "loosen Accuracy.time_rtol or raise Accuracy.max_steps"
-    if state.n_releases and plan.scene.opening.stiffness > 0.0:  # some hundred steps for a swing
+    if (
+        state.n_releases and plan.scene.imposed_force.stiffness > 0.0
+    ):  # some hundred steps for a swing
         cure = (
             f"it was released at {state.release_time:g} s and swings on its spring since then, "
             f"through the film each time: end there, or {cure}"
@@ -87,7 +89,7 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
 
 def internal_step(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
     """Take one internal step towards the time `end` [s], cut at the first event inside it."""
-    rest_gap = plan.scene.opening.rest_gap
+    rest_gap = plan.scene.imposed_force.rest_gap
     if state.in_contact:
         return _rest(plan, state, pull, end)
     if state.gap < _NO_GAP:
@@ -105,9 +107,9 @@ def internal_step(plan: Plan, state: MotionState, pull: Drive, end: float) -> Mo
 
 def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
     """Rest on the asperities until the pull exceeds what holds the bodies together."""
-    opening, film = plan.scene.opening, acting_film(plan, state)
+    loading, film = plan.scene.imposed_force, acting_film(plan, state)
     forces = film.static_forces(state.gap) if film is not None else {}
-    holding = opening.stiffness * (state.gap - opening.initial_gap) + sum(forces.values())
+    holding = loading.stiffness * (state.gap - loading.initial_gap) + sum(forces.values())
     leaves = True
     if pull(state.time) > holding:
         end = state.time
@@ -128,19 +130,19 @@ def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[
 
 def _problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> Problem:
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
-    opening, mass = plan.scene.opening, _mass(plan)
+    loading, mass = plan.scene.imposed_force, _mass(plan)
     gap, speed = state.gap, state.speed
     forces = film.forces if film is not None else _no_forces
     first = forces(gap, speed)
     damping = film.damping(gap) if film is not None else 0.0
-    spring = opening.stiffness * abs(gap - opening.initial_gap)
+    spring = loading.stiffness * abs(gap - loading.initial_gap)
     size = abs(pull(state.time)) + abs(first.static) + spring + 1e-300
     crossing = gap / (state.step or 1e-6)
     return Problem(
         mass=mass,
         pull=pull,
-        stiffness=opening.stiffness,
-        slack_gap=opening.initial_gap,
+        stiffness=loading.stiffness,
+        slack_gap=loading.initial_gap,
         forces=forces,
         has_limits=film is not None and bool(film.limits),
         exponent=film.exponent(gap) if film is not None else 0.0,
@@ -160,14 +162,14 @@ def _no_forces(gap: float, speed: float) -> Forces:
 
 def _mass(plan: Plan) -> float:
     """Moving mass [kg]; without one, so little that its momentum is 1e-14 of the impulse given."""
-    opening = plan.scene.opening
-    if opening.mass is not None:
-        return opening.mass
+    loading = plan.scene.imposed_force
+    if loading.mass is not None:
+        return loading.mass
     impulse = plan.film.laws[ViscousForce].impulse
     assert impulse is not None  # a viscous force always has one
-    given = impulse(opening.initial_gap, opening.final_gap)
-    pull = max(abs(opening.force or 0.0), 1e-300)
-    return 1e-14 * given * (given / pull) / (opening.final_gap - opening.initial_gap)
+    given = impulse(loading.initial_gap, loading.final_gap)
+    pull = max(abs(loading.force), 1e-300)
+    return 1e-14 * given * (given / pull) / (loading.final_gap - loading.initial_gap)
 
 
 def _is_at_rest(problem: Problem) -> bool:
@@ -244,7 +246,7 @@ def _no_step(state: MotionState, rtol: float) -> ConvergenceError:
     """Error for a state from which no step meets the tolerance."""
     cure = f"loosen Accuracy.time_rtol = {rtol:g}"
     if state.gap < 10.0 * _NO_GAP:
-        cure = "the bodies are pressed together; give Opening.rest_gap [m], where asperities carry"
+        cure = "the bodies are pressed together; give loading.rest_gap [m], where asperities carry"
     where = f"{state.time:g} s, gap {state.gap:g} m, speed {state.speed:g} m/s"
     return ConvergenceError(f"no step of time can be taken from {where}; {cure}", state)
 
@@ -255,7 +257,7 @@ def _error(plan: Plan, state: MotionState, problem: Problem, taken: Step, length
     error = relative_error(problem, taken, length, missed)
     if error > 1.0:
         return error
-    end, rest = taken.stages[2], plan.scene.opening.rest_gap
+    end, rest = taken.stages[2], plan.scene.imposed_force.rest_gap
     if end.gap < rest * (1.0 - SAME) and state.gap <= rest * (1.0 + SAME):
         return _TOO_LONG  # a hop that begins and ends at the rest gap: there is none to cut at
     if all(forces.limit is problem.first.limit for forces in taken.forces):

@@ -13,23 +13,23 @@ SAME = 1e-11  # two gaps closer than this, relatively, are one
 
 def _closed_gap(plan: Plan) -> float:
     """Gap below which the bodies count as closed again, so that the next release is a new one."""
-    opening = plan.scene.opening
-    return min(2.0 * opening.initial_gap, 0.5 * (opening.initial_gap + opening.final_gap))
+    loading = plan.scene.imposed_force
+    return min(2.0 * loading.initial_gap, 0.5 * (loading.initial_gap + loading.final_gap))
 
 
 def next_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -> float | None:
     """Gap of the first event on the way to `gap`; kinks of the forces are events too."""
-    opening = plan.scene.opening
+    loading = plan.scene.imposed_force
     events = film.kinks if film is not None else ()
     if gap > state.gap:
         if state.armed:
-            events += (opening.final_gap,)
+            events += (loading.final_gap,)
         if film is not None:
             events += (film.end, film.release)
     else:
-        events += (opening.rest_gap,)
+        events += (loading.rest_gap,)
         if state.broken:
-            events += (opening.initial_gap,)
+            events += (loading.initial_gap,)
         if state.detached:
             events += (plan.film.rejoin,)
         if not state.armed:
@@ -39,10 +39,10 @@ def next_event(plan: Plan, film: Film | None, state: MotionState, gap: float) ->
 
 def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -> MotionState:
     """State after the event at a gap: release, rupture, rest, re-wetting, pull-off, re-contact."""
-    opening, meniscus = plan.scene.opening, plan.scene.interface.meniscus
+    loading, meniscus = plan.scene.imposed_force, plan.scene.meniscus
     state = state._replace(gap=gap)
     if state.speed > 0.0:
-        if gap == opening.final_gap:
+        if gap == loading.final_gap:
             state = state._replace(
                 armed=False,
                 release_time=state.time,
@@ -58,11 +58,11 @@ def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -
         state = state._replace(armed=True)
     if gap <= plan.film.rejoin:
         state = state._replace(detached=False)
-    if gap > opening.initial_gap:
+    if gap > loading.initial_gap:
         return state
     wets = state.broken and meniscus.rewetting > 0.0
     if wets and plan.film_with(meniscus.rewetting).end > gap:
         state = state._replace(broken=False, volume_fraction=meniscus.rewetting)
-    if gap == opening.rest_gap:
+    if gap == loading.rest_gap:
         state = state._replace(in_contact=True, speed=0.0)
     return state

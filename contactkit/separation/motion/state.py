@@ -113,12 +113,12 @@ _NOTHING = Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
 
 def start(plan: Plan) -> MotionState:
     """State of a scene at time 0."""
-    opening = plan.scene.opening
-    in_contact = opening.rest_gap >= opening.initial_gap and opening.initial_speed <= 0.0
+    loading = plan.scene.imposed_force
+    in_contact = loading.rest_gap >= loading.initial_gap and loading.initial_speed <= 0.0
     return MotionState(
         0.0,
-        opening.initial_gap,
-        0.0 if in_contact else opening.initial_speed,
+        loading.initial_gap,
+        0.0 if in_contact else loading.initial_speed,
         in_contact=in_contact,
         impulses=plan.film.impulses(),
     )
@@ -132,12 +132,12 @@ def acting_film(plan: Plan, state: MotionState) -> Film | None:
 
 def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
     """Forces at a state under a pull [N], and what they mean."""
-    opening, film = plan.scene.opening, acting_film(plan, state)
+    loading, film = plan.scene.imposed_force, acting_film(plan, state)
     if film is None:
         return _NOTHING
     gap, speed = state.gap, state.speed
     static, (viscous, limit) = film.static_force(gap), film.viscous_force(gap, speed)
-    net = pull - opening.stiffness * (gap - opening.initial_gap) - static
+    net = pull - loading.stiffness * (gap - loading.initial_gap) - static
     if speed <= 0.0 < pull and net <= 0.0:
         status = FilmStatus.STUCK
     elif state.in_contact:

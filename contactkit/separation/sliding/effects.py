@@ -109,7 +109,7 @@ class CouetteForce(SlidingForce):
 
     def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
         """See `SlidingForce.lacks_in`."""
-        state = scene.interface.meniscus.liquid.at(scene.temperature)
+        state = scene.meniscus.liquid.at(scene.temperature)
         missing: tuple[str, ...] = ()
         if state.viscosity is None:
             missing += ("liquid.viscosity [Pa.s]",)
@@ -120,9 +120,9 @@ class CouetteForce(SlidingForce):
 
     def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
         """See `SlidingForce.prepare`."""
-        viscosity = scene.interface.meniscus.liquid.at(scene.temperature).viscosity
+        viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
         assert viscosity is not None  # plan_sliding() has asked lacks() first
-        film, gap, limit = film_shape(scene), scene.sliding.gap, scene.effect(ShearLimit)
+        film, gap, limit = film_shape(scene), scene.loading.gap, scene.effect(ShearLimit)
         if math.isinf(film.sphere_radius):
             return _even_law(film, gap, gap, viscosity, limit)
         if self.closure == "as-published":
@@ -133,7 +133,7 @@ class CouetteForce(SlidingForce):
 def _needs_rim(scene: SlidingScene) -> tuple[str, ...]:
     """Ask for a volume or a rim where the film would have no end."""
     interface = scene.interface
-    if interface.meniscus.volume is None and math.isinf(interface.rim_radius):
+    if scene.meniscus.volume is None and math.isinf(interface.rim_radius):
         return ("interface.meniscus.volume [m3], or the radius [m] of a Flat face",)
     return ()
 
@@ -262,7 +262,7 @@ class ContactAngleHysteresis(SlidingForce):
 
     def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
         """See `SlidingForce.lacks_in`."""
-        state = scene.interface.meniscus.liquid.at(scene.temperature)
+        state = scene.meniscus.liquid.at(scene.temperature)
         known = state.surface_tension is not None
         return (() if known else ("liquid.surface_tension [N/m]",)) + _needs_rim(scene)
 
@@ -270,10 +270,10 @@ class ContactAngleHysteresis(SlidingForce):
         """See `SlidingForce.prepare`."""
         from ...lubrication import couette_flat as sliding
 
-        tension = scene.interface.meniscus.liquid.at(scene.temperature).surface_tension
+        tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
         assert tension is not None  # plan_sliding() has asked lacks() first
         film = film_shape(scene)
-        n, x = film.menisci, film.radius(scene.sliding.gap)
+        n, x = film.menisci, film.radius(scene.loading.gap)
         per_width = n * min(
             float(sliding.hysteresis_force(tension, 1.0, *pair, self.shape_factor))
             for pair in self._pairs

@@ -11,9 +11,10 @@ from attrs import evolve, field, frozen
 from ...accuracy import Accuracy
 from ...errors import DescriptionError, InfeasibleError, PlanError
 from ...scene.effect import check_listed, choices
-from ...scene.interface import Interface
+from ...scene.interface import Body, Interface
 from ...scene.scenes import SlidingScene
-from ...scene.shapes import Flat, Sphere, Surface
+from ...scene.surfaces import Sphere
+from ..bodies import check_bodies
 from ..effects.base import SeparationEffect
 from ..effects.film_shape import FilmShape, film_shape
 from ..effects.viscous import ShearLimit
@@ -39,7 +40,7 @@ class SlidingPlan:
     @property
     def wetted_radius(self) -> float:
         """Radius of the wetted circle of one meniscus [m]."""
-        return self.film.radius(self.scene.sliding.gap)
+        return self.film.radius(self.scene.loading.gap)
 
     @property
     def break_travel(self) -> float:
@@ -49,7 +50,7 @@ class SlidingPlan:
     @property
     def end(self) -> float:
         """Travel [m] at which the run ends."""
-        return min(self.scene.sliding.travel or math.inf, self.break_travel)
+        return min(self.scene.loading.travel or math.inf, self.break_travel)
 
     def has(self, kind: type[SeparationEffect]) -> bool:
         """Whether the scene calls for an effect."""
@@ -68,10 +69,8 @@ class SlidingPlan:
         return "\n".join(lines)
 
     def __str__(self) -> str:
-        sliding = self.scene.sliding
         title = (
-            f"{self.scene.name or 'sliding'}: {sliding.imposed} imposed at a gap of "
-            f"{sliding.gap:g} m, travel {self.end:g} m"
+            f"{self.scene.name or 'sliding'}: {self.scene.loading.summary}, travel {self.end:g} m"
         )
         width = max(len(kind.name) for kind in _KNOWN)
         on = [f"  on   {e.name:{width}s} {choices(e)}" for e in self.scene.effects]
@@ -99,6 +98,7 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
         If the gap is closed.
     """
     accuracy = accuracy or Accuracy.standard
+    check_bodies(scene)
     _check_effects(scene)
     _check_gap(scene)
     laws: dict[type[SeparationEffect], SlideLaw] = {}
@@ -121,7 +121,7 @@ def _check_effects(scene: SlidingScene) -> None:
         for effect in scene.effects
         if type(effect) not in _KNOWN
     ]
-    if scene.interface.meniscus.pressure is not None:
+    if scene.liquid_pressure is not None:
         problems.append(
             "a sliding scene needs interface.meniscus.volume [m3] in place of its pressure"
         )
@@ -130,9 +130,9 @@ def _check_effects(scene: SlidingScene) -> None:
             problems += [f"{type(effect).__name__} needs {item}" for item in effect.lacks(scene)]
     if ShearLimit in kinds and CouetteForce not in kinds:
         problems.append("ShearLimit needs CouetteForce() beside it: it bounds the shear stress")
-    if ShearLimit in kinds and scene.sliding.imposed == "time":
+    if ShearLimit in kinds and scene.loading.imposed == "time":
         problems.append(
-            "ShearLimit needs Sliding.speed [m/s]: with only the time given, the path on which the "
+            "ShearLimit needs loading.speed [m/s]: with only the time given, the path on which the "
             "limit acts is not known"
         )
     if problems:
@@ -140,17 +140,17 @@ def _check_effects(scene: SlidingScene) -> None:
 
 
 def _check_gap(scene: SlidingScene) -> None:
-    if scene.sliding.gap > 0.0:
+    if scene.loading.gap > 0.0:
         return
     drag, is_flat = scene.effect(CouetteForce), scene.interface.is_flat
     if is_flat:
         raise InfeasibleError(
-            "Sliding.gap is 0 m between flats: touching flats are a contact problem; give the gap "
+            "loading.gap is 0 m between flats: touching flats are a contact problem; give the gap "
             "that their roughness keeps open [m]"
         )
     if drag is not None and drag.closure != "as-published":
         raise InfeasibleError(
-            "Sliding.gap is 0 m: the drag of a film under a touching sphere is infinite, it grows "
+            "loading.gap is 0 m: the drag of a film under a touching sphere is infinite, it grows "
             "as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
         )
 
@@ -186,7 +186,7 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
     """
     if isinstance(number, bool) or not isinstance(number, int) or number < 1:
         raise DescriptionError("divide_sliding(number)", number, "be a whole number of at least 1")
-    interface, meniscus = scene.interface, scene.interface.meniscus
+    interface, meniscus = scene.interface, scene.meniscus
     if interface.is_flat:
         more = evolve(meniscus, count=meniscus.count * number)
         return evolve(scene, interface=evolve(interface, meniscus=more))
@@ -198,7 +198,7 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
             unit="m3",
         )
     root = math.sqrt(number)
-    film, gap = film_shape(scene), scene.sliding.gap
+    film, gap = film_shape(scene), scene.loading.gap
     depth = film.height(gap) - gap
     if number > 1 and 2.0 * depth * root > film.sphere_radius:
         most = film.sphere_radius / (2.0 * depth)
@@ -213,6 +213,9 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
     return evolve(scene, interface=smaller)
 
 
-def _smaller(body: Surface, root: float) -> Surface:
+def _smaller(body: Body, root: float) -> Body:
     """Sphere of a radius divided by a number; a flat as it is."""
-    return body if isinstance(body, Flat) else Sphere(radius=body.radius / root)
+    surface = body.surface
+    return (
+        Body(surface=Sphere(radius=surface.radius / root)) if isinstance(surface, Sphere) else body
+    )

@@ -125,11 +125,11 @@ class SlidingResult:
         if drag is None or drag.closure != "as-published":
             return ()
         scene, film = self.plan.scene, self.plan.film
-        gap = scene.sliding.gap
+        gap = scene.loading.gap
         given = {
             "gap": gap,
             "separation_time": self.duration,
-            "viscosity": scene.interface.meniscus.liquid.at(scene.temperature).viscosity,
+            "viscosity": scene.meniscus.liquid.at(scene.temperature).viscosity,
         }
         if scene.interface.is_flat:
             one = published("3.53", radius=self.plan.wetted_radius, **given)
@@ -141,11 +141,11 @@ class SlidingResult:
     @property
     def duration(self) -> float:
         """Time [s] the slide takes."""
-        sliding = self.plan.scene.sliding
-        if sliding.time is not None:
-            return sliding.time
-        assert sliding.speed is not None  # exactly one of them is given
-        return self.plan.end / sliding.speed
+        loading = self.plan.scene.loading
+        if loading.time is not None:
+            return loading.time
+        assert loading.speed is not None  # exactly one of them is given
+        return self.plan.end / loading.speed
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""

@@ -31,7 +31,7 @@ _NODES = 12  # of a panel between two points of a curve
 
 def slide(plan: SlidingPlan, begun: float) -> SlidingResult:
     """Run a sliding: curves over the travel, and totals."""
-    sliding = plan.scene.sliding
+    loading = plan.scene.loading
     travel = np.linspace(0.0, plan.end, max(plan.accuracy.points, 2))
     columns: dict[str, Any] = {
         "travel": travel,
@@ -43,8 +43,8 @@ def slide(plan: SlidingPlan, begun: float) -> SlidingResult:
         assert stick.work is not None
         columns["hysteresis_force"] = stick.force(travel, 0.0)
         totals["hysteresis_work"] = float(stick.work(plan.end))
-    if sliding.speed is not None:
-        at_speed, more = _at_speed(plan, travel, sliding.speed, drag, stick)
+    if loading.speed is not None:
+        at_speed, more = _at_speed(plan, travel, loading.speed, drag, stick)
         columns |= at_speed
         totals |= more
     elif drag is not None:
@@ -52,12 +52,12 @@ def slide(plan: SlidingPlan, begun: float) -> SlidingResult:
         columns["couette_impulse"] = drag.impulse(travel)
         totals["couette_impulse"] = float(columns["couette_impulse"][-1])
     parted = plan.end >= plan.break_travel
-    how = f"at {sliding.speed:g} m/s" if sliding.speed else f"within {sliding.time:g} s"
+    how = f"at {loading.speed:g} m/s" if loading.speed else f"within {loading.time:g} s"
     end = "the wetted circles have parted" if parted else "the wetted circles still overlap"
     return SlidingResult(
         plan,
         "parted" if parted else "curve",
-        f"slid by {plan.end:g} m {how} at a gap of {sliding.gap:g} m; {end}",
+        f"slid by {plan.end:g} m {how} at a gap of {loading.gap:g} m; {end}",
         {name: _frozen(values) for name, values in columns.items()},
         totals,
         check_sliding(plan),
@@ -115,9 +115,9 @@ def _impulse(law: SlideLaw, travel: Floats, speed: float) -> Any:
 def check_sliding(plan: SlidingPlan) -> tuple[ValidityNumber, ...]:
     """Evaluate the numbers that say whether a sliding is inside the range of its models."""
     scene = plan.scene
-    gap, time = scene.sliding.gap, scene.sliding.time
-    speed = scene.sliding.speed or plan.end / (time or math.inf)
-    state = scene.interface.meniscus.liquid.at(scene.temperature)
+    gap, time = scene.loading.gap, scene.loading.time
+    speed = scene.loading.speed or plan.end / (time or math.inf)
+    state = scene.meniscus.liquid.at(scene.temperature)
     height, radius = plan.film.height(gap), plan.wetted_radius
     found = [
         ValidityNumber(

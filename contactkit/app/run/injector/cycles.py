@@ -62,7 +62,7 @@ def stem(temperature: float) -> str:
 def dry_delay(scene: InjectorScene) -> float:
     """Release delay [s] of a spool without a film: what magnet, spring and mass alone take."""
     film = scene.separation(scene.temperature)
-    meniscus = film.interface.meniscus
+    meniscus = film.meniscus
     thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
     interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
     dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))

@@ -44,7 +44,7 @@ def end_stop_impacts(scene: InjectorScene, run: InjectorRun) -> EndStopImpacts |
     depth = float(run.monolithic.gap.max()) - stop.gap
     approach = in_series(curve, depth, 0.0, stop.stiffness, beyond=True)[1]
     # Magnet and spring push as much out as in: the gap is the same.
-    lost = 0.5 * (scene.opening.mass or 0.0) * (came * came - left * left)
+    lost = 0.5 * (scene.loading.mass or 0.0) * (came * came - left * left)
     taken = curve.lost(min(approach, curve.most))
     peak = float(run.coupled["F_stop"].max())
     return EndStopImpacts(peak, depth, approach, lost, abs(left / came), taken)

@@ -54,7 +54,7 @@ def _shade(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
 def _gap(ax: Any, scene: InjectorScene, run: InjectorRun, time: Any) -> None:
     """Draw the gap, and where the spool meets the asperities and the stop."""
     ax.plot(time, run.coupled["h"] * 1e6, color=plot.COLORS["gap"])
-    for gap, text in ((scene.opening.rest_gap, "at rest"), (scene.valve.stop.gap, "stop")):
+    for gap, text in ((scene.loading.rest_gap, "at rest"), (scene.valve.stop.gap, "stop")):
         ax.axhline(gap * 1e6, color="0.6", lw=0.8, ls=":")
         ax.annotate(
             text,

@@ -54,11 +54,11 @@ def _limit_text(run: InjectorRun) -> str:
 def plan_text(scene: InjectorScene) -> str:
     """Say what will be simulated, what will not, and by which sources."""
     made = plan(scene.separation(scene.temperature))
-    opening, meniscus = scene.opening, scene.interface.meniscus
+    loading, meniscus = scene.loading, made.scene.meniscus
     degrees = ", ".join(f"{t - celsius(0.0):g} degC" for t in scene.study.temperatures)
     head = [
         f"{scene.name}: pulled by a valve over {scene.valve.profile.cycles} cycles, gap "
-        f"{opening.initial_gap:g} m to {opening.final_gap:g} m, faces of radius "
+        f"{loading.initial_gap:g} m to {loading.final_gap:g} m, faces of radius "
         f"{scene.interface.rim_radius:g} m",
         f"  at   {degrees}: {meniscus.liquid.name}",
         f"  by   FMUs valve-drive and stiction-mass, communication step "

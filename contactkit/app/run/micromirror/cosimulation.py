@@ -112,7 +112,7 @@ def couple_fmus(
         motion = couple(
             mirror,
             (FmuTip(plus), FmuTip(minus)),
-            scene.opening.stiffness,
+            scene.loading.stiffness,
             scene.start,
             stop_time,
             step,

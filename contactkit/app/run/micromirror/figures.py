@@ -110,7 +110,7 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
             motion = couple(
                 mirror,
                 scene.tips(tip_law(scene.tip, humidity)),
-                scene.opening.stiffness,
+                scene.loading.stiffness,
                 scene.start,
                 1.5e-6,
                 0.25 * scene.study.communication_step,
@@ -180,7 +180,7 @@ def _release(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Pa
 def _law(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Path:
     """Force on one tip over the gap: condensed and conserved, and at the vapour's pressure."""
     made, ax = plot.figure(size=(8.0, 5.0))
-    start = scene.opening.initial_gap
+    start = scene.loading.initial_gap
     wet = [one.adhesion for one in found if one.adhesion.volume > 0.0]
     widest = max((held.break_gap for held in wet), default=10.0 * start)
     gaps = np.geomspace(start, 1.1 * widest, 160)
@@ -217,7 +217,7 @@ def _law(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Path:
 def _load_line(ax: Any, scene: MicromirrorScene, gaps: Any) -> None:
     """Draw how little the spring of a tip gives way over the range of the meniscus."""
     preload = landing(scene).preload / scene.mirror.tips.per_side
-    line = preload - scene.opening.stiffness * (gaps - gaps[0])
+    line = preload - scene.loading.stiffness * (gaps - gaps[0])
     kept = line > 0.0
     ax.plot(
         gaps[kept] * 1e9,

@@ -33,7 +33,7 @@ def plan_text(scene: MicromirrorScene) -> str:
     """Say what will be simulated, what will not, and by which sources."""
     study = scene.study
     made = tip_law(scene.tip, study.humidity)
-    wave, meniscus = scene.mirror.waveform, made.scene.interface.meniscus
+    wave, meniscus = scene.mirror.waveform, made.scene.meniscus
     volume = f"{meniscus.volume:.3g} m3 under each tip" if meniscus.volume else "none"
     head = [
         f"{scene.name}: {wave.flips} flips between landing sites at "

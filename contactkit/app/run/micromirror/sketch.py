@@ -96,9 +96,9 @@ def _mirror(ax: Any, scene: MicromirrorScene) -> None:
 
 def _tip(ax: Any, scene: MicromirrorScene, made: Plan) -> None:
     """Draw the apex of a tip over its site, with the condensed meniscus."""
-    nm, gap = 1e9, scene.opening.initial_gap
-    radius = 1.0 / made.scene.interface.upper.curvature
-    contact = _meniscus(ax, made) if made.scene.interface.meniscus.volume else 0.2 * radius
+    nm, gap = 1e9, scene.loading.initial_gap
+    radius = made.scene.interface.sphere_radius
+    contact = _meniscus(ax, made) if made.scene.meniscus.volume else 0.2 * radius
     half = min(2.2 * contact, 0.9 * radius)
     x = np.linspace(-half, half, 400)
     under = gap + radius - np.sqrt(radius * radius - x * x)
@@ -117,9 +117,9 @@ def _meniscus(ax: Any, made: Plan) -> float:
     """Fill the meniscus; the radius [m] of its upper contact circle."""
     from ....capillary.exact.bridge import bridge
 
-    interface, meniscus = made.scene.interface, made.scene.interface.meniscus
+    interface, meniscus = made.scene.interface, made.scene.meniscus
     assert meniscus.volume is not None
-    gap, curvature = made.scene.opening.initial_gap, interface.upper.curvature
+    gap, curvature = made.scene.loading.initial_gap, interface.curvatures[1]
     angle = meniscus.contact_angle_lower
     found = bridge(gap, meniscus.volume, angle, meniscus.contact_angle_upper, 0.0, curvature)
     low, high = float(found.radius_lower), float(found.radius_upper)

@@ -1,20 +1,20 @@
-"""Surfaces of bodies in contact: recipes that are made into heights on a grid when asked.
+"""Rough surfaces: random roughness by its spectrum, height maps, and sums of surfaces.
 
-A height [m] is measured out of its own body: a peak is positive. Nothing here holds an array,
-but `Heights`, which is made from one.
+A height [m] is measured out of its own body: a peak is positive. All but `Heights` are recipes,
+made into heights on a grid when a contact is planned.
 """
 
 from __future__ import annotations
 
 import hashlib
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..units import si
 from ..validators import as_pair, as_tuple, choice, optional, positive, refuse
-from .shapes import Flat, Sphere
+from .surfaces import Surface
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,35 +23,23 @@ if TYPE_CHECKING:
     Map = NDArray[np.float64]
 
 __all__ = [
-    "SHAPES",
     "CombinedSurface",
     "GaussianRoughness",
-    "Grid",
     "Heights",
     "Measured",
-    "Paraboloid",
+    "RoughSurface",
     "SelfAffineRoughness",
-    "Topography",
-    "Wave",
 ]
 
 
-class Grid(NamedTuple):
-    """A window cut into pixels: counts (ny, nx), pixel sizes (dy, dx) [m], edges joined or not."""
-
-    shape: tuple[int, int]
-    pixel_size: tuple[float, float]
-    periodic: bool
+@frozen(kw_only=True)
+class RoughSurface(Surface):
+    """A surface without one round apex."""
 
     @property
-    def area(self) -> float:
-        """Area of the window [m2]."""
-        return self.shape[0] * self.pixel_size[0] * self.shape[1] * self.pixel_size[1]
-
-    @property
-    def pixel_area(self) -> float:
-        """Area of a pixel [m2]."""
-        return self.pixel_size[0] * self.pixel_size[1]
+    def curvature(self) -> None:
+        """See `Surface.curvature`."""
+        return None
 
 
 def _seed(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -67,7 +55,7 @@ def _length_or_pair(owner: object, attribute: Attribute[Any], value: Any) -> Non
 
 
 @frozen(kw_only=True)
-class GaussianRoughness:
+class GaussianRoughness(RoughSurface):
     """Gaussian heights with the exponential autocorrelation of Eq. (2.42).
 
     Parameters
@@ -84,6 +72,8 @@ class GaussianRoughness:
         Which surface of this kind.
     """
 
+    kind: ClassVar[str] = "gaussian-roughness"
+
     rms: float = field(validator=positive, metadata=si("m"))
     correlation_length: float | tuple[float, float] = field(
         converter=as_pair, validator=_length_or_pair, metadata=si("m")
@@ -93,7 +83,7 @@ class GaussianRoughness:
 
 
 @frozen(kw_only=True)
-class SelfAffineRoughness:
+class SelfAffineRoughness(RoughSurface):
     """Gaussian heights with a power-law spectrum between two wavelengths.
 
     Parameters
@@ -109,6 +99,8 @@ class SelfAffineRoughness:
     seed : int
         Which surface of this kind.
     """
+
+    kind: ClassVar[str] = "self-affine-roughness"
 
     rms: float = field(validator=positive, metadata=si("m"))
     hurst: float = field(metadata=si("-"))
@@ -133,42 +125,7 @@ class SelfAffineRoughness:
 
 
 @frozen(kw_only=True)
-class Wave:
-    """A wavy surface ``amplitude*cos(2 pi x/wavelength)``, or the product of two such waves.
-
-    Parameters
-    ----------
-    amplitude : float
-        Half of the height between trough and crest [m].
-    wavelength : float
-        Length of the wave along x [m].
-    wavelength_y : float, optional
-        Length of the wave along y [m]; the heights are then the product of both cosines.
-    """
-
-    amplitude: float = field(validator=positive, metadata=si("m"))
-    wavelength: float = field(validator=positive, metadata=si("m"))
-    wavelength_y: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-
-
-@frozen(kw_only=True)
-class Paraboloid:
-    """The body of Hertz's theory, ``-x^2/(2 R_x) - y^2/(2 R_y)``.
-
-    Parameters
-    ----------
-    radius : float
-        Radius of curvature at the apex along x [m].
-    radius_y : float, optional
-        The same along y [m]; None: as along x.
-    """
-
-    radius: float = field(validator=positive, metadata=si("m"))
-    radius_y: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-
-
-@frozen(kw_only=True)
-class Measured:
+class Measured(RoughSurface):
     """A height map from a file: the formats of instruments, npy, or plain columns of text.
 
     Parameters
@@ -186,6 +143,8 @@ class Measured:
     checksum : str, optional
         SHA-256 of the file; a file that differs is refused.
     """
+
+    kind: ClassVar[str] = "measured"
 
     path: str
     pixel_size: float | tuple[float, float] | None = field(
@@ -217,7 +176,7 @@ def _as_map(value: Any) -> Map:
 
 
 @frozen(kw_only=True, eq=False)
-class Heights:
+class Heights(RoughSurface):
     """Heights in hand, for people who come with an array.
 
     Parameters
@@ -227,6 +186,8 @@ class Heights:
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx).
     """
+
+    kind: ClassVar[str] = "heights"
 
     heights: Map = field(converter=_as_map, repr=False, metadata=si("m"))
     pixel_size: float | tuple[float, float] = field(
@@ -262,29 +223,22 @@ class Heights:
         return hashlib.sha256(self.heights.tobytes()).hexdigest()
 
 
-Shape = (
-    Flat | Sphere | Paraboloid | Wave | GaussianRoughness | SelfAffineRoughness | Measured | Heights
-)
-SHAPES: tuple[type, ...] = Shape.__args__
-
-
 @frozen(kw_only=True)
-class CombinedSurface:
-    """Shapes added up, such as a rough sphere.
+class CombinedSurface(RoughSurface):
+    """A sum of surfaces, such as a rough sphere.
 
     Parameters
     ----------
-    parts : tuple of shapes
-        What is added.
+    parts : tuple of Surface
+        The surfaces whose heights are added.
     """
 
-    parts: tuple[Shape, ...] = field(converter=as_tuple)
+    kind: ClassVar[str] = "combined"
+
+    parts: tuple[Surface, ...] = field(converter=as_tuple)
 
     @parts.validator
     def _check_parts(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
         for item in value:
-            if not isinstance(item, SHAPES):
-                raise refuse(self, attribute, item, "hold shapes only")
-
-
-Topography = Shape | CombinedSurface
+            if not isinstance(item, Surface):
+                raise refuse(self, attribute, item, "hold surfaces only")

@@ -1,0 +1,370 @@
+"""What is imposed on two bodies: a separation, a contact or a sliding, one class per kind.
+
+The gap is positive when open; travel and tangential force are positive in the direction of
+sliding. A field that does not belong to a kind cannot be written.
+"""
+
+from __future__ import annotations
+
+import abc
+import math
+from typing import Any, ClassVar, Literal
+
+from attrs import Attribute, field, frozen
+
+from ..errors import DescriptionError
+from ..units import si
+from ..validators import finite, non_negative, optional, part, positive, refuse
+
+__all__ = [
+    "CONTACT_LOADINGS",
+    "SEPARATION_LOADINGS",
+    "SLIDING_LOADINGS",
+    "Approach",
+    "ContactLoading",
+    "ImposedForce",
+    "ImposedSpeed",
+    "ImposedTime",
+    "Loading",
+    "Pressing",
+    "SeparationLoading",
+    "Sliding",
+    "Vibration",
+]
+
+
+@frozen(kw_only=True)
+class Loading(abc.ABC):
+    """What is imposed. Its kind is its name in files."""
+
+    kind: ClassVar[str]
+
+    @property
+    @abc.abstractmethod
+    def summary(self) -> str:
+        """What is imposed in a few words, for the head of a plan."""
+
+
+def _exactly_one(loading: Loading, **units: str) -> str:
+    """Name of the only one of some fields that is given."""
+    given = [name for name in units if getattr(loading, name) is not None]
+    if len(given) != 1:
+        raise DescriptionError(
+            type(loading).__name__,
+            given or "none",
+            f"be given exactly one of {' or '.join(f'{n} [{u}]' for n, u in units.items())}",
+        )
+    return given[0]
+
+
+# --- Separation -----------------------------------------------------------------------------------
+
+
+def _beyond_start(loading: SeparationLoading, attribute: Attribute[float], value: float) -> None:
+    positive(loading, attribute, value)
+    if value <= loading.initial_gap:
+        raise refuse(loading, attribute, value, f"exceed initial_gap = {loading.initial_gap:g} m")
+
+
+@frozen(kw_only=True)
+class SeparationLoading(Loading):
+    """A gap that opens along the common normal of the bodies.
+
+    Parameters
+    ----------
+    initial_gap, final_gap : float
+        Gap at the start and gap at which the bodies count as separated [m].
+    """
+
+    imposed: ClassVar[str]
+
+    initial_gap: float = field(validator=non_negative, metadata=si("m"))
+    final_gap: float = field(validator=_beyond_start, metadata=si("m"))
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        return f"{self.imposed} imposed, gap {self.initial_gap:g} m to {self.final_gap:g} m"
+
+
+@frozen(kw_only=True)
+class Vibration:
+    r"""A vibration of the gap, on top of an imposed opening speed.
+
+    .. math:: h = h_0 + v t + a \sin(2\pi f t + \varphi)
+
+    Parameters
+    ----------
+    amplitude : float
+        Amplitude a of the gap [m], half of peak to peak; below the gap, so that the bodies do
+        not touch.
+    frequency : float
+        Frequency f [Hz].
+    phase : float
+        Phase at the start [rad].
+    rest_gap : float
+        Gap at which asperities carry the bodies, to be kept clear of [m]; 0: none.
+
+    Examples
+    --------
+    >>> shaken = Vibration(amplitude=1e-6, frequency=20e3)
+    >>> round(shaken.offset(1.25e-5) * 1e6, 9), round(shaken.speed(0.0), 9)
+    (1.0, 0.125663706)
+    """
+
+    amplitude: float = field(validator=positive, metadata=si("m"))
+    frequency: float = field(validator=positive, metadata=si("Hz"))
+    phase: float = field(default=0.0, validator=finite, metadata=si("rad"))
+    rest_gap: float = field(default=0.0, validator=non_negative, metadata=si("m"))
+
+    def angle(self, time: float) -> float:
+        """Phase [rad] at a time [s]."""
+        return math.tau * self.frequency * time + self.phase
+
+    def offset(self, time: float) -> float:
+        """What the vibration adds to the gap [m] at a time [s]."""
+        return self.amplitude * math.sin(self.angle(time))
+
+    def speed(self, time: float) -> float:
+        """What the vibration adds to the opening speed [m/s] at a time [s]."""
+        return math.tau * self.frequency * self.amplitude * math.cos(self.angle(time))
+
+
+@frozen(kw_only=True)
+class ImposedSpeed(SeparationLoading):
+    """An imposed opening speed; the force follows.
+
+    Parameters
+    ----------
+    speed : float
+        Opening speed [m/s].
+    initial_gap, final_gap : float
+        Gap at the start and gap at which the bodies count as separated [m].
+    vibration : Vibration, optional
+        Vibration of the gap on top of the speed.
+
+    Examples
+    --------
+    >>> ImposedSpeed(speed=0.04, initial_gap=5e-6, final_gap=25e-6).summary
+    'speed imposed, gap 5e-06 m to 2.5e-05 m'
+    """
+
+    kind: ClassVar[str] = "imposed-speed"
+    imposed: ClassVar[str] = "speed"
+
+    speed: float = field(validator=positive, metadata=si("m/s"))
+    vibration: Vibration | None = field(default=None, validator=optional(part(Vibration)))
+
+    def __attrs_post_init__(self) -> None:
+        if self.vibration is None:
+            return
+        rest = self.vibration.rest_gap
+        if self.vibration.amplitude >= self.initial_gap - rest:
+            raise DescriptionError(
+                "Vibration.amplitude",
+                self.vibration.amplitude,
+                f"be below initial_gap = {self.initial_gap:g} m"
+                + (f" less rest_gap = {rest:g} m" if rest else ""),
+                unit="m",
+                hint="the bodies would touch; shake less, or start from a larger gap",
+            )
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        shaken, text = self.vibration, super().summary
+        if shaken is None:
+            return text
+        return f"{text}, vibration of {shaken.amplitude:g} m at {shaken.frequency:g} Hz"
+
+
+@frozen(kw_only=True)
+class ImposedTime(SeparationLoading):
+    """An imposed duration of the separation; the mean force follows.
+
+    Parameters
+    ----------
+    time : float
+        Duration [s].
+    initial_gap, final_gap : float
+        Gap at the start and gap at which the bodies count as separated [m].
+    """
+
+    kind: ClassVar[str] = "imposed-time"
+    imposed: ClassVar[str] = "time"
+
+    time: float = field(validator=positive, metadata=si("s"))
+
+
+@frozen(kw_only=True)
+class ImposedForce(SeparationLoading):
+    """An imposed pull, on a mass if there is one; the motion follows.
+
+    Parameters
+    ----------
+    force : float
+        Pull [N].
+    mass : float, optional
+        Moving mass [kg]. None: inertia is left out.
+    stiffness : float
+        Stiffness of a spring that pulls back towards `initial_gap` [N/m].
+    rise_time : float
+        The pull grows as ``force*(1 - exp(-t/rise_time))`` [s]; 0: at once.
+    initial_speed : float
+        Speed of the mass at the start [m/s].
+    initial_gap, final_gap : float
+        Gap at the start and gap at which the bodies count as separated [m].
+    rest_gap : float
+        Gap at which asperities carry the bodies and closing stops [m]; 0: none.
+    time_limit : float
+        Longest time to wait for separation [s].
+    """
+
+    kind: ClassVar[str] = "imposed-force"
+    imposed: ClassVar[str] = "force"
+
+    force: float = field(validator=finite, metadata=si("N"))
+    mass: float | None = field(default=None, validator=optional(positive), metadata=si("kg"))
+    stiffness: float = field(default=0.0, validator=non_negative, metadata=si("N/m"))
+    rise_time: float = field(default=0.0, validator=non_negative, metadata=si("s"))
+    initial_speed: float = field(default=0.0, validator=finite, metadata=si("m/s"))
+    rest_gap: float = field(default=0.0, validator=non_negative, metadata=si("m"))
+    time_limit: float = field(default=3600.0, validator=positive, metadata=si("s"))
+
+    @rest_gap.validator
+    def _within_start(self, attribute: Attribute[float], value: float) -> None:
+        if value > self.initial_gap:
+            expected = f"not exceed initial_gap = {self.initial_gap:g} m"
+            raise refuse(self, attribute, value, expected)
+
+
+SEPARATION_LOADINGS: tuple[type[SeparationLoading], ...] = (ImposedSpeed, ImposedForce, ImposedTime)
+
+
+# --- Contact --------------------------------------------------------------------------------------
+
+
+@frozen(kw_only=True)
+class ContactLoading(Loading):
+    """How two bodies are brought into contact."""
+
+    @abc.abstractmethod
+    def mean_pressure(self, area: float) -> float | None:
+        """Mean pressure [Pa] over a window of an area [m2]; None if it is not imposed."""
+
+
+@frozen(kw_only=True)
+class Pressing(ContactLoading):
+    """A load that presses the bodies together. Exactly one of the two is given.
+
+    Parameters
+    ----------
+    pressure : float, optional
+        Mean pressure over the window [Pa].
+    force : float, optional
+        Normal force on the window [N].
+    """
+
+    kind: ClassVar[str] = "pressing"
+
+    pressure: float | None = field(default=None, validator=optional(finite), metadata=si("Pa"))
+    force: float | None = field(default=None, validator=optional(finite), metadata=si("N"))
+
+    @pressure.validator
+    @force.validator
+    def _not_pulled(self, attribute: Attribute[Any], value: Any) -> None:
+        if value is not None and value < 0.0:
+            raise refuse(
+                self, attribute, value, "be zero or positive", "a pull is a matter of separation"
+            )
+
+    def __attrs_post_init__(self) -> None:
+        _exactly_one(self, pressure="Pa", force="N")
+
+    def mean_pressure(self, area: float) -> float | None:
+        """See `ContactLoading.mean_pressure`."""
+        return self.pressure if self.force is None else self.force / area
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        if self.force is not None:
+            return f"force {self.force:g} N"
+        return f"mean pressure {self.pressure:g} Pa"
+
+
+@frozen(kw_only=True)
+class Approach(ContactLoading):
+    """An imposed approach of the bodies; the load follows.
+
+    Parameters
+    ----------
+    approach : float
+        Rigid-body approach from first touch [m]. In a window that is not periodic it is that of
+        points far away; in a periodic window it is that of the mean planes of the deformed
+        surfaces.
+    """
+
+    kind: ClassVar[str] = "approach"
+
+    approach: float = field(validator=finite, metadata=si("m"))
+
+    def mean_pressure(self, area: float) -> None:
+        """See `ContactLoading.mean_pressure`."""
+        return
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        return f"approach {self.approach:g} m"
+
+
+CONTACT_LOADINGS: tuple[type[ContactLoading], ...] = (Pressing, Approach)
+
+
+# --- Sliding --------------------------------------------------------------------------------------
+
+
+@frozen(kw_only=True)
+class Sliding(Loading):
+    """How one body slides past the other, the gap held. One of `speed` and `time` is imposed.
+
+    Parameters
+    ----------
+    gap : float
+        Gap at which the bodies are held [m].
+    speed : float, optional
+        Imposed sliding speed [m/s]; the force follows.
+    time : float, optional
+        Imposed duration of the slide [s]; the mean force follows.
+    travel : float, optional
+        How far the body slides [m]. None: until the wetted circles no longer overlap.
+
+    Examples
+    --------
+    >>> Sliding(gap=2e-9, speed=1.0).imposed
+    'speed'
+    """
+
+    kind: ClassVar[str] = "sliding"
+
+    gap: float = field(validator=non_negative, metadata=si("m"))
+    speed: float | None = field(default=None, validator=optional(positive), metadata=si("m/s"))
+    time: float | None = field(default=None, validator=optional(positive), metadata=si("s"))
+    travel: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
+
+    def __attrs_post_init__(self) -> None:
+        _exactly_one(self, speed="m/s", time="s")
+
+    @property
+    def imposed(self) -> Literal["speed", "time"]:
+        """What is imposed."""
+        return "speed" if self.speed is not None else "time"
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        return f"{self.imposed} imposed at a gap of {self.gap:g} m"
+
+
+SLIDING_LOADINGS: tuple[type[Loading], ...] = (Sliding,)
