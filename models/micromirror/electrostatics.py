@@ -217,7 +217,7 @@ def pull_in(electrode: Electrode, stiffness: float) -> PullIn:
         return torque(electrode, tilt, 1.0) - tilt * torque_slope(electrode, tilt, 1.0)
 
     high = largest_tilt(electrode)
-    if high >= 0.5 * math.pi and excess(0.999999 * high) > 0.0:
+    if electrode.gap >= electrode.outer and excess(0.999999 * high) > 0.0:
         raise InfeasibleError(
             "the plate never meets the electrode, and no voltage pulls it in: its gap of "
             f"{electrode.gap:g} m exceeds its reach of {electrode.outer:g} m"

@@ -275,7 +275,7 @@ CALLED = {
 def test_a_saved_contact_answers_the_same(tmp_path, name):
     result = contact(*CALLED[name])
     again = ck.load_result(ck.save_result(result, tmp_path / "contact"))
-    for field in attrs.fields(ck.contact_result.ContactResult):
+    for field in attrs.fields(ck.ContactResult):
         if field.name not in ("plan", "parts"):
             assert equal(getattr(again, field.name), getattr(result, field.name)), field.name
     assert again.scalars() == result.scalars()
