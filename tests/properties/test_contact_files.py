@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import contactkit as ck
 from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.contact.result import ContactResult
 from contactkit.files.results import from_bytes, to_bytes
 
 
@@ -275,7 +276,7 @@ CALLED = {
 def test_a_saved_contact_answers_the_same(tmp_path, name):
     result = contact(*CALLED[name])
     again = ck.load_result(ck.save_result(result, tmp_path / "contact"))
-    for field in attrs.fields(ck.ContactResult):
+    for field in attrs.fields(ContactResult):
         if field.name not in ("plan", "parts"):
             assert equal(getattr(again, field.name), getattr(result, field.name)), field.name
     assert again.scalars() == result.scalars()
