@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test lint bench peers docs format clean
+.PHONY: demo test test-all lint bench peers docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -18,8 +18,16 @@ $(VENV)/.%: $(VENV)/.made pyproject.toml
 demo: $(VENV)/.all
 	$(BIN)/contactkit run fuel-injector --out out/fuel-injector
 
+# The same every time and on every machine; what takes long, or explores at random, comes after.
 test: $(VENV)/.test
 	$(BIN)/python -m pytest --numprocesses auto --dist worksteal
+
+# SEED=... repeats what a run explored.
+SEED ?= $(shell date +%Y%m%d)
+test-all: test $(VENV)/.test-all
+	@echo "random examples from SEED=$(SEED)"
+	$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m "slow or hypothesis" \
+		--hypothesis-profile=random --hypothesis-seed=$(SEED)
 
 # Ours first, then the same surfaces by the peers: some minutes. The whole table of docs/accuracy.md:
 # make bench CASES="--sizes 256 512 1024 2048 --surfaces selfaffine expacf --areas 1 5 20 --budget 120"

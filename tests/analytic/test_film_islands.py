@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from contactkit.capillary.film_islands import film_force, islands, meniscus_area
 from contactkit.roughness.roughness import gaussian_exponential, paraboloid
 
-few = settings(deadline=None, max_examples=60)
 MASKS = arrays(bool, st.tuples(st.integers(1, 7), st.integers(1, 7)))
 GAPS = arrays(
     np.float64,
@@ -54,7 +53,6 @@ def flood(mask, periodic, connectivity):
 # Islands ------------------------------------------------------------------------------------
 
 
-@few
 @given(MASKS, st.booleans(), CONNECTIVITY)
 def test_islands_are_those_of_a_walk(mask, periodic, connectivity):
     names, n = islands(mask, periodic, connectivity)
@@ -75,7 +73,6 @@ def test_islands_meet_across_edges_and_corners(periodic, connectivity, n):
     assert islands(mask, periodic, connectivity)[1] == n
 
 
-@few
 @given(GAPS, st.booleans(), CONNECTIVITY)
 def test_the_meniscus_is_on_wetted_islands_and_not_in_contact(gap, periodic, connectivity):
     contact = gap == 0.0
@@ -92,7 +89,6 @@ def test_the_meniscus_is_on_wetted_islands_and_not_in_contact(gap, periodic, con
     assert found.n_islands + found.n_dry_islands == len(flood(gap < 2.0, periodic, connectivity))
 
 
-@few
 @given(GAPS, CONNECTIVITY, st.integers(-9, 9), st.integers(-9, 9))
 def test_a_periodic_map_may_be_rolled(gap, connectivity, down, right):
     def found(heights):
@@ -105,7 +101,6 @@ def test_a_periodic_map_may_be_rolled(gap, connectivity, down, right):
     )
 
 
-@few
 @given(GAPS, st.booleans(), CONNECTIVITY, st.floats(0.1, 3.0), st.floats(0.0, 3.0))
 def test_a_thicker_film_wets_no_less(gap, periodic, connectivity, film, more):
     areas = [

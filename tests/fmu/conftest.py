@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import shutil
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -13,6 +12,8 @@ import pytest
 
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
+
+from shelf import Shelf  # noqa: E402
 
 from contactkit.fmu.python import build as building  # noqa: E402  # both packages must be there
 
@@ -32,8 +33,6 @@ class Host:
     def __init__(self, path: Path, folder: Path) -> None:
         from fmpy import fmi2
 
-        if not folder.exists():
-            fmpy.extract(str(path), str(folder))
         description = fmpy.read_model_description(str(path))
         self.variables = {v.name: v for v in description.modelVariables}
         self.log: list[Entry] = []
@@ -129,24 +128,28 @@ def load_as_fmu_module():
 
 
 @pytest.fixture(scope="session")
-def toy_fmu(tmp_path_factory, toy_module):
-    return building.build("toy", tmp_path_factory.mktemp("fmu") / "toy.fmu")
+def toy_fmu(shelf, toy_module):
+    return shelf(building.build, "toy")
+
+
+@pytest.fixture(scope="session")
+def shelf(tmp_path_factory):
+    """FMUs that are built once in a run, whoever asks for them."""
+    return Shelf(tmp_path_factory)
 
 
 @pytest.fixture
-def open_fmu(tmp_path):
-    """Open FMUs, each in a folder of its own, and close them after the test."""
-    hosts, folders = [], {}
+def open_fmu(shelf):
+    """Open FMUs, and close them after the test."""
+    hosts = []
 
-    def open_one(path):
-        folder = folders.setdefault(path, tmp_path / f"unpacked {len(folders)}")
-        hosts.append(Host(path, folder))
+    def open_one(path, folder=None):
+        hosts.append(Host(path, folder or shelf.unpacked(path)))
         return hosts[-1]
 
     yield open_one
     for host in hosts:
         host.close()
-        shutil.rmtree(host.slave.unzipDirectory, ignore_errors=True)
 
 
 @pytest.fixture

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -75,7 +76,7 @@ def helper_fmu(folder, class_name, name):
     module = "hosts_slaves"
     _load(module)
     case, key = CASES[name]["case"], class_name.lower()
-    building.FMUS[key] = (module, class_name)
+    building.FMUS[key] = (f"slaves.{module}", class_name)
     try:
         start = {"F0": case["F0"], "tau": case["tau"], "k": case["k_s"], "h0": case["h0"]}
         if class_name == "Body":
@@ -85,24 +86,24 @@ def helper_fmu(folder, class_name, name):
         del building.FMUS[key]
 
 
-class Shelf:
-    """FMUs of the release cases, each built once; kinds are helper, python, native 2, native 3."""
+class Cases:
+    """FMUs of the release cases; kinds are helper, python, native 2, native 3."""
 
-    def __init__(self, folder):
-        self._folder, self._made = folder, {}
+    def __init__(self, shelf):
+        self._shelf = shelf
 
     def __call__(self, kind, model, name="A", **changes):
-        key = kind, model, name, str(changes)
-        if key not in self._made:
-            place = self._folder / str(len(self._made))
-            place.mkdir()
+        def make(folder):
             if kind == "helper":
-                self._made[key] = helper_fmu(place, model, name)
+                built = helper_fmu(folder, model, name)
             elif kind == "python":
-                self._made[key] = python_fmu(place, model, name, **changes)
+                built = python_fmu(folder, model, name, **changes)
             else:
-                self._made[key] = native_fmu(place, model, name, int(kind[-1]), **changes)
-        return self._made[key]
+                built = native_fmu(folder, model, name, int(kind[-1]), **changes)
+            built.rename(folder / "x.fmu")
+
+        key = re.sub(r"\W+", "-", f"case {kind} {model} {name} {changes}")
+        return self._shelf.folder(key, make) / "x.fmu"
 
 
-__all__ = ["CASES", "HERE", "Shelf", "native_fmu", "reference", "values"]
+__all__ = ["CASES", "HERE", "Cases", "native_fmu", "reference", "values"]

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-
 import fmpy
 from hosts_fmus import CASES
 from native_scenes import DROP, FACE, scene
@@ -14,12 +11,7 @@ from contactkit.fmu.framework.toolchain import PLATFORMS
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.native.drive import build_native_drive
 
-try:
-    import fcntl
-except ImportError:  # Windows: each worker builds for itself
-    fcntl = None
-
-__all__ = ["LIBRARIES", "every_fmu", "library_of", "made_once"]
+__all__ = ["LIBRARIES", "every_fmu", "library_of"]
 
 EVERY = {"platforms": list(PLATFORMS), "compiler": "zig"}
 LIBRARIES = [(name, fmi) for name in PLATFORMS for fmi in (2, 3)]
@@ -58,26 +50,9 @@ def build_all(folder):
         fmpy.extract(str(path), str(path.with_suffix("")))
 
 
-def made_once(tmp_path_factory, name, make):
-    """Folder that the first worker who wants it makes for all."""
-    root = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ and fcntl:
-        root = root.parent
-    done, parts = root / name, root / f"{name}.parts"
-    with (root / f"{name}.lock").open("w") as lock:
-        if fcntl:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-        if not done.exists():
-            shutil.rmtree(parts, ignore_errors=True)
-            parts.mkdir()
-            make(parts)
-            parts.rename(done)
-    return done
-
-
-def every_fmu(tmp_path_factory):
+def every_fmu(shelf):
     """Folder of the FMUs for every platform, packed and unpacked."""
-    return made_once(tmp_path_factory, "platforms", build_all)
+    return shelf.folder("platforms", build_all)
 
 
 def library_of(fmus, name, fmi, fmu="mass-A"):

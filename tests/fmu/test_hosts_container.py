@@ -33,6 +33,8 @@ from contactkit.fmu.master.injector import cosimulate  # noqa: E402
 from contactkit.fmu.python import build as building  # noqa: E402
 from contactkit.fmu.python.build import FMUS, validate  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 no_runtime = pytest.mark.skipif(
     sys.platform.startswith("linux") and "x86_64" not in local(), reason="no container for this"

@@ -12,14 +12,17 @@ pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
 from hosts_ecos import compiled_quickly, ecos, run, why_not
-from hosts_fmus import HERE, Shelf, reference
+from hosts_fmus import HERE, Cases, reference
 from native_scenes import HAS_CC
 
 from contactkit.app.system import write_system
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.master.injector import cosimulate
 
-pytestmark = pytest.mark.skipif(bool(why_not()), reason=why_not() or "it is there")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(bool(why_not()), reason=why_not() or "it is there"),
+]
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 KINDS = [
     "python",
@@ -37,8 +40,8 @@ def quickly():
 
 
 @pytest.fixture(scope="module")
-def fmu(tmp_path_factory):
-    return Shelf(tmp_path_factory.mktemp("ecos"))
+def fmu(shelf):
+    return Cases(shelf)
 
 
 @pytest.mark.parametrize("kind", KINDS)

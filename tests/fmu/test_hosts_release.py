@@ -19,7 +19,7 @@ import pytest
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
 
-from hosts_fmus import CASES, Shelf, reference  # noqa: E402
+from hosts_fmus import CASES, Cases, reference  # noqa: E402
 from native_scenes import HAS_CC, compile_c  # noqa: E402
 
 from contactkit.fmu.framework.toolchain import fmi_headers  # noqa: E402
@@ -38,8 +38,8 @@ ROOM = {"python": 1e-7, "native 2": 2e-7, "native 3": 2e-7}  # 1e-8 is the toler
 
 
 @pytest.fixture(scope="module")
-def fmu(tmp_path_factory):
-    return Shelf(tmp_path_factory.mktemp("hosts"))
+def fmu(shelf):
+    return Cases(shelf)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -89,6 +89,7 @@ def cosim():
 LIBCOSIM = KINDS[:2]  # it reads no FMI 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", LIBCOSIM)
 def test_libcosim_releases_case_a(fmu, cosim, kind):
     host = cosim({"film": fmu(kind, "stiction-mass")}, 1e-5).set("film", F_ext=40.0).run(STOP["A"])
@@ -96,6 +97,7 @@ def test_libcosim_releases_case_a(fmu, cosim, kind):
     assert host.get("film", "n_release") == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", LIBCOSIM)
 @pytest.mark.parametrize(("step", "error"), [(1e-6, -1.7e-5), (1e-5, -1.6e-4)])
 def test_libcosim_with_the_mass_inside(fmu, cosim, kind, step, error):
@@ -108,6 +110,7 @@ def test_libcosim_with_the_mass_inside(fmu, cosim, kind, step, error):
     assert found == pytest.approx(error, rel=0.1)
 
 
+@pytest.mark.slow
 @needs_cc
 def test_libcosim_case_b_with_the_mass_inside(fmu, cosim):
     fmus = {
@@ -123,6 +126,7 @@ def test_libcosim_case_b_with_the_mass_inside(fmu, cosim):
 WIRES = ("body.h -> film.h", "body.v -> film.v", "film.F -> body.F")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("step", "error"), [(1e-6, 1.5e-3), (1e-5, 1.4e-2)])
 def test_libcosim_with_forces_exchanged(fmu, cosim, step, error):
     """Case A, the harmless one: a hundred times the error at the same step."""
@@ -132,6 +136,7 @@ def test_libcosim_with_forces_exchanged(fmu, cosim, step, error):
     assert abs(found) == pytest.approx(abs(error), rel=0.5)
 
 
+@pytest.mark.slow
 def test_libcosim_is_told_that_its_answer_is_none(fmu, cosim):
     """Case B far beyond the stable step: a smooth wrong release, and a flag that says so."""
     fmus = {"body": fmu("helper", "Body", "B"), "film": fmu("python", "stiction-force", "B")}
@@ -144,6 +149,7 @@ def test_libcosim_is_told_that_its_answer_is_none(fmu, cosim):
 # hosts that are not on PyPI, or do not build from there --------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("OMSimulator") is None, reason="OMSimulator is not installed")
 @pytest.mark.parametrize("kind", KINDS)
 def test_omsimulator_releases_case_a(fmu, tmp_path, kind):
@@ -171,6 +177,7 @@ def test_omsimulator_releases_case_a(fmu, tmp_path, kind):
     assert found["t_release"] == pytest.approx(reference("A"), rel=ROOM[kind])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS[:2])
 def test_pyfmi_releases_case_a(fmu, kind):
     """It has no co-simulation of FMI 3."""

@@ -23,8 +23,8 @@ DISC = math.pi * RADIUS**2
 
 
 @pytest.fixture(scope="module")
-def film(tmp_path_factory):
-    return building.build("stiction-force", tmp_path_factory.mktemp("fmu") / "film.fmu")
+def film(shelf):
+    return shelf(building.build, "stiction-force")
 
 
 def monolithic(case, **changes):

@@ -13,8 +13,8 @@ from contactkit.fmu.python import build as building
 
 
 @pytest.fixture(scope="module")
-def film(tmp_path_factory):
-    return building.build("stiction-force", tmp_path_factory.mktemp("fmu") / "film.fmu")
+def film(shelf):
+    return shelf(building.build, "stiction-force")
 
 
 @pytest.mark.parametrize(("scheme", "factor"), [("jacobi", 1.0), ("gauss-seidel", 2.0)])

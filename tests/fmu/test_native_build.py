@@ -30,8 +30,8 @@ linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="dl
 
 
 @pytest.fixture(scope="module")
-def fmu(tmp_path_factory):
-    return build_native(SCENES["drop"], tmp_path_factory.mktemp("fmu") / "drop.fmu", **ONE)
+def fmu(shelf):
+    return shelf(build_native, SCENES["drop"], **ONE)
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +43,10 @@ def unpacked(fmu, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def unpacked_film(tmp_path_factory):
+def unpacked_film(shelf, tmp_path_factory):
     """The film alone, of the same scene."""
     folder = tmp_path_factory.mktemp("film")
-    path = build_native(SCENES["drop"], folder / "x.fmu", model="stiction-force", **ONE)
+    path = shelf(build_native, SCENES["drop"], model="stiction-force", **ONE)
     with zipfile.ZipFile(path) as packed:
         packed.extractall(folder)
     return folder
@@ -123,6 +123,7 @@ def test_the_sources_inside_are_all_it_takes(fmu, tmp_path):
     assert release_of(folder) == pytest.approx(before, rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="fmpy compiles with cmake")
 def test_fmpy_compiles_it(fmu, tmp_path):
     build = pytest.importorskip("fmpy.build")
@@ -175,11 +176,12 @@ def test_viscosity_and_surface_tension_are_free(fmu, tmp_path):
 @pytest.mark.parametrize(
     ("start", "said"),
     [
-        ({"eta": -1.0}, r"drop refused eta = -1\.0: eta must "),
+        ({"eta": -1.0}, r"^{} refused eta = -1\.0: eta must "),
         ({"h_break": 1e-9}, "cannot start with these values: .*h_break must be 0 or exceed h0 ="),
     ],
 )
 def test_a_start_value_that_is_refused_says_why(fmu, start, said):
+    said = said.format(fmu.stem)
     with Instance(fmu) as host, pytest.raises(ContactkitError, match=said):
         host.start(start, 1.0)
 
@@ -218,6 +220,7 @@ def test_no_misuse_ends_the_host(host, unpacked_film):
     host("misuse", folder=unpacked_film)
 
 
+@pytest.mark.slow
 @linux_only
 def test_sanitizers_find_nothing(host, unpacked_film, tmp_path):
     flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]

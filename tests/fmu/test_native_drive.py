@@ -82,18 +82,18 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def fmu(folder):
-    return build_native_drive(folder / "drive.fmu", **ONE)
+def fmu(shelf):
+    return shelf(build_native_drive, **ONE)
 
 
 @pytest.fixture(scope="module")
-def fmu3(folder):
-    return build_native_drive(folder / "drive3.fmu", fmi=3, **ONE)
+def fmu3(shelf):
+    return shelf(build_native_drive, fmi=3, **ONE)
 
 
 @pytest.fixture(scope="module")
-def python_fmu(folder):
-    return build("valve-drive", folder / "python.fmu")
+def python_fmu(shelf):
+    return shelf(build, "valve-drive")
 
 
 @pytest.fixture
@@ -104,6 +104,7 @@ def host(fmu, open_fmu):
 # What it says ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_fmpy_finds_no_problems(fmu, fmu3):
     assert validate(fmu) == []
     assert validate(fmu3) == []
@@ -514,9 +515,9 @@ def test_with_event_mode_alone_the_voltage_comes_at_the_end_of_a_step(fmu3):
 
 
 @pytest.fixture(scope="module")
-def film(folder):
+def film(shelf):
     scene, start = native_scene(open_scene("fuel-injector"))
-    return build_native(scene, folder / "film.fmu", start=start, **ONE)
+    return shelf(build_native, scene, start=start, **ONE)
 
 
 def test_the_master_takes_the_same_steps_with_either_drive(fmu, python_fmu, film):

@@ -18,10 +18,12 @@ from platforms_fmus import LIBRARIES, every_fmu, library_of  # noqa: E402
 
 from contactkit.fmu.framework.instance import Instance  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="session")
-def fmus(tmp_path_factory):
-    return every_fmu(tmp_path_factory)
+def fmus(shelf):
+    return every_fmu(shelf)
 
 
 STATES = ("h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "F_peak", "t_release")

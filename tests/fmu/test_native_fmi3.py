@@ -30,13 +30,9 @@ linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="dl
 
 
 @pytest.fixture(scope="module")
-def fmus(release_scene, tmp_path_factory):
+def fmus(release_scene, shelf):
     """Case A in both versions of FMI."""
-    folder = tmp_path_factory.mktemp("fmu")
-    return {
-        fmi: build_native(release_scene("A"), folder / f"fmi{fmi}.fmu", fmi=fmi, **ONE)
-        for fmi in (2, 3)
-    }
+    return {fmi: shelf(build_native, release_scene("A"), fmi=fmi, **ONE) for fmi in (2, 3)}
 
 
 @pytest.fixture(scope="module")
@@ -409,6 +405,7 @@ def test_no_misuse_ends_the_host(host):
     host("misuse")
 
 
+@pytest.mark.slow
 @linux_only
 def test_sanitizers_find_nothing(host, unpacked, tmp_path):
     """In a library made of what the build description names, with nothing from elsewhere."""

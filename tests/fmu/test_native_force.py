@@ -31,33 +31,19 @@ ONE = {"platforms": [local()], "compiler": "cc", "model": "stiction-force"}
 
 
 @pytest.fixture(scope="module")
-def native(tmp_path_factory):
-    """FMUs of scenes, built once each."""
-    folder, made = tmp_path_factory.mktemp("native"), {}
-
-    def of(name):
-        if name not in made:
-            made[name] = build_native(SCENES[name], folder / f"{len(made)}.fmu", **ONE)
-        return made[name]
-
-    return of
+def native(shelf):
+    """FMUs of scenes."""
+    return lambda name: shelf(build_native, SCENES[name], **ONE)
 
 
 @pytest.fixture(scope="module")
-def pair(tmp_path_factory):
+def pair(shelf):
     """The Python FMU and a native one of the same film."""
-    folder = tmp_path_factory.mktemp("pair")
-    path = building.build("stiction-force", folder / "python.fmu")
-    made = {}
 
     def of(**values):
-        key = tuple(sorted(values.items()))
-        if key not in made:
-            film = {port.name: port.start for port in MASS_PORTS} | values
-            film |= {"h_rel": 20.0 * film["h0"], "m": 0.02}
-            out = folder / f"native {len(made)}.fmu"
-            made[key] = build_native(scene_of(film), out, **ONE)
-        return path, made[key]
+        film = {port.name: port.start for port in MASS_PORTS} | values
+        film |= {"h_rel": 20.0 * film["h0"], "m": 0.02}
+        return shelf(building.build, "stiction-force"), shelf(build_native, scene_of(film), **ONE)
 
     return of
 

@@ -39,11 +39,13 @@ from contactkit.separation.plan import plan
 
 
 @pytest.fixture(scope="module")
-def probe(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("kernel")
-    write_sources(folder)
-    files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
-    return compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
+def probe(shelf):
+    def make(folder):
+        write_sources(folder)
+        files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
+        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
+
+    return shelf.folder("kernel probe", make) / "probe"
 
 
 @pytest.fixture(scope="module")

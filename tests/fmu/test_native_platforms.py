@@ -35,10 +35,12 @@ from contactkit.fmu.framework.toolchain import (  # noqa: E402
 )
 from contactkit.fmu.python.build import validate  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="session")
-def fmus(tmp_path_factory):
-    return every_fmu(tmp_path_factory)
+def fmus(shelf):
+    return every_fmu(shelf)
 
 
 def test_they_are_fmus_for_every_platform(fmus):

@@ -6,8 +6,6 @@ pythonfmu alone does not outlive the hard cases, which is what the guard in our 
 
 from __future__ import annotations
 
-import contextlib
-import os
 import re
 import shutil
 import sys
@@ -32,6 +30,8 @@ from probe_fmus import (
 
 from contactkit.fmu.python.guard import can_guard
 
+pytestmark = pytest.mark.slow
+
 OK, DISCARD, ERROR = 0, 2, 3
 SOFT = [one.__name__ for one in probe.CASES]
 HARD = [one.__name__ for one in probe.HARD]
@@ -43,20 +43,15 @@ def hard_cases(name):
 
 
 @pytest.fixture(scope="session")
-def place(tmp_path_factory):
-    """Specification of an FMU by its name; one build serves all processes of a test run."""
-    root = tmp_path_factory.getbasetemp()
-    if os.environ.get("PYTEST_XDIST_WORKER"):
-        root = root.parent
+def place(shelf):
+    """Specification of an FMU by its name."""
 
     def find(name):
-        folder = root / f"probe {name}"
-        if not folder.exists():
-            base = tmp_path_factory.mktemp("probe")
-            unpack(build_one(name, base), base / "fmu")
-            shutil.copytree(base / "fmu", base / "odd ü#%41 folder")
-            with contextlib.suppress(OSError):  # another process was faster
-                base.rename(folder)
+        def make(folder):
+            unpack(build_one(name, folder), folder / "fmu")
+            shutil.copytree(folder / "fmu", folder / "odd ü#%41 folder")
+
+        folder = shelf.folder(f"probe {name}", make)
         return specification(name, folder / "fmu") | {"odd folder": f"{folder}/odd ü#%41 folder"}
 
     return find

@@ -23,6 +23,8 @@ from probe_fmus import (
     unpack,
 )
 
+pytestmark = pytest.mark.slow
+
 FLAGS = ["-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 CASES = [one.__name__ for one in probe.CASES + probe.HARD if one is not probe.odd_path]
 SETTINGS = {

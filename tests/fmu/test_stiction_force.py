@@ -25,8 +25,8 @@ DISC = math.pi * RADIUS**2
 
 
 @pytest.fixture(scope="session")
-def force_fmu(tmp_path_factory):
-    return building.build("stiction-force", tmp_path_factory.mktemp("fmu") / "force.fmu")
+def force_fmu(shelf):
+    return shelf(building.build, "stiction-force")
 
 
 @pytest.fixture

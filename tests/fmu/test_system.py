@@ -214,6 +214,7 @@ needs_libcosim = pytest.mark.skipif(
 )
 
 
+@pytest.mark.slow
 @needs_libcosim
 def test_libcosim_steps_it_to_the_same_release(archive, ours):
     found = libcosim(archive)
@@ -221,6 +222,7 @@ def test_libcosim_steps_it_to_the_same_release(archive, ours):
     check(found["t_release"], found["F_peak"], found["J"], ours)
 
 
+@pytest.mark.slow
 @needs_libcosim
 def test_libcosim_takes_the_values_that_are_bound(archive, tmp_path):
     """A mass changed in the structure alone reaches the FMU."""
@@ -236,6 +238,7 @@ def test_libcosim_takes_the_values_that_are_bound(archive, tmp_path):
     assert libcosim(changed, 2e-5)["m"] == 0.04
 
 
+@pytest.mark.slow
 @needs_libcosim
 def test_libcosim_runs_a_system_that_holds_no_python(native_archive, ours):
     """Neither FMU has a line of it; the drive steps as the Python one does."""
@@ -251,6 +254,7 @@ def test_libcosim_runs_a_system_that_holds_no_python(native_archive, ours):
     check(found["t_release"], found["F_peak"], found["J"], ours)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("OMSimulator") is None, reason="OMSimulator is not installed")
 def test_omsimulator_runs_it(native_archive, tmp_path):
     """The program without Python."""

@@ -29,9 +29,8 @@ def scene():
 
 
 @pytest.fixture(scope="module")
-def tip_fmu(tmp_path_factory, scene):
-    path = tmp_path_factory.mktemp("fmu") / "tip-contact.fmu"
-    return building.build("tip-contact", path, start=tip_start(scene, 0.5))
+def tip_fmu(shelf, scene):
+    return shelf(building.build, "tip-contact", start=tip_start(scene, 0.5))
 
 
 @pytest.fixture

@@ -35,8 +35,8 @@ def drive(**values):
 
 
 @pytest.fixture(scope="module")
-def drive_fmu(tmp_path_factory):
-    return building.build("valve-drive", tmp_path_factory.mktemp("fmu") / "valve-drive.fmu")
+def drive_fmu(shelf):
+    return shelf(building.build, "valve-drive")
 
 
 def test_its_parameters_are_those_of_the_fuel_injector():

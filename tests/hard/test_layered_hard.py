@@ -12,7 +12,7 @@ from decimal import Decimal
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from contactkit.elasticity.depths import default_depths, locate
@@ -91,7 +91,6 @@ def test_the_reference_is_right_where_the_answer_is_known():
 
 
 @given(st.data())
-@settings(max_examples=40, deadline=None)
 def test_fourteen_digits_for_any_stack(data):
     n = data.draw(st.integers(1, 20))
     ratios = st.one_of(st.just(0.5), st.just(0.4999999), st.floats(-0.95, 0.5))

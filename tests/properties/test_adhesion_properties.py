@@ -7,7 +7,7 @@ import math
 import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
@@ -21,7 +21,6 @@ from contactkit.separation.simulate import simulate
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
 approx = pytest.approx
-few = settings(max_examples=20, deadline=None)
 AIR = ck.Liquid(name="air")
 transitions = st.floats(-3.0, 3.0).map(lambda x: 10.0**x)
 factors = st.floats(-3.0, 3.0).map(lambda x: 10.0**x)
@@ -46,7 +45,6 @@ def sticky(model="maugis-dugdale", length=1.0, stress=1.0, count=1, **more):
     )
 
 
-@few
 @given(models, factors, factors)
 def test_lengths_and_stresses_scale(model, length, stress):
     one, other = sticky(model), sticky(model, length, stress)
@@ -60,7 +58,6 @@ def test_lengths_and_stresses_scale(model, length, stress):
     assert there == approx(here * length**2 * stress, 1e-9)
 
 
-@few
 @given(transitions)
 def test_the_pull_off_lies_between_jkr_and_dmt(transition):
     bounds = maugis_dugdale.limits(transition)
@@ -71,7 +68,6 @@ def test_the_pull_off_lies_between_jkr_and_dmt(transition):
     assert wider.pull_off.load >= bounds.pull_off.load
 
 
-@few
 @given(transitions, st.floats(0.0, 0.999))
 def test_the_pull_on_the_branch_never_exceeds_the_pull_off(transition, share):
     bounds = maugis_dugdale.limits(transition)
@@ -82,7 +78,6 @@ def test_the_pull_on_the_branch_never_exceeds_the_pull_off(transition, share):
     assert bounds.pull_off.load <= found.load + 1e-12 <= further.load + 1e-9
 
 
-@few
 @given(transitions, st.floats(-1.4, 100.0))
 def test_a_contact_under_a_load_lies_between_dmt_and_jkr(transition, load):
     found = maugis_dugdale.at_load(load, transition, maugis_dugdale.limits(transition))
@@ -92,7 +87,6 @@ def test_a_contact_under_a_load_lies_between_dmt_and_jkr(transition, load):
         assert found.contact_radius <= jkr.radius_at_load(load) + off
 
 
-@few
 @given(models, st.lists(st.floats(-0.7, 50.0), min_size=2, max_size=6, unique=True))
 def test_load_and_approach_rise_with_the_contact_radius(model, shares):
     scene = sticky(model)
@@ -104,7 +98,6 @@ def test_load_and_approach_rise_with_the_contact_radius(model, shares):
     assert not found.load.flags.writeable
 
 
-@few
 @given(st.integers(1, 50))
 def test_each_meniscus_has_a_sphere_of_its_own(count):
     for effects in ((ck.VanDerWaalsForce(hamaker_constant=1e-19),), sticky().effects):
@@ -115,7 +108,6 @@ def test_each_meniscus_has_a_sphere_of_its_own(count):
         assert many.release == one.release
 
 
-@few
 @given(factors, factors, factors)
 def test_the_force_of_spheres_does_not_mind_which_is_the_lower(gap, lower, upper):
     one = van_der_waals.hamaker_sphere_force(gap, 1.0, lower, upper)
@@ -170,7 +162,6 @@ def wet(pressure, model="maugis-dugdale", modulus=1e9, angle=0.5, gap=1e-12):
     )
 
 
-@few
 @given(st.floats(5.0, 8.5).map(lambda x: -(10.0**x)), st.floats(0.0, 1.4))
 def test_the_liquid_between_stiff_bodies_pulls_as_its_meniscus(pressure, angle):
     """2 pi R gamma (c1 + c2) (1 - D |p|/(gamma (c1 + c2))): the small meniscus of a pressure."""

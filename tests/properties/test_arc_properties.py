@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from contactkit.capillary.arc import flat as arc_flat
@@ -36,7 +36,6 @@ def test_lengths_scale_between_flats(lower, upper, share, power):
     np.testing.assert_allclose(two.neck, scale * one.neck, rtol=1e-11)
 
 
-@settings(deadline=None)
 @given(ANGLE, ANGLE, VOLUME, st.floats(0.0, 0.3), BEND, st.floats(-9.0, 3.0))
 def test_lengths_scale_between_curved_bodies(lower, upper, volume, share, ratio, power):
     assume(abs(lower - upper) < HALF)
@@ -50,7 +49,6 @@ def test_lengths_scale_between_curved_bodies(lower, upper, volume, share, ratio,
     np.testing.assert_allclose(two.radius_upper, scale * one.radius_upper, rtol=1e-10)
 
 
-@settings(deadline=None)
 @given(ANGLE, ANGLE, VOLUME, st.floats(0.0, 0.3), BEND, BEND)
 def test_bodies_may_be_swapped(lower, upper, volume, share, one_curved, two_curved):
     assume(abs(lower - upper) < HALF)
@@ -111,7 +109,6 @@ def test_contact_radius_is_continuous_where_the_arc_is_straight(lower, share):
     assert slopes[0] == pytest.approx(slopes[1], rel=1e-2, abs=1e-3)
 
 
-@settings(deadline=None)
 @given(ANGLE, ANGLE, st.floats(0.02, 0.9), st.sampled_from(["lower", "upper", "both"]))
 def test_weakly_curved_bodies_join_the_flats(lower, upper, share, which):
     """Two kernels that share no formula for the volume meet as curvature vanishes."""
@@ -128,7 +125,6 @@ def test_weakly_curved_bodies_join_the_flats(lower, upper, share, which):
         )
 
 
-@settings(deadline=None, max_examples=40)
 @given(
     st.floats(0.0, math.pi),
     st.floats(0.0, math.pi),
@@ -148,7 +144,6 @@ def test_arcs_exist_up_to_the_closed_neck_and_not_beyond(lower, upper, volume, c
     assert state.neck[4] < 1e-3 * limit + state.neck[3]
 
 
-@settings(deadline=None, max_examples=25)
 @given(
     st.lists(
         st.tuples(ANGLE, ANGLE, VOLUME, st.sampled_from([0.0, 0.3, 1.0])), min_size=2, max_size=6

@@ -12,7 +12,7 @@ from contactkit.capillary.exact.at_pressure import max_gap_at_pressure
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure, margin
 from contactkit.capillary.exact.stability import stability_limit
 
-few = settings(max_examples=12, deadline=None, derandomize=True)
+few = settings(max_examples=12)
 angles = st.floats(0.0, math.pi)
 shares = st.floats(0.02, 0.97)
 volumes = st.floats(-6.0, -1.0).map(lambda power: 10.0**power)

@@ -7,7 +7,7 @@ import json
 import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
@@ -18,10 +18,6 @@ from contactkit.files.results import from_bytes, to_bytes
 
 def decades(low, high):
     return st.floats(low, high).map(lambda exponent: 10.0**exponent)
-
-
-def few(test):
-    return settings(deadline=None, max_examples=60)(test)
 
 
 # Scenes -------------------------------------------------------------------------------------
@@ -142,7 +138,6 @@ def test_every_effect_of_a_contact_is_tried_here():
     assert set(EFFECTS) == set(CONTACT_EFFECTS)
 
 
-@few
 @given(scene=scenes)
 def test_a_contact_scene_written_to_a_file_comes_back_the_same(tmp_path_factory, scene):
     path = tmp_path_factory.getbasetemp() / "contact.toml"

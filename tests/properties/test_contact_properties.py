@@ -7,14 +7,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import contactkit as ck
 
-few = settings(
-    max_examples=12, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
-)
+few = settings(max_examples=12)
 E, NU = 1e9, 0.3
 SOLID = ck.Material(young_modulus=E, poisson_ratio=NU)
 COATED = ck.Stack(

@@ -22,7 +22,7 @@ stacks = st.integers(1, 3).flatmap(
     )
 )
 pixels = st.tuples(st.floats(0.5, 2.0), st.floats(0.5, 2.0))
-modest = settings(max_examples=12, deadline=None)
+modest = settings(max_examples=12)
 
 
 def matrix(k):

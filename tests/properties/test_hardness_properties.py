@@ -1,7 +1,7 @@
 """Laws of the hardness of a layered solid, for any layers."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from contactkit.contact.effects.hardness_rules import (
@@ -10,7 +10,6 @@ from contactkit.contact.effects.hardness_rules import (
     layer_on_substrate,
 )
 
-few = settings(deadline=None, max_examples=40)
 VALUE = st.floats(-2.0, 2.0).map(lambda power: 10.0**power)
 SHIFT = st.sampled_from([0.0, 0.3, 1.0])
 
@@ -29,7 +28,6 @@ def stacks(draw, most=5):
     )
 
 
-@few
 @given(stacks(), SHIFT)
 def test_it_starts_at_the_top_and_ends_at_the_substrate(stack, shift):
     young_modulus, hardness, thickness = stack
@@ -38,7 +36,6 @@ def test_it_starts_at_the_top_and_ends_at_the_substrate(stack, shift):
     np.testing.assert_array_equal(found, [hardness[0], hardness[0], hardness[-1]])
 
 
-@few
 @given(stacks(), SHIFT, st.lists(st.floats(0.0, 1e4), min_size=1, max_size=8))
 def test_it_lies_between_the_least_and_the_greatest(stack, shift, depths):
     young_modulus, hardness, thickness = stack
@@ -57,7 +54,6 @@ def largest_step(function):
     return np.abs(np.diff(function(u))).max()
 
 
-@few
 @given(stacks(), SHIFT)
 def test_it_has_no_jumps(stack, shift):
     young_modulus, hardness, thickness = stack
@@ -71,7 +67,6 @@ def test_a_jump_would_be_seen():
     assert largest_step(lambda u: effective_hardness_literal(u, *rule)) > 0.24
 
 
-@few
 @given(stacks(), SHIFT, st.floats(0.05, 0.95), st.integers(0, 4), st.floats(0.0, 1e3))
 def test_a_layer_cut_in_two_stays_the_layer_it_was(stack, shift, share, which, u):
     young_modulus, hardness, thickness = stack
@@ -82,7 +77,6 @@ def test_a_layer_cut_in_two_stays_the_layer_it_was(stack, shift, share, which, u
     np.testing.assert_allclose(effective_hardness(u, *doubled, cut, shift), whole, rtol=1e-11)
 
 
-@few
 @given(stacks(), SHIFT, st.integers(1, 3), st.floats(0.0, 1e3))
 def test_the_top_of_the_substrate_is_substrate(stack, shift, n, u):
     young_modulus, hardness, thickness = stack
@@ -92,7 +86,6 @@ def test_the_top_of_the_substrate_is_substrate(stack, shift, n, u):
     np.testing.assert_array_equal(found, whole)
 
 
-@few
 @given(stacks(), SHIFT, st.floats(0.0, 1e3))
 def test_stiffness_does_not_matter_where_all_is_equally_hard(stack, shift, u):
     young_modulus, hardness, thickness = stack
@@ -100,7 +93,6 @@ def test_stiffness_does_not_matter_where_all_is_equally_hard(stack, shift, u):
     assert found == hardness[0]
 
 
-@few
 @given(stacks(), SHIFT, st.floats(0.0, 1e3), st.floats(-12.0, 12.0), st.floats(-12.0, 12.0))
 def test_only_ratios_matter(stack, shift, u, length_power, pressure_power):
     young_modulus, hardness, thickness = map(np.array, stack)
@@ -112,7 +104,6 @@ def test_only_ratios_matter(stack, shift, u, length_power, pressure_power):
     np.testing.assert_allclose(two / pressure, one, rtol=1e-9)
 
 
-@few
 @given(stacks(), SHIFT)
 def test_it_takes_a_map_and_each_pixel_for_itself(stack, shift):
     young_modulus, hardness, thickness = stack
@@ -122,7 +113,6 @@ def test_it_takes_a_map_and_each_pixel_for_itself(stack, shift):
     assert found[2, 1] == effective_hardness(u[2, 1], young_modulus, hardness, thickness, shift)
 
 
-@few
 @given(VALUE, VALUE, VALUE, VALUE, st.floats(0.0, 1e3), st.floats(1.0, 2.0))
 def test_one_layer_changes_one_way_with_depth(e1, e2, h1, h2, u, factor):
     """Towards the substrate, whatever it is."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from contactkit.elasticity.depths import default_depths, locate
@@ -34,7 +34,6 @@ def agree(found, expected, tolerance=4e-15):
 
 
 @given(stacks(), st.data())
-@settings(max_examples=30, deadline=None)
 def test_a_layer_cut_in_two_is_the_same_layer(stack, data):
     E, nu, h = stack
     j = data.draw(st.integers(0, len(h) - 1))
@@ -47,7 +46,6 @@ def test_a_layer_cut_in_two_is_the_same_layer(stack, data):
 
 
 @given(stacks(), st.floats(0.1, 10.0), st.floats(0.1, 10.0))
-@settings(max_examples=20, deadline=None)
 def test_lengths_and_moduli_scale(stack, s, t):
     E, nu, h = stack
     scaled = compliance(ALPHA, np.multiply(E, s), nu, np.multiply(h, t))
@@ -58,7 +56,6 @@ def test_lengths_and_moduli_scale(stack, s, t):
 
 
 @given(stacks())
-@settings(max_examples=30, deadline=None)
 def test_the_compliance_is_positive_definite(stack):
     found = compliance(ALPHA, *stack)
     assert np.all(found.F11 > 0)
@@ -67,7 +64,6 @@ def test_the_compliance_is_positive_definite(stack):
 
 
 @given(stacks(), st.data())
-@settings(max_examples=30, deadline=None)
 def test_a_stiffer_material_lowers_the_compliance(stack, data):
     E, nu, h = stack
     j = data.draw(st.integers(0, len(h)))
@@ -78,7 +74,6 @@ def test_a_stiffer_material_lowers_the_compliance(stack, data):
 
 
 @given(stacks(), ratios)
-@settings(max_examples=30, deadline=None)
 def test_one_ratio_of_poisson_bounds_the_compliance_by_the_moduli(stack, nu):
     E, _, h = stack
     C = compliance(ALPHA, E, [nu] * len(E), h).C * ALPHA / (2 * (1 - nu**2))
@@ -87,7 +82,6 @@ def test_one_ratio_of_poisson_bounds_the_compliance_by_the_moduli(stack, nu):
 
 
 @given(stacks(most=3))
-@settings(max_examples=20, deadline=None)
 def test_short_waves_feel_the_top_and_long_ones_the_substrate(stack):
     E, nu, h = stack
     top = compliance(50.0 / h[0], E, nu, h)
@@ -100,7 +94,6 @@ def test_short_waves_feel_the_top_and_long_ones_the_substrate(stack):
 
 
 @given(stacks(most=4))
-@settings(max_examples=20, deadline=None)
 def test_tractions_and_displacements_pass_through_interfaces(stack):
     E, nu, h = stack
     z = np.repeat(np.cumsum(h), 2)
@@ -116,7 +109,6 @@ def test_tractions_and_displacements_pass_through_interfaces(stack):
 
 
 @given(stacks(most=3), st.floats(0.05, 0.95))
-@settings(max_examples=20, deadline=None)
 def test_the_states_obey_equilibrium_and_elasticity(stack, share):
     """Differences in depth against the equations of one wavenumber, which the code never solves.
 
@@ -169,7 +161,6 @@ def test_a_half_space_in_layers_has_the_fields_of_one(nu):
 
 
 @given(stacks(most=4), st.floats(0.01, 30.0), st.integers(1, 9))
-@settings(max_examples=30, deadline=None)
 def test_default_planes_miss_no_interface_and_repeat_none(stack, deepest, count):
     h = stack[2]
     depths, sides = default_depths(h, deepest, count)

@@ -17,12 +17,10 @@ from contactkit.capillary import many_menisci as menisci
 from contactkit.capillary.condensed import condensed_bridges
 from contactkit.capillary.island_bridges import curvature_of_area, measure_islands
 
-few = settings(max_examples=25, deadline=None)
 angles = st.floats(0.0, 1.4)
 scales = st.floats(-3.0, 3.0).map(lambda x: 10.0**x)
 
 
-@few
 @given(st.floats(0.01, 0.99), st.floats(250.0, 400.0), st.floats(1e-5, 1e-3))
 def test_humidity_and_pressure_lead_to_each_other(humidity, temperature, molar):
     pressure = kelvin.laplace_pressure(molar, temperature, humidity)
@@ -34,7 +32,6 @@ def test_humidity_and_pressure_lead_to_each_other(humidity, temperature, molar):
     assert radius * pressure == pytest.approx(-0.07, rel=1e-13)
 
 
-@few
 @given(st.floats(-5.0, 8.0), st.floats(0.01, 10.0), scales)
 def test_asperities_scale_with_their_lengths(separation, height, scale):
     """All lengths times s, densities over s^2: so many summits, s times the force."""
@@ -54,7 +51,6 @@ def test_asperities_scale_with_their_lengths(separation, height, scale):
     assert one.n_touching <= one.n_wet <= 0.01 * 1e4 * (1.0 + 1e-12)
 
 
-@few
 @given(st.floats(-5.0, 8.0), st.floats(0.01, 10.0), st.floats(0.001, 2.0))
 def test_a_wider_gap_pulls_less_and_a_wetter_film_covers_more(separation, height, more):
     def at(separation, height):
@@ -65,7 +61,6 @@ def test_a_wider_gap_pulls_less_and_a_wetter_film_covers_more(separation, height
     assert at(separation, height + more).force >= at(separation, height).force
 
 
-@few
 @given(st.floats(-30.0, 30.0), st.floats(1e-9, 20.0))
 def test_the_mean_of_a_tail_lies_between_its_ends(a, width):
     found = laws.mean_tail(a, a + width)
@@ -73,7 +68,7 @@ def test_the_mean_of_a_tail_lies_between_its_ends(a, width):
     assert low * (1.0 - 1e-9) <= found <= high * (1.0 + 1e-9)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(angles, angles, scales)
 def test_condensed_bridges_scale_with_the_kelvin_radius(lower, upper, scale):
     gap, curvature = np.array([0.0, 0.3, 0.6]), np.array([1e-2, 1e-3, 1e-4])
@@ -97,7 +92,7 @@ def divided(scale, lower, upper):
     )
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(angles, angles, scales)
 def test_a_division_scales_with_lengths_and_times(lower, upper, scale):
     """With the time scaled too both forces grow as the length, so the best number stays."""
@@ -117,7 +112,6 @@ def test_division_raises_attraction_and_lowers_repulsion(angle, sign):
     assert np.all(np.diff(found.meniscus_force) > 0.0)
 
 
-@few
 @given(st.integers(0, 10_000), st.floats(0.5, 3.0))
 def test_islands_keep_the_area_of_their_map(seed, height):
     from contactkit.capillary.film_islands import islands
@@ -135,7 +129,6 @@ def test_islands_keep_the_area_of_their_map(seed, height):
     assert thin == pytest.approx(found.area[room] - found.contact_area[room])
 
 
-@few
 @given(st.floats(1.0, 1e4), st.floats(1e-9, 1e-3))
 def test_the_largest_stable_number_is_the_last_below_the_limit(ratio, gap):
     most = menisci.max_stable_count(gap, ratio * gap)

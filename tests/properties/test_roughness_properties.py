@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import fft
@@ -13,7 +13,6 @@ from contactkit.roughness import roughness
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.height_maps import detrended
 
-few = settings(deadline=None, max_examples=30)
 SIDE = st.integers(3, 40)
 SEED = st.integers(0, 2**70)
 NORMALISE = st.sampled_from(["expected", "sample", "none"])
@@ -48,7 +47,6 @@ def realise(kind, shape, seed, normalise="expected"):
     return KINDS[kind](shape, (12.0 / shape[0], 20.0 / shape[1]), seed, normalise)
 
 
-@few
 @given(st.sampled_from(sorted(KINDS)), SIDE, SIDE, SEED, NORMALISE)
 def test_all_grids_that_hold_the_shortest_wave_show_one_surface(kind, ny, nx, seed, normalise):
     """The surface of a fine grid, read from its transform at the pixels of a coarser one."""
@@ -63,7 +61,6 @@ def test_all_grids_that_hold_the_shortest_wave_show_one_surface(kind, ny, nx, se
     assert abs(found.mean()) < 1e-14 * found.std()
 
 
-@few
 @given(st.sampled_from(sorted(KINDS)), SIDE, SIDE, SEED, NORMALISE)
 def test_long_waves_do_not_depend_on_the_cutoff_or_the_grid(kind, ny, nx, seed, normalise):
     """Their sizes may, by one common factor; too coarse a grid leaves out what it cannot hold."""
@@ -79,7 +76,6 @@ def test_long_waves_do_not_depend_on_the_cutoff_or_the_grid(kind, ny, nx, seed, 
     assert ratio[0].real > 0.0
 
 
-@few
 @given(SIDE, SIDE, SEED, st.floats(-12.0, 6.0), st.floats(-12.0, 6.0), NORMALISE)
 def test_lengths_and_heights_scale(ny, nx, seed, power, height_power, normalise):
     length, height = 10.0**power, 10.0**height_power
@@ -90,7 +86,6 @@ def test_lengths_and_heights_scale(ny, nx, seed, power, height_power, normalise)
     np.testing.assert_allclose(two / height, one, atol=1e-12)
 
 
-@few
 @given(SIDE, SIDE, PIXEL, st.floats(0.05, 1.0))
 def test_the_budget_of_variance_adds_up(ny, nx, pixel, share):
     cutoff = share * max(ny * pixel[0], nx * pixel[1])
@@ -110,7 +105,6 @@ def test_another_seed_is_another_surface():
 # Statistics ---------------------------------------------------------------------------------
 
 
-@few
 @given(MAPS, PIXEL, st.booleans(), st.floats(0.1, 9.0), st.floats(0.1, 9.0), st.floats(-5.0, 5.0))
 def test_numbers_scale_with_heights_and_lengths(z, pixel, periodic, height, length, level):
     assume(np.ptp(z) > 1e-3)
@@ -128,13 +122,11 @@ def test_numbers_scale_with_heights_and_lengths(z, pixel, periodic, height, leng
     close(two.rms_curvature * length**2, one.rms_curvature * height)
 
 
-@few
 @given(MAPS, PIXEL)
 def test_the_spectrum_holds_the_variance(z, pixel):
     assert stats.spectral_moment(z, pixel, 0) == pytest.approx(z.var(), rel=1e-12, abs=1e-15)
 
 
-@few
 @given(MAPS, PIXEL)
 def test_differences_see_less_slope_than_the_spectrum(z, pixel):
     exact = math.sqrt(stats.spectral_moment(z, pixel, 2))
@@ -143,7 +135,6 @@ def test_differences_see_less_slope_than_the_spectrum(z, pixel):
     assert stats.rms_curvature(z, pixel, periodic=True) <= bent * (1.0 + 1e-12) + 1e-12
 
 
-@few
 @given(MAPS, st.integers(-9, 9), st.integers(-9, 9), PIXEL)
 def test_one_period_may_start_anywhere(z, down, right, pixel):
     assume(np.ptp(z) > 1e-3)
@@ -153,7 +144,6 @@ def test_one_period_may_start_anywhere(z, down, right, pixel):
         assert a == pytest.approx(b, rel=1e-9, abs=1e-12)
 
 
-@few
 @given(MAPS, PIXEL, st.booleans())
 def test_a_map_may_be_turned_by_a_right_angle(z, pixel, periodic):
     assume(np.ptp(z) > 1e-3)
@@ -164,7 +154,6 @@ def test_a_map_may_be_turned_by_a_right_angle(z, pixel, periodic):
     assert two.correlation_length[::-1] == pytest.approx(one.correlation_length, rel=1e-6)
 
 
-@few
 @given(MAPS, st.booleans())
 def test_the_autocorrelation_starts_at_the_variance_and_is_even(z, periodic):
     found = stats.autocorrelation(z, periodic)
@@ -174,7 +163,6 @@ def test_the_autocorrelation_starts_at_the_variance_and_is_even(z, periodic):
         assert abs(found.sum()) < 1e-12
 
 
-@few
 @given(MAPS, st.lists(st.floats(-1.5, 1.5), min_size=2, max_size=9))
 def test_the_bearing_fraction_falls_from_one_to_nothing(z, levels):
     found = stats.bearing_fraction(z, np.sort(levels))
@@ -186,7 +174,6 @@ def test_the_bearing_fraction_falls_from_one_to_nothing(z, levels):
 # Trends -------------------------------------------------------------------------------------
 
 
-@few
 @given(MAPS, TREND)
 def test_a_trend_is_taken_off_once(z, trend):
     once = detrended(z, trend)
@@ -195,7 +182,6 @@ def test_a_trend_is_taken_off_once(z, trend):
     assert once is not z
 
 
-@few
 @given(MAPS, st.lists(st.floats(-9.0, 9.0), min_size=6, max_size=6))
 def test_a_map_on_a_slope_or_a_bowl_is_the_same_map(z, c):
     y, x = np.mgrid[: z.shape[0], : z.shape[1]].astype(float)

@@ -7,7 +7,7 @@ import math
 import attrs
 import loadings
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import contactkit as ck
@@ -15,8 +15,6 @@ from contactkit.separation.motion.state import start
 from contactkit.units import celsius, parse_quantity, parse_unit
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
-
-few = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 def decades(low, high):
@@ -193,7 +191,6 @@ def released(film, *effects, **loading):
     return result.state
 
 
-@few
 @given(length=decades(-1.0, 1.0), force=decades(-2.0, 2.0), time=decades(-2.0, 2.0))
 def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
     """Choose units of length, force and time: every quantity follows from its dimensions."""
@@ -230,7 +227,6 @@ def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
     assert two.peak_force == approx(force * one.peak_force, 1e-6)
 
 
-@few
 @given(
     parts=st.lists(st.floats(0.01, 1.0), min_size=2, max_size=30),
     gap=decades(-8.0, -5.0),
@@ -255,7 +251,6 @@ def test_a_span_of_time_may_be_divided_at_will(parts, gap, viscosity):
     assert 0.01 * state.speed == pytest.approx(0.01 * whole.speed, abs=1e-7 * whole.applied_impulse)
 
 
-@few
 @given(
     gap=decades(-8.0, -5.0),
     viscosity=decades(-4.0, 1.0),
@@ -344,7 +339,6 @@ scenes = st.builds(
 )
 
 
-@settings(deadline=None)
 @given(scene=scenes)
 def test_a_scene_written_to_a_file_comes_back_the_same(tmp_path_factory, scene):
     path = tmp_path_factory.getbasetemp() / "scene.toml"

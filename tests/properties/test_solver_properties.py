@@ -7,7 +7,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from contactkit.contact.solver import loops_numpy
@@ -73,7 +73,6 @@ def test_units_do_not_matter(maker, periodic):
     assert b.energy == pytest.approx(a.energy, rel=1e-8)
 
 
-@settings(max_examples=15, deadline=None)
 @given(
     ny=st.integers(2, 70),
     nx=st.integers(2, 70),
@@ -234,7 +233,6 @@ def test_a_symbol_of_the_wrong_sign_or_shape_is_refused():
 
 
 @given(ny=st.integers(2, 40), nx=st.integers(2, 40))
-@settings(max_examples=20, deadline=None)
 def test_grid_transfer_keeps_mean_and_duality(ny, nx):
     rng = np.random.default_rng(ny * 41 + nx)
     fine, coarse = (ny, nx), (-(-ny // 2), -(-nx // 2))
@@ -291,7 +289,6 @@ def test_direct_solution_meets_load_and_level():
 
 
 @given(load=st.floats(0.01, 9.9), seed=st.integers(0, 50))
-@settings(max_examples=25, deadline=None)
 def test_projection_to_the_load_is_the_nearest(load, seed):
     rng = np.random.default_rng(seed)
     trial, bound = rng.standard_normal(10) * 3.0, np.full(10, 1.0)

@@ -93,6 +93,7 @@ def test_plan_says_what_is_on_and_off_and_by_which_sources(scene, capsys):
     assert "Stefan 1874" in printed
 
 
+@pytest.mark.slow
 def test_cost_recommends_a_setting(scene, tmp_path, capsys):
     assert main(["cost", str(scene), "--out", str(tmp_path), "--error", "1e-4"]) == 0
     printed = capsys.readouterr().out
@@ -135,6 +136,7 @@ def test_a_bad_scene_writes_nothing(scene, tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_the_package_runs_as_a_module():
     done = subprocess.run(
         [sys.executable, "-m", "contactkit", "plan", "nothing.toml"],

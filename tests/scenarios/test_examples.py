@@ -41,7 +41,12 @@ def test_each_example_has_its_number():
     assert {path.stem for path in EXAMPLES.glob("*.py")} == set(NUMBERS)
 
 
-@pytest.mark.parametrize("name", NUMBERS)
+LONG = {"coated_sphere", "step_the_fmu"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in NUMBERS]
+)
 def test_example(name, tmp_path):
     if "fmu" in name:
         pytest.importorskip("pythonfmu")

@@ -143,6 +143,7 @@ def test_the_plan_says_what_is_on_and_off(scene_file, capsys):
     assert "Eq. (2.43)" in shown
 
 
+@pytest.mark.slow
 def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tmp_path, capsys):
     out = tmp_path / "cost"
     assert main(["cost", str(scene_file), "--out", str(out), "--json"]) == 0

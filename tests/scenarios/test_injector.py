@@ -41,6 +41,7 @@ def runs(short):
     return cosimulate_cases(short.scene, None, lambda share: None)
 
 
+@pytest.mark.slow
 def test_with_the_tension_limit_every_cycle_is_released_in_about_half_a_millisecond(short, runs):
     for run in runs:
         if run.limited:
@@ -49,6 +50,7 @@ def test_with_the_tension_limit_every_cycle_is_released_in_about_half_a_millisec
             assert delays == pytest.approx([0.466e-3] * 2, rel=0.03)
 
 
+@pytest.mark.slow
 def test_without_it_the_cold_spool_is_not_released_within_the_pulse(short, runs):
     cold, warm = (run for run in runs if not run.limited)
     assert all(math.isnan(cycle.delay) for cycle in cycles(cold, short.scene))
@@ -57,6 +59,7 @@ def test_without_it_the_cold_spool_is_not_released_within_the_pulse(short, runs)
     )
 
 
+@pytest.mark.slow
 def test_the_fmu_pair_agrees_with_one_system_solved_by_another_code(short, runs):
     """At 5 us the coupling is second order and 3e-6 off."""
     for run in runs:
@@ -64,6 +67,7 @@ def test_the_fmu_pair_agrees_with_one_system_solved_by_another_code(short, runs)
         assert math.isnan(error) or error < 5e-6
 
 
+@pytest.mark.slow
 def test_the_viscous_film_holds_the_spool_and_the_limit_cuts_it_off(short, runs):
     run = next(run for run in runs if run.limited)
     first = cycles(run, short.scene)[0]
@@ -73,6 +77,7 @@ def test_the_viscous_film_holds_the_spool_and_the_limit_cuts_it_off(short, runs)
     assert 0.9 * cap < first.peak_force < 1.05 * cap
 
 
+@pytest.mark.slow
 def test_a_dry_spool_is_faster_than_any_other(short, runs):
     dry = dry_delay(short.scene)
     assert dry == pytest.approx(0.319e-3, rel=0.01)
@@ -80,6 +85,7 @@ def test_a_dry_spool_is_faster_than_any_other(short, runs):
     assert all(math.isnan(delay) or delay > dry for delay in delays)
 
 
+@pytest.mark.slow
 def test_momentum_balances_over_the_first_opening(short, runs):
     """Pull less film is the momentum of the spool; the pull is sampled at 5 us."""
     run = next(run for run in runs if run.limited)
@@ -93,6 +99,7 @@ def test_momentum_balances_over_the_first_opening(short, runs):
     assert given - taken == pytest.approx(momentum, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
     made = report(short.scene, runs, tmp_path)
     names = {path.name for path in made.files}
@@ -114,6 +121,7 @@ def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
         )
 
 
+@pytest.mark.slow
 def test_the_limit_is_reported_when_it_acts(runs):
     run = next(run for run in runs if run.limited)
     acts = run.coupled["limit"] == LimitKind.TENSION

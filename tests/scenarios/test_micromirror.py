@@ -113,6 +113,7 @@ def test_more_humidity_takes_more_voltage(short):
     assert humid.reset_voltage < abs(short.scene.mirror.waveform.reset_voltage)
 
 
+@pytest.mark.slow
 def test_it_flips_over_and_back(short, run):
     """Thirty microseconds after each pulse the mirror is captured on the other side."""
     time, tilt = run.coupled["time"], np.degrees(run.coupled["tilt"])
@@ -124,6 +125,7 @@ def test_it_flips_over_and_back(short, run):
     assert len(flip_times(run, "minus")) >= 1
 
 
+@pytest.mark.slow
 def test_the_fmus_agree_with_one_system(short, run):
     free, error = run_errors(short.scene, run)
     assert 1e-6 < free < 1.6e-6
@@ -132,6 +134,7 @@ def test_the_fmus_agree_with_one_system(short, run):
     assert abs(gone - free) < short.scene.study.communication_step
 
 
+@pytest.mark.slow
 def test_the_report_tells_and_draws(short, run, tmp_path):
     made = report(short.scene, run, tmp_path, lambda share: None)
     names = {path.name for path in made.files}

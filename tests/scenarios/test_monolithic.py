@@ -125,6 +125,7 @@ def firing():
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("temperature", "milliseconds"), [(-20, 0.47283), (20, 0.47034), (80, 0.45927)]
 )
@@ -147,6 +148,7 @@ def test_with_a_tension_limit_every_temperature_fires_every_time(firing, tempera
         assert whats.count(what) == 5
 
 
+@pytest.mark.slow
 def test_without_a_tension_limit_only_the_warm_valve_fires(firing):
     for temperature in (-20, 20):
         assert all(math.isnan(cycle.release_time) for cycle in firing[temperature, False].cycles)
@@ -154,6 +156,7 @@ def test_without_a_tension_limit_only_the_warm_valve_fires(firing):
     assert warm == pytest.approx([2.6283e-3] * 5, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_it_is_the_injector_of_the_source(firing):
     """About 40 N open it in about 0.5 ms, at about 40 mm/s in the mean."""
     result = firing[80, True]

@@ -22,7 +22,13 @@ def blocks(page, language):
 
 
 def with_blocks(language):
-    return [pytest.param(p, id=p.name) for p in PAGES if blocks(p, language)]
+    """Pages with blocks of a language; what takes long is on the pages about FMUs."""
+    slow = {page for page in PAGES if "fmu" in page.name or page.name == "hosts.md"}
+    return [
+        pytest.param(p, id=p.name, marks=[pytest.mark.slow] if p in slow else [])
+        for p in PAGES
+        if blocks(p, language)
+    ]
 
 
 @pytest.fixture

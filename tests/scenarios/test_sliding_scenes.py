@@ -7,7 +7,7 @@ import math
 import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
@@ -174,7 +174,6 @@ def test_a_film_full_to_the_rim_slides_with_the_faces():
     assert run(flooded).plan.wetted_radius == 1e-3
 
 
-@settings(max_examples=15, deadline=None)
 @given(
     scale=st.floats(1e-3, 1e3),
     speed=st.floats(1e-3, 1e3),

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
@@ -66,7 +66,6 @@ RISES = st.lists(st.tuples(st.floats(1e-3, 1e3), st.floats(0.0, 1e6)), min_size=
 
 
 @given(RISES)
-@settings(max_examples=60, deadline=None)
 def test_a_curve_through_rising_points_rises_and_has_no_kink(points):
     nodes, values = points
     curve = monotone_curve(nodes, values)
@@ -188,7 +187,6 @@ def test_the_work_lost_is_the_hardness_times_the_dents(rough):
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
-@settings(max_examples=80, deadline=None)
 def test_every_way_rises_and_lies_below_the_first_loading(rough, share, one, other):
     largest = share * rough.most
     low, high = sorted((one * largest, other * largest))

@@ -388,6 +388,7 @@ def whole(store, workers=1):
     return ck.study(contact(), MANY, ACCURACY, store=store, workers=workers, keep_maps=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("workers", "how"), [(1, signal.SIGINT), (2, signal.SIGKILL)])
 def test_an_interrupted_study_goes_on_where_it_stopped(tmp_path, workers, how):
     script, store = tmp_path / "slow.py", tmp_path / "store"

@@ -86,6 +86,7 @@ def test_a_large_map_travels_without_a_warning(client):
     assert [p.status for p in study.points] == ["infeasible"] * 2
 
 
+@pytest.mark.slow
 def test_anything_that_gives_futures_will_do():
     """A pool of one thread, for one: nothing of a cluster is needed but `submit`."""
     with ThreadPoolExecutor(1) as pool:

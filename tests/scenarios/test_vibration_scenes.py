@@ -116,6 +116,7 @@ def test_cycles_left_out_are_bridged():
         assert "were computed" in few.message
 
 
+@pytest.mark.slow
 def test_a_fast_vibration_late_in_a_long_run_is_computed_too():
     """After 500 s a double tells 1e-13 s apart, of a period of 2.5e-6 s."""
     loading = {"vibration": shaken(1e-6, 4e5), "accuracy": ck.Accuracy(points=20)}

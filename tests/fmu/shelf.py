@@ -1,0 +1,50 @@
+"""FMUs of a run of the tests: each is built once, by the worker that first wants it."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+
+try:
+    import fcntl
+except ImportError:  # Windows: each worker builds for itself
+    fcntl = None
+
+import fmpy
+
+__all__ = ["Shelf"]
+
+
+class Shelf:
+    """Folder that all workers share, where what is made stays until the run ends."""
+
+    def __init__(self, tmp_path_factory):
+        root = tmp_path_factory.getbasetemp()
+        is_shared = "PYTEST_XDIST_WORKER" in os.environ and fcntl is not None
+        self._root = (root.parent if is_shared else root) / "shelf"
+        self._root.mkdir(exist_ok=True)
+
+    def folder(self, name, make):
+        """Folder that ``make(folder)`` fills, unless another worker has done so."""
+        done, parts = self._root / name, self._root / f"{name}.parts"
+        with (self._root / f"{name}.lock").open("w") as lock:
+            if fcntl:
+                fcntl.flock(lock, fcntl.LOCK_EX)
+            if not done.exists():
+                shutil.rmtree(parts, ignore_errors=True)
+                parts.mkdir()
+                make(parts)
+                parts.rename(done)
+        return done
+
+    def __call__(self, build, *what, **given):
+        """FMU of ``build(*what, path, **given)``; the arguments are told apart by their `repr`."""
+        asked = repr((build.__module__, build.__name__, what, sorted(given.items())))
+        name = hashlib.sha256(asked.encode()).hexdigest()[:16]
+        return self.folder(name, lambda place: build(*what, place / "x.fmu", **given)) / "x.fmu"
+
+    def unpacked(self, path):
+        """Folder with the files of an FMU, told apart by its bytes."""
+        name = "unpacked " + hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+        return self.folder(name, lambda place: fmpy.extract(str(path), str(place)))
