@@ -220,7 +220,7 @@ def test_thin_film_force_3_7_is_right_where_the_film_is_thin():
 def test_the_printed_number_reads_with_its_erratum():
     text = str(ask("3.12"))
     assert text.startswith("Eq. (3.12) meniscus force on a separating sphere: ")
-    assert "right: " in text
+    assert "corrected: " in text
     assert "erratum: The two curvatures of a neck have opposite signs" in text
     assert "erratum" not in str(ask("3.22"))
     assert ck.published("Eq. (3.13)", force=2.0, number=3).value == 6.0

@@ -127,7 +127,7 @@ def test_where_no_bridge_is_stable_it_says_so():
     (found,) = run(PUBLISHED, volume=1e-19).errata
     assert found.corrected is None
     assert "no bridge" in found.corrected_by
-    assert "no right value: no bridge" in str(found)
+    assert "no corrected value: no bridge" in str(found)
 
 
 def test_errata_are_in_the_file_and_come_back(tmp_path):
