@@ -11,12 +11,12 @@ from typing import Any, Literal
 from ...analyses.load_displacement.curve import HERTZ, LoadDisplacementCurve, way_of
 from ...errors import PlanError
 from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
+from ..contents.end_stop import bake
 from ..framework.description import Description
 from ..framework.ports import Value, start_value
 from ..slaves.valve_drive import ValveDrive, check_drive
 from .build import chosen_platforms, target, write_native
 from .description import CATEGORIES
-from .stop_tables import bake
 
 __all__ = ["build_native_drive", "face_numbers"]
 

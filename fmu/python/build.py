@@ -45,7 +45,7 @@ FMUS: dict[str, tuple[str, str]] = {
     "contact-stop": ("slaves.contact_stop", "ContactStop"),
 }
 # name: module in contactkit.fmu whose `bake` makes tables of what is given beside start values
-BAKERS = dict.fromkeys(("contact-stop", "valve-drive", "tip-contact"), "native.stop_tables")
+BAKERS = dict.fromkeys(("contact-stop", "valve-drive", "tip-contact"), "contents.end_stop")
 
 _SCRIPT = '''\
 """Main script of this FMU: contactkit wrote it, pythonfmu loads it."""

@@ -1,7 +1,7 @@
-"""The fuel injector: coil, valve and the monolithic model.
+"""The fuel injector: its file, coil, valve and monolithic model.
 
-coil               An electromagnet with two poles and a moving armature: flux, current, force and e
-monolithic         Spool, film and coil solved as one system, by another method than `contactkit.mot
-monolithic_result  What a monolithic simulation gives: curves, events and a summary of each firing c
-valve              A spool valve drawn off its end cap by an electromagnet: coil, spring, stop and d
+scene       The file of a fuel injector: film and spool, the valve, the temperatures of a study.
+coil        An electromagnet with two poles and a moving armature: flux, current, force, energy.
+valve       A spool valve: coil, return spring, end stop and voltage profile.
+monolithic  Monolithic model of spool, film and coil; its curves, events and firing cycles.
 """

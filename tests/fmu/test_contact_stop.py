@@ -17,9 +17,9 @@ from contactkit import cli
 from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch
 from contactkit.analyses.load_displacement.impact import in_series
 from contactkit.app.scenes import open_scene
+from contactkit.fmu.contents.end_stop import STOP_AREA, bake, default_curve
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.master.injector import cosimulate
-from contactkit.fmu.native.stop_tables import STOP_AREA, bake, default_curve
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.contact_stop import ContactStop
 from contactkit.fmu.slaves.valve_drive import drive_values

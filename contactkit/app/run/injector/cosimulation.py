@@ -20,7 +20,7 @@ from ....units import celsius
 
 if TYPE_CHECKING:
     from ....fmu.master.injector import CoSimulation
-    from ....models.injector.monolithic_result import MonolithicResult
+    from ....models.injector.monolithic import MonolithicResult
 
 __all__ = ["InjectorRun", "build_fmus", "cosimulate_cases", "drive_start"]
 

@@ -1,4 +1,4 @@
-"""What a build carries beside its start values: the tables of an end stop.
+"""Load-displacement tables of an end stop, which an FMU carries beside its start values.
 
 Here contacts are solved, with numpy; the FMU gets numbers only. So this module is called by
 `contactkit.fmu.python.build` and never imported by a slave.
