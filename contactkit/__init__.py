@@ -85,6 +85,7 @@ if TYPE_CHECKING:
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
     from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
+    from .separation.effects.base import FilmStatus, LimitKind
     from .separation.effects.registry import (
         AdhesiveContact,
         AsperityMenisci,
@@ -96,7 +97,7 @@ if TYPE_CHECKING:
         ViscousForce,
     )
     from .separation.motion.advance import advance
-    from .separation.motion.state import FilmStatus, LimitKind, MotionState, Pull
+    from .separation.motion.state import MotionState, Pull
     from .separation.plan import Plan
     from .separation.simulate import simulate
     from .separation.sliding.effects import ContactAngleHysteresis, CouetteForce
@@ -123,7 +124,7 @@ _HOMES = {
     "DescriptionError": "errors",
     "EFFECTS": "effects",
     "FilmMeniscus": "contact.effects.film",
-    "FilmStatus": "separation.motion.state",
+    "FilmStatus": "separation.effects.base",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
@@ -140,7 +141,7 @@ _HOMES = {
     "IslandBridges": "contact.effects.island_bridges",
     "Layer": "scene.materials",
     "LayeredHalfSpace": "contact.effects.elasticity",
-    "LimitKind": "separation.motion.state",
+    "LimitKind": "separation.effects.base",
     "Liquid": "liquids.liquid",
     "Material": "scene.materials",
     "Measured": "scene.rough_surfaces",

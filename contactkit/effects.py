@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from .contact.effects.registry import CONTACT_EFFECTS
-from .scene.effect import Effect
+from .scene.effect import Effect, EffectRegistry
 from .separation.effects.registry import SEPARATION_EFFECTS
 from .separation.sliding.effects import SLIDING_EFFECTS
 
 __all__ = ["EFFECTS"]
 
-EFFECTS: tuple[type[Effect], ...] = (
-    *SEPARATION_EFFECTS,
-    *SLIDING_EFFECTS,
-    *CONTACT_EFFECTS,
+EFFECTS: EffectRegistry[Effect] = EffectRegistry(
+    SEPARATION_EFFECTS, SLIDING_EFFECTS, CONTACT_EFFECTS
 )

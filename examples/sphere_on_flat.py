@@ -58,7 +58,7 @@ def main(out: Path) -> float:
             ):
                 ax.plot(
                     one.gap * 1e9,
-                    one.meniscus_force * 1e9,
+                    one["meniscus_force"] * 1e9,
                     style,
                     color=color,
                     label=f"film of {height} nm, {label}",

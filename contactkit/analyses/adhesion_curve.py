@@ -10,6 +10,7 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..scene.scenes import SeparationScene
+from ..separation.effects.prepared import prepare_scene
 from ..separation.effects.registry import AdhesiveContact
 
 if TYPE_CHECKING:
@@ -83,16 +84,17 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
     effect = scene.effect(AdhesiveContact)
     if effect is None:
         raise PlanError(
-            "the scene does not call for adhesive-contact: add AdhesiveContact() to its effects"
+            "the scene does not call for adhesive-contact: add AdhesiveContact(...) to its effects"
         )
-    if missing := effect.lacks(scene):
+    liquid = scene.interface.meniscus.liquid.at(scene.temperature)
+    if missing := (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene)):
         raise PlanError("; ".join(f"AdhesiveContact needs {item}" for item in missing))
     from ..separation.effects.adhesion import states_at_loads
 
     given = np.atleast_1d(np.asarray(loads, dtype=np.float64))
     if given.ndim != 1 or not np.all(np.isfinite(given)):
         raise DescriptionError("adhesion_curve(loads)", loads, "be finite numbers", unit="N")
-    numbers = effect.numbers(scene)
+    numbers = effect.numbers(prepare_scene(scene, liquid=liquid))
     if given.size and given.min() < -numbers.pull_off_force * (1.0 + 1e-12):
         raise InfeasibleError(
             f"a load of {given.min():.4g} N exceeds the pull-off force of "

@@ -17,6 +17,7 @@ from ..separation.effects.registry import MeniscusForce, ViscousForce
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..liquids.liquid import LiquidState
     from ..scene.scenes import SeparationScene
 
     Floats = NDArray[np.float64]
@@ -65,10 +66,11 @@ def law_of(scene: SeparationScene, name: Name | None, min_volume: float) -> Divi
     """Law of a scene; `min_volume` [m3] is any volume, from which the limits are scaled."""
     effect = scene.effect(MeniscusForce)
     name = name or _own_law(scene)
-    _check(scene, name)
+    liquid = _checked(scene, name)
     gap, limit = scene.loading.initial_gap, _limits(scene, name, min_volume)
-    meniscus, radius = _meniscus(scene, name)
-    viscous = _viscous(scene, name, limit) if scene.effect(ViscousForce) is not None else None
+    meniscus, radius = _meniscus(scene, name, liquid)
+    film = scene.effect(ViscousForce)
+    viscous = _viscous(scene, film, name, limit, liquid) if film is not None else None
     return DivisionLaw(name, gap, meniscus if effect is not None else None, viscous, radius, limit)
 
 
@@ -83,7 +85,7 @@ def _own_law(scene: SeparationScene) -> Name:
     return "as-published" if is_printed else "exact"
 
 
-def _check(scene: SeparationScene, name: str) -> None:
+def _checked(scene: SeparationScene, name: str) -> LiquidState:
     """Refuse scenes other than a film between two flats with the necessary data."""
     interface, loading = scene.interface, scene.loading
     known = (MeniscusForce, ViscousForce)
@@ -113,13 +115,11 @@ def _check(scene: SeparationScene, name: str) -> None:
         )
     if loading.initial_gap <= 0.0:
         raise InfeasibleError("loading.initial_gap is 0 m: touching flats hold no film to divide")
-    state = scene.meniscus.liquid.at(scene.temperature)
-    lacks = {
-        "liquid.surface_tension [N/m]": state.surface_tension is None,
-        "liquid.viscosity [Pa.s]": viscous is not None and state.viscosity is None,
-    }
-    if missing := [what for what, is_missing in lacks.items() if is_missing]:
+    liquid = scene.meniscus.liquid.at(scene.temperature)
+    needed = ("surface_tension",) if viscous is None else ("surface_tension", "viscosity")
+    if missing := liquid.missing(*needed):
         raise PlanError(f"a division needs {' and '.join(missing)}")
+    return liquid
 
 
 def _angles(scene: SeparationScene) -> tuple[float, float]:
@@ -141,11 +141,9 @@ def _limits(scene: SeparationScene, name: str, volume: float) -> Callable[[Float
 
 
 def _meniscus(
-    scene: SeparationScene, name: str
+    scene: SeparationScene, name: str, liquid: LiquidState
 ) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats], Floats]]:
-    gap, angles = scene.loading.initial_gap, _angles(scene)
-    tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # checked by `_check`
+    gap, angles, tension = scene.loading.initial_gap, _angles(scene), liquid.surface_tension
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
         pulled = effect.pulled if effect is not None else "lower"
@@ -172,13 +170,14 @@ def _meniscus(
 
 
 def _viscous(
-    scene: SeparationScene, name: str, limit: Callable[[Floats], Floats]
+    scene: SeparationScene,
+    effect: ViscousForce,
+    name: str,
+    limit: Callable[[Floats], Floats],
+    liquid: LiquidState,
 ) -> Callable[[Floats, Floats], Floats]:
     """Mean viscous force over the opening, up to rupture or the final gap."""
-    loading, effect = scene.loading, scene.effect(ViscousForce)
-    assert effect is not None
-    viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
-    assert viscosity is not None
+    loading, viscosity = scene.loading, liquid.viscosity
     start = loading.initial_gap
     constant = effect.closure != "volume-conserving" or name == "as-published"
 

@@ -18,6 +18,7 @@ from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanE
 from ..scene.meniscus import Meniscus
 from ..scene.scenes import SeparationScene
 from ..separation.effects.asperities import AsperityMenisci
+from ..separation.effects.prepared import prepare_scene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -152,15 +153,16 @@ def humidity_curve(
         where = "humidity_curve(relative_humidity)"
         raise DescriptionError(where, relative_humidity, "be numbers between 0 and 1")
     meniscus, temperature = _meniscus(wetted)
-    tension = meniscus.liquid.at(temperature).surface_tension
-    if tension is None:
+    liquid = meniscus.liquid.at(temperature)
+    if liquid.missing("surface_tension"):
         raise PlanError("a humidity curve needs interface.meniscus.liquid.surface_tension [N/m]")
+    tension = liquid.surface_tension
     molar = meniscus.liquid.molar_volume(temperature)
     pressure = np.asarray(kelvin.laplace_pressure(molar, temperature, humidity))
     if isinstance(wetted, ContactResult):
-        name, points, area = _contact(wetted, pressure, law)
+        name, points, area = _contact(wetted, pressure, law, tension)
     else:
-        name, points, area = _scene(wetted, pressure, gap, accuracy or Accuracy.standard)
+        name, points, area = _scene(wetted, pressure, gap, accuracy, tension)
     wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
     columns = (
         humidity,
@@ -194,7 +196,11 @@ def _meniscus(wetted: SeparationScene | ContactResult) -> tuple[Meniscus, float]
 
 
 def _scene(
-    scene: SeparationScene, pressure: Floats, gap: float | None, accuracy: Accuracy
+    scene: SeparationScene,
+    pressure: Floats,
+    gap: float | None,
+    accuracy: Accuracy | None,
+    tension: float,
 ) -> tuple[str, list[_Point], float | None]:
     gap = scene.loading.initial_gap if gap is None else gap
     if not (math.isfinite(gap) and gap >= 0.0):
@@ -209,7 +215,7 @@ def _scene(
             "between smooth flats no meniscus of a fixed pressure is stable: it evaporates, or "
             "fills the gap to the rim; give a sphere, or AsperityMenisci(...) among the effects"
         )
-    return "exact bridge on a sphere", _sphere(scene, pressure, gap), None
+    return "exact bridge on a sphere", _sphere(scene, pressure, gap, tension), None
 
 
 def _at(scene: SeparationScene, pressure: float) -> SeparationScene:
@@ -218,24 +224,22 @@ def _at(scene: SeparationScene, pressure: float) -> SeparationScene:
 
 
 def _asperities(
-    rough: AsperityMenisci, scene: SeparationScene, gap: float, accuracy: Accuracy
+    rough: AsperityMenisci, scene: SeparationScene, gap: float, accuracy: Accuracy | None
 ) -> _Point:
     rough = evolve(rough, meniscus_height=None)
+    prepared = prepare_scene(scene, accuracy)
     if missing := rough.lacks(scene):
         raise PlanError(f"AsperityMenisci needs {'; '.join(missing)}")
-    sums = rough.sums(scene, gap)
-    law = rough.prepare(scene, accuracy)
+    sums, law = rough.sums(prepared, gap), rough.prepare(prepared)
     force = law.force(gap, 0.0) if gap <= law.end else 0.0
     area = math.pi * scene.interface.rim_radius**2
     return _Point(force, sums.n_wet, None, sums.coverage * area)
 
 
-def _sphere(scene: SeparationScene, pressure: Floats, gap: float) -> list[_Point]:
+def _sphere(scene: SeparationScene, pressure: Floats, gap: float, tension: float) -> list[_Point]:
     from ..capillary.exact.bridge import bridge_at_pressure
 
     interface, meniscus = scene.interface, scene.meniscus
-    tension = meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
     curvatures = interface.curvatures
     try:
@@ -258,14 +262,14 @@ def _sphere(scene: SeparationScene, pressure: Floats, gap: float) -> list[_Point
 
 
 def _contact(
-    result: ContactResult, pressure: Floats, law: Law
+    result: ContactResult, pressure: Floats, law: Law, tension: float
 ) -> tuple[str, list[_Point], float | None]:
     plan = result.plan
     contact = Contact(plan.scene, plan.grid, result.pressure, result.displacement, result.gap)
     effect = plan.scene.effect(IslandBridges) or IslandBridges()
     effect = evolve(effect, film_thickness=None, meniscus_height=None)
     if law == "cross-cut":
-        found = [_cross_cut(effect, contact, p) for p in pressure.tolist()]
+        found = [_cross_cut(effect, contact, p, tension) for p in pressure.tolist()]
         return "cross-cut of the gap, Eq. (2.43)", found, None
     if law != "islands":
         raise DescriptionError("humidity_curve(law)", law, "be 'islands' or 'cross-cut'")
@@ -279,13 +283,11 @@ def _contact(
     return name, points, area
 
 
-def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float) -> _Point:
+def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float, tension: float) -> _Point:
     """Laplace pressure on every gap smaller than the meniscus height, Eq. (2.43)."""
     from ..capillary.film_islands import film_force, meniscus_area
 
     meniscus = contact.scene.meniscus
-    tension = meniscus.liquid.at(contact.scene.temperature).surface_tension
-    assert tension is not None
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
     wetting = sum(map(math.cos, angles))
     if wetting <= 0.0:

@@ -147,6 +147,11 @@ class PublishedValue(NamedTuple):
             return None
         return (self.value - self.corrected) / abs(self.corrected)
 
+    def times(self, number: float) -> PublishedValue:
+        """Return the same of a number of equal menisci."""
+        corrected = None if self.corrected is None else number * self.corrected
+        return self._replace(value=number * self.value, corrected=corrected)
+
     def __str__(self) -> str:
         unit = "" if self.unit == "-" else f" {self.unit}"
         lines = [f"{_numbered(self.number)} {self.name}: {self.value:.6g}{unit} as printed"]

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["pack_contact", "unpack_contact"]
 
 _MAPS = ("pressure", "gap", "displacement", "heights")
-_EFFECTS = {kind.name: kind for kind in CONTACT_EFFECTS}
 
 
 def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
@@ -70,7 +69,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     scene = structure(with_arrays(header["scene"], arrays), ContactScene, name)
     (ny, nx), (dy, dx), periodic = header["grid"]
     made = ContactPlan(scene, Accuracy(**header["accuracy"]), Grid((ny, nx), (dy, dx), periodic))
-    work = header["work"]
+    work, effects = header["work"], CONTACT_EFFECTS.by_name
     return ContactResult(
         made,
         header["status"],
@@ -83,7 +82,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
         header["residual"],
         header["energy"],
         ContactWork(**work | {"stages": MappingProxyType(work["stages"])}),
-        MappingProxyType({_EFFECTS[n]: _decode(p, arrays) for n, p in header["parts"].items()}),
+        MappingProxyType({effects[n]: _decode(p, arrays) for n, p in header["parts"].items()}),
     )
 
 

@@ -23,7 +23,7 @@ from ..separation.results import SeparationResult, Work
 from ..separation.sliding.plan import plan_sliding
 from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding
-from ..separation.validity import check, path_of
+from ..separation.validity import check
 from .contact_results import pack_contact, unpack_contact
 from .scenes import structure, unstructure, write_whole
 
@@ -172,7 +172,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         columns,
         header["impulses"],
         MotionState(**state) if state is not None else None,
-        check(made, path_of(made, columns)),
+        check(made, columns),
         Work(**header["work"]),
     )
 

@@ -15,9 +15,11 @@ from cattrs.gen import make_dict_structure_fn, override
 from .. import data
 from ..contact.effects.base import ContactEffect
 from ..contact.effects.plasticity import HardnessMap
+from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError
 from ..liquids.liquid import Liquid
 from ..liquids.temperature_laws import TemperatureLaw
+from ..scene.effect import EffectRegistry
 from ..scene.interface import Body
 from ..scene.loading import Loading
 from ..scene.materials import Material, Stack
@@ -26,7 +28,6 @@ from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
 from .unstructure import (
     ARRAY_FIELDS,
-    CONTACT_EFFECT_KINDS,
     LAW_KINDS,
     LOADING_KINDS,
     SEPARATION_EFFECT_KINDS,
@@ -69,19 +70,20 @@ def renamed(key: str) -> str:
     return f"it is now {_RENAMED[key]}" if key in _RENAMED else ""
 
 
-def _tagged(tag: str, kinds: Mapping[str, type]) -> Callable[[Any, Any], Any]:
-    """Structure a table by the kind it names under `tag`."""
+def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callable[[Any, Any], Any]:
+    """Structure a table by the kind it names under `tag`; effects may be registered later."""
 
     def hook(value: Any, _: Any) -> Any:
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
         name = rest.pop(tag, None)
-        if name not in kinds:
+        known = kinds.by_name if isinstance(kinds, EffectRegistry) else kinds
+        if name not in known:
             raise DescriptionError(
-                tag, name, "name a known kind", hint=nearest(name, sorted(kinds))
+                tag, name, "name a known kind", hint=nearest(name, sorted(known))
             )
-        return _CONVERTER.structure(rest, kinds[name])
+        return _CONVERTER.structure(rest, known[name])
 
     return hook
 
@@ -259,7 +261,7 @@ for _matches, _hook in (
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECT_KINDS)),
+    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these take for their fields.

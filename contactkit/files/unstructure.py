@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from ..contact.effects.plasticity import HardnessMap
-from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError
 from ..liquids.liquid import LAWS
+from ..scene.effect import Effect, EffectRegistry
 from ..scene.interface import Body
 from ..scene.loading import CONTACT_LOADINGS, SEPARATION_LOADINGS, SLIDING_LOADINGS, Loading
 from ..scene.rough_surfaces import (
@@ -27,7 +27,6 @@ from ..separation.sliding.effects import SLIDING_EFFECTS
 
 __all__ = [
     "ARRAY_FIELDS",
-    "CONTACT_EFFECT_KINDS",
     "LAW_KINDS",
     "LOADING_KINDS",
     "SEPARATION_EFFECT_KINDS",
@@ -56,15 +55,13 @@ _SURFACES: tuple[type[Surface], ...] = (
 _LOADINGS: tuple[type[Loading], ...] = (*SEPARATION_LOADINGS, *CONTACT_LOADINGS, *SLIDING_LOADINGS)
 SURFACE_KINDS: dict[str, type] = {kind.kind: kind for kind in _SURFACES}
 LOADING_KINDS: dict[str, type[Loading]] = {kind.kind: kind for kind in _LOADINGS}
-SEPARATION_EFFECT_KINDS: dict[str, type] = {
-    kind.name: kind for kind in (*SEPARATION_EFFECTS, *SLIDING_EFFECTS)
-}
-CONTACT_EFFECT_KINDS: dict[str, type] = {kind.name: kind for kind in CONTACT_EFFECTS}
+SEPARATION_EFFECT_KINDS: EffectRegistry[Effect] = EffectRegistry(
+    SEPARATION_EFFECTS, SLIDING_EFFECTS
+)
 LAW_KINDS: dict[str, type] = {kind.kind: kind for kind in LAWS}
 _TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
     ("shape", SURFACE_KINDS),
     ("kind", LOADING_KINDS),
-    ("effect", SEPARATION_EFFECT_KINDS | CONTACT_EFFECT_KINDS),
     ("law", LAW_KINDS),
 )
 # Fields that hold an array: what a file can have in its place.
@@ -101,6 +98,8 @@ def unstructure(value: Any, arrays: Arrays | None = None) -> Any:
         for tag, kinds in _TAGS:
             names = [name for name, kind in kinds.items() if type(value) is kind]
             table |= dict.fromkeys([tag], names[0]) if names else {}
+        if isinstance(value, Effect):
+            table["effect"] = value.name
         for a in attrs.fields(type(value)):
             item = getattr(value, a.name)
             if getattr(item, "ndim", 0):

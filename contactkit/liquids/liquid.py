@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
-from attrs import Attribute, field, fields, frozen
+from attrs import Attribute, field, fields, fields_dict, frozen
 
 from ..errors import DescriptionError
 from ..units import si
@@ -29,17 +29,54 @@ _MAX_SURFACE_TENSION = 10.0  # [N/m]
 _MAX_MOLAR_MASS = 10.0  # [kg/mol]
 
 
-class LiquidState(NamedTuple):
-    """Properties of a liquid at one temperature; None where the liquid does not define one."""
+@frozen
+class LiquidState:
+    """Properties of a liquid at one temperature.
 
-    surface_tension: float | None
-    """[N/m]"""
-    viscosity: float | None
-    """Dynamic viscosity [Pa.s]."""
-    density: float | None
-    """[kg/m3]"""
-    temperature: float
-    """[K]"""
+    A property that the liquid does not give is refused where it is read; `missing` asks first,
+    and `given` returns None for it.
+    """
+
+    _surface_tension: float | None
+    _viscosity: float | None
+    _density: float | None
+    temperature: float = field(metadata=si("K"))
+
+    @property
+    def surface_tension(self) -> float:
+        """Surface tension [N/m]."""
+        return self._known("surface_tension")
+
+    @property
+    def viscosity(self) -> float:
+        """Dynamic viscosity [Pa.s]."""
+        return self._known("viscosity")
+
+    @property
+    def density(self) -> float:
+        """Density [kg/m3]."""
+        return self._known("density")
+
+    def given(self, name: str) -> float | None:
+        """Return a property by its name; None if the liquid does not give it."""
+        value: float | None = getattr(self, f"_{name}")
+        return value
+
+    def missing(self, *names: str) -> tuple[str, ...]:
+        """Those of some properties that the liquid does not give, each with its unit."""
+        units = fields_dict(Liquid)
+        return tuple(
+            f"liquid.{name} [{units[name].metadata['unit']}]"
+            for name in names
+            if self.given(name) is None
+        )
+
+    def _known(self, name: str) -> float:
+        value = self.given(name)
+        if value is None:
+            unit = fields_dict(Liquid)[name].metadata["unit"]
+            raise DescriptionError(f"Liquid.{name}", None, "be given", unit=unit)
+        return value
 
 
 def _constant_or_law(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -206,7 +243,7 @@ class Liquid:
         >>> round(water.molar_volume(293.15) * 1e6, 3)
         18.047
         """
-        density = self.at(temperature).density
+        density = self.at(temperature).given("density")
         if self.molar_mass is None or density is None:
             name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
             raise DescriptionError(

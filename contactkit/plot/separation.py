@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,11 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..files.scenes import write_whole
-from ..separation.parts import known
-from ..separation.results import COLUMNS, SeparationResult
+from ..scene.column import Column
+from ..separation.columns import COLUMNS
+from ..separation.effects.base import LIMIT
+from ..separation.effects.registry import MeniscusForce, VanDerWaalsForce, ViscousForce
+from ..separation.results import SeparationResult
 from ..separation.sliding.result import SlidingResult
 from ..work_precision import WorkPrecision
 
@@ -44,18 +47,18 @@ __all__ = [
 ]
 
 COLORS = {
-    "gap": "#1f4e79",
-    "speed": "#7f7f7f",
-    "meniscus": "#2a9d8f",
-    "viscous": "#c1440e",
+    "gap": COLUMNS["gap"].color or "",
+    "speed": COLUMNS["speed"].color or "",
+    "pull": COLUMNS["pull"].color or "",
+    "meniscus": MeniscusForce.column.color or "",
+    "viscous": ViscousForce.column.color or "",
+    "solids": VanDerWaalsForce.column.color or "",
     "limit": "#e9c46a",
     "magnet": "#6a4c93",
     "spring": "#8d6b3d",
     "stop": "#444444",
-    "pull": "#6a4c93",
-    "solids": "#8d6e63",
 }
-"""One colour for each quantity, the same in every figure."""
+"""One colour for each quantity, the same in every figure; effects declare theirs."""
 
 _STYLE: Any = {
     "font.size": 10.0,
@@ -74,7 +77,6 @@ _STYLE: Any = {
 }
 
 _THREE = ("#1f4e79", "#2a9d8f", "#c1440e")  # exact, arc, as published
-_LABELS = {column.name: column for column in COLUMNS}
 
 
 def figure(
@@ -119,18 +121,30 @@ def plain_log(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def label_axis(name: str, display: str = "") -> str:
+def label_axis(column: Column, display: str = "") -> str:
     """Label of a column of a result, with its unit, or with the unit it is displayed in."""
-    column = _LABELS[name]
     unit = display or column.unit
     return column.label if unit == "-" else f"{column.label} [{unit}]"
+
+
+def _lines(
+    ax: Axes, result: SeparationResult | SlidingResult, drawn: Sequence[Column], along: Any
+) -> None:
+    """Draw columns as they declare it."""
+    for one in drawn:
+        curve = result.columns[one.name]
+        ax.plot(along, curve, one.style, color=one.color, label=one.label)
 
 
 def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
     """Draw the gap over time."""
     ax = ax if ax is not None else figure()[1]
     ax.plot(result.time * 1e3, result.gap * 1e6, color=COLORS["gap"])
-    ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("gap", "um"), yscale="log")
+    ax.set(
+        xlabel=label_axis(COLUMNS["time"], "ms"),
+        ylabel=label_axis(COLUMNS["gap"], "um"),
+        yscale="log",
+    )
     plain_log(ax.yaxis)
     if result.state is not None and result.state.n_releases:
         ax.axvline(result.state.release_time * 1e3, color="0.5", lw=0.8, ls="--")
@@ -145,25 +159,20 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     NotSimulatedError
         If the run has no force: with only a time imposed a viscous film has but its impulse.
     """
-    curves: Mapping[str, tuple[str, str]] = {
-        "newtonian_force": ("viscous", ":"),
-        "viscous_force": ("viscous", "-"),
-        "meniscus_force": ("meniscus", "-"),
-        "asperity_force": ("meniscus", "-."),
-        "van_der_waals_force": ("solids", "-."),
-        "adhesion_force": ("solids", "-"),
-        "pull": ("pull", "--"),
-    }
-    drawn = [name for name in curves if name in result.columns]
+    drawn = [
+        column
+        for effect in result.plan.scene.effects
+        for column in effect.curves()
+        if column.unit == "N" and column.name in result.columns
+    ]
     if not drawn:
-        known(None, "force to draw", result.plan)
+        result["pull"]  # says why there is none
+    pull = [COLUMNS["pull"]] if "pull" in result.columns else []
     ax = ax if ax is not None else figure()[1]
     gap = result.gap * 1e6
-    for name in drawn:
-        color, style = curves[name]
-        ax.plot(gap, result.columns[name], style, color=COLORS[color], label=_LABELS[name].label)
-    if "limit" in result.columns:
-        acts = result.columns["limit"] > 1.0
+    _lines(ax, result, drawn + pull, gap)
+    if LIMIT.name in result.columns:
+        acts = result[LIMIT.name] > 1.0
         ax.fill_between(
             gap,
             0,
@@ -174,13 +183,10 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
             alpha=0.3,
             label="limit of the liquid acts",
         )
-    ax.set(xlabel=label_axis("gap", "um"), ylabel="force [N]", xscale="log")
-    shown = [result.columns[name] for name in drawn if name != "newtonian_force"]
-    least = [
-        result.columns[name].min() for name in drawn if name not in ("newtonian_force", "pull")
-    ]
-    top = max([0.0, *(float(curve.max()) for curve in shown)])
-    bottom = min([0.0, *map(float, least)])
+    ax.set(xlabel=label_axis(COLUMNS["gap"], "um"), ylabel="force [N]", xscale="log")
+    held = [result[one.name] for one in drawn if one.name != "newtonian_force"]
+    top = max([0.0, *(float(curve.max()) for curve in (*held, *(result[p.name] for p in pull)))])
+    bottom = min([0.0, *(float(curve.min()) for curve in held)])
     if top > bottom:  # else there is no force anywhere
         ax.set_ylim(1.1 * bottom, 1.15 * top)
     plain_log(ax.xaxis)
@@ -192,10 +198,10 @@ def cycles(result: SeparationResult, ax: Axes | None = None) -> Axes:
     """Draw the pull over the cycles of a vibration, its mean, and the pull without vibration."""
     ax = ax if ax is not None else figure()[1]
     time = result.time * 1e3
-    ax.plot(time, result.pull, color=COLORS["speed"], lw=0.8, label=_LABELS["pull"].label)
-    ax.plot(time, result.mean_pull, color=COLORS["pull"], label=_LABELS["mean_pull"].label)
-    ax.plot(time, result.steady_pull, "--", color=COLORS["gap"], label=_LABELS["steady_pull"].label)
-    ax.set(xlabel=label_axis("time", "ms"), ylabel=label_axis("pull"))
+    pull, *others = (COLUMNS[name] for name in ("pull", "mean_pull", "steady_pull"))
+    ax.plot(time, result.pull, color=COLORS["speed"], lw=0.8, label=pull.label)
+    _lines(ax, result, others, time)
+    ax.set(xlabel=label_axis(COLUMNS["time"], "ms"), ylabel=label_axis(pull))
     legend(ax)
     return ax
 
@@ -203,22 +209,16 @@ def cycles(result: SeparationResult, ax: Axes | None = None) -> Axes:
 def slide(result: SlidingResult, ax: Axes | None = None) -> Axes:
     """Draw the tangential forces over the travel, or the impulse where only a time is given."""
     ax = ax if ax is not None else figure()[1]
-    travel = result.travel * 1e6
-    curves: Mapping[str, tuple[str, str]] = {
-        "couette_force": ("viscous", "-"),
-        "hysteresis_force": ("meniscus", "-"),
-        "tangential_force": ("pull", "--"),
-        "couette_impulse": ("viscous", ":"),
-    }
-    shown = [name for name in curves if name in result.columns]
-    if any(name.endswith("_force") for name in shown):
-        shown = [name for name in shown if name.endswith("_force")]
-    for name in shown:
-        color, style = curves[name]
-        ax.plot(travel, result.columns[name], style, color=COLORS[color], label=label_axis(name))
-    ax.set(xlabel=label_axis("travel", "um"), ylabel="force [N]", ylim=(0.0, None))
-    if shown == ["couette_impulse"]:
-        ax.set_ylabel(label_axis("couette_impulse"))
+    plan, travel = result.plan, result.travel * 1e6
+    own = [column for kind in plan.laws for column in kind.curves()]
+    known = [one for one in (*own, plan.columns["tangential_force"]) if one.name in result.columns]
+    shown = [one for one in known if one.unit == "N"] or known
+    for one in shown:
+        label = label_axis(one)
+        ax.plot(travel, result[one.name], one.style, color=one.color, label=label)
+    ax.set(xlabel=label_axis(plan.columns["travel"], "um"), ylabel="force [N]", ylim=(0.0, None))
+    if shown[0].unit != "N":
+        ax.set_ylabel(label_axis(shown[0]))
     legend(ax)
     return ax
 

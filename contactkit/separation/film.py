@@ -8,25 +8,14 @@ from types import MappingProxyType
 
 from attrs import field, frozen
 
-from .effects.base import ForceLaw, Limiter, SeparationForce
-from .effects.registry import SeparationEffect
-from .effects.viscous import ViscousForce
+from ..scene.column import Column
+from .effects.base import ForceLaw, Limiter, LimitKind, SeparationForce
+from .effects.viscous import ViscousForce, ViscousLaw
 from .integrator.radau import Forces
 
-__all__ = ["Film", "impulse_name"]
+__all__ = ["Film"]
 
 _DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of forces
-
-
-def impulse_name(column: str) -> str:
-    """Name of the time integral of the force in a column.
-
-    Examples
-    --------
-    >>> impulse_name("meniscus_force")
-    'meniscus_impulse'
-    """
-    return column.removesuffix("_force") + "_impulse"
 
 
 @frozen(eq=False)
@@ -39,16 +28,16 @@ class Film:
     """
 
     laws: Mapping[type[SeparationForce], ForceLaw]
-    limits: tuple[tuple[type[SeparationEffect], Limiter], ...]
+    limits: tuple[tuple[LimitKind, Limiter], ...]
     end: float
     full_gap: float
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     rejoin: float = field(init=False)
     # The same laws, split once: these are called some ten times per internal step.
-    _viscous: ForceLaw | None = field(init=False, repr=False)
+    _viscous: ViscousLaw | None = field(init=False, repr=False)
     _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
-    static_columns: tuple[str, ...] = field(init=False, repr=False)
+    static_columns: tuple[Column, ...] = field(init=False, repr=False)
     static_impulses: tuple[str, ...] = field(init=False, repr=False)
 
     @kinks.default
@@ -65,25 +54,26 @@ class Film:
         return max((law.rejoin for law in self.laws.values()), default=0.0)
 
     @_viscous.default
-    def _find_viscous(self) -> ForceLaw | None:
-        return self.laws.get(ViscousForce)
+    def _find_viscous(self) -> ViscousLaw | None:
+        law = self.laws.get(ViscousForce)
+        return law if isinstance(law, ViscousLaw) else None
 
     @_static.default
     def _find_static(self) -> tuple[Callable[[float, float], float], ...]:
         return tuple(law.force for kind, law in self.laws.items() if kind is not ViscousForce)
 
     @static_columns.default
-    def _find_columns(self) -> tuple[str, ...]:
+    def _find_columns(self) -> tuple[Column, ...]:
         return tuple(kind.column for kind in self.laws if kind is not ViscousForce)
+
+    @static_impulses.default
+    def _find_impulses(self) -> tuple[str, ...]:
+        return tuple(column.impulse.name for column in self.static_columns)
 
     @property
     def has_viscous(self) -> bool:
         """Whether a viscous force is among the laws."""
         return self._viscous is not None
-
-    @static_impulses.default
-    def _find_impulses(self) -> tuple[str, ...]:
-        return tuple(map(impulse_name, self.static_columns))
 
     def left(self, *, broken: bool, detached: bool) -> Film | None:
         """Return what acts once the film is broken, or the solids have let go; None if nothing."""
@@ -105,24 +95,22 @@ class Film:
         return total
 
     def static_forces(self, gap: float) -> dict[str, float]:
-        """Each of the forces [N] that do not depend on speed, by its column, at a gap [m]."""
+        """Each force [N] that does not depend on speed at a gap [m], by the name of its column."""
         return {
-            column: force(gap, 0.0)
+            column.name: force(gap, 0.0)
             for column, force in zip(self.static_columns, self._static, strict=True)
         }
 
     def impulses(self) -> dict[str, float]:
         """Impulse [N.s] of each force before anything has moved, by its name."""
-        return {impulse_name(kind.column): 0.0 for kind in self.laws}
+        return {kind.column.impulse.name: 0.0 for kind in self.laws}
 
-    def viscous_force(
-        self, gap: float, speed: float
-    ) -> tuple[float, type[SeparationEffect] | None]:
+    def viscous_force(self, gap: float, speed: float) -> tuple[float, LimitKind]:
         """Viscous force [N] that is left after the limits, and the limit that acts."""
         if self._viscous is None:
-            return 0.0, None
+            return 0.0, LimitKind.NONE
         newtonian = self._viscous.force(gap, speed)
-        found, acting = newtonian, None
+        found, acting = newtonian, LimitKind.NONE
         for kind, limiter in self.limits:
             left = limiter(gap, speed, newtonian)
             if abs(left) < abs(found):
@@ -139,8 +127,10 @@ class Film:
         static, static_near = self.static_force(gap), self.static_force(near)
         static_by_gap = (static_near - static) / (near - gap)
         damping = self.damping(gap)
-        viscous, limit = self.viscous_force(gap, speed) if self.limits else (damping * speed, None)
-        if limit is None:
+        viscous, limit = (
+            self.viscous_force(gap, speed) if self.limits else (damping * speed, LimitKind.NONE)
+        )
+        if limit is LimitKind.NONE:
             by_gap = speed * (self.damping(near) - damping) / (near - gap)
             return Forces(static, static_by_gap, viscous, by_gap, damping)
         by_gap = (self.viscous_force(near, speed)[0] - viscous) / (near - gap)
@@ -162,3 +152,11 @@ class Film:
     def exponent(self, gap: float) -> float:
         """Exponent n of the viscous force, which falls as gap^-n; 0 without one."""
         return self._viscous.exponent(gap) if self._viscous is not None else 0.0
+
+    def newtonian_impulse(self, start: float, end: float) -> float:
+        """Impulse [N.s] of the viscous force without limits between two gaps [m]; 0 without one."""
+        return self._viscous.impulse(start, end) if self._viscous is not None else 0.0
+
+    def newtonian_force(self, gap: float, speed: float) -> float:
+        """Viscous force [N] without limits; 0 without one."""
+        return self._viscous.force(gap, speed) if self._viscous is not None else 0.0

@@ -3,85 +3,104 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
+from typing import ClassVar, NamedTuple
 
 from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
-from ..scene.effect import check_listed, choices
+from ..liquids.liquid import LiquidState
+from ..scene.column import Column
+from ..scene.effect import EffectRegistry, check_listed
 from ..scene.loading import ImposedForce, ImposedTime
+from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
+from ..scene.validity import ValidityNumber
+from ..units import nm
 from .bodies import check_bodies
+from .columns import COLUMNS
 from .effects.as_published import mixed
-from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, SeparationForce
-from .effects.film_shape import film_shape
+from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, LimitKind, SeparationForce
+from .effects.prepared import PreparedScene, prepare_scene
 from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .effects.viscous import ViscousForce
 from .film import Film
 
-__all__ = ["Film", "Plan", "plan"]
+_CONTINUUM = 2.0 * nm  # gap below which a liquid is no continuum any more
+
+__all__ = ["Film", "FilmState", "Plan", "plan"]
+
+
+class FilmState(NamedTuple):
+    """What of a film and its solids is there.
+
+    `volume_fraction` is the volume of the film over that of the scene; the film may be `broken`,
+    and the solids `detached`.
+    """
+
+    volume_fraction: float
+    broken: bool
+    detached: bool
 
 
 @frozen(eq=False)
-class Plan:
+class Plan(ScenePlan):
     """A checked scene with each effect prepared once.
 
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """
 
-    scene: SeparationScene
-    accuracy: Accuracy
-    film: Film = field(repr=False)
-    _films: dict[float, Film] = field(factory=dict, repr=False)
-    _left: dict[tuple[float, bool, bool], Film | None] = field(factory=dict, repr=False)
+    known_effects: ClassVar[EffectRegistry[SeparationEffect]] = SEPARATION_EFFECTS
+
+    prepared: PreparedScene[SeparationScene] = field(repr=False)
+    film: Film
+    columns: Mapping[str, Column] = field(repr=False)
+    """Columns a result of this plan may have, by their names."""
+    _films: Mapping[float, Film] = field(repr=False)
+    _left: Mapping[FilmState, Film | None] = field(repr=False)
+
+    @property
+    def scene(self) -> SeparationScene:
+        """What is simulated."""
+        return self.prepared.scene
+
+    @property
+    def accuracy(self) -> Accuracy:
+        """How well it is solved."""
+        return self.prepared.accuracy
 
     def film_with(self, volume_fraction: float) -> Film:
-        """Return the film with a fraction of the volume the scene gives."""
-        if volume_fraction == 1.0 or self.scene.meniscus.volume is None:
-            return self.film
-        if volume_fraction not in self._films:
-            meniscus = self.scene.meniscus
-            assert meniscus.volume is not None
-            less = evolve(meniscus, volume=volume_fraction * meniscus.volume)
-            interface = evolve(self.scene.interface, meniscus=less)
-            self._films[volume_fraction] = _prepare(
-                evolve(self.scene, interface=interface), self.accuracy
-            )
+        """Return the film of the volume of the scene, or of what re-wets of it."""
         return self._films[volume_fraction]
 
     def film_left(self, volume_fraction: float, *, broken: bool, detached: bool) -> Film | None:
         """Return what acts in a state: all, or what a broken film and parted solids leave."""
-        if not broken and not detached:
-            return self.film_with(volume_fraction)
-        key = volume_fraction, broken, detached
-        if key not in self._left:
-            self._left[key] = self.film_with(volume_fraction).left(broken=broken, detached=detached)
-        return self._left[key]
+        return self._left[FilmState(volume_fraction, broken, detached)]
 
-    def has(self, kind: type[SeparationEffect]) -> bool:
-        """Whether the scene calls for an effect."""
-        return any(type(effect) is kind for effect in self.scene.effects)
+    @property
+    def forces(self) -> tuple[Column, ...]:
+        """Columns of the listed forces."""
+        return tuple(e.column for e in self.scene.effects if isinstance(e, SeparationForce))
 
-    def cite(self) -> str:
-        """Sources of the equations of this run, one to a line."""
-        lines = [
-            f"{effect.name}: {source}"
-            for effect in self.scene.effects
-            for source in effect.cites(self.scene)
-        ]
-        return "\n".join(lines)
+    def validity(self, path: Sequence[tuple[float, float]]) -> tuple[ValidityNumber, ...]:
+        """Whether the models are in their range along pairs of gap [m] and speed [m/s]."""
+        return (
+            ValidityNumber(
+                name="thinnest gap over 2 nm",
+                value=min(gap for gap, _ in path) / _CONTINUUM,
+                low=1.0,
+                detail="below about 2 nm a liquid is not a continuum",
+                source="Chan and Horn 1985",
+            ),
+            *(number for effect in self.scene.effects for number in effect.validity(self, path)),
+        )
 
-    def __str__(self) -> str:
-        title = f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
-        on = [f"  on   {e.name:19s} {choices(e)}" for e in self.scene.effects]
-        off = [
-            f"  off  {kind.name:19s} {kind.summary}"
-            for kind in SEPARATION_EFFECTS
-            if not self.has(kind)
-        ]
-        return "\n".join([title, *on, *off])
+    @property
+    def title(self) -> str:
+        """See `ScenePlan.title`."""
+        return f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
 
 
 def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
@@ -101,20 +120,32 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     InfeasibleError
         If the scene has no answer.
     """
-    accuracy = accuracy or Accuracy.standard
+    kinds = check_listed(scene.effects, SeparationEffect, "separation", SEPARATION_EFFECTS.names)
     check_bodies(scene)
-    _check_effects(scene)
+    liquid = scene.meniscus.liquid.at(scene.temperature)
+    _check_effects(scene, kinds, liquid)
     if mixture := mixed(scene):
         raise PlanError(mixture)
     _check_gap(scene)
-    return Plan(scene, accuracy, _prepare(scene, accuracy))
+    prepared = prepare_scene(scene, accuracy, liquid)
+    film = _film(prepared)
+    if film.end <= scene.loading.initial_gap:
+        raise _too_wide(scene, film.end)
+    films = {1.0: film} | _rewetted(prepared, film)
+    states = MappingProxyType(_states(films))
+    return Plan(prepared, film, _columns(scene), MappingProxyType(films), states)
 
 
-def _check_effects(scene: SeparationScene) -> None:
-    kinds = check_listed(scene.effects, SeparationEffect, "separation", _known())
+def _columns(scene: SeparationScene) -> Mapping[str, Column]:
+    own = {column.name: column for effect in scene.effects for column in effect.curves()}
+    return MappingProxyType({**COLUMNS, **own})
+
+
+def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: LiquidState) -> None:
     if not any(isinstance(e, SeparationForce) for e in scene.effects):
         raise PlanError(
-            f"a separation scene needs at least one force among its effects; known: {_known()}"
+            "a separation scene needs at least one force among its effects; known: "
+            f"{SEPARATION_EFFECTS.names}"
         )
     ends = [k.__name__ for k in kinds if issubclass(k, FilmEnd)]
     if len(ends) > 1:
@@ -122,7 +153,7 @@ def _check_effects(scene: SeparationScene) -> None:
     problems = [
         f"{type(effect).__name__} needs {item}"
         for effect in scene.effects
-        for item in effect.lacks(scene)
+        for item in (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
     ]
     if scene.liquid_pressure is not None:
         problems += [
@@ -168,10 +199,6 @@ def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]
     return problems
 
 
-def _known() -> str:
-    return ", ".join(kind.__name__ for kind in SEPARATION_EFFECTS)
-
-
 def _check_gap(scene: SeparationScene) -> None:
     if scene.loading.initial_gap > 0.0:
         return
@@ -212,18 +239,42 @@ def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
     )
 
 
-def _prepare(scene: SeparationScene, accuracy: Accuracy) -> Film:
+def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     laws: dict[type[SeparationForce], ForceLaw] = {}
-    limits: list[tuple[type[SeparationEffect], Limiter]] = []
+    limits: list[tuple[LimitKind, Limiter]] = []
     end = math.inf
-    for effect in scene.effects:
+    for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
-            laws[type(effect)] = effect.prepare(scene, accuracy)
+            laws[type(effect)] = effect.prepare(prepared)
         elif isinstance(effect, FilmLimit):
-            limits.append((type(effect), effect.prepare(scene, accuracy)))
+            limits.append((effect.limit, effect.prepare(prepared)))
         elif isinstance(effect, FilmEnd):
-            end = effect.prepare(scene, accuracy)
+            end = effect.prepare(prepared)
     end = min([end, *(law.end for law in laws.values())])
-    if end <= scene.loading.initial_gap:
-        raise _too_wide(scene, end)
-    return Film(MappingProxyType(laws), tuple(limits), end, film_shape(scene).full_gap)
+    return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap)
+
+
+def _rewetted(prepared: PreparedScene[SeparationScene], film: Film) -> dict[float, Film]:
+    """Film of the fraction of the volume that re-wets, where that is not all of it."""
+    scene = prepared.scene
+    meniscus = scene.meniscus
+    fraction, volume = meniscus.rewetting, meniscus.volume
+    if not 0.0 < fraction < 1.0:
+        return {}
+    if volume is None:  # a bath, or the vapour, gives back all of it
+        return {fraction: film}
+    less = evolve(meniscus, volume=fraction * volume)
+    scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
+    return {fraction: _film(prepare_scene(scene, prepared.accuracy, prepared.liquid))}
+
+
+def _states(films: Mapping[float, Film]) -> dict[FilmState, Film | None]:
+    """What acts in each state that a motion may find."""
+    return {
+        FilmState(fraction, broken, detached): film.left(broken=broken, detached=detached)
+        if broken or detached
+        else film
+        for fraction, film in films.items()
+        for broken in (False, True)
+        for detached in (False, True)
+    }

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.loading import ImposedSpeed, ImposedTime
+from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
-from .film import Film, impulse_name
-from .motion.state import LIMITS, FilmStatus
+from .film import Film
 from .plan import Plan
 from .results import SeparationResult, Work
-from .validity import check, path_of
+from .validity import check
 
 __all__ = ["at_speed", "frozen", "newtonian_impulses", "simulated", "within_time"]
 
@@ -70,42 +70,47 @@ def at_speed(plan: Plan, begun: float) -> SeparationResult:
         if kind is not ViscousForce:
             end = min(law.release, film.end if kind.needs_film else math.inf)
             running = _running(law.force, speed, gaps, end)
-            impulses[impulse_name(kind.column)] = running[-1]
+            impulses[kind.column.impulse.name] = running[-1]
     if plan.has(ViscousForce):
         running = _running(lambda gap, v: film.viscous_force(gap, v)[0], speed, gaps, film.end)
         columns["viscous_impulse"] = frozen(running)
         impulses |= newtonian_impulses(plan)
         if plan.film.limits:
             impulses["viscous_impulse"] = running[-1]
-    validity = check(plan, path_of(plan, columns))
+    validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
 
 
 def simulated(plan: Plan) -> list[str]:
-    """Names of the curves that the effects of a plan give."""
-    names = list(plan.film.static_columns)
-    if plan.has(ViscousForce):
+    """Names of the curves that the effects of a plan give at each gap and speed."""
+    names = [column.name for column in plan.film.static_columns]
+    if plan.film.has_viscous:
         names += ["viscous_force", "newtonian_force"]
     if plan.film.limits:
-        names.append("limit")
+        names.append(LIMIT.name)
     return names
 
 
 def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
     film, broken = acting(plan, gap), gap > plan.film.end
-    row = dict.fromkeys(plan.film.static_columns, 0.0)
-    row |= film.static_forces(gap) if film is not None else {}
-    static = sum(row.values())
-    viscous, limit = film.viscous_force(gap, speed) if film is not None else (0.0, None)
-    row |= {"pull": static + viscous, "viscous_force": viscous, "newtonian_force": 0.0}
-    if plan.has(ViscousForce) and not broken:
-        row["newtonian_force"] = plan.film.laws[ViscousForce].force(gap, speed)
-    row["limit"] = float(LIMITS[limit])
+    row = {column.name: 0.0 for column in plan.film.static_columns}
+    newtonian, viscous, limit = 0.0, 0.0, LimitKind.NONE
+    if film is not None:
+        row |= film.static_forces(gap)
+        newtonian, (viscous, limit) = (
+            film.newtonian_force(gap, speed),
+            film.viscous_force(gap, speed),
+        )
     whole = FilmStatus.FULL if gap <= plan.film.full_gap else FilmStatus.BRIDGE
-    row["film_status"] = float(FilmStatus.BROKEN if broken else whole)
-    return row
+    return row | {
+        "pull": sum(row.values()) + viscous,
+        "viscous_force": viscous,
+        "newtonian_force": newtonian,
+        LIMIT.name: float(limit),
+        "film_status": float(FilmStatus.BROKEN if broken else whole),
+    }
 
 
 def _running(
@@ -131,9 +136,8 @@ def _running(
 
 def newtonian_impulses(plan: Plan) -> dict[str, float]:
     """Impulse [N.s] of the film without limits; no path in time changes it."""
-    loading, impulse = plan.scene.loading, plan.film.laws[ViscousForce].impulse
-    assert impulse is not None  # a viscous force always has one
-    value = impulse(loading.initial_gap, min(loading.final_gap, plan.film.end))
+    loading, film = plan.scene.loading, plan.film
+    value = film.newtonian_impulse(loading.initial_gap, min(loading.final_gap, film.end))
     return {"viscous_impulse": value, "newtonian_impulse": value}
 
 
@@ -142,19 +146,16 @@ def within_time(plan: Plan, begun: float) -> SeparationResult:
     gaps = _grid(plan)
     columns = {"gap": frozen(gaps)}
     rows = [_forces(plan, gap, 0.0) for gap in gaps] if plan.film.static_columns else []
-    columns |= {name: frozen([row[name] for row in rows]) for name in plan.film.static_columns}
+    static = [column.name for column in plan.film.static_columns]
+    columns |= {name: frozen([row[name] for row in rows]) for name in static}
     impulses = {}
     if plan.has(ViscousForce):
         impulses = newtonian_impulses(plan)
-        impulse = plan.film.laws[ViscousForce].impulse
-        assert impulse is not None
-        last = plan.film.end
+        impulse, last = plan.film.newtonian_impulse, plan.film.end
         columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
     loading = plan.scene.loading
-    validity = check(plan, path_of(plan, columns))
+    validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
-    assert isinstance(loading, ImposedTime)
-    assert isinstance(loading, ImposedTime)
     assert isinstance(loading, ImposedTime)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

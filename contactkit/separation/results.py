@@ -2,38 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 from attrs import field, frozen
 
-from ..errors import DescriptionError, NotSimulatedError
-from ..scene.loading import ImposedTime
-from .columns import COLUMNS, Column
-from .effects.base import SeparationForce
-from .effects.registry import (
-    SEPARATION_EFFECTS,
-    AdhesiveContact,
-    AsperityMenisci,
-    MeniscusForce,
-    SeparationEffect,
-    ShearLimit,
-    TensionLimit,
-    VanDerWaalsForce,
-    ViscousForce,
-)
-from .motion.state import LimitKind, MotionState
-from .parts import (
-    AdhesionPart,
-    AsperityPart,
-    ForcePart,
-    LimitPart,
-    MeniscusPart,
-    ViscousPart,
-    known,
-)
+from ..errors import NotSimulatedError
+from ..scene.result import Result
+from ..scene.validity import ValidityNumber
+from .motion.state import MotionState
 from .plan import Plan
-from .validity import ValidityNumber
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,20 +21,13 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-_BY_NAME = {column.name: column for column in COLUMNS}
+__all__ = ["SeparationResult", "Work"]
 
-__all__ = [
-    "COLUMNS",
-    "AdhesionPart",
-    "AsperityPart",
-    "Column",
-    "ForcePart",
-    "LimitPart",
-    "MeniscusPart",
-    "SeparationResult",
-    "ViscousPart",
-    "Work",
-]
+P_co = TypeVar("P_co", covariant=True)
+
+
+class _HasPart(Protocol[P_co]):
+    def part(self, result: SeparationResult) -> P_co: ...
 
 
 class Work(NamedTuple):
@@ -69,7 +40,7 @@ class Work(NamedTuple):
 
 
 @frozen(eq=False)
-class SeparationResult:
+class SeparationResult(Result):
     """Curves and numbers of one separation.
 
     Attributes
@@ -81,9 +52,11 @@ class SeparationResult:
     message : str
         The same as a sentence, with its cure.
     columns : mapping of str to ndarray
-        The curves, by the names of `COLUMNS`; read-only.
+        The curves by their names, read-only; ``result["meniscus_force"]`` is one of them.
+    impulses : mapping of str to float
+        Time integral of each force over the whole opening [N.s].
     state : MotionState or None
-        Last state of the motion.
+        The end of the motion; None where no motion was solved.
     validity : tuple of ValidityNumber
         Whether the models were inside their ranges.
     work : Work
@@ -99,64 +72,78 @@ class SeparationResult:
     validity: tuple[ValidityNumber, ...] = field(repr=False)
     work: Work
 
-    def __getattr__(self, name: str) -> Curve:
-        if name not in _BY_NAME:
-            raise AttributeError(f"SeparationResult has no {name!r}")
-        return self.curve(name)
+    @property
+    def time(self) -> Curve:
+        """Time [s]."""
+        return self["time"]
 
-    def curve(self, name: str) -> Curve:
-        """Return a curve by its name in `COLUMNS`.
+    @property
+    def gap(self) -> Curve:
+        """Gap [m]."""
+        return self["gap"]
 
-        Raises
-        ------
-        NotSimulatedError
-            If this run did not simulate it; the message says what to add.
-        """
-        if name in self.columns:
-            return self.columns[name]
-        if name not in _BY_NAME:
-            raise DescriptionError("curve", name, f"be one of {', '.join(_BY_NAME)}")
-        owner = _OWNERS.get(name)
-        if owner is not None:
-            self._demand(owner)
-        if name == "limit":
-            raise NotSimulatedError(
-                "the scene does not call for a limit of the liquid: add TensionLimit() or "
-                "ShearLimit() to its effects"
-            )
-        return known(None, _BY_NAME[name].label, self.plan)
+    @property
+    def speed(self) -> Curve:
+        """Opening speed [m/s]."""
+        return self["speed"]
 
-    def _demand(self, kind: type[SeparationEffect]) -> None:
-        if not self.plan.has(kind):
-            raise NotSimulatedError(
-                f"the scene does not call for {kind.name}: add {kind.__name__}() to its effects"
-            )
+    @property
+    def pull(self) -> Curve:
+        """Pull [N]."""
+        return self["pull"]
 
-    def of(self, kind: type[SeparationEffect]) -> Any:
-        """Return what an effect did: `ForcePart`, `ViscousPart` or `LimitPart`.
+    def of(self, kind: type[_HasPart[P_co]]) -> P_co:
+        """Return what an effect did: for a force its curve and impulse, for a limit when it acted.
 
         Raises
         ------
         NotSimulatedError
-            If the scene does not call for the effect.
+            If the scene does not list the effect, or it has nothing of its own to show.
         """
-        self._demand(kind)
-        if kind not in _PARTS:
-            raise NotSimulatedError(f"{kind.__name__} has no curve of its own; see result.state")
-        return _PARTS[kind](self)
+        part: P_co = self.plan.listed(kind).part(self)
+        return part
+
+    def _refuse(self, name: str) -> None:
+        owners = [k for k in self.plan.known_effects if name in {c.name for c in k.curves()}]
+        if owners and not any(map(self.plan.has, owners)):
+            if len(owners) == 1:
+                self.plan.listed(owners[0])
+            named = " or ".join(f"{kind.__name__}(...)" for kind in owners)
+            raise NotSimulatedError(
+                f"the scene does not call for {owners[0].name}: add {named} to its effects"
+            )
+        if name in self.plan.columns:
+            raise self._undetermined(self.plan.columns[name].label)
+
+    def _undetermined(self, what: str) -> NotSimulatedError:
+        return NotSimulatedError(
+            f"no {what}: with {self.plan.scene.loading.imposed} imposed it is not determined; "
+            "impose a speed or a force to get it"
+        )
 
     @property
     def errata(self) -> tuple[PublishedValue, ...]:
         """Printed equations this run took: value at the start, what is wrong, and the right one."""
-        from .errata import scene_errata
+        return tuple(one for e in self.plan.scene.effects for one in e.errata(self.plan))
 
-        return scene_errata(self.plan)
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return the numbers of the run, each with its unit."""
+        found = {name: (value, "N.s") for name, value in self.impulses.items()}
+        for effect in self.plan.scene.effects:
+            found |= effect.scalars(self)
+        if self.state is not None:
+            return found | _numbers_of_motion(self.state)
+        forces = self.plan.forces
+        total = [self.columns[force.name] for force in forces if force.name in self.columns]
+        if total:
+            found["peak_force"] = (float(sum(total[1:], total[0]).max()), "N")
+        return found | self._means_of_cycles()
 
     def _means_of_cycles(self) -> dict[str, tuple[float, str]]:
         """Pull over the whole of a vibration: its mean, that without vibration, its extremes."""
         if "pull_impulse" not in self.impulses:
             return {}
-        duration, pull = float(self.columns["time"][-1]), self.columns["pull"]
+        duration, pull = float(self.time[-1]), self.pull
         return {
             "mean_pull": (self.impulses["pull_impulse"] / duration, "N"),
             "mean_steady_pull": (self.impulses["steady_pull_impulse"] / duration, "N"),
@@ -164,113 +151,16 @@ class SeparationResult:
             "lowest_pull": (float(pull.min()), "N"),
         }
 
-    def scalars(self) -> dict[str, tuple[float, str]]:
-        """Return the numbers of the run, each with its unit."""
-        found = {name: (value, "N.s") for name, value in self.impulses.items()}
-        if self.plan.has(ViscousForce) and isinstance(self.plan.scene.loading, ImposedTime):
-            found["mean_viscous_force"] = (self.of(ViscousForce).mean_force(), "N")
-        found |= _adhesion_numbers(self.plan)
-        state = self.state
-        if state is None:
-            names = dict.fromkeys(kind.column for kind in _FORCES if self.plan.has(kind))
-            total = [self.columns[name] for name in names if name in self.columns]
-            if total:
-                found["peak_force"] = (float(sum(total).max()), "N")  # type: ignore[union-attr]
-            return found | self._means_of_cycles()
-        found |= {
-            "release_time": (state.release_time, "s"),
-            "release_speed": (state.release_speed, "m/s"),
-            "peak_force": (state.peak_force, "N"),
-            "peak_time": (state.peak_time, "s"),
-            "dissipated_work": (state.dissipated_work, "J"),
-            "final_gap": (state.gap, "m"),
-        }
-        if state.n_breaks:
-            found["break_time"] = (state.break_time, "s")
-        return found
 
-
-def _adhesion_numbers(plan: Plan) -> dict[str, tuple[float, str]]:
-    """Numbers of an adhesive contact, of one sphere, where the scene has one."""
-    effect = plan.scene.effect(AdhesiveContact)
-    if effect is None:
-        return {}
-    numbers = effect.numbers(plan.scene)
+def _numbers_of_motion(state: MotionState) -> dict[str, tuple[float, str]]:
     found = {
-        "pull_off_force": (numbers.pull_off_force, "N"),
-        "contact_release_gap": (numbers.release_gap, "m"),
+        "release_time": (state.release_time, "s"),
+        "release_speed": (state.release_speed, "m/s"),
+        "peak_force": (state.peak_force, "N"),
+        "peak_time": (state.peak_time, "s"),
+        "dissipated_work": (state.dissipated_work, "J"),
+        "final_gap": (state.gap, "m"),
     }
-    if numbers.tabor_parameter is not None and numbers.transition_parameter is not None:
-        found["tabor_parameter"] = (numbers.tabor_parameter, "-")
-        found["transition_parameter"] = (numbers.transition_parameter, "-")
+    if state.n_breaks:
+        found["break_time"] = (state.break_time, "s")
     return found
-
-
-def _meniscus_part(result: SeparationResult) -> MeniscusPart:
-    return MeniscusPart(result.meniscus_force, result.impulses.get("meniscus_impulse"))
-
-
-def _van_der_waals_part(result: SeparationResult) -> ForcePart:
-    impulse = result.impulses.get("van_der_waals_impulse")
-    return ForcePart(result.van_der_waals_force, impulse)
-
-
-def _adhesion_part(result: SeparationResult) -> AdhesionPart:
-    scene = result.plan.scene
-    effect = scene.effect(AdhesiveContact)
-    assert effect is not None  # of() has asked first
-    impulse = result.impulses.get("adhesion_impulse")
-    return AdhesionPart(result.adhesion_force, impulse, effect.numbers(scene))
-
-
-def _asperity_part(result: SeparationResult) -> AsperityPart:
-    import numpy as np
-
-    scene = result.plan.scene
-    effect = scene.effect(AsperityMenisci)
-    assert effect is not None  # of() has asked first
-    sums = [effect.sums(scene, gap) for gap in result.gap.tolist()]
-    columns = (np.array([s.n_wet for s in sums]), np.array([s.coverage for s in sums]))
-    impulse = result.impulses.get("asperity_impulse")
-    law = f"{effect.law}, {effect.profile} bridges"
-    return AsperityPart(result.asperity_force, impulse, law, *columns)
-
-
-def _viscous_part(result: SeparationResult) -> ViscousPart:
-    columns, impulses = result.columns, result.impulses
-    return ViscousPart(
-        result.plan,
-        columns.get("viscous_force"),
-        columns.get("newtonian_force"),
-        impulses["viscous_impulse"],
-        impulses["newtonian_impulse"],
-    )
-
-
-def _limit_part(kind: LimitKind) -> Callable[[SeparationResult], LimitPart]:
-    def part(result: SeparationResult) -> LimitPart:
-        acts = result.limit == kind
-        when = result.time[acts]
-        first, last = (float(when[0]), float(when[-1])) if acts.any() else (None, None)
-        return LimitPart(acts, first, last)
-
-    return part
-
-
-_PARTS: dict[
-    type[SeparationEffect], Callable[[SeparationResult], ForcePart | ViscousPart | LimitPart]
-] = {
-    MeniscusForce: _meniscus_part,
-    VanDerWaalsForce: _van_der_waals_part,
-    AdhesiveContact: _adhesion_part,
-    AsperityMenisci: _asperity_part,
-    ViscousForce: _viscous_part,
-    TensionLimit: _limit_part(LimitKind.TENSION),
-    ShearLimit: _limit_part(LimitKind.SHEAR),
-}
-_FORCES = [kind for kind in SEPARATION_EFFECTS if issubclass(kind, SeparationForce)]
-_OWNERS: dict[str, type[SeparationEffect]] = {
-    **{kind.column: kind for kind in _FORCES},
-    "newtonian_force": ViscousForce,
-    "viscous_impulse": ViscousForce,
-}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, overload
 
 from ..errors import ConvergenceError
 from ..scene.loading import ImposedForce, ImposedSpeed
+from ..scene.validity import warn
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
@@ -18,7 +19,7 @@ from .results import SeparationResult, Work
 from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
 from .sliding.run import slide
-from .validity import check, path_of, warn
+from .validity import check
 from .vibration import vibrating
 
 if TYPE_CHECKING:
@@ -157,7 +158,7 @@ def _motion_result(
     status, message = _outcome(plan, last, pull(last.time), problem)
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     columns = _columns(plan, states, pull)
-    validity = check(plan, path_of(plan, columns))
+    validity = check(plan, columns)
     return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
 
 
@@ -174,7 +175,7 @@ def _columns(
         "film_status": frozen([row.status for row in rows]),
     }
     static = [_static_forces(plan, state) for state in states]
-    curves = {name: [row[name] for row in static] for name in plan.film.static_columns} | {
+    curves = {c.name: [row[c.name] for row in static] for c in plan.film.static_columns} | {
         "viscous_force": [row.viscous for row in rows],
         "newtonian_force": [_newtonian_force(plan, s) for s in states],
         "limit": [row.limit for row in rows],
@@ -201,22 +202,22 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
             f"not released within loading.time_limit = {limit:g} s; gap {last.gap:g} m",
         )
     held = outputs(plan, last, pull).static
-    what = " and ".join(name.removesuffix("_force") for name in plan.film.static_columns)
+    what = " and ".join(column.label for column in plan.film.static_columns)
     return (
         "stuck",
         f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the "
-        f"{what.replace('_', ' ')} at {last.gap:g} m; pull harder, or start from a larger gap",
+        f"{what} at {last.gap:g} m; pull harder, or start from a larger gap",
     )
 
 
 def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:
     """Each force [N] that does not depend on speed, 0 where it has ended."""
     film = acting_film(plan, state)
-    none = dict.fromkeys(plan.film.static_columns, 0.0)
+    none = {column.name: 0.0 for column in plan.film.static_columns}
     return none | (film.static_forces(state.gap) if film is not None else {})
 
 
 def _newtonian_force(plan: Plan, state: MotionState) -> float:
-    if state.broken or not plan.has(ViscousForce):
+    if state.broken:
         return 0.0
-    return plan.film_with(state.volume_fraction).laws[ViscousForce].force(state.gap, state.speed)
+    return plan.film_with(state.volume_fraction).newtonian_force(state.gap, state.speed)

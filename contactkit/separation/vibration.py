@@ -22,18 +22,14 @@ from ..errors import InfeasibleError
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.roots import bracketed_root, first_true
 from ..scene.loading import ImposedSpeed, Vibration
-from .effects.registry import SeparationEffect, ViscousForce
-from .film import impulse_name
-from .motion.state import LIMITS, FilmStatus
+from .effects.base import LIMIT, FilmStatus, LimitKind
+from .effects.registry import ViscousForce
 from .plan import Plan
 from .prescribed import frozen, simulated
 from .results import SeparationResult, Work
-from .validity import check, path_of
+from .validity import check
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
@@ -187,13 +183,11 @@ def vibrating(plan: Plan, begun: float) -> SeparationResult:
     cycles = [_cycle(plan, path, *span) for span in _drawn(plan, path, end)]
     starts, totals = _sums(path, cycles)
     columns = _curves(plan, path, cycles, starts)
-    impulses = {impulse_name(name): total for name, total in totals.items() if name != "pull"}
-    impulses |= {"pull_impulse": totals["pull"]}
+    impulses = {plan.columns[name].impulse.name: total for name, total in totals.items()}
     impulses["steady_pull_impulse"] = _steady_impulse(plan, path, end)
     if plan.has(ViscousForce):
-        law = film.laws[ViscousForce].impulse
-        assert law is not None  # a viscous force always has one
-        impulses["newtonian_impulse"] = law(path.gap(0.0), path.gap(end))
+        newtonian = film.newtonian_impulse(path.gap(0.0), path.gap(end))
+        impulses["newtonian_impulse"] = newtonian
     n = len(columns["gap"]) + len(cycles) * PANELS * NODES
     return SeparationResult(
         plan,
@@ -202,7 +196,7 @@ def vibrating(plan: Plan, begun: float) -> SeparationResult:
         columns,
         impulses,
         None,
-        check(plan, path_of(plan, columns)),
+        check(plan, columns),
         Work(0, 0, n, clock.perf_counter() - begun),
     )
 
@@ -248,7 +242,7 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
     if not film.limits:
         return found
 
-    def acting(time: float) -> type[SeparationEffect] | None:
+    def acting(time: float) -> LimitKind:
         return film.viscous_force(path.gap(time), path.speed(time))[1]
 
     for low, high in pairwise(edges):
@@ -256,7 +250,7 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
         if first is acting(high):
             continue
 
-        def changed(time: float, was: type[SeparationEffect] | None = first) -> bool:
+        def changed(time: float, was: LimitKind = first) -> bool:
             return acting(time) is not was
 
         found.append(first_true(changed, low, high, atol=1e-9 * (high - low)))
@@ -349,8 +343,8 @@ def _row(plan: Plan, gap: float, speed: float) -> dict[str, float]:
     film = plan.film
     row = _forces(plan, gap, speed)
     if plan.has(ViscousForce):
-        row["newtonian_force"] = film.laws[ViscousForce].force(gap, speed)
-    row["limit"] = float(LIMITS[film.viscous_force(gap, speed)[1]])
+        row["newtonian_force"] = film.newtonian_force(gap, speed)
+    row[LIMIT.name] = float(film.viscous_force(gap, speed)[1])
     row["film_status"] = float(FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE)
     return row
 

@@ -13,15 +13,9 @@ from ...errors import ConvergenceError, DescriptionError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
-from ...separation.effects.film_shape import FilmShape, film_shape
-from ...separation.effects.registry import (
-    AdhesiveContact,
-    AsperityMenisci,
-    MeniscusForce,
-    TensionLimit,
-    ViscousForce,
-)
-from ...separation.effects.viscous import keeps_radius
+from ...separation.effects.film_shape import FilmShape
+from ...separation.effects.prepared import PreparedScene, prepare_scene
+from ...separation.effects.viscous import TensionLimit, ViscousLaw, viscous_film
 from ...separation.film import Film
 from ...separation.plan import Plan, plan
 from .tables import Table, tabulate
@@ -71,19 +65,19 @@ def moving(scene: SeparationScene, mass: float | None) -> SeparationScene:
 def free_liquid(scene: SeparationScene) -> tuple[float, float]:
     """Viscosity [Pa.s] and surface tension [N/m] that may be set in the FMU; 0 where they may not.
 
-    The viscous force is proportional to viscosity. The force of a meniscus is proportional to
-    surface tension at a given volume, but not at a given pressure.
+    A property of the liquid may be set where each effect that reads it is proportional to it.
     """
     state = scene.meniscus.liquid.at(scene.temperature)
-    viscosity = state.viscosity if scene.effect(ViscousForce) is not None else None
-    adhesion = scene.effect(AdhesiveContact)
-    fixed = (
-        scene.effect(MeniscusForce) is None
-        or scene.liquid_pressure is not None
-        or scene.effect(AsperityMenisci) is not None
-        or (adhesion is not None and adhesion.work_of_adhesion == "capillary")
+    forces = {e for e in scene.effects if isinstance(e, SeparationForce)}
+    scaled = {e.proportional_to(scene) for e in forces}
+    for effect in scene.effects:
+        own = effect.proportional_to(scene) if isinstance(effect, SeparationForce) else ""
+        scaled -= set(effect.liquid_needs(scene)) - {own}
+    viscosity, tension = (
+        (state.given(name) or 0.0) if name in scaled else 0.0
+        for name in ("viscosity", "surface_tension")
     )
-    return viscosity or 0.0, 0.0 if fixed else (state.surface_tension or 0.0)
+    return viscosity, tension
 
 
 def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbers:
@@ -118,41 +112,48 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     return FilmNumbers(numbers, lowest)
 
 
-def _film(prepared: Plan, share: float, lowest: float) -> list[float]:
-    """Numbers of the film with a share of the volume."""
-    film, scene = prepared.film_with(share), _with_share(prepared.scene, share)
+def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
+    """Numbers of the film with a fraction of the volume."""
+    film, prepared = made.film_with(fraction), _with_fraction(made.prepared, fraction)
     breaks = _INF
-    for effect in scene.effects:
+    for effect in made.scene.effects:
         if isinstance(effect, FilmEnd):
-            breaks = effect.prepare(scene, prepared.accuracy)
+            breaks = effect.prepare(prepared)
     ends = min([_INF, *(law.end for law in film.laws.values())])
     numbers = [ends, breaks, film.full_gap, float(len(film.laws))]
-    for kind, law in film.laws.items():
-        numbers += _law(scene, kind, law, lowest)
-    return numbers + _shape(scene, film, lowest).numbers()
+    for effect in made.scene.effects:
+        if isinstance(effect, SeparationForce):
+            numbers += _law(made.scene, effect, film.laws[type(effect)], lowest)
+    return numbers + _shape(prepared, film, lowest).numbers()
 
 
-def _with_share(scene: SeparationScene, share: float) -> SeparationScene:
+def _with_fraction(
+    prepared: PreparedScene[SeparationScene], fraction: float
+) -> PreparedScene[SeparationScene]:
+    scene = prepared.scene
     meniscus = scene.meniscus
-    if share == 1.0 or meniscus.volume is None:
-        return scene
-    less = evolve(meniscus, volume=share * meniscus.volume)
-    return evolve(scene, interface=evolve(scene.interface, meniscus=less))
+    if fraction == 1.0 or meniscus.volume is None:
+        return prepared
+    less = evolve(meniscus, volume=fraction * meniscus.volume)
+    scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
+    return prepare_scene(scene, prepared.accuracy, prepared.liquid)
 
 
 def _law(
-    scene: SeparationScene, kind: type[SeparationForce], law: ForceLaw, lowest: float
+    scene: SeparationScene, effect: SeparationForce, law: ForceLaw, lowest: float
 ) -> list[float]:
     viscosity, surface_tension = free_liquid(scene)
-    scale, speed, unit = _FIXED, 0.0, 1.0
-    if kind is ViscousForce:
-        scale, speed, unit = _VISCOSITY, 1.0, viscosity
-    elif kind is MeniscusForce and surface_tension:
+    speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
+    scale, unit = _FIXED, 1.0
+    proportional_to = effect.proportional_to(scene)
+    if proportional_to == "viscosity" and viscosity:
+        scale, unit = _VISCOSITY, viscosity
+    elif proportional_to == "surface_tension" and surface_tension:
         scale, unit = _SURFACE, surface_tension
-    table = _law_table(scene, kind, law, lowest, lambda gap: law.force(gap, speed) / unit)
+    table = _law_table(scene, effect, law, lowest, lambda gap: law.force(gap, speed) / unit)
     return [
         scale,
-        float(kind.needs_film),
+        float(effect.needs_film),
         law.end,
         law.release,
         law.rejoin,
@@ -164,18 +165,15 @@ def _law(
 
 def _law_table(
     scene: SeparationScene,
-    kind: type[SeparationForce],
+    effect: SeparationForce,
     law: ForceLaw,
     lowest: float,
     force: Callable[[float], float],
 ) -> Table:
-    final = scene.loading.final_gap
-    # A meniscus on a sphere is a curve that was made up to twice the final gap, and stays there.
-    is_curve = kind is MeniscusForce and not scene.interface.is_flat
-    high = min(law.end, 2.0 * final) if is_curve else law.end
+    final, high = scene.loading.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
-        high = _FAR * final if kind is ViscousForce else _FARTHER * final
+        high = _FAR * final if isinstance(law, ViscousLaw) else _FARTHER * final
     folds = {high} if high == law.end else set[float]()
     inside = {kink for kink in law.kinks if lowest < kink < high}
     if lowest < law.release < high:
@@ -186,18 +184,18 @@ def _law_table(
         return tabulate(force, edges, folds=tuple(folds), stays=stays)
     except ConvergenceError as error:
         raise ConvergenceError(
-            f"{kind.__name__} has no native form: {error}; take profile='arc' if it is a meniscus, "
-            f"or build the Python FMU, without --native",
+            f"{type(effect).__name__} has no native form: {error}; take profile='arc' if it is a "
+            "meniscus, or build the Python FMU, without --native",
             error.result,
         ) from error
 
 
-def _shape(scene: SeparationScene, film: Film, lowest: float) -> Table:
+def _shape(prepared: PreparedScene[SeparationScene], film: Film, lowest: float) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    high = _FAR * scene.loading.final_gap
-    if ViscousForce not in film.laws:
+    high = _FAR * prepared.scene.loading.final_gap
+    if not film.has_viscous:
         return tabulate(lambda gap: 1.0, (lowest, high))
-    shape = film_shape(scene, constant_radius=keeps_radius(scene))
+    shape = viscous_film(prepared)
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}
     return tabulate(_reach(shape), (lowest, *sorted(marks), high))
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from ...numerics.quadrature import LOBATTO_5, gauss_legendre
 from ...numerics.roots import first_true
-from ...separation.effects.registry import ViscousForce
+from ...separation.effects.base import LimitKind
 from ...separation.plan import Film
 
 __all__ = ["Travel", "travel"]
@@ -111,12 +111,8 @@ def _stops(film: Film, begin: float, end: float, widest: float) -> Iterator[floa
 
 
 def _viscous(film: Film, begin: float, end: float, length: float) -> float:
-    law = film.laws.get(ViscousForce)
-    if law is None:
-        return 0.0
-    assert law.impulse is not None  # a viscous force always has one
     if not film.limits:
-        return law.impulse(begin, end)
+        return film.newtonian_impulse(begin, end)
     speed, total = (end - begin) / length, 0.0
     for start, stop, is_limited in _pieces(film, begin, end, speed):
         if is_limited:
@@ -125,7 +121,7 @@ def _viscous(film: Film, begin: float, end: float, length: float) -> float:
             mean = sum(w * gap * film.viscous_force(gap, speed)[0] for gap, w in gaps)
             total += width / speed * mean
         else:
-            total += law.impulse(start, stop)
+            total += film.newtonian_impulse(start, stop)
     return total
 
 
@@ -134,7 +130,7 @@ def _pieces(
 ) -> Iterator[tuple[float, float, bool]]:
     """Parts of the way in which one limit acts, or none, and whether one does."""
 
-    def acts(gap: float) -> type | None:
+    def acts(gap: float) -> LimitKind:
         return film.viscous_force(gap, speed)[1]
 
     if speed == 0.0:
@@ -144,13 +140,13 @@ def _pieces(
     gaps = [begin, *_stops(film, begin, end, widest)]
     for (start, before), (stop, after) in pairwise([(gap, acts(gap)) for gap in gaps]):
         if before is after:
-            yield start, stop, before is not None
+            yield start, stop, before is not LimitKind.NONE
             continue
         near = _NEAR_ONSET * abs(stop - start)
 
-        def changed(gap: float, was: type | None = before) -> bool:
+        def changed(gap: float, was: LimitKind = before) -> bool:
             return acts(gap) is not was
 
         onset = first_true(changed, start, stop, atol=near)
-        yield start, onset, before is not None
-        yield onset, stop, after is not None
+        yield start, onset, before is not LimitKind.NONE
+        yield onset, stop, after is not LimitKind.NONE

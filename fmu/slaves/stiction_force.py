@@ -15,7 +15,7 @@ from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
 from ...accuracy import Accuracy
-from ...separation.motion.state import LIMITS, FilmStatus, LimitKind
+from ...separation.effects.base import FilmStatus, LimitKind
 from ...separation.plan import Film, Plan, plan
 from ..framework.ports import Port, find_port
 from ..framework.slave import PortSlave
@@ -229,7 +229,7 @@ class StictionForce(PortSlave):
             k=found.static_by_gap + found.viscous_by_gap,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
             state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE),
-            limit=int(LIMITS[found.limit]),
+            limit=int(found.limit or LimitKind.NONE),
         )
         above = below = 0.0
         for mark in (*film.kinks, film.end):  # they ascend

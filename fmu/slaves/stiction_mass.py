@@ -22,7 +22,7 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
-from ...separation.effects.base import SeparationForce
+from ...separation.effects.base import FilmStatus, LimitKind, SeparationForce
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -31,7 +31,7 @@ from ...separation.effects.registry import (
     ViscousForce,
 )
 from ...separation.motion.advance import advance
-from ...separation.motion.state import FilmStatus, LimitKind, MotionState, Pull, outputs, start
+from ...separation.motion.state import MotionState, Pull, outputs, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, read, write
 from ..framework.ports import Port
@@ -263,7 +263,9 @@ def with_numbers(scene: SeparationScene) -> SeparationScene:
     meniscus = scene.meniscus
     state = meniscus.liquid.at(scene.temperature)
     liquid = Liquid(
-        name=meniscus.liquid.name, viscosity=state.viscosity, surface_tension=state.surface_tension
+        name=meniscus.liquid.name,
+        viscosity=state.given("viscosity"),
+        surface_tension=state.given("surface_tension"),
     )
     effects = tuple(
         evolve(effect, tension=effect.pressure_drop) if isinstance(effect, TensionLimit) else effect

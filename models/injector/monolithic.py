@@ -31,7 +31,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
-from ...errors import ConvergenceError, PlanError
+from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...separation.motion.state import MotionState, outputs
 from ...separation.plan import Film, Plan
 from ..ode_events import crossing, slopes_of, watch
@@ -128,7 +128,7 @@ class MonolithicResult:
     Attributes
     ----------
     columns : mapping of str to ndarray
-        The curves, by the names of `COLUMNS`; also read as attributes, ``result.gap``.
+        The curves, by the names of `COLUMNS`; ``result["gap"]`` is one of them.
     cycles : tuple of Cycle
         A summary of each firing cycle; one in all for a prescribed pull.
     events : tuple of Event
@@ -143,10 +143,11 @@ class MonolithicResult:
     n_steps: int
     n_evaluations: int
 
-    def __getattr__(self, name: str) -> NDArray[Any]:
-        if name in COLUMNS:
-            return self.columns[name]
-        raise AttributeError(name)
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a curve by its name in `COLUMNS`."""
+        if name not in self.columns:
+            raise DescriptionError("column", name, f"be one of {', '.join(self.columns)}")
+        return self.columns[name]
 
 
 def in_si(

@@ -68,9 +68,10 @@ class Adhesion(NamedTuple):
 def _kelvin(scene: SeparationScene, humidity: float) -> tuple[float, float]:
     """Pressure over surface tension [1/m], and surface tension [N/m]."""
     liquid = scene.meniscus.liquid
-    tension = liquid.at(scene.temperature).surface_tension
-    if tension is None:
+    state = liquid.at(scene.temperature)
+    if state.missing("surface_tension"):
         raise InfeasibleError(f"{liquid.name} has no surface tension [N/m], and holds no meniscus")
+    tension = state.surface_tension
     volume = liquid.molar_volume(scene.temperature)
     return laplace_pressure(volume, scene.temperature, humidity) / tension, tension
 

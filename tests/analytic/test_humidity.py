@@ -198,7 +198,7 @@ def test_identical_asperities_are_so_many_spheres():
     one = humidity_curve(near_sphere(1e-6, gap, 0.4, 0.2), [0.5])
     n = 5e13 * math.pi * 1e-10
     found = ck.simulate(ck.plan(scene))
-    assert found.asperity_force[0] == pytest.approx(n * one.force[0], rel=1e-8)
+    assert found["asperity_force"][0] == pytest.approx(n * one.force[0], rel=1e-8)
 
 
 def test_a_narrow_population_is_identical_and_a_wide_one_a_mean_of_spheres():

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from attrs import fields
 
-from contactkit.errors import ValidityWarning
+from contactkit.errors import DescriptionError, ValidityWarning
 from contactkit.liquids.liquid import LAWS, Liquid, LiquidState
 from contactkit.liquids.temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw
 from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
@@ -230,11 +230,20 @@ def test_linear_density_follows_the_exponential_of_the_petroleum_tables():
 def test_a_liquid_of_constants_is_the_same_at_every_temperature():
     water = Liquid(name="water", surface_tension=72e-3, viscosity=1e-3, density=1000)
     assert water.at(300.0) == LiquidState(72e-3, 1e-3, 1000.0, 300.0)
-    assert water.at(350.0)[:3] == water.at(300.0)[:3]
+    for name in ("surface_tension", "viscosity", "density"):
+        assert water.at(350.0).given(name) == water.at(300.0).given(name)
 
 
-def test_what_a_liquid_does_not_tell_is_none():
-    assert Liquid(name="nothing known").at(300.0) == LiquidState(None, None, None, 300.0)
+def test_what_a_liquid_does_not_give_is_refused_where_it_is_read():
+    state = Liquid(name="nothing known").at(300.0)
+    assert state == LiquidState(None, None, None, 300.0)
+    assert state.given("density") is None
+    assert state.missing("viscosity", "density") == (
+        "liquid.viscosity [Pa.s]",
+        "liquid.density [kg/m3]",
+    )
+    with pytest.raises(DescriptionError, match=r"Liquid.viscosity must be given \[Pa.s\]"):
+        _ = state.viscosity
 
 
 def test_dynamic_viscosity_is_kinematic_viscosity_times_density():

@@ -23,7 +23,7 @@ from contactkit.fmu.python import build as building  # noqa: E402
 from contactkit.fmu.slaves.stiction_force import PORTS, Exchange  # noqa: E402
 from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS  # noqa: E402
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of  # noqa: E402
-from contactkit.separation.motion.state import FilmStatus, LimitKind  # noqa: E402
+from contactkit.separation.effects.base import FilmStatus, LimitKind  # noqa: E402
 from contactkit.separation.plan import plan  # noqa: E402
 
 OK, DISCARD = 0, 2

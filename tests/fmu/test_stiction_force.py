@@ -16,7 +16,7 @@ from contactkit.fmu.slaves.film_travel import travel
 from contactkit.fmu.slaves.stiction_force import PORTS, Exchange
 from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of
-from contactkit.separation.motion.state import FilmStatus, LimitKind
+from contactkit.separation.effects.base import FilmStatus, LimitKind
 from contactkit.separation.plan import plan
 
 OK, DISCARD = 0, 2
@@ -188,11 +188,13 @@ def test_a_way_through_all_numbers_has_an_end(begin, end):
 
     class Counted:
         end, kinks, limits = math.inf, (), ()
-        laws = {}  # noqa: RUF012
 
         def static_force(self, gap):
             forces.append(gap)
             return 1.0
+
+        def newtonian_impulse(self, start, end):
+            return 0.0
 
     travel(Counted(), begin, end, 1.0)
     assert len(forces) < 2000

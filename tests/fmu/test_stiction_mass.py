@@ -15,7 +15,7 @@ from contactkit.capillary.exact.stability import stability_limit
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_mass import PORTS, MeniscusLaw, StictionMass
-from contactkit.separation.motion.state import FilmStatus, LimitKind
+from contactkit.separation.effects.base import FilmStatus, LimitKind
 
 OK, DISCARD = 0, 2
 DISC = math.pi * 3.175e-3**2

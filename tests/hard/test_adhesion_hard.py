@@ -89,8 +89,8 @@ def test_the_force_is_gone_beyond_the_release_and_not_before():
     numbers = result.of(ck.AdhesiveContact).numbers
     held = result.gap <= numbers.release_gap
     assert numbers.release_gap in result.gap
-    assert (result.adhesion_force[held] >= numbers.release_force * (1.0 - 1e-9)).all()
-    assert (result.adhesion_force[~held] == 0.0).all()
+    assert (result["adhesion_force"][held] >= numbers.release_force * (1.0 - 1e-9)).all()
+    assert (result["adhesion_force"][~held] == 0.0).all()
     assert 0 < held.sum() < held.size
 
 
@@ -102,18 +102,18 @@ def test_the_impulse_at_a_speed_is_the_integral_to_the_release():
     assert result.impulses["adhesion_impulse"] == approx(expected, 1e-4)
     alone = run(ck.MeniscusForce(), speed=1e-6)
     assert result.impulses["meniscus_impulse"] == approx(alone.impulses["meniscus_impulse"], 1e-9)
-    assert result.pull == approx(result.meniscus_force + result.adhesion_force, 1e-13)
+    assert result.pull == approx(result["meniscus_force"] + result["adhesion_force"], 1e-13)
 
 
 def test_the_solids_go_on_attracting_where_the_film_has_broken():
     film = (ck.MeniscusForce(), ck.ViscousForce(), ck.Rupture(gap=5e-9))
     result = run(*film, PLATE, gap=2e-10, speed=1e-6)
     broken = result.gap > 5e-9
-    assert (result.film_status[broken] == ck.FilmStatus.BROKEN).all()
+    assert (result["film_status"][broken] == ck.FilmStatus.BROKEN).all()
     for name in ("meniscus_force", "viscous_force", "newtonian_force"):
-        assert (result.curve(name)[broken] == 0.0).all()
-        assert (result.curve(name)[~broken] > 0.0).all()
-    assert result.van_der_waals_force == approx(6e-20 * 1e-6 / 6.0 / result.gap**2, 1e-12)
+        assert (result[name][broken] == 0.0).all()
+        assert (result[name][~broken] > 0.0).all()
+    assert result["van_der_waals_force"] == approx(6e-20 * 1e-6 / 6.0 / result.gap**2, 1e-12)
     without = run(*film, gap=2e-10, speed=1e-6)
     assert without.gap[-1] == 5e-9
     for name in ("meniscus_impulse", "viscous_impulse", "newtonian_impulse"):
@@ -122,9 +122,9 @@ def test_the_solids_go_on_attracting_where_the_film_has_broken():
 
 def test_below_the_cutoff_the_force_grows_no_further():
     result = run(PLATE, gap=0.0, speed=1e-6)
-    assert result.van_der_waals_force[0] == approx(6e-20 * 1e-6 / 6.0 / 0.165e-9**2, 1e-13)
+    assert result["van_der_waals_force"][0] == approx(6e-20 * 1e-6 / 6.0 / 0.165e-9**2, 1e-13)
     inside = result.gap <= 0.165e-9
-    assert (result.van_der_waals_force[inside] == result.van_der_waals_force[0]).all()
+    assert (result["van_der_waals_force"][inside] == result["van_der_waals_force"][0]).all()
 
 
 # Motions ------------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ def test_a_contact_that_let_go_is_there_again_when_the_gap_has_closed():
             rest_gap=1e-10,
         )
     )
-    release = jkr_tip.numbers(made.scene).release_gap
+    release = jkr_tip.numbers(made.prepared).release_gap
     state, seen = ck.advance(made, start(made), lambda t: 1e-9, 0.0), []
     for _ in range(800):
         state = ck.advance(made, state, lambda t: 1e-9, 1e-9)
@@ -222,4 +222,4 @@ def test_flats_attract_by_their_face():
         )
     )
     expected = 6e-20 / (6.0 * math.pi * 1e-27) * math.pi * 1e-12
-    assert simulate(made).van_der_waals_force[0] == approx(expected, 1e-13)
+    assert simulate(made)["van_der_waals_force"][0] == approx(expected, 1e-13)

@@ -52,7 +52,7 @@ def test_the_force_follows_the_closed_form_in_every_film(film_scene, gap, viscos
     result = run(scene)
     radius = 1e-3 if volume is None else squeeze.disc_radius(volume, result.gap)
     force = squeeze.disc_force(radius, result.gap, 1e-3, viscosity)
-    assert result.viscous_force == approx(force, 1e-13)
+    assert result["viscous_force"] == approx(force, 1e-13)
     impulse = (
         squeeze.disc_impulse_flooded(1e-3, gap, 50.0 * gap, viscosity)
         if volume is None
@@ -91,7 +91,7 @@ def test_a_limited_impulse_is_the_integral_of_its_curve(film_scene):
     film = {"volume": filled(1e-6)}
     scene = film_scene(VISCOUS, ck.TensionLimit(tension=1e4), film=film, speed=1e-3, final_gap=5e-5)
     result = ck.simulate(ck.plan(scene, ck.Accuracy(points=4001)))
-    trapezium = np.trapezoid(result.viscous_force, result.time)
+    trapezium = np.trapezoid(result["viscous_force"], result.time)
     # 4000 panels over a factor of 50 in the gap: (1e-3)^2 of curvature.
     assert result.of(ck.ViscousForce).impulse == approx(trapezium, 1e-5)
 
@@ -112,7 +112,7 @@ def test_a_hundred_thousand_menisci_share_one_volume(film_scene, count, effect):
     # A disc of 1 mm or 1e5 of 3 um, 10 nm high: the Laplace force is that of the wetted area, up
     # to the rim's share of h/r.
     laplace = 0.06 * filled(1e-8) / 1e-16
-    assert result.meniscus_force[0] == approx(laplace, 0.01)
+    assert result["meniscus_force"][0] == approx(laplace, 0.01)
 
 
 @pytest.mark.parametrize("profile", ["arc", "as-published"])
@@ -151,9 +151,9 @@ def test_every_pair_of_contact_angles_gives_a_finite_curve(film_scene, profile, 
     result = run(scene)
     wetting = math.cos(lower_angle) + math.cos(upper_angle)
     if wetting > 0.1:
-        assert result.meniscus_force[0] > 0.0
+        assert result["meniscus_force"][0] > 0.0
     if wetting < -0.1:
-        assert result.meniscus_force[0] < 0.0
+        assert result["meniscus_force"][0] < 0.0
 
 
 def test_ninety_degrees_on_both_flats_pull_with_their_rim_only(film_scene):
@@ -162,7 +162,7 @@ def test_ninety_degrees_on_both_flats_pull_with_their_rim_only(film_scene):
     film["contact_angle_upper"] = 0.5 * math.pi
     result = run(film_scene(ARC, lower=ck.Flat(), upper=ck.Flat(), film=film))
     radius = squeeze.disc_radius(1e-12, result.gap)
-    assert result.meniscus_force == approx(math.pi * 0.03 * radius, 1e-12)
+    assert result["meniscus_force"] == approx(math.pi * 0.03 * radius, 1e-12)
 
 
 @pytest.mark.parametrize("angles", [(0.0, math.pi), (math.pi, 0.0)])
@@ -235,8 +235,8 @@ def test_a_touching_sphere_has_a_meniscus(film_scene):
     )
     result = run(scene)
     assert result.gap[0] == 0.0
-    assert result.meniscus_force[0] == approx(4.0 * math.pi * 1e-3 * 0.03, 0.02)
-    assert (np.diff(result.meniscus_force) < 0.0).all()
+    assert result["meniscus_force"][0] == approx(4.0 * math.pi * 1e-3 * 0.03, 0.02)
+    assert (np.diff(result["meniscus_force"]) < 0.0).all()
 
 
 @pytest.mark.parametrize("effects", [(ARC,), (VISCOUS,)], ids=["meniscus", "viscous"])
@@ -271,7 +271,7 @@ def test_a_film_wider_than_its_faces_stays_at_their_rim(film_scene):
     for force in (made.film.static_force, lambda h: made.film.viscous_force(h, 1e-3)[0]):
         below, above = force(3e-6 * (1.0 - 1e-12)), force(3e-6 * (1.0 + 1e-12))
         assert below == approx(above, 1e-10)
-    statuses = set(run(scene).film_status)
+    statuses = set(run(scene)["film_status"])
     assert statuses == {ck.FilmStatus.FULL, ck.FilmStatus.BRIDGE}
 
 
@@ -299,7 +299,7 @@ def test_a_film_wider_than_a_bounded_face_under_a_sphere_joins_without_a_jump(fi
 def test_a_drop_or_a_bucket_between_faces_gives_finite_forces(film_scene, volume):
     """1e-30 m3 is a hundred atoms wide: only the arithmetic is asked here."""
     result = run(film_scene(PUBLISHED, VISCOUS, film={"volume": volume}))
-    assert (result.viscous_force > 0.0).all()
+    assert (result["viscous_force"] > 0.0).all()
 
 
 def test_an_arc_asked_to_span_more_than_it_can_names_its_reach(film_scene):

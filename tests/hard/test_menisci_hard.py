@@ -178,7 +178,7 @@ def test_overlap_is_printed_with_a_result():
     assert part.law == "greenwood-williamson, exact bridges"
     assert part.coverage[0] > 0.9
     assert part.n_wet[0] > part.n_wet[-1]
-    assert part.force is result.asperity_force
+    assert part.force is result["asperity_force"]
 
 
 def test_a_rough_scene_is_written_and_read(tmp_path):

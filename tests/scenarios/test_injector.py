@@ -16,7 +16,7 @@ from contactkit.app.run.injector.cycles import cycles, dry_delay, run_error
 from contactkit.app.run.injector.report import report
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.slaves.stiction_mass import mass_values
-from contactkit.separation.motion.state import LimitKind
+from contactkit.separation.effects.base import LimitKind
 from contactkit.units import celsius
 
 MODELS = Path(__file__).parents[2] / "models"

@@ -10,7 +10,7 @@ import pytest
 import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.stability import stability_limit
-from contactkit.separation.effects.as_published import mixed, mode, printed_equations
+from contactkit.separation.effects.as_published import mixed
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -50,7 +50,7 @@ def test_flats_show_the_exact_force_beside_the_printed_one():
     assert found.number == "3.11"
     assert found.name.startswith("meniscus-force, ")
     assert found.erratum.startswith("It drops the curvature around the axis")
-    assert found.value == pytest.approx(float(result.meniscus_force[0]), rel=1e-12)
+    assert found.value == pytest.approx(float(result["meniscus_force"][0]), rel=1e-12)
     exact = 0.072 * float(bridge(1e-6, V, ANGLE, ANGLE).force)
     assert found.corrected == pytest.approx(exact, rel=1e-12)
     assert found.value > found.corrected
@@ -60,7 +60,7 @@ def test_several_menisci_are_judged_together():
     result = run(PUBLISHED, count=100)
     (found,) = result.errata
     assert found.number == "3.33"
-    assert found.value == pytest.approx(float(result.meniscus_force[0]), rel=1e-12)
+    assert found.value == pytest.approx(float(result["meniscus_force"][0]), rel=1e-12)
     exact = 100 * 0.072 * float(bridge(1e-6, V / 100, ANGLE, ANGLE).force)
     assert found.corrected == pytest.approx(exact, rel=1e-12)
 
@@ -76,7 +76,7 @@ def test_a_sphere_shows_eq_3_12():
     result = run(PUBLISHED, upper=ck.Sphere(radius=1e-3))
     (found,) = result.errata
     assert found.number == "3.12"
-    assert found.value == pytest.approx(float(result.meniscus_force[0]), rel=1e-6)
+    assert found.value == pytest.approx(float(result["meniscus_force"][0]), rel=1e-6)
     exact = 0.072 * float(bridge(1e-6, V, ANGLE, ANGLE, 0.0, 1e3).force)
     assert found.corrected == pytest.approx(exact, rel=1e-12)
 
@@ -153,11 +153,12 @@ def test_errata_are_printed_by_the_command_line(tmp_path, capsys):
 
 
 def test_the_modes_of_effects():
-    plain = run(PUBLISHED).plan.scene
-    assert mode(PUBLISHED, plain) == "as-published"
-    assert mode(ck.MeniscusForce(), plain) == "consistent"
-    assert mode(ck.ViscousForce(), plain) == ""  # Eq. (3.18) is right as printed
-    assert mode(ck.Rupture(gap=1e-5), plain) == ""
-    assert mode(ck.Rupture(), plain) == "consistent"
+    result = run(PUBLISHED)
+    plain = result.plan.scene
+    assert PUBLISHED.equations(plain) == "as-published"
+    assert ck.MeniscusForce().equations(plain) == "consistent"
+    assert ck.ViscousForce().equations(plain) == ""  # Eq. (3.18) is right as printed
+    assert ck.Rupture(gap=1e-5).equations(plain) == ""
+    assert ck.Rupture().equations(plain) == "consistent"
     assert mixed(plain) == ""
-    assert [number for _, number in printed_equations(plain)] == ["3.11"]
+    assert [one.number for one in result.errata] == ["3.11"]

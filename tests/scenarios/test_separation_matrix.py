@@ -139,7 +139,7 @@ def test_every_effect_alone_and_in_pairs(motion, tmp_path):
 
 
 def draw(result):
-    forces = {"viscous_force", *result.plan.film.static_columns} & result.columns.keys()
+    forces = {force.name for force in result.plan.forces} & result.columns.keys()
     ax = Figure().subplots()
     if forces:
         plot.forces(result, ax)
@@ -177,7 +177,7 @@ def test_validity_is_judged_while_the_film_is_there():
     made = scene(effects, FACE, "volume", "force")
     loading = loadings.imposed(initial_gap=5e-9, final_gap=1e-3, **pull)
     result = ck.simulate(ck.plan(attrs.evolve(made, loading=loading), FEW))
-    whole = result.film_status != ck.FilmStatus.BROKEN
+    whole = result["film_status"] != ck.FilmStatus.BROKEN
     assert result.gap[~whole].max() == pytest.approx(1e-3)
     assert result.speed[~whole].max() > 10.0 * result.speed[whole].max()
     worst = 997.0 * (result.speed * result.gap)[whole].max() / 0.89e-3
@@ -314,7 +314,7 @@ def test_a_drop_that_repels_a_sphere_warns(angle):
     )
     with pytest.warns(ck.ValidityWarning, match="laterally unstable"):
         result = ck.simulate(ck.plan(made, FEW))
-    assert result.meniscus_force[0] < 0.0
+    assert result["meniscus_force"][0] < 0.0
     flat = attrs.evolve(made, interface=ck.Interface(meniscus=film))
     names = [number.name for number in ck.simulate(ck.plan(flat, FEW)).validity]
     assert not any("2 pi R gamma" in name for name in names)

@@ -49,14 +49,13 @@ def _text(made: Plan, result: SeparationResult) -> str:
 def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
     from ...files.results import save_csv, save_result
     from ...plot import separation as plot
-    from ...separation.results import COLUMNS
 
-    headings = {c.name: f"{c.name} [{c.unit}]" for c in COLUMNS}
+    headings = {name: column.heading for name, column in result.plan.columns.items()}
     files = [
         save_result(result, out / "result"),
         save_csv(out / "result", result.columns, headings),
     ]
-    if {"viscous_force", *result.plan.film.static_columns} & result.columns.keys():
+    if any(force.name in result.columns for force in result.plan.forces):
         made, ax = plot.figure()
         plot.forces(result, ax)
         plot.title(ax, result.plan.scene.name)

@@ -48,9 +48,8 @@ def _text(result: SlidingResult) -> str:
 def _write(result: SlidingResult, out: Path) -> tuple[Path, ...]:
     from ...files.results import save_csv, save_result
     from ...plot import separation as plot
-    from ...separation.columns import COLUMNS
 
-    headings = {c.name: f"{c.name} [{c.unit}]" for c in COLUMNS}
+    headings = {name: column.heading for name, column in result.plan.columns.items()}
     made, ax = plot.figure()
     plot.slide(result, ax)
     plot.title(ax, result.plan.scene.name)

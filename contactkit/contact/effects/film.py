@@ -86,7 +86,7 @@ class FilmMeniscus(LoadTerm):
         if meniscus is None:
             return ("interface.meniscus (the liquid and its contact angles)",)
         lacking = []
-        if meniscus.liquid.at(scene.temperature).surface_tension is None:
+        if meniscus.liquid.at(scene.temperature).missing("surface_tension"):
             lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("a film thickness, not interface.meniscus.volume [m3]: leave that out")
@@ -103,7 +103,6 @@ class FilmMeniscus(LoadTerm):
 
         meniscus = scene.meniscus
         tension = meniscus.liquid.at(scene.temperature).surface_tension
-        assert tension is not None
         angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
         return float(film_force(area, tension, *angles, self._height))
 

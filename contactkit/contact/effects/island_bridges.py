@@ -131,7 +131,7 @@ class IslandBridges(Observer):
         if meniscus is None:
             return ("interface.meniscus (the liquid and its contact angles)",)
         lacking = []
-        if meniscus.liquid.at(scene.temperature).surface_tension is None:
+        if meniscus.liquid.at(scene.temperature).missing("surface_tension"):
             lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("interface.meniscus.volume [m3] left out: the islands set the volumes")
@@ -182,7 +182,6 @@ def bridges_of(
     meniscus = contact.scene.meniscus
     pressure = pressure if pressure is not None else contact.scene.liquid_pressure
     tension = meniscus.liquid.at(contact.scene.temperature).surface_tension
-    assert tension is not None
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
     height = _height(effect, pressure, tension, angles)
     wet = _wet(effect, contact, height, pressure)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...scene.effect import EffectRegistry
 from .base import ContactEffect
 from .elasticity import HalfSpace, LayeredHalfSpace
 from .film import FilmMeniscus
@@ -12,7 +13,7 @@ from .stress import SubsurfaceStress
 
 __all__ = ["CONTACT_EFFECTS"]
 
-CONTACT_EFFECTS: tuple[type[ContactEffect], ...] = (
+CONTACT_EFFECTS: EffectRegistry[ContactEffect] = EffectRegistry(
     HalfSpace,
     LayeredHalfSpace,
     HardnessLimit,

@@ -12,18 +12,23 @@ from ...adhesion import dmt, jkr, maugis_dugdale
 from ...adhesion import parameters as adhesion_scales
 from ...adhesion.parameters import cohesive_stress
 from ...errors import InfeasibleError
+from ...scene.column import Column
 from ...scene.loading import ImposedSpeed
+from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, positive
-from .base import ForceLaw, SeparationForce
+from .base import ForceLaw, ForcePart, SeparationForce
 from .viscous import ViscousForce
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
     from ...scene.scenes import SeparationScene
+    from ..plan import Plan
+    from ..results import SeparationResult
+    from .prepared import PreparedScene
 
 __all__ = [
     "AdhesionNumbers",
+    "AdhesionPart",
     "AdhesiveContact",
     "ContactState",
     "VanDerWaalsForce",
@@ -59,7 +64,9 @@ class VanDerWaalsForce(SeparationForce):
 
     name: ClassVar[str] = "van-der-waals-force"
     summary: ClassVar[str] = "van der Waals attraction of the solids"
-    column: ClassVar[str] = "van_der_waals_force"
+    column: ClassVar[Column] = Column(
+        "van_der_waals_force", "N", "van der Waals force", "#8d6e63", "-."
+    )
     needs_film: ClassVar[bool] = False
     takes_pressure: ClassVar[bool] = True
 
@@ -77,18 +84,18 @@ class VanDerWaalsForce(SeparationForce):
         return ("Hamaker 1937, Derjaguin 1934; cut-off after Israelachvili 1992",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         if scene.interface.is_flat and math.isinf(scene.interface.rim_radius):
             return ("the radius [m] of a Flat face: two flats attract by their area",)
         return ()
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
         from ...adhesion import van_der_waals
 
-        interface, hamaker, cutoff = scene.interface, self.hamaker_constant, self.cutoff
-        lower, upper = interface.curvatures
-        n = scene.meniscus.count
+        interface, hamaker, cutoff = prepared.scene.interface, self.hamaker_constant, self.cutoff
+        lower, upper = prepared.curvatures
+        n = interface.meniscus.count
         area = math.pi * interface.rim_radius**2 if interface.is_flat else 0.0
 
         def between_flats(gap: float, speed: float) -> float:
@@ -145,7 +152,7 @@ class AdhesiveContact(SeparationForce):
 
     name: ClassVar[str] = "adhesive-contact"
     summary: ClassVar[str] = "adhesion of a sphere that has touched"
-    column: ClassVar[str] = "adhesion_force"
+    column: ClassVar[Column] = Column("adhesion_force", "N", "adhesion of the solids", "#8d6e63")
     needs_film: ClassVar[bool] = False
     takes_pressure: ClassVar[bool] = True
 
@@ -173,8 +180,12 @@ class AdhesiveContact(SeparationForce):
         wet = ("capillary work of adhesion, Fogden and White 1990",)
         return (model, *wet) if self.work_of_adhesion == "capillary" else (model,)
 
+    def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`."""
+        return ("surface_tension",) if self.work_of_adhesion == "capillary" else ()
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         missing: list[str] = []
         if scene.interface.is_flat:
             missing.append("a Sphere: two flats touch all over; take VanDerWaalsForce()")
@@ -189,60 +200,88 @@ class AdhesiveContact(SeparationForce):
         for other in scene.effects:
             if not isinstance(other, SeparationForce) or not other.needs_film:
                 continue
-            if other.column != ViscousForce.column:
+            if not isinstance(other, ViscousForce):
                 missing.append(
                     f"{type(other).__name__}() left out: the capillary work of adhesion is that "
                     "meniscus; give work_of_adhesion [J/m2] of the solids to have both"
                 )
-        meniscus = scene.meniscus
-        if meniscus.liquid.at(scene.temperature).surface_tension is None:
-            missing.append("liquid.surface_tension [N/m]")
-        elif _capillary_work(scene) <= 0.0:
+        if _wetting(scene) <= 0.0:
             missing.append("contact angles that sum up to less than 180 deg: the liquid repels")
-        if self.model != "jkr" and self._strength(scene, 0.0) is None:
+        if self.model != "jkr" and self.strength is None and scene.liquid_pressure is None:
             missing.append("AdhesiveContact.strength [Pa], the suction of the liquid")
         return tuple(missing)
 
-    def numbers(self, scene: SeparationScene) -> AdhesionNumbers:
+    def numbers(self, prepared: PreparedScene[SeparationScene]) -> AdhesionNumbers:
         """Return what the contact of one sphere of a scene comes to, without running it."""
-        work = self._work(scene)
-        strength = self._strength(scene, work)
-        radius = scene.interface.sphere_radius
+        work = self._work(prepared)
+        radius, strength = prepared.scene.interface.sphere_radius, self._strength(prepared, work)
         return numbers(self.model, radius, work, self.reduced_modulus, strength)
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
-        found, start = self.numbers(scene), scene.loading.initial_gap
+        found, start = self.numbers(prepared), prepared.scene.loading.initial_gap
         if start >= found.release_gap:
             raise InfeasibleError(
                 f"AdhesiveContact ({self.model}) lets go at a gap of {found.release_gap:.4g} m, "
                 f"and loading.initial_gap is {start:g} m: bodies that do not touch do not adhere; "
                 f"start closer, or take VanDerWaalsForce(), which acts across a gap"
             )
-        return law(found, scene.meniscus.count, start)
+        return law(found, prepared.scene.meniscus.count, start)
 
-    def _work(self, scene: SeparationScene) -> float:
+    def validity(
+        self, plan: Plan, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """See `SeparationEffect.validity`: the attraction is as sharp, or as far, as assumed."""
+        if self.model == "maugis-dugdale":  # right for all
+            return ()
+        tabor = self.numbers(plan.prepared).tabor_parameter
+        is_sharp = self.model == "jkr"
+        cure = "take model='maugis-dugdale', right for all"
+        number = ValidityNumber(
+            name="Tabor parameter",
+            value=tabor,
+            low=5.0 if is_sharp else 0.0,
+            high=math.inf if is_sharp else 0.1,
+            detail=cure if tabor is not None else "AdhesiveContact.strength [Pa] is not given",
+            source="Johnson and Greenwood 1997",
+        )
+        return (number,)
+
+    def part(self, result: SeparationResult) -> AdhesionPart:
+        """See `SeparationEffect.part`."""
+        return AdhesionPart(result, self.column, self.numbers(result.plan.prepared))
+
+    def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
+        """See `SeparationEffect.scalars`."""
+        one = self.numbers(result.plan.prepared)
+        found = {
+            "pull_off_force": (one.pull_off_force, "N"),
+            "contact_release_gap": (one.release_gap, "m"),
+        }
+        if one.tabor_parameter is not None and one.transition_parameter is not None:
+            found["tabor_parameter"] = (one.tabor_parameter, "-")
+            found["transition_parameter"] = (one.transition_parameter, "-")
+        return found
+
+    def _work(self, prepared: PreparedScene[SeparationScene]) -> float:
+        """Work of adhesion [J/m2]; the liquid does its own where it comes between two surfaces."""
         if self.work_of_adhesion == "capillary":
-            return _capillary_work(scene)
+            return prepared.liquid.surface_tension * prepared.wetting
         return float(self.work_of_adhesion)
 
-    def _strength(self, scene: SeparationScene, work: float) -> float | None:
+    def _strength(self, prepared: PreparedScene[SeparationScene], work: float) -> float | None:
         """Stress of the attraction [Pa]; None if the liquid's suction is not known."""
         if self.strength is not None:
             return self.strength
         if self.work_of_adhesion != "capillary":
             return float(cohesive_stress(work, self.equilibrium_distance))
-        pressure = scene.liquid_pressure
+        pressure = prepared.scene.liquid_pressure
         return None if pressure is None else -pressure
 
 
-def _capillary_work(scene: SeparationScene) -> float:
-    """Work [J/m2] that the liquid does where it comes between two surfaces."""
+def _wetting(scene: SeparationScene) -> float:
     meniscus = scene.meniscus
-    tension = meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # lacks() has asked first
-    wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
-    return tension * wetting
+    return math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
 
 
 _NOTHING = 1e-8  # share of the pull-off force: a jump that no result shows
@@ -272,6 +311,13 @@ class AdhesionNumbers(NamedTuple):
     def units(self) -> adhesion_scales.AdhesionScales:
         """Units in which the kernels speak."""
         return adhesion_scales.scales(self.radius, self.work_of_adhesion, self.reduced_modulus)
+
+
+@frozen(eq=False)
+class AdhesionPart(ForcePart):
+    """What the adhesion of the solids did, and the numbers of the contact of one sphere."""
+
+    numbers: AdhesionNumbers
 
 
 class ContactState(NamedTuple):

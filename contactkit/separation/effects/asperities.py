@@ -3,21 +3,43 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
 
+from ...capillary.many_menisci import MAX_COVERAGE
 from ...scene.asperity_population import AsperityPopulation
+from ...scene.column import Column
+from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, part, positive
-from .base import ForceLaw, SeparationForce
+from .base import ForceLaw, ForcePart, SeparationForce
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ...capillary.asperities import AsperitySum
     from ...scene.scenes import SeparationScene
+    from ..plan import Plan
+    from ..results import SeparationResult
+    from .prepared import PreparedScene
 
-__all__ = ["AsperityMenisci", "exact_law"]
+__all__ = ["AsperityMenisci", "AsperityPart"]
+
+
+@frozen(eq=False)
+class AsperityPart(ForcePart):
+    """What the menisci at asperities did, and by which `law`.
+
+    `n_wet` is their number along the run, `coverage` their contact circles over the face [-], both
+    of thin menisci: above 0.9 neighbours overlap, and their forces do not add up any more.
+    """
+
+    law: str
+    n_wet: NDArray[np.float64]
+    coverage: NDArray[np.float64]
 
 
 @frozen(kw_only=True)
@@ -53,7 +75,9 @@ class AsperityMenisci(SeparationForce):
 
     name: ClassVar[str] = "asperity-menisci"
     summary: ClassVar[str] = "menisci at the summits of a rough face"
-    column: ClassVar[str] = "asperity_force"
+    column: ClassVar[Column] = Column(
+        "asperity_force", "N", "meniscus force at the asperities", "#2a9d8f", "-."
+    )
     takes_pressure: ClassVar[bool] = True
 
     asperities: AsperityPopulation = field(validator=part(AsperityPopulation))
@@ -80,15 +104,17 @@ class AsperityMenisci(SeparationForce):
         }
         return (f"{population[self.law]}; {bridge[self.profile]}",)
 
+    def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`."""
+        return ("surface_tension",)
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         meniscus, missing = scene.meniscus, list[str]()
         if not scene.interface.is_flat:
             missing.append("two flats: the asperities stand on one of them")
         elif math.isinf(scene.interface.rim_radius):
             missing.append("the radius [m] of a Flat face, over which the asperities are counted")
-        if meniscus.liquid.at(scene.temperature).surface_tension is None:
-            missing.append("liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             missing.append(
                 "interface.meniscus.pressure [Pa] or meniscus_height [m], not a volume: which "
@@ -113,40 +139,59 @@ class AsperityMenisci(SeparationForce):
         ]
         return tuple(missing)
 
-    def height(self, scene: SeparationScene) -> float:
+    def height(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Height at which the menisci end [m], of a thin film."""
         from ...capillary.kelvin import meniscus_height
 
         if self.meniscus_height is not None:
             return self.meniscus_height
-        tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
-        pressure = scene.liquid_pressure
-        return float(meniscus_height(pressure, tension, _wetting(scene)))
+        pressure, tension = (
+            prepared.scene.liquid_pressure,
+            prepared.liquid.surface_tension,
+        )
+        return float(meniscus_height(pressure, tension, _wetting(prepared.scene)))
 
-    def coverage(self, scene: SeparationScene, gap: float) -> float:
-        """Contact circles of all menisci over the area of the face at a gap [m], thin films."""
-        return self.sums(scene, gap).coverage
-
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
         if self.profile == "thin-film":
-            end = self.height(scene) if self.law == "identical" else math.inf
-            return ForceLaw(lambda gap, speed: self.sums(scene, gap).force, end=end)
+            end = self.height(prepared) if self.law == "identical" else math.inf
+            return ForceLaw(lambda gap, speed: self.sums(prepared, gap).force, end=end)
+        return _exact_law(self, prepared)
 
-        return exact_law(self, scene, accuracy, _wetting(scene))
-
-    def sums(self, scene: SeparationScene, gap: float) -> AsperitySum:
+    def sums(self, prepared: PreparedScene[SeparationScene], gap: float) -> AsperitySum:
         """Force, number and cover of thin menisci at a gap [m], whatever the `profile`."""
         from ...capillary import asperities as laws
 
-        population, wetting = self.asperities, _wetting(scene)
-        tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
-        assert tension is not None  # plan() has asked lacks() first
+        population, scene = self.asperities, prepared.scene
         area = math.pi * scene.interface.rim_radius**2
-        given = (population.radius, population.density, area, tension, wetting, self.height(scene))
+        tension, wetting = prepared.liquid.surface_tension, _wetting(scene)
+        height = self.height(prepared)
+        given = (population.radius, population.density, area, tension, wetting, height)
         if self.law == "identical":
             return laws.identical(gap, *given)
         return laws.greenwood_williamson(gap, population.rms_height, *given)
+
+    def validity(
+        self, plan: Plan, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """See `SeparationEffect.validity`."""
+        number = ValidityNumber(
+            name="contact circles over the face",
+            value=max(self.sums(plan.prepared, gap).coverage for gap, _ in path),
+            high=MAX_COVERAGE,
+            detail="above it the menisci of neighbouring asperities overlap",
+            source="densest order of equal circles, pi/sqrt(12)",
+        )
+        return (number,)
+
+    def part(self, result: SeparationResult) -> AsperityPart:
+        """See `SeparationEffect.part`."""
+        import numpy as np
+
+        sums = [self.sums(result.plan.prepared, gap) for gap in result.gap.tolist()]
+        law = f"{self.law}, {self.profile} bridges"
+        wet, coverage = np.array([s.n_wet for s in sums]), np.array([s.coverage for s in sums])
+        return AsperityPart(result, self.column, law, wet, coverage)
 
 
 def _wetting(scene: SeparationScene) -> float:
@@ -157,22 +202,17 @@ def _wetting(scene: SeparationScene) -> float:
     return float(wetting(meniscus.contact_angle_lower, meniscus.contact_angle_upper))
 
 
-def exact_law(
-    effect: AsperityMenisci, scene: SeparationScene, accuracy: Accuracy, wetting: float
-) -> ForceLaw:
+def _exact_law(effect: AsperityMenisci, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
     """Force of all menisci as a law of the gap."""
     import numpy as np
 
     from ...capillary.asperity_bridges import force_curve, gaussian_average
 
-    meniscus, population = scene.meniscus, effect.asperities
-    tension = meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # plan() has asked lacks() first
-    pressure = -wetting / effect.height(scene)
-    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-    rtol = max(0.1 * accuracy.time_rtol, 1e-11)
-    one, reach = force_curve(pressure, angles, 1.0 / population.radius, rtol)
-    number = population.density * math.pi * scene.interface.rim_radius**2
+    population, tension = effect.asperities, prepared.liquid.surface_tension
+    pressure = -_wetting(prepared.scene) / effect.height(prepared)
+    rtol = max(0.1 * prepared.accuracy.time_rtol, 1e-11)
+    one, reach = force_curve(pressure, prepared.angles, 1.0 / population.radius, rtol)
+    number = population.density * math.pi * prepared.scene.interface.rim_radius**2
     if effect.law == "identical":
         last = reach * (1.0 - 1e-12)  # a trial step may look beyond the end
         return ForceLaw(

@@ -2,54 +2,130 @@ r"""The roles a piece of physics may play in a separation, read off the equation
 
 .. math:: m \ddot h = F_{ext}(t) - k_s (h - h_0) - \sum F(h, \dot h)
 
-An effect holds choices only. `prepare` does once whatever does not depend on gap and speed;
-what it returns is called in the loop.
+An effect holds choices only, and declares in its class whatever the rest has to know of it: its
+curve, the state of the liquid it needs, what `result.of` gives, its range of validity. `prepare`
+does once whatever does not depend on gap and speed; what it returns is called in the loop.
 """
 
 from __future__ import annotations
 
 import abc
-from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from collections.abc import Callable, Sequence
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from attrs import frozen
+from attrs import field, frozen
 
+from ...errors import NotSimulatedError
+from ...scene.column import Column
 from ...scene.effect import Effect
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
+    from ...scene.validity import ValidityNumber
+    from ..plan import Plan
+    from ..results import SeparationResult
+    from .prepared import PreparedScene
+
+    Curve = NDArray[np.float64]
 
 __all__ = [
+    "LIMIT",
     "FilmEnd",
     "FilmLimit",
+    "FilmStatus",
     "ForceLaw",
+    "ForcePart",
+    "LimitKind",
+    "LimitPart",
     "Limiter",
     "SeparationEffect",
     "SeparationForce",
 ]
 
+_INF = float("inf")
+
 Limiter = Callable[[float, float, float], float]
 """Force [N] that is left of a Newtonian force [N]: called with (gap, speed, force)."""
 
 
-class ForceLaw(NamedTuple):
+class FilmStatus(IntEnum):
+    """What the film does."""
+
+    CONTACT = 1
+    STUCK = 2
+    FULL = 3
+    BRIDGE = 4
+    BROKEN = 5
+
+
+class LimitKind(IntEnum):
+    """Which limit of the liquid acts; the C kernel of the native FMUs has the same numbers."""
+
+    NONE = 1
+    TENSION = 2
+    SHEAR = 3
+
+
+LIMIT = Column("limit", "-", "limit that acts")
+
+
+@frozen(eq=False)
+class ForceLaw:
     """A force made ready: what it is, and where it is not smooth.
 
     `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
-    slope jumps, `end` the gap beyond which it does not exist (inf: none), and `exponent` gives
-    n where the force falls as gap^-n, at a gap. A contact of solids lets go where the gap exceeds
-    `release`, and is there again once it has closed to `rejoin`; the law goes on smoothly beyond.
+    slope jumps, `end` the gap beyond which it does not exist (inf: none). A contact of solids pulls
+    off where the gap exceeds `release`, and is there again once it has closed to `rejoin`; the law
+    goes on smoothly beyond. It is known up to the gap `known_to`, and constant beyond.
     """
 
     force: Callable[[float, float], float]
     kinks: tuple[float, ...] = ()
-    end: float = float("inf")
-    exponent: Callable[[float], float] = lambda gap: 0.0
-    impulse: Callable[[float, float], float] | None = None
-    """Time integral [N.s] of a force that is proportional to speed, between two gaps."""
-    release: float = float("inf")
+    end: float = _INF
+    release: float = _INF
     rejoin: float = 0.0
+    known_to: float = _INF
+
+
+@frozen(eq=False)
+class ForcePart:
+    """What a force did in a run."""
+
+    result: SeparationResult = field(repr=False)
+    column: Column
+
+    @property
+    def force(self) -> Curve:
+        """Force along the run [N]."""
+        return self.result[self.column.name]
+
+    @property
+    def impulse(self) -> float | None:
+        """Time integral of the force [N.s]; None where only the duration of the run is given."""
+        return self.result.impulses.get(self.column.impulse.name)
+
+
+@frozen(eq=False)
+class LimitPart:
+    """Whether and when a limit of the liquid acted.
+
+    `acts` says it at each point of the run; `first` and `last` are the times [s] between which
+    it did, None if it never did.
+    """
+
+    acts: NDArray[np.bool_]
+    first: float | None
+    last: float | None
+
+    @property
+    def has_acted(self) -> bool:
+        """Whether the limit acted at all."""
+        return bool(self.acts.any())
 
 
 @frozen(kw_only=True)
@@ -58,45 +134,108 @@ class SeparationEffect(Effect):
 
     takes_pressure: ClassVar[bool] = False
     """Whether it knows a meniscus of fixed pressure; otherwise the plan refuses that."""
+    published_choice: ClassVar[str] = ""
+    """Field that is ``"as-published"`` where the source's equations are taken as printed."""
 
-    def cites(self, scene: SeparationScene) -> tuple[str, ...]:
-        """Sources of what this choice computes for a scene; all of them, unless it depends."""
-        return self.sources
-
-    def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """Name what this effect needs and `scene` does not give, with units."""
+    @classmethod
+    def curves(cls) -> tuple[Column, ...]:
+        """Curves that this effect adds to a result."""
         return ()
+
+    def liquid_needs(self, scene: Any) -> tuple[str, ...]:
+        """Names of the properties of the liquid that `prepare` reads."""
+        return ()
+
+    def equations(self, scene: SeparationScene) -> str:
+        """``as-published``, ``consistent``, or empty where this effect is the same in both."""
+        return "as-published" if self.takes_printed() else ""
+
+    def takes_printed(self) -> bool:
+        """Whether a printed equation is asked for that is known to be wrong."""
+        return getattr(self, self.published_choice, "") == "as-published"
+
+    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+        """Printed equations that a plan takes: value at the start, what is wrong, the right one."""
+        return ()
+
+    def validity(
+        self, plan: Plan, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """Whether the models are in their range along pairs of gap [m] and speed [m/s]."""
+        return ()
+
+    def part(self, result: Any) -> object:
+        """What `SeparationResult.of` gives."""
+        raise NotSimulatedError(f"{type(self).__name__} has no curve of its own; see result.state")
+
+    def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
+        """Numbers that this effect adds to those of a result, with their units."""
+        return {}
 
 
 @frozen(kw_only=True)
 class SeparationForce(SeparationEffect):
     """A force F(h, h') between the bodies; any number may act.
 
-    `column` names its curve, one of `columns.COLUMNS`; a force that does not need the film stays
-    when that breaks.
+    `column` names its curve and, by `Column.impulse`, its impulse, in results, files, figures and
+    FMUs. A force that does not need the film stays when that breaks.
     """
 
-    column: ClassVar[str]
+    column: ClassVar[Column]
     needs_film: ClassVar[bool] = True
 
+    @classmethod
+    def curves(cls) -> tuple[Column, ...]:
+        """See `SeparationEffect.curves`."""
+        return (cls.column,)
+
+    def proportional_to(self, scene: SeparationScene) -> str:
+        """Property of the liquid that the force is proportional to, and knows no other way.
+
+        A native FMU has that as a parameter. Empty for none.
+        """
+        return ""
+
     @abc.abstractmethod
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """Do the work that depends on neither gap nor speed."""
+
+    def part(self, result: SeparationResult) -> ForcePart:
+        """See `SeparationEffect.part`."""
+        return ForcePart(result, self.column)
 
 
 @frozen(kw_only=True)
 class FilmLimit(SeparationEffect):
     """A bound on what the liquid can carry; it lowers the viscous force."""
 
+    limit: ClassVar[LimitKind]
+    """What curves and FMUs show where it acts."""
+
+    @classmethod
+    def curves(cls) -> tuple[Column, ...]:
+        """See `SeparationEffect.curves`."""
+        return (LIMIT,)
+
     @abc.abstractmethod
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """Do the work that depends on neither gap nor speed."""
+
+    def part(self, result: SeparationResult) -> LimitPart:
+        """See `SeparationEffect.part`."""
+        acts = result[LIMIT.name] == self.limit
+        when = result.time[acts]
+        first, last = (float(when[0]), float(when[-1])) if acts.any() else (None, None)
+        return LimitPart(acts, first, last)
 
 
 @frozen(kw_only=True)
 class FilmEnd(SeparationEffect):
     """A rule for the gap at which the film breaks; none or one."""
 
+    status: ClassVar[FilmStatus] = FilmStatus.BROKEN
+    """State of the film beyond that gap, as curves and FMUs show it."""
+
     @abc.abstractmethod
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> float:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Gap at which the film breaks [m]; inf for never."""

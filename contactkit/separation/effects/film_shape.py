@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ...lubrication import squeeze_film as squeeze
 
 if TYPE_CHECKING:
+    from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
 
 __all__ = ["FilmShape", "film_shape", "needs_extent"]
@@ -39,8 +40,6 @@ def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
         if interface.is_flat:
             return ("interface.meniscus.volume [m3] between flats",)
         wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
-        if meniscus.liquid.at(scene.temperature).surface_tension is None:
-            return ("liquid.surface_tension [N/m], for the height of a film of fixed pressure",)
         return () if wetting > 0.0 else ("contact angles that add up to less than 180 deg",)
     if interface.is_flat and meniscus.volume is None and math.isinf(interface.rim_radius):
         return ("interface.meniscus.volume [m3], or the radius [m] of a Flat face",)
@@ -48,7 +47,7 @@ def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
 
 
 def film_shape(
-    scene: SeparationScene | SlidingScene, *, constant_radius: bool = False
+    scene: SeparationScene | SlidingScene, liquid: LiquidState, *, constant_radius: bool = False
 ) -> FilmShape:
     """Shape of one film of the scene; with `constant_radius` it never draws in."""
     interface, meniscus = scene.interface, scene.meniscus
@@ -56,8 +55,9 @@ def film_shape(
     volume = math.inf if meniscus.volume is None else meniscus.volume / n
     # The faces are shared out: n films, each with its part of the area.
     rim = interface.rim_radius / math.sqrt(n)
-    if scene.liquid_pressure is not None:
-        return _at_pressure(scene, rim, scene.liquid_pressure)
+    pressure = scene.liquid_pressure
+    if pressure is not None:
+        return _at_pressure(scene, liquid.surface_tension, pressure, rim)
     if interface.is_flat:
         return _between_flats(n, volume, rim, scene.initial_gap, constant_radius)
     return _under_sphere(
@@ -98,14 +98,13 @@ def _under_sphere(
     return FilmShape(n, volume, rim, full_gap, sphere, radius, height)
 
 
-def _at_pressure(scene: SeparationScene | SlidingScene, rim: float, pressure: float) -> FilmShape:
+def _at_pressure(
+    scene: SeparationScene | SlidingScene, tension: float, pressure: float, rim: float
+) -> FilmShape:
     """Film under a sphere whose rim keeps its height: that of the hollow arc of its pressure."""
     meniscus, sphere = scene.meniscus, scene.interface.sphere_radius
-    tension = meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # plan() has asked lacks() first
     wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
     level = -tension * wetting / pressure
-
     sag = rim * rim / (2.0 * sphere)
 
     def height(gap: float) -> float:

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
 
-from ...as_published.printed import common as published
+from ...as_published.printed import common as printed
+from ...errors import ConvergenceError, InfeasibleError
+from ...lubrication import dimensionless as numbers
+from ...scene.column import Column
 from ...scene.surfaces import Sphere
+from ...scene.validity import ValidityNumber
 from ...validators import choice
 from .base import ForceLaw, SeparationForce
-from .film_shape import film_shape, needs_extent
-from .meniscus_flat import arc_law, exact_law, surface_tension
+from .film_shape import needs_extent
+from .meniscus_flat import arc_law, exact_law
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
+    from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
+    from ..plan import Plan
+    from .prepared import PreparedScene
 
 __all__ = ["MeniscusForce"]
 
@@ -51,8 +58,9 @@ class MeniscusForce(SeparationForce):
 
     name: ClassVar[str] = "meniscus-force"
     summary: ClassVar[str] = "capillary force of the meniscus"
-    column: ClassVar[str] = "meniscus_force"
+    column: ClassVar[Column] = Column("meniscus_force", "N", "meniscus force", "#2a9d8f")
     takes_pressure: ClassVar[bool] = True
+    published_choice: ClassVar[str] = "profile"
 
     profile: Literal["exact", "arc", "as-published"] = field(
         default="exact", validator=choice("exact", "arc", "as-published")
@@ -72,25 +80,31 @@ class MeniscusForce(SeparationForce):
                 "arc of Eqs. (3.38)-(3.41) of Cai and Bhushan 2008a, force through its neck plane",
             )
         return tuple(
-            f"Eq. ({number}) of Cai and Bhushan 2007a, as printed; {published.ERRATA[number]}"
+            f"Eq. ({number}) of Cai and Bhushan 2007a, as printed; {printed.ERRATA[number]}"
             for number in ("3.11", "3.12")
         )
 
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.cites`."""
+        """See `Effect.cites`."""
         if self.profile != "as-published":
             return self.sources
         flats, sphere = self.sources
         return (flats,) if scene.interface.is_flat else (sphere,)
 
+    def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`."""
+        return ("surface_tension",)
+
+    def proportional_to(self, scene: SeparationScene) -> str:
+        """See `SeparationForce.proportional_to`; at a fixed pressure it is not."""
+        return "surface_tension" if scene.liquid_pressure is None else ""
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         meniscus = scene.meniscus
-        missing: tuple[str, ...] = ()
-        if meniscus.liquid.at(scene.temperature).surface_tension is None:
-            missing += ("liquid.surface_tension [N/m]",)
         if scene.liquid_pressure is not None:
-            return missing + self._lacks_at_pressure(scene)
+            return self._lacks_at_pressure(scene)
+        missing: tuple[str, ...] = ()
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a bath around a sphere has no meniscus",)
         if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):
@@ -108,29 +122,121 @@ class MeniscusForce(SeparationForce):
             )
         return missing
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
-        if not scene.interface.is_flat:
+        if not prepared.scene.interface.is_flat:
             from .meniscus_sphere import sphere_law
 
-            return sphere_law(scene, accuracy, self.profile)
+            return sphere_law(prepared, self.profile)
         if self.profile == "as-published":
-            return self._published(scene)
-        return exact_law(scene, accuracy) if self.profile == "exact" else arc_law(scene)
+            return self._printed(prepared)
+        return exact_law(prepared) if self.profile == "exact" else arc_law(prepared)
 
-    def _published(self, scene: SeparationScene) -> ForceLaw:
-        meniscus, film = scene.meniscus, film_shape(scene)
-        tension = surface_tension(scene)
-        n, radius = film.menisci, film.radius
-        lower, upper, pulled = (
-            meniscus.contact_angle_lower,
-            meniscus.contact_angle_upper,
-            self.pulled,
-        )
+    def _printed(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
+        film, tension, angles = prepared.film, prepared.liquid.surface_tension, prepared.angles
+        n, radius, pulled = film.menisci, film.radius, self.pulled
 
         def force(gap: float, speed: float) -> float:
-            one = published.meniscus_flat_3_11(radius(gap), gap, tension, lower, upper, pulled)
-            return n * float(one)
+            return n * float(printed.meniscus_flat_3_11(radius(gap), gap, tension, *angles, pulled))
 
         kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
         return ForceLaw(force, kinks)
+
+    def equations(self, scene: SeparationScene) -> str:
+        """See `SeparationEffect.equations`."""
+        return "as-published" if self.takes_printed() else "consistent"
+
+    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+        """See `SeparationEffect.errata`: the force of all menisci."""
+        return (_erratum(plan, self.pulled),) if self.takes_printed() else ()
+
+    def validity(
+        self, plan: Plan, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """See `SeparationEffect.validity`."""
+        gaps = [gap for gap, _ in path]
+        found = [_bond(plan.prepared, gaps)]
+        volume = plan.prepared.film.volume
+        if not plan.scene.interface.is_flat:
+            found.append(_lateral(plan, gaps))
+        elif math.isfinite(volume):
+            found.append(
+                ValidityNumber(
+                    name="gap over cube root of volume",
+                    value=max(gaps) / volume ** (1.0 / 3.0),
+                    high=numbers.LONGEST_FLAT_BRIDGE,
+                    detail="no longer bridge between flats is stable, whatever the contact angles",
+                    source="stability of the cylinder at 90/90 degrees, pi^(1/3)",
+                )
+            )
+        return tuple(found)
+
+
+def _erratum(plan: Plan, pulled: str) -> PublishedValue:
+    from ...as_published.lookup import published
+
+    prepared, gap = plan.prepared, plan.scene.loading.initial_gap
+    film, angles = prepared.film, prepared.angles
+    given = {
+        "gap": gap,
+        "surface_tension": prepared.liquid.surface_tension,
+        "angle_lower": angles.lower,
+        "angle_upper": angles.upper,
+    }
+    if not plan.scene.interface.is_flat:
+        one = published("3.12", sphere_radius=film.sphere_radius, volume=film.volume, **given)
+        made = one.times(film.menisci)
+    else:
+        several = film.menisci > 1
+        number, more = ("3.33", {"number": film.menisci}) if several else ("3.11", {})
+        radius = film.radius(gap) * math.sqrt(film.menisci)
+        made = published(number, radius=radius, pulled=pulled, **given, **more)
+        if gap >= film.full_gap:
+            made = _against_exact(made, prepared)
+    return made._replace(name=f"{MeniscusForce.name}, {made.name}")
+
+
+def _against_exact(
+    made: PublishedValue, prepared: PreparedScene[SeparationScene]
+) -> PublishedValue:
+    """Compare with the exact bridge of the volume of the scene, between flats."""
+    from ...as_published.corrected import meniscus_at_volume
+
+    film, gap = prepared.film, prepared.scene.loading.initial_gap
+    try:
+        tension = prepared.liquid.surface_tension
+        one = meniscus_at_volume(gap, film.volume, tension, *prepared.angles)
+    except (InfeasibleError, ConvergenceError) as reason:
+        return made._replace(corrected=None, corrected_by=str(reason))
+    by = "exact bridge of the volume of the scene"
+    return made._replace(corrected=film.menisci * one, corrected_by=by)
+
+
+def _bond(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]) -> ValidityNumber:
+    film, tension = prepared.film, prepared.liquid.surface_tension
+    density, bond = prepared.liquid.given("density"), None
+    if density is not None:
+        sizes = ((film.height(h), max(film.height(h), film.radius(h))) for h in gaps)
+        bond = max(numbers.bond_number(density, *size, tension) for size in sizes)
+    return ValidityNumber(
+        name="Bond number",
+        value=bond,
+        high=0.1,
+        detail="gravity is left out"
+        if density is not None
+        else "liquid.density [kg/m3] is not given",
+        source="rho g h max(h, r)/gamma",
+    )
+
+
+def _lateral(plan: Plan, gaps: Sequence[float]) -> ValidityNumber:
+    """Whether a bridge on a sphere stays in its middle: it does as long as it attracts."""
+    law, radius = plan.film.laws[MeniscusForce], plan.scene.interface.sphere_radius
+    least = min(law.force(gap, 0.0) for gap in gaps)
+    return ValidityNumber(
+        name="least meniscus force over 2 pi R gamma",
+        value=least / (2.0 * math.pi * radius * plan.prepared.liquid.surface_tension),
+        low=0.0,
+        detail="a bridge that repels a sphere is expelled sideways: it is laterally unstable",
+        source="an axisymmetric bridge is neutral sideways where its force is zero",
+    )

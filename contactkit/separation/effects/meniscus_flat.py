@@ -10,13 +10,13 @@ from ...capillary.arc import flat as arc_flat
 from ...capillary.flats import force_law as flat_law
 from ...numerics.roots import bracketed_root
 from .base import ForceLaw
-from .film_shape import FilmShape, film_shape
+from .film_shape import FilmShape
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
     from ...scene.scenes import SeparationScene
+    from .prepared import PreparedScene
 
-__all__ = ["arc_law", "exact_end", "exact_law", "surface_tension"]
+__all__ = ["arc_law", "exact_end", "exact_law"]
 
 Curve = Callable[[float], float]
 
@@ -34,26 +34,14 @@ class _Film(NamedTuple):
     pinned_end: float
 
 
-def surface_tension(scene: SeparationScene) -> float:
-    """Surface tension [N/m] of the liquid of a scene that has one."""
-    tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
-    assert tension is not None  # plan() has asked lacks() first
-    return tension
-
-
-def _angles(scene: SeparationScene) -> tuple[float, float]:
-    meniscus = scene.meniscus
-    return meniscus.contact_angle_lower, meniscus.contact_angle_upper
-
-
 def _nothing(gap: float) -> float:
     raise AssertionError("a film without this state was asked for it")
 
 
-def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+def exact_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
     """Force of the exact bridge, which ends where it loses stability."""
-    film, angles = film_shape(scene), _angles(scene)
-    rtol = max(0.1 * accuracy.time_rtol, 1e-11)
+    film, angles = prepared.film, prepared.angles
+    rtol = max(0.1 * prepared.accuracy.time_rtol, 1e-11)
     free: Curve = _nothing
     pinned: Curve = _nothing
     pinned_volume: Curve = _nothing
@@ -68,7 +56,7 @@ def exact_law(scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
         pinned_volume = _sized(held.volume, film.rim, film.rim**3)
         pinned_end = held.end * film.rim
     both = _Film(free, pinned, pinned_volume, free_end, pinned_end)
-    return _law(both, film, surface_tension(scene))
+    return _law(both, film, prepared.liquid.surface_tension)
 
 
 def _sized(curve: Curve, length: float, factor: float) -> Curve:
@@ -76,9 +64,9 @@ def _sized(curve: Curve, length: float, factor: float) -> Curve:
     return lambda gap: factor * curve(gap / length)
 
 
-def exact_end(scene: SeparationScene) -> float:
+def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
     """Gap [m] at which the exact bridge loses stability, without the forces on the way."""
-    film, angles = film_shape(scene), _angles(scene)
+    film, angles = prepared.film, prepared.angles
     if math.isinf(film.rim):
         return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
     longest, volume = flat_law.flat_end(*angles, pinned=True)
@@ -87,10 +75,10 @@ def exact_end(scene: SeparationScene) -> float:
     return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
 
 
-def arc_law(scene: SeparationScene) -> ForceLaw:
+def arc_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
     """Force of the arc, which ends where its neck closes."""
-    film = film_shape(scene)
-    arc = arc_flat.shape(*_angles(scene))
+    film = prepared.film
+    arc = arc_flat.shape(*prepared.angles)
     volume, rim = film.volume, film.rim
     free, pinned = math.isfinite(volume), math.isfinite(rim)
 
@@ -110,7 +98,7 @@ def arc_law(scene: SeparationScene) -> ForceLaw:
         float(arc_flat.zero_neck_gap(arc, volume)) if free else math.inf,
         arc_flat.zero_neck_gap_at_rim(arc, rim) if pinned else math.inf,
     )
-    return _law(both, film, surface_tension(scene))
+    return _law(both, film, prepared.liquid.surface_tension)
 
 
 def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
@@ -128,7 +116,7 @@ def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
         return n * tension * (both.pinned(gap) if gap < full_gap else both.free(gap))
 
     kinks = (full_gap,) if 0.0 < full_gap < end else ()
-    return ForceLaw(force, kinks, end=end)
+    return ForceLaw(force, kinks, end)
 
 
 def _full_gap(both: _Film, film: FilmShape) -> float:

@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ...errors import ConvergenceError, InfeasibleError
 from ...numerics.cubic_spline import cubic_spline
 from .base import ForceLaw
-from .film_shape import film_shape
-from .meniscus_flat import surface_tension
 
 if TYPE_CHECKING:
     import numpy as np
@@ -18,8 +16,8 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-    from ...accuracy import Accuracy
     from ...scene.scenes import SeparationScene
+    from .prepared import PreparedScene
 
 __all__ = ["exact_end", "sphere_law"]
 
@@ -41,49 +39,45 @@ class _Bridges(NamedTuple):
     left: Callable[[Any], Any] = lambda gap: 1.0
 
 
-def sphere_law(scene: SeparationScene, accuracy: Accuracy, profile: str) -> ForceLaw:
+def sphere_law(prepared: PreparedScene[SeparationScene], profile: str) -> ForceLaw:
     """Force of the meniscus on a sphere, as a law of the gap.
 
     Some dozens of bridges are solved, until the curve through them is known to a tenth of the
     tolerance of time, and a spline is what the loop calls: microseconds in place of milliseconds.
     """
-    n, tension = scene.meniscus.count, surface_tension(scene)
-    bridges = _exact(scene) if profile == "exact" else _arcs(scene, profile == "as-published")
-    top = min(scene.loading.final_gap * 2.0, bridges.end * (1.0 - 1e-9))
-    curve = _curve(bridges, top, 0.1 * accuracy.time_rtol)
+    scene, tension = prepared.scene, prepared.liquid.surface_tension
+    n, known_to = scene.meniscus.count, 2.0 * scene.loading.final_gap
+    bridges = _exact(prepared) if profile == "exact" else _arcs(prepared, profile == "as-published")
+    top = min(known_to, bridges.end * (1.0 - 1e-9))
+    curve = _curve(bridges, top, 0.1 * prepared.accuracy.time_rtol)
 
     def law(gap: float, speed: float) -> float:
         gap = min(max(gap, 0.0), top)
         return n * tension * curve(gap) / float(bridges.left(gap))
 
-    return ForceLaw(law, end=bridges.end)
+    return ForceLaw(law, end=bridges.end, known_to=known_to)
 
 
-def _fixed(scene: SeparationScene) -> tuple[float, float, float, float]:
+def _fixed(prepared: PreparedScene[SeparationScene]) -> tuple[float, float, float, float]:
     """Angles [rad] and curvatures [1/m] of the bodies."""
-    meniscus = scene.meniscus
-    return (
-        meniscus.contact_angle_lower,
-        meniscus.contact_angle_upper,
-        *scene.interface.curvatures,
-    )
+    return (*prepared.angles, *prepared.curvatures)
 
 
-def exact_end(scene: SeparationScene) -> float:
+def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
     """Gap [m] at which the exact bridge on a sphere ends."""
-    pressure = scene.liquid_pressure
+    pressure, fixed = prepared.scene.liquid_pressure, _fixed(prepared)
     if pressure is not None:
         from ...capillary.exact.at_pressure import max_gap_at_pressure
 
-        return max_gap_at_pressure(pressure / surface_tension(scene), *_fixed(scene))
+        return max_gap_at_pressure(pressure / prepared.liquid.surface_tension, *fixed)
     from ...capillary.exact.stability import stability_limit
 
-    return float(stability_limit(film_shape(scene).volume, *_fixed(scene)).gap)
+    return float(stability_limit(prepared.film.volume, *fixed).gap)
 
 
-def _exact(scene: SeparationScene) -> _Bridges:
-    pressure = scene.liquid_pressure
-    film, fixed, end = film_shape(scene), _fixed(scene), exact_end(scene)
+def _exact(prepared: PreparedScene[SeparationScene]) -> _Bridges:
+    pressure = prepared.scene.liquid_pressure
+    film, fixed, end = prepared.film, _fixed(prepared), exact_end(prepared)
     if pressure is None:
         from ...capillary.exact.bridge import bridge
 
@@ -91,17 +85,17 @@ def _exact(scene: SeparationScene) -> _Bridges:
         return _Bridges(lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, thin)
     from ...capillary.exact.at_pressure import bridge_at_pressure
 
-    over = pressure / surface_tension(scene)
+    over = pressure / prepared.liquid.surface_tension
     return _Bridges(
         lambda gap: bridge_at_pressure(gap, over, *fixed, beyond="nan").force, end, 0.1 * end
     )
 
 
-def _arcs(scene: SeparationScene, as_published: bool) -> _Bridges:
+def _arcs(prepared: PreparedScene[SeparationScene], as_published: bool) -> _Bridges:
     from ...as_published.printed import common as published
     from ...capillary.arc import sphere as arc_sphere
 
-    film, fixed = film_shape(scene), _fixed(scene)
+    film, fixed = prepared.film, _fixed(prepared)
     profile = "parabola" if as_published else "sphere"
     end = float(arc_sphere.zero_neck_gap(film.volume, *fixed, profile=profile))
 

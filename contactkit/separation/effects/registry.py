@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...scene.effect import Effect
+from ...scene.effect import Effect, EffectRegistry
 from .adhesion import AdhesiveContact, VanDerWaalsForce
 from .asperities import AsperityMenisci
 from .base import SeparationEffect
@@ -24,7 +24,7 @@ __all__ = [
     "ViscousForce",
 ]
 
-SEPARATION_EFFECTS: tuple[type[SeparationEffect], ...] = (
+SEPARATION_EFFECTS: EffectRegistry[SeparationEffect] = EffectRegistry(
     MeniscusForce,
     ViscousForce,
     TensionLimit,

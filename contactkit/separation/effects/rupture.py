@@ -12,12 +12,14 @@ from ...errors import DescriptionError
 from ...units import si
 from ...validators import choice, optional, positive
 from .base import FilmEnd
-from .film_shape import film_shape
+from .meniscus import MeniscusForce
 from .meniscus_flat import exact_end
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
+    from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
+    from ..plan import Plan
+    from .prepared import PreparedScene
 
 __all__ = ["Rupture"]
 
@@ -45,6 +47,7 @@ class Rupture(FilmEnd):
     name: ClassVar[str] = "rupture"
     summary: ClassVar[str] = "the film breaks at a gap"
     takes_pressure: ClassVar[bool] = True
+    published_choice: ClassVar[str] = "criterion"
 
     gap: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
     criterion: Literal["limit", "zero-neck"] = field(
@@ -63,8 +66,13 @@ class Rupture(FilmEnd):
             )
         return ("zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",)
 
+    def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`."""
+        at_pressure = self.gap is None and scene.liquid_pressure is not None
+        return ("surface_tension",) if at_pressure else ()
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         meniscus = scene.meniscus
         if self.gap is not None or meniscus.volume is not None:
             return ()
@@ -72,35 +80,66 @@ class Rupture(FilmEnd):
             return ()
         return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> float:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """See `FilmEnd.prepare`."""
+        if self.gap is None:
+            return _limit(prepared) if self.criterion == "limit" else _zero_neck(prepared)
+        start = prepared.scene.loading.initial_gap
+        if self.gap <= start:
+            expected = f"exceed initial_gap = {start:g} m"
+            raise DescriptionError("Rupture.gap", self.gap, expected, unit="m")
+        return self.gap
+
+    def takes_printed(self) -> bool:
+        """See `SeparationEffect.takes_printed`: the zero neck of the source is the arc's end."""
+        return self.criterion == "zero-neck" and self.gap is None
+
+    def equations(self, scene: SeparationScene) -> str:
+        """See `SeparationEffect.equations`.
+
+        The zero neck is the end of the arc, and alone a bound; it does not go with the exact
+        bridge, nor the exact limit with printed forces.
+        """
         if self.gap is not None:
-            if self.gap <= scene.loading.initial_gap:
-                raise DescriptionError(
-                    "Rupture.gap",
-                    self.gap,
-                    f"exceed initial_gap = {scene.loading.initial_gap:g} m",
-                    unit="m",
-                )
-            return self.gap
-        return _limit(scene) if self.criterion == "limit" else _zero_neck(scene)
+            return ""
+        if not self.takes_printed():
+            return "consistent"
+        meniscus = scene.effect(MeniscusForce)
+        return "as-published" if meniscus is not None and meniscus.profile == "exact" else ""
+
+    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+        """See `SeparationEffect.errata`."""
+        if not self.takes_printed():
+            return ()
+        from ...as_published.lookup import published
+
+        prepared = plan.prepared
+        angles, curvatures = prepared.angles, prepared.curvatures
+        made = published(
+            "zero neck",
+            volume=prepared.film.volume,
+            angle_lower=angles.lower,
+            angle_upper=angles.upper,
+            curvature_lower=curvatures.lower,
+            curvature_upper=curvatures.upper,
+        )
+        return (made._replace(name=f"{self.name}, {made.name}"),)
 
 
-def _limit(scene: SeparationScene) -> float:
+def _limit(prepared: PreparedScene[SeparationScene]) -> float:
     """Gap [m] at which the exact bridge ends."""
-    if scene.interface.is_flat:
-        return exact_end(scene)
+    if prepared.scene.interface.is_flat:
+        return exact_end(prepared)
     from . import meniscus_sphere
 
-    return meniscus_sphere.exact_end(scene)
+    return meniscus_sphere.exact_end(prepared)
 
 
-def _zero_neck(scene: SeparationScene) -> float:
+def _zero_neck(prepared: PreparedScene[SeparationScene]) -> float:
     """Gap [m] at which the neck of the arc closes."""
-    meniscus, film = scene.meniscus, film_shape(scene)
-    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+    film, angles = prepared.film, prepared.angles
     if math.isinf(film.sphere_radius):
         return float(arc_flat.zero_neck_gap(arc_flat.shape(*angles), film.volume))
     from ...capillary.arc import sphere as arc_sphere
 
-    return float(arc_sphere.zero_neck_gap(film.volume, *angles, *scene.interface.curvatures))
+    return float(arc_sphere.zero_neck_gap(film.volume, *angles, *prepared.curvatures))

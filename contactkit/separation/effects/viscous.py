@@ -3,29 +3,127 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
 
+from ...errors import DescriptionError
+from ...lubrication import dimensionless as numbers
 from ...lubrication import film_limits
 from ...lubrication import squeeze_film as squeeze
+from ...scene.column import Column
+from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
+from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, positive
-from .base import FilmLimit, ForceLaw, Limiter, SeparationForce
+from .base import FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
+from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
+from .meniscus import MeniscusForce
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
+    from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
+    from ..plan import Plan
+    from ..results import SeparationResult
+    from .base import Curve
+    from .prepared import PreparedScene
 
-__all__ = ["ShearLimit", "TensionLimit", "ViscousForce", "keeps_radius"]
+__all__ = [
+    "ShearLimit",
+    "TensionLimit",
+    "ViscousForce",
+    "ViscousLaw",
+    "ViscousPart",
+    "keeps_radius",
+    "viscous_film",
+]
 
 
-def _viscosity(scene: SeparationScene) -> float:
-    viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
-    assert viscosity is not None  # plan() has asked lacks() first
-    return viscosity
+@frozen(eq=False)
+class ViscousLaw(ForceLaw):
+    """A viscous force made ready: it is proportional to speed.
+
+    It falls as gap^-n, with n the `exponent` at a gap; `impulse` is its time integral [N.s] between
+    two gaps, which no path in time changes.
+    """
+
+    exponent: Callable[[float], float] = field(kw_only=True)
+    impulse: Callable[[float, float], float] = field(kw_only=True)
+
+
+@frozen(eq=False)
+class ViscousPart(ForcePart):
+    """What the viscous force did. Four different things keep four names.
+
+    `force` is the instantaneous force [N] along the run, after the limits; `newtonian_force` what
+    it would be without them; `impulse` the time integral of the force over the whole opening
+    [N.s]; `newtonian_impulse` the same without limits, which no path in time changes.
+    """
+
+    @property
+    def newtonian_force(self) -> Curve:
+        """Instantaneous force [N] of the film without limits."""
+        return self.result["newtonian_force"]
+
+    @property
+    def impulse(self) -> float:
+        """Time integral of the force over the whole opening [N.s]."""
+        return self.result.impulses["viscous_impulse"]
+
+    @property
+    def newtonian_impulse(self) -> float:
+        """Time integral of the force of the film without limits [N.s]."""
+        return self.result.impulses["newtonian_impulse"]
+
+    def mean_force(self, time: float | None = None) -> float:
+        """Time average [N] of the force over an opening that takes `time` [s]: impulse/time.
+
+        Raises
+        ------
+        DescriptionError
+            If no time is given, neither here nor with the scene.
+        """
+        loading = self.result.plan.scene.loading
+        if time is None and isinstance(loading, ImposedTime):
+            time = loading.time
+        if time is None or not time > 0.0:
+            raise DescriptionError(
+                "mean_force(time)",
+                time,
+                "be positive",
+                unit="s",
+                hint="give the duration of the opening here, or as ImposedTime(time=...)",
+            )
+        return self.impulse / time
+
+    def time_at_constant_force(self, force: float | None = None) -> float:
+        """Time [s] that a constant pull [N] takes to open the gap; inf if it never does.
+
+        Closed form for a massless body; the meniscus, where the scene has one, pulls with the
+        Laplace pressure of a thin film. Without the limits of the liquid.
+
+        Raises
+        ------
+        DescriptionError
+            If no force is given, neither here nor with the scene.
+        """
+        plan = self.result.plan
+        loading = plan.scene.loading
+        if force is None and isinstance(loading, ImposedForce):
+            force = loading.force
+        if force is None or not force > 0.0:
+            raise DescriptionError(
+                "time_at_constant_force(force)",
+                force,
+                "be positive",
+                unit="N",
+                hint="give the pull here, or as ImposedForce(force=...)",
+            )
+        prepared = plan.prepared
+        return constant_force_time(prepared, viscous_film(prepared), _law(prepared), force)
 
 
 @frozen(kw_only=True)
@@ -48,8 +146,9 @@ class ViscousForce(SeparationForce):
 
     name: ClassVar[str] = "viscous-force"
     summary: ClassVar[str] = "viscous force of the film (Reynolds)"
-    column: ClassVar[str] = "viscous_force"
+    column: ClassVar[Column] = Column("viscous_force", "N", "viscous force", "#c1440e")
     takes_pressure: ClassVar[bool] = True
+    published_choice: ClassVar[str] = "closure"
 
     closure: Literal["volume-conserving", "flooded", "as-published"] = field(
         default="volume-conserving",
@@ -65,29 +164,78 @@ class ViscousForce(SeparationForce):
         )
 
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.cites`."""
+        """See `Effect.cites`."""
         flats, sphere = self.sources
         return (flats,) if scene.interface.is_flat else (sphere,)
 
+    @classmethod
+    def curves(cls) -> tuple[Column, ...]:
+        """See `SeparationEffect.curves`."""
+        newtonian = Column("newtonian_force", "N", "viscous force without limits", "#c1440e", ":")
+        so_far = Column("viscous_impulse", "N.s", "viscous impulse so far", "#c1440e")
+        return (cls.column, newtonian, so_far)
+
+    def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`: a film of fixed pressure has a height as well."""
+        at_pressure = scene.liquid_pressure is not None
+        return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
+
+    def proportional_to(self, scene: SeparationScene) -> str:
+        """See `SeparationForce.proportional_to`."""
+        return "viscosity"
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
-        state = scene.meniscus.liquid.at(scene.temperature)
-        missing = () if state.viscosity is not None else ("liquid.viscosity [Pa.s]",)
-        return missing + needs_extent(scene)
+        """See `Effect.lacks`."""
+        return needs_extent(scene)
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> ForceLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
         """See `SeparationForce.prepare`."""
-        film = film_shape(scene, constant_radius=keeps_radius(scene))
-        viscosity = _viscosity(scene)
-        kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
-        if math.isinf(film.sphere_radius):
-            return _disc_law(film, viscosity, kinks)
-        if math.isfinite(film.level):
-            return _level_law(film, viscosity, kinks)
-        return _sphere_law(film, viscosity, kinks)
+        return _law(prepared)
+
+    def equations(self, scene: SeparationScene) -> str:
+        """See `SeparationEffect.equations`.
+
+        A film that keeps its volume is what Eqs. (3.18) and (3.22) print; only the mean force of a
+        given time, Eq. (3.19), is another one in print.
+        """
+        if self.takes_printed():
+            return "as-published"
+        mean = self.closure == "volume-conserving" and isinstance(scene.loading, ImposedTime)
+        return "consistent" if mean and scene.interface.is_flat else ""
+
+    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+        """See `SeparationEffect.errata`: as an impulse [N.s], which no time changes."""
+        return (_erratum(plan),) if self.takes_printed() else ()
+
+    def validity(
+        self, plan: Plan, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """See `SeparationEffect.validity`."""
+        both = _against_meniscus(plan.prepared, path) if plan.has(MeniscusForce) else ()
+        return _validity(plan.prepared, path) + both
+
+    def part(self, result: SeparationResult) -> ViscousPart:
+        """See `SeparationEffect.part`."""
+        return ViscousPart(result, self.column)
+
+    def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
+        """See `SeparationEffect.scalars`."""
+        if not isinstance(result.plan.scene.loading, ImposedTime):
+            return {}
+        return {"mean_viscous_force": (self.part(result).mean_force(), "N")}
 
 
-def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
+def _law(prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
+    film, viscosity = viscous_film(prepared), prepared.liquid.viscosity
+    kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
+    if math.isinf(film.sphere_radius):
+        return _disc_law(film, viscosity, kinks)
+    if math.isfinite(film.level):
+        return _level_law(film, viscosity, kinks)
+    return _sphere_law(film, viscosity, kinks)
+
+
+def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ViscousLaw:
     n, full = film.menisci, film.full_gap
     drop = film.volume if math.isfinite(full) else 0.0  # both forces are those at a gap of 1 m
     whole = n * float(squeeze.disc_force(film.rim if full else 0.0, 1.0, 1.0, viscosity))
@@ -108,10 +256,10 @@ def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> Fo
             return n * float(squeeze.disc_impulse_conserved(film.volume, start, end, viscosity))
         return impulse(start, full) + impulse(full, end)
 
-    return ForceLaw(force, kinks, exponent=exponent, impulse=impulse)
+    return ViscousLaw(force, kinks, exponent=exponent, impulse=impulse)
 
 
-def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
+def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ViscousLaw:
     """Force of a film under a sphere whose rim keeps its height, until the sphere leaves it."""
     n, sphere, level, full = film.menisci, film.sphere_radius, film.level, film.full_gap
 
@@ -133,10 +281,10 @@ def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> F
         # d ln c/d ln D of (1 - D/s)^2/D is 1 + 2 D/(s - D); it may not grow without bound.
         return 1.0 + 2.0 * gap / max(level - gap, 0.5 * gap)
 
-    return ForceLaw(force, kinks, end=level, exponent=exponent, impulse=impulse)
+    return ViscousLaw(force, kinks, level, exponent=exponent, impulse=impulse)
 
 
-def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
+def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ViscousLaw:
     n, height, full, sphere = film.menisci, film.height, film.full_gap, film.sphere_radius
     flooded = math.isinf(film.volume)
 
@@ -160,7 +308,7 @@ def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> 
         # d ln c/d ln D of (1 - D/H)^2/D, with H free: 1 + 2 D/H at constant volume.
         return 1.0 + 2.0 * gap / height(gap)
 
-    return ForceLaw(force, kinks, exponent=exponent, impulse=impulse)
+    return ViscousLaw(force, kinks, exponent=exponent, impulse=impulse)
 
 
 @frozen(kw_only=True)
@@ -185,6 +333,7 @@ class TensionLimit(FilmLimit):
     """
 
     name: ClassVar[str] = "tension-limit"
+    limit: ClassVar[LimitKind] = LimitKind.TENSION
     summary: ClassVar[str] = "the liquid cannot be pulled below a given pressure"
     takes_pressure: ClassVar[bool] = True
 
@@ -212,14 +361,14 @@ class TensionLimit(FilmLimit):
         return ("parabolic pressure truncated at the limit; Scheidl and Gradl 2016",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         if self.cavity == "reynolds" and not scene.interface.is_flat:
             return ('two flats (or cavity="truncated")',)
         return ()
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
-        film, drop = film_shape(scene, constant_radius=keeps_radius(scene)), self.pressure_drop
+        film, drop = viscous_film(prepared), self.pressure_drop
         n, radius, height = film.menisci, film.radius, film.height
         disc = (
             film_limits.disc_tension_reynolds
@@ -255,6 +404,7 @@ class ShearLimit(FilmLimit):
     """
 
     name: ClassVar[str] = "shear-limit"
+    limit: ClassVar[LimitKind] = LimitKind.SHEAR
     summary: ClassVar[str] = "wall shear stress bounded by a limiting shear strength"
     takes_pressure: ClassVar[bool] = True
 
@@ -271,14 +421,14 @@ class ShearLimit(FilmLimit):
         return ("limiting shear strength, Bair and Winer 1979",)
 
     def lacks(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         if self.law != "truncated" and not isinstance(scene, SlidingScene):
             return ('law="truncated": the others are for a SlidingScene',)
         return ()
 
-    def prepare(self, scene: SeparationScene, accuracy: Accuracy) -> Limiter:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
-        film, strength = film_shape(scene, constant_radius=keeps_radius(scene)), self.strength
+        film, strength = viscous_film(prepared), self.strength
         n, radius, height = film.menisci, film.radius, film.height
 
         def between_flats(gap: float, speed: float, force: float) -> float:
@@ -299,3 +449,106 @@ def keeps_radius(scene: SeparationScene) -> bool:
         return False
     as_printed = viscous.closure == "as-published" and scene.interface.is_flat
     return viscous.closure == "flooded" or as_printed
+
+
+def viscous_film(prepared: PreparedScene[SeparationScene]) -> FilmShape:
+    """Shape of the film as the viscous force of a scene takes it."""
+    if not keeps_radius(prepared.scene):
+        return prepared.film
+    return film_shape(prepared.scene, prepared.liquid, constant_radius=True)
+
+
+def _erratum(plan: Plan) -> PublishedValue:
+    from ...as_published.lookup import published
+
+    prepared, film, loading = plan.prepared, plan.prepared.film, plan.scene.loading
+    start, count, is_flat = loading.initial_gap, film.menisci, plan.scene.interface.is_flat
+    # Over a time of one second, so that the number is the impulse.
+    given = {
+        "gap_start": start,
+        "gap_end": min(loading.final_gap, plan.film.end),
+        "separation_time": 1.0,
+        "viscosity": prepared.liquid.viscosity,
+    }
+    if is_flat:
+        radius = film.radius(start) * math.sqrt(count)
+        number, more = ("3.34", {"number": count}) if count > 1 else ("3.19", {})
+        made = published(number, radius=radius, **given, **more)
+    else:
+        shape = {"sphere_radius": film.sphere_radius, "film_height": film.height(start)}
+        made = published("3.26", **shape, **given).times(count)
+    if is_flat and math.isinf(film.volume):
+        by = "as printed, right for a film that stands in a bath"
+        made = made._replace(corrected=made.value, corrected_by=by)
+    name = f"{ViscousForce.name}, {made.name}, times the separation time"
+    return made._replace(name=name, unit="N.s")
+
+
+def _validity(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+) -> tuple[ValidityNumber, ...]:
+    film, viscosity = prepared.film, prepared.liquid.viscosity
+    density = prepared.liquid.given("density")
+    has_end = math.isfinite(film.height(path[0][0]))
+    reynolds = slenderness = None
+    if has_end:
+        slenderness = min(numbers.slenderness(film.radius(h), film.height(h)) for h, _ in path)
+    if has_end and density is not None:
+        reynolds = max(
+            numbers.reynolds_number(density, v, film.height(h), viscosity) for h, v in path
+        )
+    return (
+        ValidityNumber(
+            name="Reynolds number",
+            value=reynolds,
+            high=1.0,
+            detail="liquid.density [kg/m3] is not given"
+            if density is None
+            else "inertia of the film is left out",
+            source="rho h' h/eta",
+        ),
+        ValidityNumber(
+            name="slenderness of the film",
+            value=slenderness,
+            low=5.0,
+            detail="lubrication wants a film much wider than high",
+            source="Reynolds 1886",
+        ),
+    )
+
+
+def _against_meniscus(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+) -> tuple[ValidityNumber, ...]:
+    """Whether the meniscus follows while the film is drawn in: while the gap opens."""
+    film, viscosity, tension = (
+        prepared.film,
+        prepared.liquid.viscosity,
+        prepared.liquid.surface_tension,
+    )
+    wetting = abs(prepared.wetting)
+    ratio = fingering = 0.0
+    for h, v in path:
+        r, height = film.radius(h), film.height(h)
+        if not (v > 0.0 and math.isfinite(r)):
+            continue
+        if wetting > 1e-12:
+            pressures = numbers.viscous_to_capillary(viscosity, r, v, height, tension * wetting)
+            ratio = max(ratio, pressures)
+        fingering = max(fingering, numbers.fingering_number(viscosity, v, r, height, tension))
+    return (
+        ValidityNumber(
+            name="viscous over capillary pressure",
+            value=ratio,
+            high=1.0,
+            detail="above 1 the meniscus is not in equilibrium while the gap opens",
+            source="3 eta r^2 h'/(gamma (c1 + c2) h^2)",
+        ),
+        ValidityNumber(
+            name="fingering number",
+            value=fingering,
+            high=1.0,
+            detail="above 1 the receding rim of the film breaks up into fingers",
+            source="lifted Hele-Shaw cell, eta h' r^3/(gamma h^3)",
+        ),
+    )

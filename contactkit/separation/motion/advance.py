@@ -14,7 +14,6 @@ from ...numerics.events import step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
 from ..effects.viscous import ViscousForce
-from ..film import impulse_name
 from ..integrator.dense_output import peak, work
 from ..integrator.radau import (
     NODES,
@@ -39,7 +38,7 @@ _NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
 _AT_REST = 1e-30  # fraction of the gap over which the film stops a mass that is as good as at rest
 _EVENT = 1e-13  # relative distance of a gap from an event that is met
 _TOO_LONG = 16.0  # error of a step that is to be cut in half
-_VISCOUS = impulse_name(ViscousForce.column)
+_VISCOUS = ViscousForce.column.impulse.name
 
 
 def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionState:
@@ -118,7 +117,8 @@ def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionStat
     else:
         leaves = False
     elapsed = end - state.time
-    grown = {impulse_name(column): elapsed * force for column, force in forces.items()}
+    names = film.static_impulses if film is not None else ()
+    grown = {name: elapsed * force for name, force in zip(names, forces.values(), strict=True)}
     return state._replace(
         time=end, in_contact=not leaves, step=0.0, impulses=_added(state.impulses, grown)
     )
@@ -165,9 +165,7 @@ def _mass(plan: Plan) -> float:
     loading = plan.scene.imposed_force
     if loading.mass is not None:
         return loading.mass
-    impulse = plan.film.laws[ViscousForce].impulse
-    assert impulse is not None  # a viscous force always has one
-    given = impulse(loading.initial_gap, loading.final_gap)
+    given = plan.film.newtonian_impulse(loading.initial_gap, loading.final_gap)
     pull = max(abs(loading.force), 1e-300)
     return 1e-14 * given * (given / pull) / (loading.final_gap - loading.initial_gap)
 
@@ -309,9 +307,9 @@ def _impulses(film: Film | None, taken: Step, length: float) -> dict[str, float]
         (name,) = film.static_impulses
         grown[name] = b1 * f1.static + b2 * f2.static + b3 * f3.static
         return grown
-    one, two, three = (film.static_forces(point.gap) for point in taken.stages)
-    for column, force in one.items():
-        grown[impulse_name(column)] = b1 * force + b2 * two[column] + b3 * three[column]
+    stages = (film.static_forces(point.gap).values() for point in taken.stages)
+    for name, one, two, three in zip(film.static_impulses, *stages, strict=True):
+        grown[name] = b1 * one + b2 * two + b3 * three
     return grown
 
 

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from enum import IntEnum
 from typing import NamedTuple
 
 from attrs import field, frozen
 
 from ...units import si
-from ..effects.registry import SeparationEffect, ShearLimit, TensionLimit
+from ..effects.base import FilmStatus, LimitKind
 from ..plan import Film, Plan
 
 __all__ = [
-    "LIMITS",
     "Drive",
-    "FilmStatus",
-    "LimitKind",
     "MotionState",
     "Outputs",
     "Pull",
@@ -27,32 +23,6 @@ __all__ = [
 
 Drive = Callable[[float], float]
 """Pull [N] at a time [s]; a `Pull`, or any function that is smooth within a step."""
-
-
-class FilmStatus(IntEnum):
-    """What the film does."""
-
-    CONTACT = 1
-    STUCK = 2
-    FULL = 3
-    BRIDGE = 4
-    BROKEN = 5
-
-
-class LimitKind(IntEnum):
-    """Which limit of the liquid acts."""
-
-    NONE = 1
-    TENSION = 2
-    SHEAR = 3
-
-
-LIMITS: dict[type[SeparationEffect] | None, LimitKind] = {
-    None: LimitKind.NONE,
-    TensionLimit: LimitKind.TENSION,
-    ShearLimit: LimitKind.SHEAR,
-}
-"""Kind of a limit that acts, by its effect."""
 
 
 @frozen
@@ -146,4 +116,4 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
         status = FilmStatus.BROKEN
     else:
         status = FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE
-    return Outputs(static + viscous, static, viscous, status, LIMITS[limit])
+    return Outputs(static + viscous, static, viscous, status, limit)

@@ -11,18 +11,37 @@ from attrs import Attribute, field, frozen
 
 from ...as_published.printed.errata import ERRATA
 from ...errors import DescriptionError
+from ...scene.column import Column
+from ...scene.effect import EffectRegistry
 from ...scene.scenes import SlidingScene
 from ...units import si
 from ...validators import angle, choice, optional, positive, refuse
 from ..effects.base import SeparationEffect
-from ..effects.film_shape import FilmShape, film_shape
+from ..effects.film_shape import FilmShape
 from ..effects.viscous import ShearLimit
 
 if TYPE_CHECKING:
-    from ...accuracy import Accuracy
-    from ...scene.scenes import SeparationScene, SlidingScene
+    import numpy as np
+    from numpy.typing import NDArray
 
-__all__ = ["ContactAngleHysteresis", "CouetteForce", "SLIDING_EFFECTS", "SlideLaw", "SlidingForce"]
+    from ...as_published.arguments import PublishedValue
+    from ...scene.scenes import SeparationScene
+    from ..effects.prepared import PreparedScene
+    from .plan import SlidingPlan
+    from .result import SlidingResult
+
+    Curve = NDArray[np.float64]
+
+__all__ = [
+    "SLIDING_EFFECTS",
+    "ContactAngleHysteresis",
+    "CouetteForce",
+    "CouettePart",
+    "HysteresisPart",
+    "SlideLaw",
+    "SlidingForce",
+    "SlidingPart",
+]
 
 
 class SlideLaw(NamedTuple):
@@ -30,7 +49,8 @@ class SlideLaw(NamedTuple):
 
     `force` is called with (travel [m], speed [m/s]) and gives [N]. Called with (travel [m]),
     `impulse` gives the time integral [N.s] of a force that is proportional to speed, and `work`
-    the work [J] of one that does not depend on it: no path in time changes either.
+    the work [J] of one that does not depend on it: no path in time changes either. A force with
+    neither is integrated along the travel.
     """
 
     force: Callable[[Any, float], Any]
@@ -40,10 +60,20 @@ class SlideLaw(NamedTuple):
 
 @frozen(kw_only=True)
 class SlidingForce(SeparationEffect):
-    """A force along the bodies of a `SlidingScene`; any number may act."""
+    """A force along the bodies of a `SlidingScene`; any number may act.
+
+    `column` names its curve and, by `Column.impulse`, its impulse.
+    """
+
+    column: ClassVar[Column]
+
+    @classmethod
+    def curves(cls) -> tuple[Column, ...]:
+        """See `SeparationEffect.curves`."""
+        return (cls.column, cls.column.impulse)
 
     def lacks(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
-        """See `SeparationEffect.lacks`."""
+        """See `Effect.lacks`."""
         if isinstance(scene, SlidingScene):
             return self.lacks_in(scene)
         return ("a SlidingScene: it acts along the bodies, not across the gap",)
@@ -52,13 +82,63 @@ class SlidingForce(SeparationEffect):
         """Name what this effect needs and a sliding scene does not give, with units."""
         return ()
 
-    def cites(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
-        """See `SeparationEffect.cites`."""
-        return self.sources
-
     @abc.abstractmethod
-    def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
+    def prepare(self, prepared: PreparedScene[SlidingScene]) -> SlideLaw:
         """Do the work that depends on neither travel nor speed."""
+
+    def printed(self, plan: SlidingPlan, duration: float) -> tuple[PublishedValue, ...]:
+        """Printed equations that a run of a duration [s] takes, each with the right value."""
+        return ()
+
+    def part(self, result: SlidingResult) -> SlidingPart:
+        """What `SlidingResult.of` gives."""
+        return SlidingPart(result, self.column)
+
+
+@frozen(eq=False)
+class SlidingPart:
+    """What a force along the bodies did."""
+
+    result: SlidingResult = field(repr=False)
+    column: Column
+
+    @property
+    def force(self) -> Curve:
+        """Force along the travel [N]."""
+        return self.result[self.column.name]
+
+    @property
+    def impulse(self) -> float:
+        """Time integral of the force over the whole slide [N.s]."""
+        return self.result.total(self.column.impulse)
+
+
+@frozen(eq=False)
+class CouettePart(SlidingPart):
+    """What the drag of the film did: its force, its impulse and its mean."""
+
+    def mean_force(self, time: float | None = None) -> float:
+        """Time average [N] of the force over a slide that takes `time` [s]: impulse/time.
+
+        Raises
+        ------
+        DescriptionError
+            If the time is not positive.
+        """
+        time = self.result.duration if time is None else time
+        if not time > 0.0:
+            raise DescriptionError("mean_force(time)", time, "be positive", unit="s")
+        return self.impulse / time
+
+
+@frozen(eq=False)
+class HysteresisPart(SlidingPart):
+    """What contact lines that stick did: their force along the travel, and its work."""
+
+    @property
+    def work(self) -> float:
+        """Work of the force over the whole slide [J]."""
+        return self.result.totals[self.column.work.name]
 
 
 @frozen(kw_only=True)
@@ -84,6 +164,8 @@ class CouetteForce(SlidingForce):
 
     name: ClassVar[str] = "couette-force"
     summary: ClassVar[str] = "viscous drag of the film on sliding bodies"
+    column: ClassVar[Column] = Column("couette_force", "N", "viscous drag", "#c1440e")
+    published_choice: ClassVar[str] = "closure"
 
     closure: Literal["local-film", "lubrication", "as-published"] = field(
         default="local-film", validator=choice("local-film", "lubrication", "as-published")
@@ -103,31 +185,51 @@ class CouetteForce(SlidingForce):
         return flats, "Couette flow in the film as thick as it is, Eq. (3.54)"
 
     def cites(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
-        """See `SeparationEffect.cites`."""
+        """See `Effect.cites`."""
         flats, sphere = self.sources
         return (flats,) if scene.interface.is_flat else (sphere,)
 
+    def liquid_needs(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`."""
+        return ("viscosity",)
+
     def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
         """See `SlidingForce.lacks_in`."""
-        state = scene.meniscus.liquid.at(scene.temperature)
         missing: tuple[str, ...] = ()
-        if state.viscosity is None:
-            missing += ("liquid.viscosity [Pa.s]",)
         is_sphere = not scene.interface.is_flat
         if is_sphere and self.closure == "lubrication" and scene.effect(ShearLimit) is not None:
             missing += ('closure="local-film": with ShearLimit() the film has no closed form',)
         return missing + _needs_rim(scene)
 
-    def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
+    def prepare(self, prepared: PreparedScene[SlidingScene]) -> SlideLaw:
         """See `SlidingForce.prepare`."""
-        viscosity = scene.meniscus.liquid.at(scene.temperature).viscosity
-        assert viscosity is not None  # plan_sliding() has asked lacks() first
-        film, gap, limit = film_shape(scene), scene.loading.gap, scene.effect(ShearLimit)
+        scene, film, viscosity = prepared.scene, prepared.film, prepared.liquid.viscosity
+        gap, limit = scene.loading.gap, scene.effect(ShearLimit)
         if math.isinf(film.sphere_radius):
             return _even_law(film, gap, gap, viscosity, limit)
         if self.closure == "as-published":
             return _even_law(film, gap, film.height(gap), viscosity, limit)
         return _sphere_law(film, gap, viscosity, limit, self.closure == "lubrication")
+
+    def printed(self, plan: SlidingPlan, duration: float) -> tuple[PublishedValue, ...]:
+        """See `SlidingForce.printed`: the mean force of one meniscus."""
+        if not self.takes_printed():
+            return ()
+        from ...as_published.lookup import published
+
+        film, gap = plan.film, plan.scene.loading.gap
+        viscosity = plan.prepared.liquid.viscosity
+        given = {"gap": gap, "separation_time": duration, "viscosity": viscosity}
+        if plan.scene.interface.is_flat:
+            one = published("3.53", radius=plan.wetted_radius, **given)
+        else:
+            shape = {"sphere_radius": film.sphere_radius, "film_height": film.height(gap)}
+            one = published("3.56", **shape, **given)
+        return (one._replace(name=f"{self.name}, {one.name}, of one meniscus"),)
+
+    def part(self, result: SlidingResult) -> CouettePart:
+        """See `SlidingForce.part`."""
+        return CouettePart(result, self.column)
 
 
 def _needs_rim(scene: SlidingScene) -> tuple[str, ...]:
@@ -226,6 +328,9 @@ class ContactAngleHysteresis(SlidingForce):
     """
 
     name: ClassVar[str] = "contact-angle-hysteresis"
+    column: ClassVar[Column] = Column(
+        "hysteresis_force", "N", "force of contact lines that stick", "#2a9d8f"
+    )
     summary: ClassVar[str] = "capillary force of a meniscus that is dragged along"
 
     advancing_lower: float | None = field(
@@ -262,18 +367,18 @@ class ContactAngleHysteresis(SlidingForce):
 
     def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
         """See `SlidingForce.lacks_in`."""
-        state = scene.meniscus.liquid.at(scene.temperature)
-        known = state.surface_tension is not None
-        return (() if known else ("liquid.surface_tension [N/m]",)) + _needs_rim(scene)
+        return _needs_rim(scene)
 
-    def prepare(self, scene: SlidingScene, accuracy: Accuracy) -> SlideLaw:
+    def liquid_needs(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
+        """See `SeparationEffect.liquid_needs`."""
+        return ("surface_tension",)
+
+    def prepare(self, prepared: PreparedScene[SlidingScene]) -> SlideLaw:
         """See `SlidingForce.prepare`."""
         from ...lubrication import couette_flat as sliding
 
-        tension = scene.meniscus.liquid.at(scene.temperature).surface_tension
-        assert tension is not None  # plan_sliding() has asked lacks() first
-        film = film_shape(scene)
-        n, x = film.menisci, film.radius(scene.loading.gap)
+        film, tension = prepared.film, prepared.liquid.surface_tension
+        n, x = film.menisci, film.radius(prepared.scene.loading.gap)
         per_width = n * min(
             float(sliding.hysteresis_force(tension, 1.0, *pair, self.shape_factor))
             for pair in self._pairs
@@ -288,6 +393,10 @@ class ContactAngleHysteresis(SlidingForce):
 
         return SlideLaw(force, work=work)
 
+    def part(self, result: SlidingResult) -> HysteresisPart:
+        """See `SlidingForce.part`."""
+        return HysteresisPart(result, self.column)
 
-SLIDING_EFFECTS: tuple[type[SeparationEffect], ...] = (CouetteForce, ContactAngleHysteresis)
+
+SLIDING_EFFECTS: EffectRegistry[SlidingForce] = EffectRegistry(CouetteForce, ContactAngleHysteresis)
 """The effects of a `SlidingScene`; a `ShearLimit` may stand beside them."""

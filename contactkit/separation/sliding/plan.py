@@ -5,37 +5,73 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
+from typing import ClassVar
 
 from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
 from ...errors import DescriptionError, InfeasibleError, PlanError
-from ...scene.effect import check_listed, choices
+from ...liquids.liquid import LiquidState
+from ...scene.column import Column
+from ...scene.effect import EffectRegistry, check_listed
 from ...scene.interface import Body, Interface
+from ...scene.plan import ScenePlan
 from ...scene.scenes import SlidingScene
 from ...scene.surfaces import Sphere
 from ..bodies import check_bodies
 from ..effects.base import SeparationEffect
-from ..effects.film_shape import FilmShape, film_shape
+from ..effects.film_shape import FilmShape
+from ..effects.prepared import PreparedScene, prepare_scene
 from ..effects.viscous import ShearLimit
 from .effects import SLIDING_EFFECTS, CouetteForce, SlideLaw, SlidingForce
 
 __all__ = ["SlidingPlan", "divide_sliding", "plan_sliding"]
 
-_KNOWN: tuple[type[SeparationEffect], ...] = (*SLIDING_EFFECTS, ShearLimit)
+COLUMNS = MappingProxyType(
+    {
+        column.name: column
+        for column in (
+            Column("time", "s", "time"),
+            Column("travel", "m", "travel"),
+            Column("speed", "m/s", "sliding speed"),
+            Column("overlap_area", "m2", "overlap of the wetted circles"),
+            Column("tangential_force", "N", "tangential force", "#6a4c93", "--"),
+            Column("tangential_impulse", "N.s", "tangential impulse so far"),
+        )
+    }
+)
+"""Columns that belong to no effect, by their names."""
+_KNOWN: EffectRegistry[SeparationEffect] = EffectRegistry(SLIDING_EFFECTS, ShearLimit)
 
 
 @frozen(eq=False)
-class SlidingPlan:
+class SlidingPlan(ScenePlan):
     """A checked sliding scene with each effect prepared once.
 
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """
 
-    scene: SlidingScene
-    accuracy: Accuracy
-    laws: Mapping[type[SeparationEffect], SlideLaw] = field(repr=False)
-    film: FilmShape = field(repr=False)
+    known_effects: ClassVar[EffectRegistry[SeparationEffect]] = _KNOWN
+
+    prepared: PreparedScene[SlidingScene] = field(repr=False)
+    laws: Mapping[type[SlidingForce], SlideLaw] = field(repr=False)
+    columns: Mapping[str, Column] = field(repr=False)
+    """Columns a result of this plan may have, by their names."""
+
+    @property
+    def scene(self) -> SlidingScene:
+        """What is simulated."""
+        return self.prepared.scene
+
+    @property
+    def accuracy(self) -> Accuracy:
+        """How well it is solved."""
+        return self.prepared.accuracy
+
+    @property
+    def film(self) -> FilmShape:
+        """Shape of one film."""
+        return self.prepared.film
 
     @property
     def wetted_radius(self) -> float:
@@ -52,32 +88,12 @@ class SlidingPlan:
         """Travel [m] at which the run ends."""
         return min(self.scene.loading.travel or math.inf, self.break_travel)
 
-    def has(self, kind: type[SeparationEffect]) -> bool:
-        """Whether the scene calls for an effect."""
-        return any(type(effect) is kind for effect in self.scene.effects)
-
-    def cite(self) -> str:
-        """Sources of the equations of this run, one to a line."""
-        effects = self.scene.effects
-        lines = [
-            f"{effect.name}: {source}"
-            for effect in effects
-            for source in (
-                effect.cites(self.scene) if isinstance(effect, SlidingForce) else effect.sources
-            )
-        ]
-        return "\n".join(lines)
-
-    def __str__(self) -> str:
-        title = (
+    @property
+    def title(self) -> str:
+        """See `ScenePlan.title`."""
+        return (
             f"{self.scene.name or 'sliding'}: {self.scene.loading.summary}, travel {self.end:g} m"
         )
-        width = max(len(kind.name) for kind in _KNOWN)
-        on = [f"  on   {e.name:{width}s} {choices(e)}" for e in self.scene.effects]
-        off = [
-            f"  off  {kind.name:{width}s} {kind.summary}" for kind in _KNOWN if not self.has(kind)
-        ]
-        return "\n".join([title, *on, *off])
 
 
 def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> SlidingPlan:
@@ -97,19 +113,19 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
     InfeasibleError
         If the gap is closed.
     """
-    accuracy = accuracy or Accuracy.standard
     check_bodies(scene)
-    _check_effects(scene)
+    liquid = scene.meniscus.liquid.at(scene.temperature)
+    _check_effects(scene, liquid)
     _check_gap(scene)
-    laws: dict[type[SeparationEffect], SlideLaw] = {}
-    for effect in scene.effects:
-        if isinstance(effect, SlidingForce):
-            laws[type(effect)] = effect.prepare(scene, accuracy)
-    return SlidingPlan(scene, accuracy, MappingProxyType(laws), film_shape(scene))
+    prepared = prepare_scene(scene, accuracy, liquid)
+    forces = [effect for effect in scene.effects if isinstance(effect, SlidingForce)]
+    laws = {type(effect): effect.prepare(prepared) for effect in forces}
+    own = {column.name: column for effect in forces for column in effect.curves()}
+    return SlidingPlan(prepared, MappingProxyType(laws), MappingProxyType({**COLUMNS, **own}))
 
 
-def _check_effects(scene: SlidingScene) -> None:
-    known = ", ".join(kind.__name__ for kind in _KNOWN)
+def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
+    known = _KNOWN.names
     kinds = check_listed(scene.effects, SeparationEffect, "sliding", known)
     if not any(isinstance(effect, SlidingForce) for effect in scene.effects):
         raise PlanError(
@@ -127,7 +143,8 @@ def _check_effects(scene: SlidingScene) -> None:
         )
     for effect in scene.effects:
         if isinstance(effect, SlidingForce):
-            problems += [f"{type(effect).__name__} needs {item}" for item in effect.lacks(scene)]
+            lacks = (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
+            problems += [f"{type(effect).__name__} needs {item}" for item in lacks]
     if ShearLimit in kinds and CouetteForce not in kinds:
         problems.append("ShearLimit needs CouetteForce() beside it: it bounds the shear stress")
     if ShearLimit in kinds and scene.loading.imposed == "time":
@@ -198,7 +215,7 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
             unit="m3",
         )
     root = math.sqrt(number)
-    film, gap = film_shape(scene), scene.loading.gap
+    film, gap = prepare_scene(scene).film, scene.loading.gap
     depth = film.height(gap) - gap
     if number > 1 and 2.0 * depth * root > film.sphere_radius:
         most = film.sphere_radius / (2.0 * depth)
@@ -216,6 +233,6 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
 def _smaller(body: Body, root: float) -> Body:
     """Sphere of a radius divided by a number; a flat as it is."""
     surface = body.surface
-    return (
-        Body(surface=Sphere(radius=surface.radius / root)) if isinstance(surface, Sphere) else body
-    )
+    if not isinstance(surface, Sphere):
+        return body
+    return Body(surface=Sphere(radius=surface.radius / root))

@@ -11,10 +11,10 @@ import numpy as np
 from ...lubrication import dimensionless as numbers
 from ...lubrication.couette_flat import lens_area
 from ...numerics.quadrature import gauss_legendre
+from ...scene.validity import ValidityNumber
 from ...units import nm
 from ..results import Work
-from ..validity import ValidityNumber
-from .effects import ContactAngleHysteresis, CouetteForce, SlideLaw
+from .effects import SlideLaw
 from .plan import SlidingPlan
 from .result import SlidingResult
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = ["check_sliding", "slide"]
 
-_COLUMN = {CouetteForce: "couette_force", ContactAngleHysteresis: "hysteresis_force"}
 _NODES = 12  # of a panel between two points of a curve
 
 
@@ -37,20 +36,19 @@ def slide(plan: SlidingPlan, begun: float) -> SlidingResult:
         "travel": travel,
         "overlap_area": plan.film.menisci * lens_area(plan.wetted_radius, travel),
     }
-    drag, stick = plan.laws.get(CouetteForce), plan.laws.get(ContactAngleHysteresis)
     totals: dict[str, float] = {}
-    if stick is not None:
-        assert stick.work is not None
-        columns["hysteresis_force"] = stick.force(travel, 0.0)
-        totals["hysteresis_work"] = float(stick.work(plan.end))
+    for kind, law in plan.laws.items():
+        if law.work is not None:
+            totals[kind.column.work.name] = float(law.work(plan.end))
+        if loading.speed is not None or law.work is not None:
+            columns[kind.column.name] = law.force(travel, loading.speed or 0.0)
+        if (running := _running_impulse(law, travel, loading.speed)) is not None:
+            impulse = kind.column.impulse.name
+            columns[impulse], totals[impulse] = running, float(running[-1])
     if loading.speed is not None:
-        at_speed, more = _at_speed(plan, travel, loading.speed, drag, stick)
-        columns |= at_speed
-        totals |= more
-    elif drag is not None:
-        assert drag.impulse is not None  # without it a time alone is refused by the plan
-        columns["couette_impulse"] = drag.impulse(travel)
-        totals["couette_impulse"] = float(columns["couette_impulse"][-1])
+        columns |= _sums(plan, columns, travel, loading.speed)
+        totals["tangential_impulse"] = impulse_of_all = float(columns["tangential_impulse"][-1])
+        totals["sliding_work"] = impulse_of_all * loading.speed
     parted = plan.end >= plan.break_travel
     how = f"at {loading.speed:g} m/s" if loading.speed else f"within {loading.time:g} s"
     end = "the wetted circles have parted" if parted else "the wetted circles still overlap"
@@ -71,41 +69,27 @@ def _frozen(values: Any) -> Floats:
     return array
 
 
-def _at_speed(
-    plan: SlidingPlan,
-    travel: Floats,
-    speed: float,
-    drag: SlideLaw | None,
-    stick: SlideLaw | None,
-) -> tuple[dict[str, Any], dict[str, float]]:
-    """Curves and totals that need a speed."""
-    total, impulse = np.zeros_like(travel), np.zeros_like(travel)
-    columns: dict[str, Any] = {}
-    if drag is not None:
-        columns["couette_force"] = drag.force(travel, speed)
-        columns["couette_impulse"] = _impulse(drag, travel, speed)
-        total = total + columns["couette_force"]
-        impulse = impulse + columns["couette_impulse"]
-    if stick is not None:
-        assert stick.work is not None
-        total = total + stick.force(travel, speed)
-        impulse = impulse + stick.work(travel) / speed
-    columns |= {
+def _sums(
+    plan: SlidingPlan, columns: dict[str, Any], travel: Floats, speed: float
+) -> dict[str, Any]:
+    """Time and speed, and the sums of the forces and of their impulses."""
+    forces = [kind.column for kind in plan.laws]
+    return {
         "time": travel / speed,
         "speed": np.full_like(travel, speed),
-        "tangential_force": total,
-        "tangential_impulse": impulse,
+        "tangential_force": sum(columns[force.name] for force in forces),
+        "tangential_impulse": sum(columns[force.impulse.name] for force in forces),
     }
-    totals = {"tangential_impulse": float(impulse[-1]), "sliding_work": float(impulse[-1] * speed)}
-    if drag is not None:
-        totals["couette_impulse"] = float(columns["couette_impulse"][-1])
-    return columns, totals
 
 
-def _impulse(law: SlideLaw, travel: Floats, speed: float) -> Any:
-    """Impulse [N.s] up to each travel at a speed: in closed form, or panel by panel."""
+def _running_impulse(law: SlideLaw, travel: Floats, speed: float | None) -> Any:
+    """Impulse [N.s] up to each travel: in closed form, or panel by panel; None if not known."""
     if law.impulse is not None:
         return law.impulse(travel)
+    if speed is None:
+        return None
+    if law.work is not None:
+        return law.work(travel) / speed
     nodes, weights = (np.array(values) for values in gauss_legendre(_NODES))
     panels = np.diff(travel)
     forces = law.force(travel[:-1, None] + panels[:, None] * nodes, speed)
@@ -117,7 +101,7 @@ def check_sliding(plan: SlidingPlan) -> tuple[ValidityNumber, ...]:
     scene = plan.scene
     gap, time = scene.loading.gap, scene.loading.time
     speed = scene.loading.speed or plan.end / (time or math.inf)
-    state = scene.meniscus.liquid.at(scene.temperature)
+    liquid = plan.prepared.liquid
     height, radius = plan.film.height(gap), plan.wetted_radius
     found = [
         ValidityNumber(
@@ -135,7 +119,7 @@ def check_sliding(plan: SlidingPlan) -> tuple[ValidityNumber, ...]:
             source="Reynolds 1886",
         ),
     ]
-    viscosity, tension, density = state.viscosity, state.surface_tension, state.density
+    viscosity, tension, density = map(liquid.given, ("viscosity", "surface_tension", "density"))
     if viscosity is None:
         return tuple(found)
     found.append(

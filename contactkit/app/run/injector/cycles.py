@@ -12,8 +12,8 @@ from attrs import evolve
 from ....models.injector.monolithic import simulate
 from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
+from ....separation.effects.base import LimitKind
 from ....separation.effects.registry import ViscousForce
-from ....separation.motion.state import LimitKind
 from ....separation.plan import plan
 from ....units import celsius
 from .cosimulation import InjectorRun

@@ -11,7 +11,7 @@ from typing import Any
 from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
 from ....plot import separation as plot
-from ....separation.motion.state import LimitKind
+from ....separation.effects.base import LimitKind
 from ....units import bar, celsius
 from .cosimulation import InjectorRun
 from .cycles import cycles, delays_over_temperature, stem

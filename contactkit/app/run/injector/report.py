@@ -10,10 +10,9 @@ from typing import Any
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
 from ....models.injector.scene import InjectorScene
+from ....separation.effects.base import FilmStatus
 from ....separation.effects.registry import TensionLimit
-from ....separation.motion.state import FilmStatus
 from ....separation.plan import plan
-from ....separation.validity import check
 from ....units import bar, celsius
 from ...report import Report
 from .cosimulation import InjectorRun, cosimulate_cases
@@ -148,7 +147,7 @@ def _validity(runs: Sequence[InjectorRun]) -> list[str]:
             continue
         whole = run.coupled["state"] != FilmStatus.BROKEN
         gaps, speeds = run.coupled["h"][whole], run.coupled["v"][whole]
-        found = check(run.plan, zip(gaps.tolist(), speeds.tolist(), strict=True))
+        found = run.plan.validity(list(zip(gaps.tolist(), speeds.tolist(), strict=True)))
         told = [
             f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
             for n in found

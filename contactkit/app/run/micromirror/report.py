@@ -17,7 +17,6 @@ from ....models.micromirror.release import Landing, Release, landing, release_cu
 from ....models.micromirror.scene import MicromirrorScene
 from ....models.micromirror.tip_film import tip_law
 from ....separation.effects.registry import MeniscusForce
-from ....separation.validity import check
 from ...report import Report
 from .cosimulation import MirrorRun, cosimulate_flips
 from .landing_sites import landing_numbers
@@ -212,10 +211,10 @@ def _validity(run: MirrorRun, found: Sequence[Release]) -> list[str]:
         # Only while a film spans the gap has the film any validity to speak of.
         law = run.plan.film.laws.get(MeniscusForce)
         spans = held & (gaps < (law.end if law is not None else math.inf))
-        pairs = zip(gaps[spans].tolist(), speeds[spans].tolist(), strict=True)
+        pairs = list(zip(gaps[spans].tolist(), speeds[spans].tolist(), strict=True))
         told = [
             f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
-            for n in check(run.plan, pairs)
+            for n in run.plan.validity(pairs)
             if n.value is not None
         ]
         if told:

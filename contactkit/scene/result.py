@@ -1,0 +1,97 @@
+"""What every result offers: its plan and sources, its status, numbers and columns, and a file."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import DescriptionError
+from .effect import Effect
+from .plan import ScenePlan
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Result"]
+
+
+class Result(abc.ABC):
+    """What a plan gives when it is run: curves or maps, numbers, and what each effect did.
+
+    ``result["gap"]`` is a column by its name, ``result.of(kind)`` what an effect did, and
+    ``print(result)`` the status with all numbers.
+    """
+
+    __slots__ = ()
+
+    @property
+    @abc.abstractmethod
+    def plan(self) -> ScenePlan:
+        """What was run."""
+
+    @property
+    @abc.abstractmethod
+    def status(self) -> str:
+        """How the run ended, in a word."""
+
+    @property
+    @abc.abstractmethod
+    def message(self) -> str:
+        """How the run ended, in a sentence."""
+
+    @property
+    @abc.abstractmethod
+    def columns(self) -> Mapping[str, NDArray[Any]]:
+        """Curves or maps by their names; read-only arrays."""
+
+    @abc.abstractmethod
+    def of(self, kind: Any) -> Any:
+        """Return what an effect did; refuse one that the scene does not list."""
+
+    @abc.abstractmethod
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return the numbers of the run, each with its unit."""
+
+    def has(self, kind: type[Effect]) -> bool:
+        """Whether the scene lists an effect."""
+        return self.plan.has(kind)
+
+    def cite(self) -> str:
+        """Sources of the equations of this run, one to a line."""
+        return self.plan.cite()
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a column by its name.
+
+        Raises
+        ------
+        DescriptionError
+            If there is no such column; the message lists those that there are.
+        NotSimulatedError
+            If the run did not simulate it; the message says what to add.
+        """
+        columns = self.columns
+        if name not in columns:
+            self._refuse(name)
+            raise DescriptionError("column", name, f"be one of {', '.join(columns)}")
+        return columns[name]
+
+    @abc.abstractmethod
+    def _refuse(self, name: str) -> None:
+        """Say why a column is not there, where something else would have to be simulated."""
+
+    def save(self, path: str | Path) -> Path:
+        """Write the result to an npz file without pickle; `load_result` reads it."""
+        # By name, as the files stand above the results in the order of imports.
+        files = import_module("..files.results", __package__)
+        written: Path = files.save_result(self, path)
+        return written
+
+    def __str__(self) -> str:
+        numbers = self.scalars()
+        width = max(map(len, numbers), default=0)
+        lines = [f"  {name:{width}s}  {v:.6g} {unit}" for name, (v, unit) in numbers.items()]
+        return "\n".join([f"{self.status}: {self.message}", *lines])

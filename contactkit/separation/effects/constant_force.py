@@ -1,0 +1,85 @@
+"""Time that a constant pull takes to open the film of a scene, for a massless body."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ...errors import PlanError
+from ...lubrication import constant_force
+from .base import ForceLaw, SeparationForce
+from .film_shape import FilmShape
+from .meniscus import MeniscusForce
+
+if TYPE_CHECKING:
+    from ...scene.scenes import SeparationScene
+    from .prepared import PreparedScene
+
+__all__ = ["constant_force_time"]
+
+
+def constant_force_time(
+    prepared: PreparedScene[SeparationScene], film: FilmShape, viscous: ForceLaw, pull: float
+) -> float:
+    """Time [s] to open the gap of a scene under a constant pull [N]; inf if it never does.
+
+    Thin film: the meniscus, where the scene has one, pulls with its Laplace pressure only; no
+    inertia, no limits of the liquid. Closed form between flats, quadrature on a sphere.
+
+    Raises
+    ------
+    PlanError
+        If the scene has another force, which this does not know.
+    """
+    scene, viscosity = prepared.scene, prepared.liquid.viscosity
+    forces = {type(e) for e in scene.effects if isinstance(e, SeparationForce)}
+    known = ("meniscus_force", "viscous_force")
+    if more := ", ".join(sorted(k.__name__ for k in forces if k.column.name not in known)):
+        raise PlanError(
+            f"the time at a constant force knows the film and its meniscus, not {more}; impose "
+            f"the force, ImposedForce(force=..., mass=...), to get the motion"
+        )
+    wetting_tension = 0.0
+    if MeniscusForce in forces:
+        wetting_tension = prepared.liquid.surface_tension * prepared.wetting
+    pull_each, loading = pull / film.menisci, scene.loading
+    if not scene.interface.is_flat:
+        return _sphere_time(prepared, film, viscous, wetting_tension, pull_each)
+    turn = min(max(film.full_gap, loading.initial_gap), loading.final_gap)
+    time = 0.0
+    if loading.initial_gap < turn:
+        time += constant_force.disc_time_flooded(
+            film.rim, loading.initial_gap, turn, viscosity, wetting_tension, pull_each
+        )
+    if turn < loading.final_gap:
+        time += constant_force.disc_time_conserved(
+            film.volume, turn, loading.final_gap, viscosity, wetting_tension, pull_each
+        )
+    return time
+
+
+def _sphere_time(
+    prepared: PreparedScene[SeparationScene],
+    film: FilmShape,
+    viscous: ForceLaw,
+    wetting_tension: float,
+    pull: float,
+) -> float:
+    from scipy.integrate import quad
+
+    loading = prepared.scene.loading
+
+    def laplace(gap: float) -> float:
+        wetted = 1.0 - gap / film.height(gap)
+        return 2.0 * math.pi * film.sphere_radius * wetting_tension * wetted
+
+    if pull <= max(laplace(loading.initial_gap), laplace(loading.final_gap)):
+        return math.inf
+
+    def integrand(log_gap: float) -> float:
+        gap = math.exp(log_gap)
+        return gap * viscous.force(gap, 1.0) / film.menisci / (pull - laplace(gap))
+
+    low, high = math.log(loading.initial_gap), math.log(loading.final_gap)
+    value, _ = quad(integrand, low, high, epsabs=0.0, epsrel=1e-11, limit=500)
+    return float(value)

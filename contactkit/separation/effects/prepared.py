@@ -1,0 +1,80 @@
+"""A scene with the state of its liquid and the shape of its film, from which effects prepare."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+
+from attrs import frozen
+
+from ...accuracy import Accuracy
+from .film_shape import FilmShape, film_shape
+
+if TYPE_CHECKING:
+    from ...liquids.liquid import LiquidState
+    from ...scene.scenes import SeparationScene, SlidingScene
+
+__all__ = ["Angles", "Curvatures", "PreparedScene", "prepare_scene"]
+
+S_co = TypeVar("S_co", bound="SeparationScene | SlidingScene", covariant=True)
+
+
+class Angles(NamedTuple):
+    """Contact angles on the two bodies [rad]."""
+
+    lower: float
+    upper: float
+
+
+class Curvatures(NamedTuple):
+    """Curvatures of the two bodies [1/m]."""
+
+    lower: float
+    upper: float
+
+
+@frozen(eq=False)
+class PreparedScene(Generic[S_co]):
+    """A scene whose liquid is evaluated at its temperature and whose film has its shape.
+
+    `liquid` gives each property that the listed effects need; `film` is the shape of one film.
+    """
+
+    scene: S_co
+    accuracy: Accuracy
+    liquid: LiquidState
+    film: FilmShape
+
+    @property
+    def angles(self) -> Angles:
+        """Contact angles [rad]."""
+        meniscus = self.scene.meniscus
+        return Angles(meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+
+    @property
+    def curvatures(self) -> Curvatures:
+        """Curvatures of the bodies [1/m]."""
+        return Curvatures(*self.scene.interface.curvatures)
+
+    @property
+    def wetting(self) -> float:
+        """Sum of the cosines of both contact angles [-]."""
+        return sum(map(math.cos, self.angles))
+
+
+S = TypeVar("S", bound="SeparationScene | SlidingScene")
+
+
+def prepare_scene(
+    scene: S, accuracy: Accuracy | None = None, liquid: LiquidState | None = None
+) -> PreparedScene[S]:
+    """Evaluate the liquid of a scene at its temperature, if not known, and the shape of its film.
+
+    Raises
+    ------
+    DescriptionError
+        If the liquid does not give what the shape of the film depends on.
+    """
+    if liquid is None:
+        liquid = scene.meniscus.liquid.at(scene.temperature)
+    return PreparedScene(scene, accuracy or Accuracy.standard, liquid, film_shape(scene, liquid))
