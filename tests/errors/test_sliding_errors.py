@@ -188,7 +188,7 @@ def test_what_was_not_simulated_says_what_to_add():
     absent = ck.NotSimulatedError
     refuses(lambda: result["couette_force"], "add CouetteForce()", error=absent)
     refuses(lambda: result.of(ck.CouetteForce), "add CouetteForce()", error=absent)
-    refuses(lambda: result["tangential_force"], "impose Sliding.speed", error=absent)
+    refuses(lambda: result["tangential_force"], "impose loading.speed", error=absent)
     refuses(lambda: result["pul"], "be one of")
     assert not hasattr(result, "pull")
 
