@@ -10,7 +10,6 @@ from typing import Any
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.contact.engine import Engine
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.roughness.statistics import rms_slope
 
@@ -50,8 +49,7 @@ def rough_scene(
 def timed(scene: ck.ContactScene, accuracy: ck.Accuracy) -> tuple[ck.ContactResult, float]:
     """A contact, and the best CPU seconds of its solve without the setup."""
     made = ck.plan(scene, accuracy)
-    engine = Engine(made)
-    return best_of(lambda: ck.solve(made, engine=engine))
+    return best_of(lambda: ck.solve(made))
 
 
 def solver_table() -> str:
@@ -80,15 +78,19 @@ def fast_table() -> str:
     rows = []
     for n in (256, 512, 1024):
         made = ck.plan(*rough_scene(n, 0.05))
-        engine = Engine(made)
+        interface = made.prepared
         cells = []
         for fast in (True, False):
-            press = ContactSolver(
-                made.grid.shape, made.grid.pixel_size, engine.makers[0], True, fast=fast
+            solver = ContactSolver(
+                made.grid.shape,
+                made.grid.pixel_size,
+                interface.compliances[0],
+                periodic=True,
+                fast=fast,
             )
             found, seconds = best_of(
-                lambda press=press, engine=engine, made=made: press.solve(
-                    engine.heights, mean_pressure=made.mean_pressure
+                lambda solver=solver, interface=interface, made=made: solver.solve(
+                    interface.heights, mean_pressure=made.mean_pressure
                 )
             )
             cells += [f"{found.n_applications}", f"{seconds:.2f}"]

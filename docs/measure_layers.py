@@ -14,7 +14,6 @@ from measured_blocks import write_blocks
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.contact.engine import Engine
 
 N, WIDTH, MODULUS = 256, 2e-6, 1e11
 STACKS = {  # modulus over that of the substrate, thickness over the window
@@ -56,10 +55,9 @@ def solved(solid: ck.Stack, rough: object, pressure: float) -> Cost:
         effects=(ck.LayeredHalfSpace(),),
     )
     made = ck.plan(scene, ck.Accuracy(grid=N))
-    engine = Engine(made)
-    ck.solve(made, engine=engine)
+    ck.solve(made)
     begun = time.process_time()
-    run = ck.solve(made, engine=engine)
+    run = ck.solve(made)
     return Cost(run.work.n_operator_applications, time.process_time() - begun)
 
 

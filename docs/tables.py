@@ -35,7 +35,7 @@ from contactkit.contact.effects.base import (
     DisplacementTerm,
     LoadTerm,
     Observer,
-    PressureCap,
+    PressureBound,
 )
 from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.fmu.framework.ports import Port
@@ -77,7 +77,7 @@ ROLES: Mapping[type, str] = {
     FilmEnd: "end of the film",
     SlidingForce: "force along the bodies",
     Compliance: "compliance",
-    PressureCap: "cap of the pressure",
+    PressureBound: "pressure bound",
     LoadTerm: "load",
     DisplacementTerm: "displacement",
     Observer: "observer",

@@ -1,11 +1,13 @@
 """Contact of rough layered surfaces: plan, solve, result.
 
-engine         One constrained contact after another on one interface: what they share is made once.
-film_loop      The load that a film adds to the one imposed, and how many equilibria there are.
+press          Entry point for a height map in an array.
 grid           Heights of surfaces on a grid, and the grid of a scene.
-hardness_loop  The outer iterations of a contact: hardness that depends on displacement, load on the
-plan           A contact made ready to solve: what will be simulated can be read before it is.
-press          The front door for people who come with a height map in an array.
-result         What a contact gives: maps, numbers, and how well they can be trusted.
-solve          Solve a contact: the pressure, and then whatever else the scene calls for.
+prepared       What a plan prepares once: heights, compliance and solver of an interface.
+plan           Plan of a contact: checked and prepared.
+solve          Solve a planned contact, and run the effects that observe it.
+friction_loop  Displacement caused by friction, until it agrees with the pressure.
+hardness_loop  Hardness that depends on the displacement, until they agree.
+film_loop      Load that includes the pull of a film: equilibria.
+work           Counts and seconds of a solve.
+result         Maps, numbers, and how well they were solved.
 """

@@ -1,4 +1,4 @@
-"""The load that a film adds to the one imposed, and how many equilibria there are."""
+"""Contact whose load includes the pull of a liquid film: smallest equilibrium, and further ones."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import InfeasibleError
 from .effects.film import FilmMeniscus, FilmPart
-from .engine import Counts, Engine, Target, cap_of
-from .hardness_loop import Solved, contact_of, solve_capped
+from .friction_loop import Target
+from .hardness_loop import Solved, contact_of, solve_with_hardness
 from .plan import ContactPlan
+from .work import WorkCounter
 
 if TYPE_CHECKING:
     from .effects.base import Contact
 
 __all__ = ["Pulled", "pulled_together"]
 
-_MOST_ROUNDS = 60
+_MOST_ITERATIONS = 60
 _MOST_IMBALANCE = 0.05  # of the load, at a step of the force
 
 
@@ -41,7 +42,7 @@ _Attempt = Callable[[float, _Trial | None], _Trial | None]
 
 
 def pulled_together(
-    plan: ContactPlan, engine: Engine, film: FilmMeniscus, target: Target, counts: Counts
+    plan: ContactPlan, film: FilmMeniscus, target: Target, counter: WorkCounter
 ) -> Pulled:
     """Find a load N on the contact with N = W + F(N), the smallest, and look for further ones.
 
@@ -56,9 +57,8 @@ def pulled_together(
     assert plan.mean_pressure is not None
     imposed = plan.mean_pressure * area
     largest = imposed + film.largest_force(plan.scene, plan.grid)
-    cap = cap_of(plan)
-    if cap is not None:
-        largest = min(largest, cap.most * area * (1.0 - 1e-6))
+    if plan.hardness is not None:
+        largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
 
     def attempt(load: float, start: _Trial | None) -> _Trial | None:
         near = target._replace(mean_pressure=load / area)
@@ -66,10 +66,10 @@ def pulled_together(
             hardness = start.solved.hardness if isinstance(start.solved.hardness, float) else None
             near = near._replace(start=start.solved.solution.pressure, hardness=hardness)
         try:
-            solved = solve_capped(plan, engine, near, counts)
+            solved = solve_with_hardness(plan, near, counter)
         except InfeasibleError:  # beyond what the hardness there can carry
             return None
-        contact = contact_of(plan, engine, solved)
+        contact = contact_of(plan, solved)
         part = film.observe(contact)
         return _Trial(load, imposed + part.force - load, solved, contact, part)
 
@@ -103,7 +103,7 @@ def _step(found: _Trial, gap: float) -> str:
 def _unsettled(gap: float) -> str:
     return (
         f"the load and the force of the film still differ by {gap:.2g} of the load after "
-        f"{_MOST_ROUNDS} iterations; use a larger Accuracy.rtol, or FilmMeniscus without "
+        f"{_MOST_ITERATIONS} iterations; use a larger Accuracy.rtol, or FilmMeniscus without "
         "self_consistent"
     )
 
@@ -121,7 +121,7 @@ def _smallest(
         )
     low, high, top = first, None, largest
     before = None
-    for _ in range(_MOST_ROUNDS):
+    for _ in range(_MOST_ITERATIONS):
         best = low if high is None or abs(low.excess) < abs(high.excess) else high
         if abs(best.excess) <= tolerance * best.load or top - low.load <= tolerance * top:
             return best, True

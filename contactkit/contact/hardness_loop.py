@@ -1,4 +1,4 @@
-"""The outer iterations of a contact: hardness that depends on displacement, load on the film."""
+"""Contact whose hardness agrees with the displacement it leads to: outer iterations."""
 
 from __future__ import annotations
 
@@ -7,19 +7,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..errors import InfeasibleError
-from .effects.base import Cap, Contact
-from .engine import Counts, Engine, Friction, Target, cap_of
+from .effects.base import Contact, HardnessLaw
+from .friction_loop import Friction, Target, solve_bounded
 from .plan import ContactPlan
 from .solver.contact_solver import Solution
+from .work import WorkCounter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Map = NDArray[np.float64]
 
-__all__ = ["Solved", "contact_of", "solve_capped"]
+__all__ = ["Solved", "contact_of", "solve_with_hardness"]
 
-_MOST_ROUNDS = 60
+_MOST_ITERATIONS = 60
 
 
 class Solved(NamedTuple):
@@ -31,20 +32,30 @@ class Solved(NamedTuple):
     problem: str = ""
 
 
-def contact_of(plan: ContactPlan, engine: Engine, solved: Solved) -> Contact:
+def contact_of(plan: ContactPlan, solved: Solved) -> Contact:
     """Show a solved contact to the effects."""
-    solution = solved.solution
+    solution, friction = solved.solution, solved.friction
     displacement = solution.displacement
-    if solved.friction is not None:
-        displacement = displacement + solved.friction.displacement
-    gap = displacement - engine.heights - solution.rigid_approach
+    if friction is not None:
+        displacement = displacement + friction.displacement
+    gap = displacement - plan.heights - solution.rigid_approach
+    overlap = np.maximum(-gap, 0.0) if solved.hardness is not None else None
     np.maximum(gap, 0.0, out=gap)
     return Contact(
-        plan.scene, plan.grid, solution.pressure, displacement, gap, plan.accuracy.threads
+        plan.scene,
+        plan.grid,
+        solution.pressure,
+        displacement,
+        gap,
+        plan.accuracy.threads,
+        overlap,
+        solved.hardness,
+        friction.displacement if friction is not None else None,
+        friction.pressure_without if friction is not None else None,
     )
 
 
-def solve_capped(plan: ContactPlan, engine: Engine, target: Target, counts: Counts) -> Solved:
+def solve_with_hardness(plan: ContactPlan, target: Target, counter: WorkCounter) -> Solved:
     """Solve a contact whose hardness, if it has one, agrees with its displacement.
 
     Raises
@@ -52,15 +63,21 @@ def solve_capped(plan: ContactPlan, engine: Engine, target: Target, counts: Coun
     InfeasibleError
         If the load exceeds what the hardness at the displacement reached can carry.
     """
-    cap = cap_of(plan)
-    if cap is None or cap.at is None:
+    law = plan.hardness
+    if law is None or law.at is None:
         hardness: Map | float | None = None
-        if cap is not None:
-            hardness = cap.given if cap.given is not None else cap.most
-        solution, friction = engine.solve(plan, target, hardness, counts)
-        return Solved(solution, hardness, friction, _problem(plan, solution, friction))
-    rounds = _local if cap.is_local else _bracketed
-    return rounds(plan, engine, target, counts, cap)
+        if law is not None:
+            hardness = law.values if law.values is not None else law.highest
+        return _solved(plan, target, hardness, counter)
+    iterate = _local if law.is_local else _bracketed
+    return iterate(plan, target, counter, law)
+
+
+def _solved(
+    plan: ContactPlan, target: Target, hardness: Map | float | None, counter: WorkCounter
+) -> Solved:
+    solution, friction = solve_bounded(plan, target, hardness, counter)
+    return Solved(solution, hardness, friction, _problem(plan, solution, friction))
 
 
 def _problem(plan: ContactPlan, solution: Solution, friction: Friction | None) -> str:
@@ -78,50 +95,47 @@ def _problem(plan: ContactPlan, solution: Solution, friction: Friction | None) -
     )
 
 
-def _deepest(engine: Engine, solution: Solution, cap: Cap) -> float:
+def _at_the_largest_displacement(plan: ContactPlan, solution: Solution, law: HardnessLaw) -> float:
     """Hardness [Pa] at the largest displacement of each body under contact."""
     touching = solution.pressure > 0.0
-    bodies = engine.displacements(solution.pressure, solution.displacement)
+    bodies = plan.prepared.displacements(solution.pressure, solution.displacement)
     largest = tuple(np.asarray(u[touching].max(initial=0.0)) for u in bodies)
-    assert cap.at is not None
-    return float(cap.at(largest))
+    assert law.at is not None
+    return float(law.at(largest))
 
 
-def _bracketed(
-    plan: ContactPlan, engine: Engine, target: Target, counts: Counts, cap: Cap
-) -> Solved:
-    """One hardness for all: fixed-point steps inside a bracket, so that they cannot cycle.
+def _bracketed(plan: ContactPlan, target: Target, counter: WorkCounter, law: HardnessLaw) -> Solved:
+    """One hardness for all: fixed-point iterations inside a bracket, so that they cannot cycle.
 
-    Where the rule asks for more hardness than was given the root lies above, else below. A
-    bracket that closes on no root of a rule that jumps is a jump, and is said to be one.
+    Where the law gives more hardness than was assumed the root lies above, else below. A bracket
+    that closes on no root of a law that jumps is a jump, and is reported as one.
     """
     tolerance = plan.accuracy.outer_rtol
-    low, high = cap.least, cap.most
+    low, high = law.lowest, law.highest
     if target.mean_pressure is not None:
         low = max(low, target.mean_pressure * (1.0 + 1e-9))
     is_low_tried = False
     guess = target.hardness
     trial = guess if guess is not None and low < guess < high else high
-    for _ in range(_MOST_ROUNDS):
-        solution, friction = engine.solve(plan, target, trial, counts)
-        solved = Solved(solution, trial, friction, _problem(plan, solution, friction))
-        asked = _deepest(engine, solution, cap)
-        if abs(asked - trial) <= tolerance * trial or solved.problem:
+    for _ in range(_MOST_ITERATIONS):
+        solved = _solved(plan, target, trial, counter)
+        found = _at_the_largest_displacement(plan, solved.solution, law)
+        if abs(found - trial) <= tolerance * trial or solved.problem:
             return solved
-        target = target._replace(start=solution.pressure)
-        if asked > trial:
+        target = target._replace(start=solved.solution.pressure)
+        if found > trial:
             low, is_low_tried = trial, True
         else:
             high = trial
         if high - low <= tolerance * high:
-            if target.mean_pressure is not None and asked < target.mean_pressure:
-                raise _too_soft(plan, target.mean_pressure, asked)
-            return solved._replace(problem=_jump(low, high, asked)) if cap.has_jumps else solved
-        is_inside = low < asked < high or (asked == low and not is_low_tried)
-        trial = asked if is_inside else 0.5 * (low + high)
+            if target.mean_pressure is not None and found < target.mean_pressure:
+                raise _too_soft(plan, target.mean_pressure, found)
+            return solved._replace(problem=_jump(low, high, found)) if law.has_jumps else solved
+        is_inside = low < found < high or (found == low and not is_low_tried)
+        trial = found if is_inside else 0.5 * (low + high)
     return solved._replace(
-        problem=f"the hardness is known to {high / low - 1.0:.2g} only after {_MOST_ROUNDS} "
-        "rounds; use a larger Accuracy.rtol"
+        problem=f"the hardness is known to {high / low - 1.0:.2g} only after {_MOST_ITERATIONS} "
+        "iterations; use a larger Accuracy.rtol"
     )
 
 
@@ -133,36 +147,36 @@ def _too_soft(plan: ContactPlan, load: float, hardness: float) -> InfeasibleErro
     )
 
 
-def _jump(low: float, high: float, asked: float) -> str:
+def _jump(low: float, high: float, found: float) -> str:
     return (
         f"the hardness rule jumps: no hardness between {low:.6g} and {high:.6g} Pa agrees with "
-        f"the displacement it leads to (which asks for {asked:.6g} Pa); use "
+        f"the displacement it leads to (which gives {found:.6g} Pa); use "
         "HardnessLimit(rule='continuous'), or another load"
     )
 
 
-def _local(plan: ContactPlan, engine: Engine, target: Target, counts: Counts, cap: Cap) -> Solved:
-    """A hardness for each pixel: damped fixed-point steps, given up when they do not contract."""
-    assert cap.at is not None
-    hardness: Any = np.full(plan.grid.shape, cap.most)
+def _local(plan: ContactPlan, target: Target, counter: WorkCounter, law: HardnessLaw) -> Solved:
+    """A hardness for each pixel: fixed-point iterations, damped where they do not contract."""
+    assert law.at is not None
+    hardness: Any = np.full(plan.grid.shape, law.highest)
     damping, last, least = 1.0, np.inf, np.inf
-    for _ in range(_MOST_ROUNDS):
-        solution, friction = engine.solve(plan, target, hardness, counts)
-        solved = Solved(solution, hardness, friction, _problem(plan, solution, friction))
-        bodies = engine.displacements(solution.pressure, solution.displacement)
-        asked = np.asarray(cap.at(tuple(np.maximum(u, 0.0) for u in bodies)))
-        change = float(np.abs(asked / hardness - 1.0)[solution.pressure > 0.0].max(initial=0.0))
+    for _ in range(_MOST_ITERATIONS):
+        solved = _solved(plan, target, hardness, counter)
+        solution = solved.solution
+        bodies = plan.prepared.displacements(solution.pressure, solution.displacement)
+        found = np.asarray(law.at(tuple(np.maximum(u, 0.0) for u in bodies)))
+        change = float(np.abs(found / hardness - 1.0)[solution.pressure > 0.0].max(initial=0.0))
         if change <= plan.accuracy.outer_rtol or solved.problem:
             return solved
-        if target.mean_pressure is not None and asked.mean() < target.mean_pressure:
-            raise _too_soft(plan, target.mean_pressure, float(asked.mean()))
+        if target.mean_pressure is not None and found.mean() < target.mean_pressure:
+            raise _too_soft(plan, target.mean_pressure, float(found.mean()))
         if change < least:
             best, least = solved, change
         damping = max(0.5 * damping, 0.05) if change > 0.9 * last else damping
         last = change
-        hardness = hardness + damping * (asked - hardness)
+        hardness = hardness + damping * (found - hardness)
         target = target._replace(start=np.minimum(solution.pressure, hardness))
     return best._replace(
-        problem=f"the local hardness still changes by {least:.2g} after {_MOST_ROUNDS} iterations; "
-        "use HardnessLimit(displacement='largest')"
+        problem=f"the local hardness still changes by {least:.2g} after {_MOST_ITERATIONS} "
+        "iterations; use HardnessLimit(displacement='largest')"
     )

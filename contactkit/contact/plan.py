@@ -1,43 +1,115 @@
-"""A contact made ready to solve: what will be simulated can be read before it is."""
+"""Plan of a contact: checked, with heights, compliance, solver and hardness prepared."""
 
 from __future__ import annotations
 
-from attrs import field, frozen
+from typing import TYPE_CHECKING
+
+from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
 from ..scene.effect import check_listed, choices
-from ..scene.loading import Approach
+from ..scene.loading import Approach, ContactLoading
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat
 from ..scene.window import Grid
-from .effects.base import Compliance, ContactEffect, DisplacementTerm, LoadTerm, PressureCap
+from .effects.base import (
+    Compliance,
+    ContactEffect,
+    DisplacementTerm,
+    HardnessLaw,
+    LoadTerm,
+    PressureBound,
+)
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS
 from .grid import grid_of
+from .prepared import Preparation, PreparedInterface, interface_key
 
-__all__ = ["ContactPlan", "plan_contact"]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = ["ContactPlan", "hardness_of", "plan_contact", "unprepared_plan"]
 
 
 @frozen(eq=False)
 class ContactPlan:
-    """A checked contact scene on its grid.
+    """A checked contact scene on its grid, with everything prepared that the load does not change.
 
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
+    `with_loading` is the same interface under another load: nothing is prepared again.
+
+    Attributes
+    ----------
+    scene : ContactScene
+        What is simulated.
+    accuracy : Accuracy
+        How well it is solved.
+    grid : Grid
+        Pixels of the window.
+    hardness : HardnessLaw or None
+        Upper bound of the pressure; None where the scene lists none.
     """
 
     scene: ContactScene
     accuracy: Accuracy
     grid: Grid = field(repr=False)
+    hardness: HardnessLaw | None = field(repr=False)
+    _preparation: Preparation = field(factory=Preparation, repr=False)
 
     def has(self, kind: type[ContactEffect]) -> bool:
         """Whether the scene calls for an effect."""
         return any(type(effect) is kind for effect in self.scene.effects)
 
     @property
+    def prepared(self) -> PreparedInterface:
+        """Heights, compliance and solver of the interface."""
+        return self._preparation.interface(self.scene, self.grid, self.accuracy.threads)
+
+    @property
+    def heights(self) -> Map:
+        """Heights of both bodies together [m], (ny, nx), read-only."""
+        return self.prepared.heights
+
+    @property
     def mean_pressure(self) -> float | None:
         """Mean pressure over the window [Pa]; None if the approach is imposed."""
         return self.scene.loading.mean_pressure(self.grid.area)
+
+    @property
+    def rigid_approach(self) -> float | None:
+        """Imposed approach of the zero plane of the heights [m]; None if a load is imposed."""
+        loading = self.scene.loading
+        if not isinstance(loading, Approach):
+            return None
+        return self.prepared.first_touch + loading.approach
+
+    def has_interface_of(self, other: ContactPlan) -> bool:
+        """Whether another plan is of the same surfaces, compliance and grid."""
+        mine, theirs = (
+            interface_key(one.scene, one.grid, one.accuracy.threads) for one in (self, other)
+        )
+        return mine == theirs
+
+    def with_loading(self, loading: ContactLoading) -> ContactPlan:
+        """Return the plan of the same interface under another loading.
+
+        Raises
+        ------
+        PlanError, InfeasibleError
+            As `plan` does.
+        """
+        made = evolve(self, scene=evolve(self.scene, loading=loading))
+        _check_load(made)
+        _check_approach(made, made.prepared)
+        return made
+
+    def without_preparation(self) -> ContactPlan:
+        """Return the plan without what it holds in memory; it prepares again if it is solved."""
+        return evolve(self, preparation=Preparation())
 
     def cite(self) -> str:
         """Sources of the equations of this run, one to a line."""
@@ -63,8 +135,10 @@ class ContactPlan:
         return "\n".join([title, *on, *off])
 
 
-def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
-    """Check the effects of a contact scene, and its load, before any work.
+def plan_contact(
+    scene: ContactScene, accuracy: Accuracy | None = None, like: ContactPlan | None = None
+) -> ContactPlan:
+    """Check a contact scene and prepare its solve.
 
     Parameters
     ----------
@@ -72,19 +146,47 @@ def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> Conta
         What is there and which physics it calls for.
     accuracy : Accuracy, optional
         How well to solve; `Accuracy.standard` if not given.
+    like : ContactPlan, optional
+        A plan that is done with: what it prepared is taken over if surfaces, grid and compliance
+        are the same, and released if not.
 
     Raises
     ------
     PlanError
         If an effect is listed twice, lacks something, or does not fit the others.
+    DescriptionError
+        If the surfaces do not fit the grid.
     InfeasibleError
-        If the bodies cannot carry the load.
+        If the bodies cannot carry the load, or no load brings them to the approach.
+    """
+    made = unprepared_plan(scene, accuracy)
+    if like is not None:
+        made = evolve(made, preparation=like._preparation)
+    _check_approach(made, made.prepared)
+    return made
+
+
+def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
+    """Check effects and load of a contact scene; what is costly waits until it is needed.
+
+    Raises
+    ------
+    PlanError, DescriptionError, InfeasibleError
+        As `plan_contact`, but for what only the heights show.
     """
     _check_bodies(scene)
     _check_effects(scene)
-    made = ContactPlan(scene, accuracy or Accuracy.standard, grid_of(scene, accuracy))
+    accuracy = accuracy or Accuracy.standard
+    grid = grid_of(scene, accuracy)
+    made = ContactPlan(scene, accuracy, grid, hardness_of(scene, grid))
     _check_load(made)
     return made
+
+
+def hardness_of(scene: ContactScene, grid: Grid) -> HardnessLaw | None:
+    """Upper bound of the pressure that a scene lists; None if it lists none."""
+    bound = scene.effect(PressureBound)  # type: ignore[type-abstract]
+    return bound.prepare(scene, grid) if bound is not None else None
 
 
 def _check_bodies(scene: ContactScene) -> None:
@@ -128,26 +230,36 @@ def _check_effects(scene: ContactScene) -> None:
         ]
     if problems:
         raise PlanError("; ".join(problems))
-    if isinstance(scene.loading, Approach):
+
+
+def _check_load(made: ContactPlan) -> None:
+    """Refuse a load above hardness x area, and a film that adds to no load."""
+    load, scene = made.mean_pressure, made.scene
+    if load is None:
         for effect in scene.effects:
             if isinstance(effect, LoadTerm) and getattr(effect, "self_consistent", False):
                 raise PlanError(
                     f"{type(effect).__name__}(self_consistent=True) adds its force to a load, and "
                     "Approach(approach=...) imposes none; impose pressure or force, or leave it out"
                 )
-
-
-def _check_load(made: ContactPlan) -> None:
-    """A load above hardness x area is refused before any work."""
-    load, scene = made.mean_pressure, made.scene
-    cap = scene.effect(PressureCap)  # type: ignore[type-abstract]
-    if cap is None or load is None:
-        return
-    most = cap.prepare(scene, made.grid).most
-    if load >= most and load > 0.0:
-        area = made.grid.area
+    elif made.hardness is not None and load >= made.hardness.highest and load > 0.0:
+        highest, area = made.hardness.highest, made.grid.area
         raise InfeasibleError(
-            f"load {load * area:.6g} N reaches H*A = {most * area:.6g} N, the hardness of "
-            f"{most:.6g} Pa over the whole window of {area:.6g} m2: the bodies cannot carry it; "
+            f"load {load * area:.6g} N reaches H*A = {highest * area:.6g} N, the hardness of "
+            f"{highest:.6g} Pa over the whole window of {area:.6g} m2: the bodies cannot carry it; "
             "lower the load, or leave HardnessLimit out"
+        )
+
+
+def _check_approach(made: ContactPlan, interface: PreparedInterface) -> None:
+    """Refuse an approach at which no load closes a periodic window further."""
+    loading, heights = made.scene.loading, interface.heights
+    if not isinstance(loading, Approach) or made.hardness is not None or not made.grid.periodic:
+        return
+    limit = float(heights.max() - heights.mean())
+    if loading.approach >= limit:
+        raise InfeasibleError(
+            f"an approach of {loading.approach:.6g} m reaches the mean plane of the heights, "
+            f"{limit:.6g} m from first touch, where the gap of a periodic window is closed under "
+            "any load; impose pressure or force, or use Window(periodic=False)"
         )

@@ -1,67 +1,28 @@
-"""What a contact gives: maps, numbers, and how well they can be trusted."""
+"""Result of a contact: maps, numbers, what each effect did, and how well it was solved."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from attrs import field, frozen
 
 from ..errors import NotSimulatedError
 from .effects.base import ContactEffect
-from .effects.film import FilmMeniscus
-from .effects.friction import FrictionCoupling, FrictionTraction
-from .effects.island_bridges import IslandBridges, scalars_of
 from .effects.plasticity import HardnessLimit
-from .effects.stress import SubsurfaceStress
 from .plan import ContactPlan
+from .work import ContactWork
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Map = NDArray[np.float64]
 
-__all__ = ["ContactResult", "ContactWork", "CouplingPart", "PlasticPart"]
+__all__ = ["ContactResult"]
 
-
-class ContactWork(NamedTuple):
-    """What a contact cost: counts on the full grid, and seconds by stage."""
-
-    n_solves: int
-    n_operator_applications: int
-    n_ffts: int
-    n_coarse_iterations: int
-    n_iterations: int
-    has_fallen_back: bool
-    seconds: float
-    stages: Mapping[str, float]
-
-
-class PlasticPart(NamedTuple):
-    """Where the bodies are plastic (ny, nx), over which area [m2], at which hardness [Pa].
-
-    `overlap` is the depth (ny, nx) [m] that the elastic surfaces would overlap there: what
-    plastic flow has to make room for.
-    """
-
-    is_plastic: NDArray[np.bool_]
-    area: float
-    hardness: Map | float
-    overlap: Map
-
-
-class CouplingPart(NamedTuple):
-    """Normal displacement that friction causes (ny, nx) [m], and what it changed.
-
-    `pressure_change` is the largest change of the pressure over its maximum [-], `area_change`
-    the change of the contact area over that without coupling [-].
-    """
-
-    displacement: Map
-    pressure_change: float
-    area_change: float
+_Part = TypeVar("_Part")
 
 
 @frozen(eq=False)
@@ -71,7 +32,7 @@ class ContactResult:
     Attributes
     ----------
     plan : ContactPlan
-        What was run.
+        What was run; what it had prepared is released.
     status : str
         ``converged``, ``no contact``, or ``not converged``.
     message : str
@@ -79,8 +40,9 @@ class ContactResult:
     pressure, gap, displacement, heights : ndarray (ny, nx)
         Pressure [Pa], gap [m], normal displacement of both surfaces together [m], and heights of
         both bodies together [m].
-    level : float
-        Rigid displacement of the heights [m]: gap = displacement - heights - level.
+    rigid_approach : float
+        Rigid-body approach of the zero plane of the heights [m]: gap = displacement - heights -
+        rigid_approach.
     residual : float
         Largest violation of the contact conditions over the rms height [-].
     energy : float
@@ -96,26 +58,26 @@ class ContactResult:
     gap: Map = field(repr=False)
     displacement: Map = field(repr=False)
     heights: Map = field(repr=False)
-    level: float
+    rigid_approach: float
     residual: float
     energy: float
     work: ContactWork
-    parts: Mapping[type[ContactEffect], Any] = field(repr=False)
+    parts: Mapping[type[ContactEffect[Any]], Any] = field(repr=False)
 
     @property
     def contact(self) -> NDArray[np.bool_]:
-        """Where the bodies touch (ny, nx): where the pressure is not zero."""
+        """Pixels in contact (ny, nx): where the pressure is not zero."""
         touching: NDArray[np.bool_] = self.pressure > 0.0
         return touching
 
     @property
     def contact_area(self) -> float:
-        """Real area of contact [m2], counted in pixels."""
+        """Real area of contact [m2], as a count of pixels."""
         return float(self.contact.sum()) * self.plan.grid.pixel_area
 
     @property
     def corrected_contact_area(self) -> float:
-        """Real area of contact [m2] without the excess of pixels cut by its edge.
+        """Real area of contact [m2], edge-corrected: without the excess of pixels cut by its edge.
 
         The edges between pixels in and out of contact, of total length S, carry an excess of
         ``(pi - 1 + ln 2)/24 S dx`` on average over the directions of a smooth edge (Yastrebov,
@@ -144,22 +106,22 @@ class ContactResult:
 
     @property
     def max_pressure(self) -> float:
-        """Largest pressure [Pa]."""
+        """Maximum of the pressure [Pa]."""
         return float(self.pressure.max())
 
     @property
     def max_displacement(self) -> float:
-        """Largest displacement under contact [m], from the datum of `approach_datum`."""
+        """Maximum displacement under contact [m], from the datum of `approach_datum`."""
         return float(self.displacement[self.contact].max(initial=0.0))
 
     @property
     def approach(self) -> float:
-        """Rigid approach of the bodies from first touch [m]."""
-        return self.level + float(self.heights.max())
+        """Rigid-body approach from first touch [m]."""
+        return self.rigid_approach + float(self.heights.max())
 
     @property
     def approach_datum(self) -> str:
-        """What approach and displacement are measured against."""
+        """Datum of approach and displacement."""
         if self.plan.grid.periodic:
             return "the mean plane of the deformed surfaces"
         return "points of the bodies far from the contact"
@@ -167,9 +129,9 @@ class ContactResult:
     @property
     def plastic_area(self) -> float:
         """Area at the hardness [m2]; raises without `HardnessLimit`."""
-        return float(self.of(HardnessLimit).area)
+        return self.of(HardnessLimit).area
 
-    def of(self, kind: type[ContactEffect]) -> Any:
+    def of(self, kind: type[ContactEffect[_Part]]) -> _Part:
         """Return what an effect did.
 
         Raises
@@ -185,7 +147,8 @@ class ContactResult:
             raise NotSimulatedError(
                 f"{kind.__name__} has no part of its own; see result.displacement"
             )
-        return self.parts[kind]
+        part: _Part = self.parts[kind]
+        return part
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
@@ -199,9 +162,9 @@ class ContactResult:
             "max_displacement": (self.max_displacement, "m"),
             "approach": (self.approach, "m"),
         }
-        for kind, scalars in _SCALARS.items():
-            if kind in self.parts:
-                found |= scalars(self.parts[kind], self)
+        for kind, part in self.parts.items():
+            read = ((scalar, scalar.read(part)) for scalar in kind.scalars)
+            found |= {one.name: (value, one.unit) for one, value in read if value is not None}
         return found | {"residual": (self.residual, "-"), "energy": (self.energy, "J")}
 
 
@@ -211,42 +174,3 @@ def _edges(touching: NDArray[np.bool_], axis: int, periodic: bool) -> int:
         return int((touching ^ np.roll(touching, 1, axis)).sum())
     inner = int(np.diff(touching, axis=axis).sum())
     return inner + int(touching.take([0, -1], axis).sum())
-
-
-def _plastic_scalars(part: PlasticPart, result: ContactResult) -> dict[str, tuple[float, str]]:
-    area = result.plan.grid.area
-    found = {
-        "plastic_area": (part.area, "m2"),
-        "plastic_fraction": (part.area / area, "-"),
-        "max_overlap": (float(part.overlap.max()), "m"),
-    }
-    if isinstance(part.hardness, float):
-        found["hardness"] = (part.hardness, "Pa")
-    return found
-
-
-def _film_scalars(part: Any, result: ContactResult) -> dict[str, tuple[float, str]]:
-    return {
-        "meniscus_force": (part.force, "N"),
-        "relative_meniscus_force": (part.relative_force, "-"),
-        "meniscus_area": (part.area, "m2"),
-        "n_menisci": (part.n_menisci, "-"),
-        "n_equilibria": (len(part.equilibria), "-"),
-    }
-
-
-def _coupling_scalars(part: CouplingPart, result: ContactResult) -> dict[str, tuple[float, str]]:
-    return {
-        "coupling_pressure_change": (part.pressure_change, "-"),
-        "coupling_area_change": (part.area_change, "-"),
-    }
-
-
-_SCALARS: dict[type[ContactEffect], Any] = {
-    HardnessLimit: _plastic_scalars,
-    FrictionTraction: lambda part, result: {"friction_force": (part.force, "N")},
-    FrictionCoupling: _coupling_scalars,
-    FilmMeniscus: _film_scalars,
-    IslandBridges: lambda part, result: scalars_of(part),
-    SubsurfaceStress: lambda part, result: part.scalars(),
-}

@@ -1,27 +1,25 @@
-"""Solve a contact: the pressure, and then whatever else the scene calls for."""
+"""Solve a planned contact: the pressure, and then what else the scene lists."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ConvergenceError, DescriptionError
-from ..scene.loading import Approach
-from .effects.base import Contact, LoadTerm, Observer, PressureCap
+from .effects.base import Contact, LoadTerm
 from .effects.film import FilmMeniscus
-from .effects.friction import FrictionCoupling
 from .effects.plasticity import HardnessLimit
-from .engine import Counts, Engine, Friction, Target, interface_key
 from .film_loop import pulled_together
-from .hardness_loop import Solved, contact_of, solve_capped
+from .friction_loop import Target
+from .hardness_loop import Solved, contact_of, solve_with_hardness
 from .plan import ContactPlan
-from .result import ContactResult, ContactWork, CouplingPart, PlasticPart
+from .result import ContactResult
+from .work import WorkCounter
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     Map = NDArray[np.float64]
@@ -29,11 +27,18 @@ if TYPE_CHECKING:
 __all__ = ["solve"]
 
 
+class _Answer(NamedTuple):
+    """A solved contact, as the solver and as the effects see it, and what the effects did."""
+
+    solved: Solved
+    contact: Contact
+    parts: dict[Any, Any]
+
+
 def solve(
     plan: ContactPlan,
     *,
     start: ContactResult | Sequence[ContactResult] | None = None,
-    engine: Engine | None = None,
     throw: bool = True,
 ) -> ContactResult:
     """Solve a contact.
@@ -45,9 +50,6 @@ def solve(
     start : ContactResult or sequence of them, optional
         Results nearby, such as those of the loads before, the newest first: where the solve
         begins. Of several under other loads the pressure is extrapolated.
-    engine : Engine, optional
-        Heights and compliance made for a plan with the same interface, grid and elastic law, to
-        be used again.
     throw : bool
         Raise where the tolerance is not reached; otherwise return what was reached, with status
         ``not converged``.
@@ -82,29 +84,16 @@ def solve(
     >>> f"{result.max_pressure / 1e9:.2f} GPa, approach {result.approach * 1e9:.1f} nm"
     '1.27 GPa, approach 75.0 nm'
     """
-    begun = time.perf_counter()
-    if engine is None:
-        engine = Engine(plan)
-    elif engine.key != interface_key(plan):
-        raise DescriptionError(
-            "engine", "one of another interface", "be made for the same interface, grid and law"
-        )
-    counts = Counts()
-    counts.seconds["setup"] = engine.setup_seconds
-    target = _target(plan, engine, start)
-    solved, contact, film = _solve_all(plan, engine, target, counts)
-    parts = _parts(plan, engine, solved, contact, counts)
-    if film is not None:
-        parts[FilmMeniscus] = film
-    result = _result(plan, engine, solved, contact, parts, counts, begun)
-    if solved.problem and throw:
-        raise ConvergenceError(solved.problem, result)
+    counter = WorkCounter()
+    target = _target(plan, start)
+    answer = _solve_all(plan, target, counter)
+    result = _result(plan, answer, counter)
+    if answer.solved.problem and throw:
+        raise ConvergenceError(answer.solved.problem, result)
     return result
 
 
-def _target(
-    plan: ContactPlan, engine: Engine, start: ContactResult | Sequence[ContactResult] | None
-) -> Target:
+def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | None) -> Target:
     before = [start] if isinstance(start, ContactResult) else list(start or ())
     for one in before:
         if one.pressure.shape != plan.grid.shape:
@@ -113,109 +102,53 @@ def _target(
                 f"a result on {one.pressure.shape} pixels",
                 f"be one on {plan.grid.shape} pixels",
             )
-    loading = plan.scene.loading
-    level = engine.first_touch + loading.approach if isinstance(loading, Approach) else None
     plastic = before[0].parts.get(HardnessLimit) if before else None
     hardness = getattr(plastic, "hardness", None)
     near = hardness if isinstance(hardness, float) else None
     pressures = [(one.mean_pressure, one.pressure) for one in before] or None
-    return Target(plan.mean_pressure, level, pressures, near)
+    return Target(plan.mean_pressure, plan.rigid_approach, pressures, near)
 
 
-def _solve_all(
-    plan: ContactPlan, engine: Engine, target: Target, counts: Counts
-) -> tuple[Solved, Contact, Any]:
-    """Solve the contact, with the pull of the film if that acts back on it."""
+def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answer:
+    """Solve the contact, with the pull of the film if that acts back on it; run the effects."""
+    parts: dict[Any, Any] = {}
     film = plan.scene.effect(LoadTerm)  # type: ignore[type-abstract]
     if isinstance(film, FilmMeniscus) and film.self_consistent:
         begun = time.perf_counter()
-        pulled = pulled_together(plan, engine, film, target, counts)
-        counts.clock("film", begun)
-        return pulled.solved, pulled.contact, pulled.film
-    solved = solve_capped(plan, engine, target, counts)
-    contact = contact_of(plan, engine, solved)
-    begun = time.perf_counter()
-    part = film.observe(contact) if film is not None else None
-    if part is not None:
-        counts.clock("film", begun)
-    return solved, contact, part
-
-
-def _parts(
-    plan: ContactPlan, engine: Engine, solved: Solved, contact: Contact, counts: Counts
-) -> dict[Any, Any]:
-    parts: dict[Any, Any] = {}
-    if plan.scene.effect(PressureCap) is not None:  # type: ignore[type-abstract]
-        parts[HardnessLimit] = _plastic(engine, solved, contact)
-    if solved.friction is not None:
-        parts[FrictionCoupling] = _coupling(solved.friction, contact)
+        solved, contact, parts[FilmMeniscus] = pulled_together(plan, film, target, counter)
+        counter.clock(film.name, begun)
+    else:
+        solved = solve_with_hardness(plan, target, counter)
+        contact = contact_of(plan, solved)
     for effect in plan.scene.effects:
-        if isinstance(effect, Observer):
-            begun = time.perf_counter()
-            parts[type(effect)] = effect.observe(contact)
-            counts.clock(effect.name, begun)
-    return parts
+        begun = time.perf_counter()
+        if type(effect) not in parts and (part := effect.observe(contact)) is not None:
+            parts[type(effect)] = part
+            counter.clock(effect.name, begun)
+    return _Answer(solved, contact, parts)
 
 
-def _plastic(engine: Engine, solved: Solved, contact: Contact) -> PlasticPart:
-    """Pixels at the hardness, to the rounding of the bound."""
-    assert solved.hardness is not None
-    at_bound = contact.pressure >= np.asarray(solved.hardness) * (1.0 - 1e-12)
-    is_plastic = at_bound & (contact.pressure > 0.0)
-    overlap = engine.heights + solved.solution.rigid_approach - contact.displacement
-    overlap = np.where(is_plastic, np.maximum(overlap, 0.0), 0.0)
-    area = float(is_plastic.sum()) * contact.grid.pixel_area
-    return PlasticPart(is_plastic, area, solved.hardness, overlap)
-
-
-def _coupling(friction: Friction, contact: Contact) -> CouplingPart:
-    """Compare with the contact without coupling, of the same load and hardness."""
-    without = friction.pressure_without
-    largest = max(float(without.max()), np.finfo(float).tiny)
-    change = float(np.abs(contact.pressure - without).max()) / largest
-    n_without = max(int((without > 0.0).sum()), 1)
-    area = int((contact.pressure > 0.0).sum()) / n_without - 1.0
-    return CouplingPart(friction.displacement, change, area)
-
-
-def _result(
-    plan: ContactPlan,
-    engine: Engine,
-    solved: Solved,
-    contact: Contact,
-    parts: dict[Any, Any],
-    counts: Counts,
-    begun: float,
-) -> ContactResult:
+def _result(plan: ContactPlan, answer: _Answer, counter: WorkCounter) -> ContactResult:
+    solved, contact, parts = answer
     solution = solved.solution
     touches = bool(contact.pressure.any())
     status = "not converged" if solved.problem else ("converged" if touches else "no contact")
     message = solved.problem or (
         f"{status}: contact conditions met to {solution.kkt:.1e} of the rms height"
     )
-    work = ContactWork(
-        counts.n_solves,
-        counts.n_operator_applications,
-        counts.n_ffts,
-        counts.n_coarse,
-        counts.n_iterations,
-        counts.has_fallen_back,
-        time.perf_counter() - begun,
-        MappingProxyType(dict(counts.seconds)),
-    )
-    for one in (contact.pressure, contact.gap, contact.displacement, engine.heights):
+    for one in (contact.pressure, contact.gap, contact.displacement):
         one.flags.writeable = False
     return ContactResult(
-        plan,
-        status,
-        message,
-        contact.pressure,
-        contact.gap,
-        contact.displacement,
-        engine.heights,
-        solution.rigid_approach,
-        solution.kkt,
-        solution.energy,
-        work,
-        MappingProxyType(parts),
+        plan=plan.without_preparation(),
+        status=status,
+        message=message,
+        pressure=contact.pressure,
+        gap=contact.gap,
+        displacement=contact.displacement,
+        heights=plan.heights,
+        rigid_approach=solution.rigid_approach,
+        residual=solution.kkt,
+        energy=solution.energy,
+        work=counter.work(),
+        parts=MappingProxyType(parts),
     )

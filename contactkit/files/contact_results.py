@@ -11,13 +11,10 @@ import attrs
 import numpy as np
 
 from ..accuracy import Accuracy
-from ..contact.effects.film import FilmPart
-from ..contact.effects.friction import FrictionPart
-from ..contact.effects.island_bridges import IslandPart
 from ..contact.effects.registry import CONTACT_EFFECTS
-from ..contact.effects.stress import StressPart
-from ..contact.plan import ContactPlan
-from ..contact.result import ContactResult, ContactWork, CouplingPart, PlasticPart
+from ..contact.plan import ContactPlan, hardness_of
+from ..contact.result import ContactResult
+from ..contact.work import ContactWork
 from ..scene.scenes import ContactScene
 from ..scene.window import Grid
 from .structure import structure, unstructure, with_arrays
@@ -51,7 +48,7 @@ def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
         "accuracy": attrs.asdict(made.accuracy),
         "status": result.status,
         "message": result.message,
-        "level": result.level,
+        "rigid_approach": result.rigid_approach,
         "residual": result.residual,
         "energy": result.energy,
         "scalars": {n: [_encode(v, n, arrays), unit] for n, (v, unit) in result.scalars().items()},
@@ -68,21 +65,20 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     """
     scene = structure(with_arrays(header["scene"], arrays), ContactScene, name)
     (ny, nx), (dy, dx), periodic = header["grid"]
-    made = ContactPlan(scene, Accuracy(**header["accuracy"]), Grid((ny, nx), (dy, dx), periodic))
-    work, effects = header["work"], CONTACT_EFFECTS.by_name
+    grid, work = Grid((ny, nx), (dy, dx), periodic), header["work"]
+    accuracy = Accuracy(**header["accuracy"])
     return ContactResult(
-        made,
-        header["status"],
-        header["message"],
-        arrays["pressure"],
-        arrays["gap"],
-        arrays["displacement"],
-        arrays["heights"],
-        header["level"],
-        header["residual"],
-        header["energy"],
-        ContactWork(**work | {"stages": MappingProxyType(work["stages"])}),
-        MappingProxyType({effects[n]: _decode(p, arrays) for n, p in header["parts"].items()}),
+        plan=ContactPlan(scene, accuracy, grid, hardness_of(scene, grid)),
+        status=header["status"],
+        message=header["message"],
+        **{name: arrays[name] for name in _MAPS},
+        rigid_approach=header["rigid_approach"],
+        residual=header["residual"],
+        energy=header["energy"],
+        work=ContactWork(**work | {"stages": MappingProxyType(work["stages"])}),
+        parts=MappingProxyType(
+            {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}
+        ),
     )
 
 
@@ -123,10 +119,5 @@ def _decode(value: Any, arrays: Arrays) -> Any:
 
 
 def _record(name: str) -> Any:
-    """Find the kind of a record by its name."""
-    if name == "Maximum":
-        from ..elasticity.stress.measures import Maximum
-
-        return Maximum
-    kinds = (CouplingPart, FilmPart, FrictionPart, IslandPart, PlasticPart, StressPart)
-    return {kind.__name__: kind for kind in kinds}[name]
+    """Find the kind of a record by its name among those that the effects declare."""
+    return next(one for kind in CONTACT_EFFECTS for one in kind.records if one.__name__ == name)

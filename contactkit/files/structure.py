@@ -261,7 +261,7 @@ for _matches, _hook in (
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
+    (lambda kind: (get_origin(kind) or kind) is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these take for their fields.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs import field, frozen
 
@@ -84,7 +84,7 @@ class ContactScene(Scene):
 
     window: Window = field(factory=Window, validator=part(Window))
     loading: ContactLoading = field(validator=part(*CONTACT_LOADINGS))
-    effects: tuple[ContactEffect, ...] = field(converter=as_tuple)
+    effects: tuple[ContactEffect[Any], ...] = field(converter=as_tuple)
 
 
 @frozen(kw_only=True)

@@ -16,13 +16,13 @@ from typing import Any, NamedTuple
 from attrs import frozen
 
 from ..accuracy import Accuracy
-from ..contact.engine import Engine, interface_key
-from ..contact.plan import ContactPlan
+from ..contact.plan import ContactPlan, plan_contact
 from ..contact.result import ContactResult
 from ..contact.solve import solve
 from ..errors import ContactkitError, ConvergenceError, InfeasibleError
 from ..files.results import Result, to_bytes
 from ..planning import plan
+from ..scene.scenes import ContactScene
 from ..separation.simulate import simulate
 from .paths import Scene, changed
 from .store import Store, StudyPoint
@@ -79,21 +79,20 @@ class Done(NamedTuple):
 
 
 class _Chain:
-    """State passed from one solve to the next: engine, and pressures for the initial guess."""
+    """State passed from one solve to the next: plan, and pressures for the initial guess."""
 
     def __init__(self) -> None:
-        self._engine: Engine | None = None
+        self._plan: ContactPlan | None = None
         self._before: list[ContactResult] = []
 
     def run(self, scene: Scene, accuracy: Accuracy) -> Result:
-        made = plan(scene, accuracy)
-        if not isinstance(made, ContactPlan):
-            return simulate(made)
-        if self._engine is None or self._engine.key != interface_key(made):
-            self._engine = None  # never two of them in memory
-            self._engine = Engine(made)
-            self._before = [r for r in self._before if r.pressure.shape == made.grid.shape][:1]
-        result = solve(made, start=self._before, engine=self._engine)
+        if not isinstance(scene, ContactScene):
+            return simulate(plan(scene, accuracy))
+        last, self._plan = self._plan, plan_contact(scene, accuracy, like=self._plan)
+        if last is None or not self._plan.has_interface_of(last):
+            shape = self._plan.grid.shape
+            self._before = [r for r in self._before if r.pressure.shape == shape][:1]
+        result = solve(self._plan, start=self._before)
         self._before = [result, *self._before[: _MAX_BEFORE - 1]]
         return result
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import evolve
 
 from ..accuracy import Accuracy
+from ..contact.plan import unprepared_plan
 from ..errors import DescriptionError, InfeasibleError, PlanError, ValidityWarning
 from ..files.results import from_bytes
 from ..planning import plan
@@ -190,7 +191,10 @@ class _Run:
         if pieces:
             scene, accuracy = changed(self.scene, self.accuracy, pieces[0].tasks[0].values)
             with suppress(InfeasibleError):  # concerns this point only
-                plan(scene, accuracy)
+                if isinstance(scene, ContactScene):
+                    unprepared_plan(scene, accuracy)
+                else:
+                    plan(scene, accuracy)
         if self.progress is not None and (self.n_done or not pieces):
             self.progress(self.n_done / len(self.tasks))
 

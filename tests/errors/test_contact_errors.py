@@ -587,16 +587,10 @@ def test_a_tolerance_below_round_off_is_told_from_a_lack_of_steps(method):
     assert caught.value.result.work.n_operator_applications < 1000
 
 
-def test_a_start_or_an_engine_of_another_contact_is_refused():
-    from contactkit.contact.engine import Engine
-
+def test_a_start_of_another_grid_is_refused():
     plan = ck.plan(scene(), ck.Accuracy(grid=64))
     small = ck.solve(ck.plan(scene(surface=WAVE), ck.Accuracy(grid=32)))
     refuses(lambda: ck.solve(plan, start=small), "start must be one on (64, 64) pixels", "(32, 32)")
-    refuses(
-        lambda: ck.solve(plan, engine=Engine(ck.plan(scene(surface=WAVE), ck.Accuracy(grid=64)))),
-        "engine must be made for the same interface, grid and law",
-    )
 
 
 def test_the_arrays_of_a_result_are_read_only():

@@ -45,7 +45,7 @@ def nothing_solved(monkeypatch):
         raise AssertionError("something was solved")
 
     monkeypatch.setattr(study_run, "solve", solve)
-    monkeypatch.setattr(study_run, "Engine", solve)
+    monkeypatch.setattr(study_run, "plan_contact", solve)
 
 
 PATHS = {

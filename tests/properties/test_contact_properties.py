@@ -77,7 +77,7 @@ def test_the_contact_conditions_hold_at_every_pixel(heights, pixel, solid, load,
     assert p.sum() * pixel[0] * pixel[1] == pytest.approx(load * run.plan.grid.area, rel=1e-11)
     assert gap.min() >= 0.0
     assert (p * gap).max() <= 4e-8 * length * p.max()
-    overlap = run.heights + run.level - run.displacement
+    overlap = run.heights + run.rigid_approach - run.displacement
     assert overlap[p < most * (1.0 - 1e-9)].max(initial=0.0) <= 4e-8 * length
     if hardness is not None:
         part = run.of(ck.HardnessLimit)

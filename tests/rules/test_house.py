@@ -24,7 +24,7 @@ from contactkit.contact.effects.base import (
     DisplacementTerm,
     LoadTerm,
     Observer,
-    PressureCap,
+    PressureBound,
 )
 from contactkit.liquids.liquid import LAWS
 from contactkit.separation.effects.base import (
@@ -207,7 +207,7 @@ ROLES = (
     FilmLimit,
     FilmEnd,
     Compliance,
-    PressureCap,
+    PressureBound,
     LoadTerm,
     DisplacementTerm,
     Observer,

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.contact import prepared
 from contactkit.studies import run as study_run
 from contactkit.studies.study import StudyPoint
 
@@ -89,15 +90,14 @@ def test_the_last_thing_varied_varies_fastest():
     assert friction == pytest.approx(np.array([[[0.1e-5, 0.4e-5], [0.2e-5, 0.8e-5]]] * 2), rel=1e-9)
 
 
-def test_a_chain_makes_its_engine_once(monkeypatch):
-    made = []
+def test_a_chain_prepares_its_interface_once(monkeypatch):
+    made, solver = [], prepared.ContactSolver
 
-    class Counted(study_run.Engine):
-        def __init__(self, plan):
-            made.append(plan)
-            super().__init__(plan)
+    def counted(*arguments, **named):
+        made.append(arguments)
+        return solver(*arguments, **named)
 
-    monkeypatch.setattr(study_run, "Engine", Counted)
+    monkeypatch.setattr(prepared, "ContactSolver", counted)
     vary = {THICKNESS: [1e-8, 2e-8], "loading.pressure": PRESSURES}
     study = ck.study(contact(), vary, ACCURACY)
     assert len(made) == 2
@@ -108,9 +108,9 @@ def test_a_chain_starts_from_its_neighbour(monkeypatch):
     """Not over a point without an answer, nor where the grid is another one."""
     starts = []
 
-    def solve(plan, *, start, engine):
+    def solve(plan, *, start):
         starts.append(start[0].mean_pressure if start else None)
-        return ck.solve(plan, start=start, engine=engine)
+        return ck.solve(plan, start=start)
 
     monkeypatch.setattr(study_run, "solve", solve)
     scene = contact(ck.HardnessLimit(rule="material"))
@@ -367,6 +367,7 @@ SLOW = """
 import signal, sys, time
 sys.path.insert(0, sys.argv[1])
 import test_studies
+from contactkit.contact import prepared
 from contactkit.studies import run as study_run
 
 # A job in the background of a shell is started deaf to it.

@@ -15,10 +15,9 @@ import numpy as np
 from attrs import asdict, evolve
 
 from ...accuracy import Accuracy
-from ...contact.effects.base import Compliance, DisplacementTerm, LoadTerm, PressureCap
+from ...contact.effects.base import Compliance, DisplacementTerm, LoadTerm, PressureBound
 from ...contact.effects.plasticity import HardnessLimit
-from ...contact.engine import Engine
-from ...contact.plan import plan_contact
+from ...contact.plan import ContactPlan, plan_contact
 from ...contact.result import ContactResult
 from ...contact.solve import solve
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
@@ -134,15 +133,14 @@ def load_displacement(
     key, values = _ladder(scene, loads, approaches, points, decades)
     n_ways = _count("ways", ways, 1)
     first = evolve(scene, loading=_loading(key, values[-1]))
-    engine = Engine(plan_contact(first, accuracy))  # the largest load is checked before any work
+    plan = plan_contact(first, accuracy)  # refuses the largest load before any work
     tell = progress or (lambda share: None)
     nodes: list[_Node] = []
     before: list[ContactResult] = []
     # Where pixels are capped, nested grids are a better start than the loads before.
-    is_capped = scene.effect(PressureCap) is not None  # type: ignore[type-abstract]
+    is_capped = scene.effect(PressureBound) is not None  # type: ignore[type-abstract]
     for i, value in enumerate(values):
-        at = evolve(scene, loading=_loading(key, value))
-        result = solve(plan_contact(at, accuracy), start=before or None, engine=engine)
+        result = solve(plan.with_loading(_loading(key, value)), start=before or None)
         before = [] if is_capped else [result, *before][:_MOST_BEFORE]
         if result.load > 0.0:
             nodes.append(_node(result, nodes))
@@ -151,12 +149,12 @@ def load_displacement(
         raise InfeasibleError(
             f"only {len(nodes)} of {len(values)} points touch; ask for larger loads or approaches"
         )
-    return _tables(scene, nodes, engine, n_ways, accuracy or Accuracy.standard, result, tell)
+    return _tables(plan, nodes, n_ways, result, tell)
 
 
 def _plain(scene: ContactScene) -> ContactScene:
     """Leave out what only looks at a contact; refuse what acts back on it."""
-    kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureCap))
+    kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureBound))
     acting = [e for e in scene.effects if isinstance(e, DisplacementTerm | LoadTerm)]
     if acting:
         names = ", ".join(e.name for e in acting)
@@ -235,11 +233,9 @@ def _node(result: ContactResult, nodes: list[_Node]) -> _Node:
 
 
 def _tables(
-    scene: ContactScene,
+    plan: ContactPlan,
     nodes: list[_Node],
-    engine: Engine,
     n_ways: int,
-    accuracy: Accuracy,
     last: ContactResult,
     tell: Progress,
 ) -> LoadDisplacementCurve:
@@ -251,7 +247,7 @@ def _tables(
     out = []
     for i, node in enumerate(picked):
         if node.overlap is not None:
-            out.append(_way_out(engine, node, accuracy))
+            out.append(_way_out(plan, node))
         tell(0.5 + 0.5 * (i + 1) / len(picked))
     approach, force = [node.approach for node in nodes], [node.force for node in nodes]
     return LoadDisplacementCurve(
@@ -262,7 +258,7 @@ def _tables(
         plastic_area=tuple(np.maximum.accumulate([node.plastic_area for node in nodes])),
         unloading=tuple(out),
         elastic_limit=limit,
-        nominal_area=engine.grid.area,
+        nominal_area=plan.grid.area,
         datum=last.approach_datum,
         error=_error(approach, force),
     )
@@ -278,16 +274,17 @@ def _error(approach: list[float], force: list[float]) -> float:
     return max(abs(coarse(d)[0] / f - 1.0) for d, f in pairs)
 
 
-def _way_out(engine: Engine, node: _Node, accuracy: Accuracy) -> Unloading:
+def _way_out(plan: ContactPlan, node: _Node) -> Unloading:
     """Solve the elastic contact of the surface that a largest approach leaves."""
     assert node.overlap is not None
-    left = engine.heights - node.overlap
+    accuracy, heights = plan.accuracy, plan.heights
+    left = heights - node.overlap
     touch = float(left.max())
-    residual = float(engine.heights.max()) - touch
-    length, pixel = node.approach - residual, engine.grid.pixel_area
+    residual = float(heights.max()) - touch
+    length, pixel = node.approach - residual, plan.grid.pixel_area
     start, found = node.pressure, [(1.0, 1.0, 1.0)]
     for way in reversed(_WAYS):
-        solution = engine.solver.solve(
+        solution = plan.prepared.solver.solve(
             left,
             rigid_approach=way * length - touch,
             rtol=accuracy.rtol,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...contact.effects.base import Compliance, PressureCap
+from ...contact.effects.base import Compliance, PressureBound
 from ...contact.effects.plasticity import HardnessLimit, HardnessMap
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
 from ...planning import plan
@@ -89,7 +89,7 @@ def _advice(found: WorkPrecision, error: float) -> str:
 
 def _bare(scene: ContactScene) -> ContactScene:
     """The contact alone: compliance and hardness."""
-    kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureCap))
+    kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureBound))
     return evolve(scene, effects=kept)
 
 

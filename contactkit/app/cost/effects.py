@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...contact.effects.base import Compliance, DisplacementTerm, PressureCap
+from ...contact.effects.base import Compliance, DisplacementTerm, PressureBound
 from ...contact.effects.friction import FrictionTraction
 from ...errors import ConvergenceError
 from ...planning import plan
@@ -52,7 +52,7 @@ def effect_costs(
 
 
 def _rank(effect: object) -> int:
-    ranks = (Compliance, PressureCap, FrictionTraction, DisplacementTerm)
+    ranks = (Compliance, PressureBound, FrictionTraction, DisplacementTerm)
     return next((i for i, kind in enumerate(ranks) if isinstance(effect, kind)), len(ranks))
 
 

@@ -1,16 +1,17 @@
-r"""The roles a piece of physics may play in a contact, read off the problem that is solved.
+r"""Base classes of the effects of a contact: the roles that physics may play in the problem.
 
 .. math:: \min_p \tfrac12 p^T C p - h^T p, \quad 0 \le p \le H, \quad \int p \, dA = W + F_m
 
 An effect holds choices only. `prepare` does once whatever does not depend on the unknown
-pressure; what it returns is used in the solve.
+pressure; `observe` gives what the effect did in a solved contact, its part of the result. The
+class declares which numbers of that part belong into tables and files.
 """
 
 from __future__ import annotations
 
 import abc
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
 
 from attrs import frozen
 
@@ -27,19 +28,27 @@ if TYPE_CHECKING:
     SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Map]
 
 __all__ = [
-    "Cap",
     "Compliance",
     "Contact",
     "ContactEffect",
     "DisplacementTerm",
+    "HardnessLaw",
     "LoadTerm",
     "Observer",
-    "PressureCap",
+    "PressureBound",
+    "Scalar",
 ]
+
+Part = TypeVar("Part")
 
 
 class Contact(NamedTuple):
-    """A solved contact, as the effects see it: maps (ny, nx) in SI units."""
+    """A solved contact as the effects see it: maps (ny, nx) in SI units.
+
+    `overlap` is how deep the elastic surfaces would overlap [m], where plastic flow makes room;
+    `hardness` the bound of the pressure [Pa]. With friction coupling, `friction_displacement` is
+    the displacement that the traction causes and `frictionless_pressure` the pressure without it.
+    """
 
     scene: ContactScene
     grid: Grid
@@ -47,27 +56,48 @@ class Contact(NamedTuple):
     displacement: Map
     gap: Map
     threads: int = 1
+    overlap: Map | None = None
+    hardness: Map | float | None = None
+    friction_displacement: Map | None = None
+    frictionless_pressure: Map | None = None
 
 
-class Cap(NamedTuple):
-    """The largest pressure that the bodies bear [Pa].
+class HardnessLaw(NamedTuple):
+    """Upper bound of the pressure [Pa].
 
-    `least` and `most` bound its mean over the window; where they differ, `at` gives it for the
-    displacements [m] of the deforming bodies, one map each; `has_jumps` if it jumps with them.
-    `given` is one that does not depend on them and differs from pixel to pixel.
+    `lowest` and `highest` bound its mean over the window. Where they differ, `at` gives it for the
+    displacements [m] of the deforming bodies, one map each: for every pixel if `is_local`, else for
+    the largest ones; `has_jumps` if it jumps with them. `values` is one that does not depend on
+    them and differs from pixel to pixel.
     """
 
-    least: float
-    most: float
+    lowest: float
+    highest: float
     at: Callable[[tuple[Map, ...]], Map | float] | None = None
     is_local: bool = False
-    given: Map | None = None
+    values: Map | None = None
     has_jumps: bool = False
 
 
+class Scalar(NamedTuple):
+    """A number that an effect adds to a result.
+
+    `read` takes it from the part of the effect; None if it does not apply.
+    """
+
+    name: str
+    unit: str
+    read: Callable[[Any], float | None]
+
+
 @frozen(kw_only=True)
-class ContactEffect(Effect):
-    """An effect of a `ContactScene`."""
+class ContactEffect(Effect, Generic[Part]):
+    """An effect of a `ContactScene`; `Part` is what ``result.of`` gives for it."""
+
+    scalars: ClassVar[tuple[Scalar, ...]] = ()
+    """Numbers of the part, for tables, studies and files."""
+    records: ClassVar[tuple[type, ...]] = ()
+    """Named tuples that the part is made of, so that it can be read back from a file."""
 
     def cites(self, scene: ContactScene) -> tuple[str, ...]:
         """Sources of what this choice computes for a scene; all of them, unless it depends."""
@@ -77,10 +107,14 @@ class ContactEffect(Effect):
         """Name what this effect needs and `scene` does not give, with units."""
         return ()
 
+    def observe(self, contact: Contact) -> Part | None:
+        """Return what this effect adds to the result; None if it has no part of its own."""
+        return None
+
 
 @frozen(kw_only=True)
-class Compliance(ContactEffect):
-    """How the bodies yield to pressure, C; exactly one."""
+class Compliance(ContactEffect[None]):
+    """How the bodies deform elastically under pressure, C; exactly one."""
 
     @abc.abstractmethod
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
@@ -88,25 +122,25 @@ class Compliance(ContactEffect):
 
 
 @frozen(kw_only=True)
-class PressureCap(ContactEffect):
-    """The largest pressure the bodies bear, H; none or one."""
+class PressureBound(ContactEffect[Part]):
+    """The upper bound of the pressure, the hardness H; none or one."""
 
     @abc.abstractmethod
-    def prepare(self, scene: ContactScene, grid: Grid) -> Cap:
+    def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
         """Do the work that does not depend on the pressure."""
 
 
 @frozen(kw_only=True)
-class LoadTerm(ContactEffect):
+class LoadTerm(ContactEffect[Part]):
     """A force F_m that pulls the bodies together, on top of the load."""
 
     @abc.abstractmethod
-    def observe(self, contact: Contact) -> object:
+    def observe(self, contact: Contact) -> Part:
         """Return the force and where it acts, for a given contact."""
 
 
 @frozen(kw_only=True)
-class DisplacementTerm(ContactEffect):
+class DisplacementTerm(ContactEffect[Part]):
     """A normal displacement of the surface caused by something else than pressure."""
 
     @abc.abstractmethod
@@ -115,9 +149,9 @@ class DisplacementTerm(ContactEffect):
 
 
 @frozen(kw_only=True)
-class Observer(ContactEffect):
+class Observer(ContactEffect[Part]):
     """What is computed from the solved contact, and changes nothing in it."""
 
     @abc.abstractmethod
-    def observe(self, contact: Contact) -> object:
+    def observe(self, contact: Contact) -> Part:
         """Return what this effect adds to the result."""

@@ -1,4 +1,4 @@
-"""How the bodies yield: homogeneous half-spaces, or stacks of layers."""
+"""Elastic compliance of the bodies: homogeneous half-spaces, or stacks of layers."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ _SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
 class HalfSpace(Compliance):
     """Homogeneous elastic half-spaces, one or two.
 
-    In a periodic window the transformed compliance is ``2 (1 - nu^2)/(E alpha)``; without
-    neighbours it is that of uniform pressure on each pixel (Love). Slopes are taken small: what
+    In a periodic window the transformed compliance is ``2 (1 - nu^2)/(E alpha)``; of an isolated
+    contact it is that of uniform pressure on each pixel (Love). Slopes are taken small: what
     is left out is of the order of the squared slope.
     """
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
 from ...units import si
 from ...validators import optional, part, positive, refuse
-from .base import Contact, LoadTerm
+from .base import Contact, LoadTerm, Scalar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -46,7 +47,7 @@ def _connectivity(owner: object, attribute: Attribute[int], value: int) -> None:
 
 
 @frozen(kw_only=True)
-class FilmMeniscus(LoadTerm):
+class FilmMeniscus(LoadTerm[FilmPart]):
     """Menisci of a film that lies on a rough surface: Laplace pressure times projected area.
 
     A meniscus fills an island of the gap below `meniscus_height` that somewhere dips into the film.
@@ -67,6 +68,14 @@ class FilmMeniscus(LoadTerm):
 
     name: ClassVar[str] = "film-meniscus"
     summary: ClassVar[str] = "meniscus force of a thin film on a rough contact"
+    records: ClassVar[tuple[type, ...]] = (FilmPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (
+        Scalar("meniscus_force", "N", attrgetter("force")),
+        Scalar("relative_meniscus_force", "-", attrgetter("relative_force")),
+        Scalar("meniscus_area", "m2", attrgetter("area")),
+        Scalar("n_menisci", "-", attrgetter("n_menisci")),
+        Scalar("n_equilibria", "-", lambda part: len(part.equilibria)),
+    )
 
     film_thickness: float = field(validator=positive, metadata=si("m"))
     meniscus_height: float | None = field(

@@ -1,22 +1,24 @@
-"""Quasi-static sliding: the traction that friction puts on the bodies, and what it displaces."""
+"""Quasi-static sliding: tangential traction of friction, and the normal displacement it causes."""
 
 from __future__ import annotations
 
 import math
+import sys
+from operator import attrgetter
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from attrs import field, frozen
 
 from ...units import si
 from ...validators import finite, fraction
-from .base import Contact, DisplacementTerm, Observer
+from .base import Contact, DisplacementTerm, Observer, Scalar
 
 if TYPE_CHECKING:
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from .base import Map
 
-__all__ = ["FrictionCoupling", "FrictionPart", "FrictionTraction"]
+__all__ = ["CouplingPart", "FrictionCoupling", "FrictionPart", "FrictionTraction"]
 
 
 class FrictionPart(NamedTuple):
@@ -27,8 +29,20 @@ class FrictionPart(NamedTuple):
     force: float
 
 
+class CouplingPart(NamedTuple):
+    """Normal displacement that friction causes (ny, nx) [m], and what it changed.
+
+    `pressure_change` is the largest change of the pressure over its maximum [-], `area_change`
+    the change of the contact area over that without coupling [-].
+    """
+
+    displacement: Map
+    pressure_change: float
+    area_change: float
+
+
 @frozen(kw_only=True)
-class FrictionTraction(Observer):
+class FrictionTraction(Observer[FrictionPart]):
     """Sliding contact: each pixel carries a traction of friction times pressure.
 
     The traction on the lower body points where the upper body slides, the one on the upper body
@@ -45,6 +59,8 @@ class FrictionTraction(Observer):
 
     name: ClassVar[str] = "friction-traction"
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"
+    records: ClassVar[tuple[type, ...]] = (FrictionPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (Scalar("friction_force", "N", attrgetter("force")),)
 
     coefficient: float = field(validator=fraction, metadata=si("-"))
     direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
@@ -54,21 +70,21 @@ class FrictionTraction(Observer):
         """See `Effect.sources`."""
         return ("traction mu p on the pressure without friction: Goodman 1962, Eq. (2.24)",)
 
-    def shares(self) -> tuple[float, float]:
+    def components(self) -> tuple[float, float]:
         """Traction on the lower body along x and y per unit of pressure [-]."""
         along_x, along_y = math.cos(self.direction), math.sin(self.direction)
         return self.coefficient * along_x, self.coefficient * along_y
 
     def observe(self, contact: Contact) -> FrictionPart:
         """See `Observer.observe`."""
-        along_x, along_y = self.shares()
+        along_x, along_y = self.components()
         load = float(contact.pressure.sum()) * contact.grid.pixel_area
         pressure = contact.pressure
         return FrictionPart(along_x * pressure, along_y * pressure, self.coefficient * load)
 
 
 @frozen(kw_only=True)
-class FrictionCoupling(DisplacementTerm):
+class FrictionCoupling(DisplacementTerm[CouplingPart]):
     """The normal displacement that friction causes, fed back into the contact.
 
     Traction presses the surface in ahead of a contact and lifts it behind; the effect vanishes for
@@ -79,6 +95,11 @@ class FrictionCoupling(DisplacementTerm):
 
     name: ClassVar[str] = "friction-coupling"
     summary: ClassVar[str] = "normal displacement caused by the tangential traction"
+    records: ClassVar[tuple[type, ...]] = (CouplingPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (
+        Scalar("coupling_pressure_change", "-", attrgetter("pressure_change")),
+        Scalar("coupling_area_change", "-", attrgetter("area_change")),
+    )
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -93,7 +114,7 @@ class FrictionCoupling(DisplacementTerm):
 
         friction = scene.effect(FrictionTraction)
         assert friction is not None
-        along_x, along_y = friction.shares()
+        along_x, along_y = friction.components()
         total: Map = np.zeros(grid.shape)
         for body, sign in ((scene.interface.lower, 1.0), (scene.interface.upper, -1.0)):
             stack = body.stack
@@ -108,3 +129,14 @@ class FrictionCoupling(DisplacementTerm):
                     mean="periodic" if grid.periodic else "free",
                 )
         return total
+
+    def observe(self, contact: Contact) -> CouplingPart:
+        """See `ContactEffect.observe`: against the contact of the same load without coupling."""
+        without, displacement = contact.frictionless_pressure, contact.friction_displacement
+        assert without is not None
+        assert displacement is not None
+        maximum = max(float(without.max()), sys.float_info.min)
+        change = float(abs(contact.pressure - without).max()) / maximum
+        n_without = max(int((without > 0.0).sum()), 1)
+        area = int((contact.pressure > 0.0).sum()) / n_without - 1.0
+        return CouplingPart(displacement, change, area)

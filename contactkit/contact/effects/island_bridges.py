@@ -1,10 +1,11 @@
-"""Exact bridges on the islands of a rough contact: each wetted summit has one of its own."""
+"""Meniscus force of a rough contact: an exact bridge on each wet island of the gap."""
 
 from __future__ import annotations
 
 import math
 import warnings
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from operator import attrgetter
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from attrs import Attribute, field, frozen
@@ -15,23 +16,17 @@ from ...capillary.kelvin import meniscus_height
 from ...errors import ValidityWarning
 from ...units import si
 from ...validators import choice, optional, positive, refuse
-from .base import Contact, Observer
+from .base import Contact, Observer, Scalar
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from ...scene.scenes import ContactScene
 
     Floats = NDArray[np.float64]
-    from numpy.typing import NDArray
-
-    from .base import Contact
-
-    Floats = NDArray[np.float64]
     Mask = NDArray[np.bool_]
 
-__all__ = ["IslandBridges", "IslandPart", "bridges_of", "scalars_of"]
+__all__ = ["IslandBridges", "IslandPart", "bridges_of"]
 
 
 class IslandPart(NamedTuple):
@@ -40,7 +35,7 @@ class IslandPart(NamedTuple):
     `law` names what was used. `area` is that of the islands without contact [m2], `n_dry` the
     number of islands that no bridge of this liquid spans, which are in no array. `coverage` is the
     sum of the contact circles over the window [-], `n_overlapping` the number of bridges whose
-    circles overlap with a neighbour's: their forces are no longer each other's strangers.
+    circles overlap with a neighbour's, so that their forces are no longer independent.
     `largest_fraction` is the largest island over the window [-]; from a tenth on it is no summit
     any more. `point` (n, 2) are the summits (y, x), `gap` their gaps, `radius` those of the spheres
     that stand for them, `contact_radius` the larger contact radius of each bridge [m]; `volume`
@@ -74,7 +69,7 @@ def _connectivity(owner: object, attribute: Attribute[int], value: int) -> None:
 
 
 @frozen(kw_only=True)
-class IslandBridges(Observer):
+class IslandBridges(Observer[IslandPart]):
     """A bridge on each island of the deformed gap that holds liquid, and the sum of their forces.
 
     The liquid comes from a film of given thickness, or condenses to the pressure of the meniscus
@@ -105,6 +100,16 @@ class IslandBridges(Observer):
 
     name: ClassVar[str] = "island-bridges"
     summary: ClassVar[str] = "an exact bridge on each wet island of a rough contact"
+    records: ClassVar[tuple[type, ...]] = (IslandPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (
+        Scalar("island_force", "N", attrgetter("force")),
+        Scalar("relative_island_force", "-", attrgetter("relative_force")),
+        Scalar("island_area", "m2", attrgetter("area")),
+        Scalar("n_island_bridges", "-", attrgetter("n_menisci")),
+        Scalar("n_dry_islands", "-", attrgetter("n_dry")),
+        Scalar("island_cover", "-", attrgetter("coverage")),
+        Scalar("n_overlapping", "-", attrgetter("n_overlapping")),
+    )
 
     film_thickness: float | None = field(
         default=None, validator=optional(positive), metadata=si("m")
@@ -160,19 +165,6 @@ class IslandBridges(Observer):
     def at_pressure(self, contact: Contact, pressure: float) -> IslandPart:
         """Return the same for a pressure [Pa], in place of that of the scene or of a film."""
         return bridges_of(self, contact, pressure)
-
-
-def scalars_of(part: Any) -> dict[str, tuple[float, str]]:
-    """Numbers for tables, each with its unit."""
-    return {
-        "island_force": (part.force, "N"),
-        "relative_island_force": (part.relative_force, "-"),
-        "island_area": (part.area, "m2"),
-        "n_island_bridges": (part.n_menisci, "-"),
-        "n_dry_islands": (part.n_dry, "-"),
-        "island_cover": (part.coverage, "-"),
-        "n_overlapping": (part.n_overlapping, "-"),
-    }
 
 
 def bridges_of(

@@ -1,25 +1,29 @@
-"""The largest pressure that the bodies bear."""
+"""Hardness: the upper bound of the pressure of an elastic-perfectly plastic contact."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
 from ...errors import DescriptionError
 from ...units import si
 from ...validators import choice, non_negative, positive
-from .base import Cap, PressureCap
+from .base import Contact, HardnessLaw, PressureBound, Scalar
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from .base import Map
 
-__all__ = ["HardnessLimit", "HardnessMap"]
+__all__ = ["HardnessLimit", "HardnessMap", "PlasticPart"]
 
 
 def _as_map(value: Any) -> Map:
@@ -60,8 +64,25 @@ def _hardness(owner: object, attribute: Attribute[Any], value: Any) -> None:
         positive(owner, attribute, value)
 
 
+class PlasticPart(NamedTuple):
+    """Where the bodies are plastic (ny, nx), over which area [m2], at which hardness [Pa].
+
+    `overlap` is the depth (ny, nx) [m] that the elastic surfaces would overlap there: what
+    plastic flow has to make room for.
+    """
+
+    is_plastic: NDArray[np.bool_]
+    area: float
+    hardness: Map | float
+    overlap: Map
+
+
+def _one_hardness(part: PlasticPart) -> float | None:
+    return part.hardness if isinstance(part.hardness, float) else None
+
+
 @frozen(kw_only=True)
-class HardnessLimit(PressureCap):
+class HardnessLimit(PressureBound[PlasticPart]):
     """Elastic-perfectly plastic contact: no pressure exceeds the hardness.
 
     A pixel whose pressure reaches the hardness is plastic; its gap is closed by plastic flow,
@@ -77,8 +98,8 @@ class HardnessLimit(PressureCap):
     hardness : float or HardnessMap, optional
         Hardness [Pa] for the rule ``constant``, one for all pixels or one for each.
     shift : float
-        Depth of indentation, as a share of the depth of an interface, up to which that interface
-        is not felt, for the rule ``continuous`` [-]; 0 gives Eq. (2.41) itself.
+        Depth of indentation, as a fraction of the depth of an interface, up to which that
+        interface is not felt, for the rule ``continuous`` [-]; 0 gives Eq. (2.41) itself.
     displacement : {"largest", "local"}
         Which displacement of the surface the layered rules take for the depth of indentation: the
         largest under contact, one hardness for all; or that of each pixel. In a periodic window
@@ -87,6 +108,13 @@ class HardnessLimit(PressureCap):
 
     name: ClassVar[str] = "hardness-limit"
     summary: ClassVar[str] = "perfectly plastic where the pressure reaches the hardness"
+    records: ClassVar[tuple[type, ...]] = (PlasticPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (
+        Scalar("plastic_area", "m2", attrgetter("area")),
+        Scalar("plastic_fraction", "-", lambda part: float(part.is_plastic.mean())),
+        Scalar("max_overlap", "m", lambda part: float(part.overlap.max())),
+        Scalar("hardness", "Pa", _one_hardness),
+    )
 
     rule: Literal["continuous", "literal", "material", "constant"] = field(
         default="continuous", validator=choice("continuous", "literal", "material", "constant")
@@ -127,8 +155,8 @@ class HardnessLimit(PressureCap):
             missing.append("at most two layers with rule='literal' (or rule='continuous')")
         return tuple(dict.fromkeys(missing))
 
-    def prepare(self, scene: ContactScene, grid: Grid) -> Cap:
-        """See `PressureCap.prepare`."""
+    def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
+        """See `PressureBound.prepare`."""
         if self.rule == "constant":
             assert self.hardness is not None
             return _constant(self.hardness, grid)
@@ -136,20 +164,20 @@ class HardnessLimit(PressureCap):
         values = [[m.hardness or math.inf for m in stack.materials] for stack in stacks]
         if self.rule == "material" or all(len(set(v)) == 1 for v in values):
             hardness = min(v[0] for v in values)
-            return Cap(hardness, hardness)
-        least, most = min(min(v) for v in values), min(max(v) for v in values)
+            return HardnessLaw(hardness, hardness)
+        lowest, highest = min(min(v) for v in values), min(max(v) for v in values)
         rules = [self._of_body(stack) for stack in stacks]
 
         def at(displacements: tuple[Map, ...]) -> Map | float:
             import numpy as np
 
             found = [rule(u) for rule, u in zip(rules, displacements, strict=True)]
-            lowest: Map = np.minimum.reduce(found)
-            return lowest if lowest.ndim else float(lowest)
+            softer: Map = np.minimum.reduce(found)
+            return softer if softer.ndim else float(softer)
 
-        return Cap(
-            least,
-            most,
+        return HardnessLaw(
+            lowest,
+            highest,
             at,
             is_local=self.displacement == "local",
             has_jumps=self.rule == "literal",
@@ -165,10 +193,22 @@ class HardnessLimit(PressureCap):
             return lambda u: kernel.effective_hardness_literal(u, *layered)
         return lambda u: kernel.effective_hardness(u, *layered, shift=self.shift)
 
+    def observe(self, contact: Contact) -> PlasticPart:
+        """See `ContactEffect.observe`: pixels at the hardness, to the round-off of the bound."""
+        import numpy as np
 
-def _constant(hardness: float | HardnessMap, grid: Grid) -> Cap:
+        assert contact.hardness is not None
+        assert contact.overlap is not None
+        at_bound = contact.pressure >= np.asarray(contact.hardness) * (1.0 - 1e-12)
+        is_plastic = at_bound & (contact.pressure > 0.0)
+        area = float(is_plastic.sum()) * contact.grid.pixel_area
+        overlap = np.where(is_plastic, contact.overlap, 0.0)
+        return PlasticPart(is_plastic, area, contact.hardness, overlap)
+
+
+def _constant(hardness: float | HardnessMap, grid: Grid) -> HardnessLaw:
     if not isinstance(hardness, HardnessMap):
-        return Cap(hardness, hardness)
+        return HardnessLaw(hardness, hardness)
     if hardness.values.shape != grid.shape:
         raise DescriptionError(
             "HardnessMap.values",
@@ -176,4 +216,4 @@ def _constant(hardness: float | HardnessMap, grid: Grid) -> Cap:
             f"have the {grid.shape} pixels of the surface",
         )
     mean = float(hardness.values.mean())
-    return Cap(mean, mean, given=hardness.values)
+    return HardnessLaw(mean, mean, values=hardness.values)

@@ -1,9 +1,10 @@
-"""Stress below the surface, plane by plane."""
+"""Stress below the surface of the lower body, on planes, with its maxima."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
@@ -11,18 +12,17 @@ import numpy as np
 from attrs import Attribute, field, frozen
 
 from ...elasticity.stress import measures as stress_measures
-from ...elasticity.stress.maxima import maxima
+from ...elasticity.stress.maxima import Maximum, maxima
 from ...elasticity.stress.planes import Plane, planes
 from ...units import si
 from ...validators import choice, non_negative, positive, refuse
-from .base import Contact, Observer
+from .base import Contact, Observer, Scalar
 from .friction import FrictionTraction
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ...elasticity.stress.maxima import Maximum
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
 
@@ -64,18 +64,18 @@ class StressPart(NamedTuple):
     largest_von_mises: Map
     planes: Map | None
 
-    def scalars(self) -> dict[str, tuple[float, str]]:
-        """Return value and place of each maximum, with units."""
-        found: dict[str, tuple[float, str]] = {}
-        for name, one in self.maxima.items():
-            found[f"max_{name}"] = (one.value, "Pa")
-            found[f"max_{name}_depth"] = (one.z, "m")
-            found[f"max_{name}_layer"] = (one.layer, "-")
-        return found
+
+_MEASURES = ("von_mises", "tension", "tresca", "sigma_xz", "sqrt_j2")
+_OF_A_MAXIMUM = (("", "value", "Pa"), ("_depth", "z", "m"), ("_layer", "layer", "-"))
+
+
+def _read(measure: str, field: str, part: StressPart) -> float:
+    number: float = getattr(part.maxima[measure], field)
+    return number
 
 
 @frozen(kw_only=True)
-class SubsurfaceStress(Observer):
+class SubsurfaceStress(Observer[StressPart]):
     """Stress in the lower body, on planes at given depths and on both faces of each interface.
 
     In-plane stresses jump at interfaces, so a maximum may sit on either face. Where friction
@@ -96,6 +96,12 @@ class SubsurfaceStress(Observer):
 
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
+    records: ClassVar[tuple[type, ...]] = (StressPart, Maximum)
+    scalars: ClassVar[tuple[Scalar, ...]] = tuple(
+        Scalar(f"max_{measure}{suffix}", unit, partial(_read, measure, field))
+        for measure in _MEASURES
+        for suffix, field, unit in _OF_A_MAXIMUM
+    )
 
     depths: tuple[float, ...] | None = field(
         default=None,
@@ -141,9 +147,9 @@ class SubsurfaceStress(Observer):
     def observe(self, contact: Contact) -> StressPart:
         """See `Observer.observe`."""
         friction = contact.scene.effect(FrictionTraction)
-        shares = friction.shares() if friction is not None else (0.0, 0.0)
+        traction = friction.components() if friction is not None else (0.0, 0.0)
         planes = self.planes_of(contact.scene, contact.grid)
-        return scan(contact, planes, shares, self.keep == "planes", self.window)
+        return scan(contact, planes, traction, self.keep == "planes", self.window)
 
 
 def scan(
@@ -172,7 +178,7 @@ def scan(
     assert stack is not None
     pressure, (ny, nx) = contact.pressure, contact.grid.shape
     row = int(np.unravel_index(int(np.argmax(pressure)), pressure.shape)[0])
-    tractions = [share * pressure if share != 0.0 else None for share in friction]
+    tractions = [part * pressure if part != 0.0 else None for part in friction]
     n = len(where)
     section, largest = np.empty((6, n, nx)), []
     kept = np.empty((6, n, ny, nx)) if keep_planes else None

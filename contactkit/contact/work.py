@@ -1,0 +1,57 @@
+"""What a contact solve cost: counts on the finest grid, and seconds by stage."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+from .solver.contact_solver import Solution
+
+__all__ = ["ContactWork", "WorkCounter"]
+
+
+class ContactWork(NamedTuple):
+    """What a contact cost: counts on the full grid, and seconds [s] by stage."""
+
+    n_solves: int
+    n_operator_applications: int
+    n_ffts: int
+    n_coarse_iterations: int
+    n_iterations: int
+    has_fallen_back: bool
+    seconds: float
+    stages: Mapping[str, float]
+
+
+class WorkCounter:
+    """Adds up the solves of one result."""
+
+    def __init__(self) -> None:
+        self.begun = time.perf_counter()
+        self._solutions = [0] * 5
+        self._has_fallen_back = False
+        self._stages: dict[str, float] = {}
+
+    def add(self, solution: Solution) -> None:
+        """Count one more solve."""
+        counts = (
+            1,
+            solution.n_applications,
+            solution.n_ffts,
+            solution.n_coarse,
+            solution.n_outer,
+        )
+        self._solutions = [a + b for a, b in zip(self._solutions, counts, strict=True)]
+        self._has_fallen_back |= solution.fallback
+
+    def clock(self, stage: str, begun: float) -> None:
+        """Add the time since `begun` to a stage."""
+        self._stages[stage] = self._stages.get(stage, 0.0) + time.perf_counter() - begun
+
+    def work(self) -> ContactWork:
+        """Return the sums, and the seconds since the counter was made."""
+        seconds = time.perf_counter() - self.begun
+        stages = MappingProxyType(dict(self._stages))
+        return ContactWork(*self._solutions, self._has_fallen_back, seconds, stages)
