@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attrs import evolve, field, frozen
 
@@ -60,7 +60,7 @@ class ContactPlan:
     hardness: HardnessLaw | None = field(repr=False)
     _preparation: Preparation = field(factory=Preparation, repr=False)
 
-    def has(self, kind: type[ContactEffect]) -> bool:
+    def has(self, kind: type[ContactEffect[Any]]) -> bool:
         """Whether the scene calls for an effect."""
         return any(type(effect) is kind for effect in self.scene.effects)
 

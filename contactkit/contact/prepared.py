@@ -70,7 +70,7 @@ class PreparedInterface:
     def nbytes(self) -> int:
         """Memory held [bytes]."""
         bodies = sum(one.nbytes for one in self._bodies or ())
-        return self.heights.nbytes + self.solver.nbytes + bodies
+        return int(self.heights.nbytes + self.solver.nbytes + bodies)
 
     def displacements(self, pressure: Map, total: Map) -> tuple[Map, ...]:
         """Displacement [m] of the surface of each deforming body; `total` is their sum."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def press(
     """
     if stack is None:
         raise DescriptionError("press(stack)", None, "be a Stack or a Material: what the flat is")
-    effects: list[ContactEffect] = [
+    effects: list[ContactEffect[Any]] = [
         LayeredHalfSpace() if isinstance(stack, Stack) and stack.layers else HalfSpace()
     ]
     if hardness is not None:

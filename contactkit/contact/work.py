@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
@@ -29,21 +30,20 @@ class WorkCounter:
     """Adds up the solves of one result."""
 
     def __init__(self) -> None:
-        self.begun = time.perf_counter()
-        self._solutions = [0] * 5
+        self._begun = time.perf_counter()
+        self._solutions = Counter[str]()
         self._has_fallen_back = False
         self._stages: dict[str, float] = {}
 
     def add(self, solution: Solution) -> None:
         """Count one more solve."""
-        counts = (
-            1,
-            solution.n_applications,
-            solution.n_ffts,
-            solution.n_coarse,
-            solution.n_outer,
+        self._solutions.update(
+            n_solves=1,
+            n_operator_applications=solution.n_applications,
+            n_ffts=solution.n_ffts,
+            n_coarse_iterations=solution.n_coarse,
+            n_iterations=solution.n_outer,
         )
-        self._solutions = [a + b for a, b in zip(self._solutions, counts, strict=True)]
         self._has_fallen_back |= solution.fallback
 
     def clock(self, stage: str, begun: float) -> None:
@@ -52,6 +52,9 @@ class WorkCounter:
 
     def work(self) -> ContactWork:
         """Return the sums, and the seconds since the counter was made."""
-        seconds = time.perf_counter() - self.begun
-        stages = MappingProxyType(dict(self._stages))
-        return ContactWork(*self._solutions, self._has_fallen_back, seconds, stages)
+        return ContactWork(
+            **self._solutions,
+            has_fallen_back=self._has_fallen_back,
+            seconds=time.perf_counter() - self._begun,
+            stages=MappingProxyType(dict(self._stages)),
+        )

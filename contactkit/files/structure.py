@@ -6,7 +6,7 @@ import difflib
 import tomllib
 from collections.abc import Callable, Mapping
 from importlib import resources
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar, get_args, get_origin
 
 import attrs
 import cattrs
@@ -261,7 +261,10 @@ for _matches, _hook in (
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (lambda kind: (get_origin(kind) or kind) is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
+    (
+        lambda kind: (get_origin(kind) or kind) is ContactEffect,
+        _tagged("effect", CONTACT_EFFECTS),
+    ),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these take for their fields.

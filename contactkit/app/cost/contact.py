@@ -144,9 +144,8 @@ def _frozen(scene: ContactScene, accuracy: Accuracy) -> tuple[ContactScene, Accu
     limit = scene.effect(HardnessLimit)
     if limit is None or limit.rule == "constant":
         return scene, accuracy
-    hardness = _solved(scene, evolve(accuracy, rtol=1e-6)).of(HardnessLimit).hardness
-    if not isinstance(hardness, float):
-        hardness = HardnessMap(hardness)
+    found = _solved(scene, evolve(accuracy, rtol=1e-6)).of(HardnessLimit).hardness
+    hardness = found if isinstance(found, float) else HardnessMap(found)
     constant = HardnessLimit(rule="constant", hardness=hardness)
     kept = tuple(constant if e is limit else e for e in scene.effects)
     return evolve(scene, effects=kept), accuracy

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ...scene.effect import EffectRegistry
 from .base import ContactEffect
 from .elasticity import HalfSpace, LayeredHalfSpace
@@ -13,7 +15,7 @@ from .stress import SubsurfaceStress
 
 __all__ = ["CONTACT_EFFECTS"]
 
-CONTACT_EFFECTS: EffectRegistry[ContactEffect] = EffectRegistry(
+CONTACT_EFFECTS: EffectRegistry[ContactEffect[Any]] = EffectRegistry(
     HalfSpace,
     LayeredHalfSpace,
     HardnessLimit,
