@@ -15,6 +15,7 @@ pytest.importorskip("pythonfmu")  # the tables of ports are made from the slaves
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
+SCRIPTS = DOCS / "scripts"
 PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")),
     *sorted(DOCS.glob("*.md")),
@@ -22,13 +23,13 @@ PAGES = [
 
 
 def script(name):
-    """A script of docs/, imported as if it were run."""
-    spec = importlib.util.spec_from_file_location(f"docs_{name}", DOCS / f"{name}.py")
+    """A script of docs/scripts/, imported as if it were run."""
+    spec = importlib.util.spec_from_file_location(f"docs_{name}", SCRIPTS / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
-    sys.path.insert(0, str(DOCS))
+    sys.path.insert(0, str(SCRIPTS))
     spec.loader.exec_module(module)
-    sys.path.remove(str(DOCS))
+    sys.path.remove(str(SCRIPTS))
     return module
 
 
@@ -40,7 +41,7 @@ def tables():
 
 
 def test_tables_are_up_to_date(tables):
-    assert tables.stale() == [], "run python docs/tables.py"
+    assert tables.stale() == [], "run python docs/scripts/tables.py"
 
 
 def test_every_table_is_shown(tables):

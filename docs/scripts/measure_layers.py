@@ -1,4 +1,4 @@
-"""Measure what layers cost over the half-space: ``python docs/measure_layers.py`` writes the table.
+"""Measure the cost of layers relative to the half-space: ``python docs/scripts/measure_layers.py``.
 
 Geometric means over two kinds of roughness, three seeds and three loads, 256 x 256 pixels.
 """

@@ -17,7 +17,7 @@ from contactkit.capillary.arc import bridge as bridge_arc
 from contactkit.capillary.arc import sphere as arc_sphere
 from contactkit.lubrication import squeeze_film as squeeze
 
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
 
 
 def grid(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -1,7 +1,8 @@
 """Measure the numbers of the contact on docs/accuracy.md on this machine.
 
-``python docs/measure_contact.py`` prints them, ``--write`` puts them into the page too. Takes a
-few minutes, most of it for the maps of 1024 x 1024 pixels. Names select some: ``... hertz waves``.
+``python docs/scripts/measure_contact.py`` prints them, ``--write`` puts them into the page too.
+Takes a few minutes, most of it for the maps of 1024 x 1024 pixels. Names select some:
+``... hertz waves``.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ import contactkit as ck
 from contactkit.elasticity.layered import compliance, normal_symbol
 from contactkit.reference import hertz
 
-DATA = Path(__file__).parents[1] / "tests" / "data"
+DATA = Path(__file__).parents[2] / "tests" / "data"
 CASES = json.loads((DATA / "contact.json").read_text("utf-8"))
 E, NU, RADIUS, A0 = 1e9, 0.3, 1e-3, 1e-6  # substrate, sphere, and Hertz's contact on it
 MODULUS = E / (1.0 - NU**2)

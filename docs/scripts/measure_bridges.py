@@ -1,7 +1,7 @@
 """Measure the numbers of docs/bridges.md: errors and cost of the closures of liquid bridges.
 
-``python docs/measure_bridges.py`` prints them, ``--write`` puts them into the page, with the
-picture. Half a minute. Names select some: ``... flats spheres breaks printed cost``.
+``python docs/scripts/measure_bridges.py`` prints them, ``--write`` puts them into the page, with
+the picture. Half a minute. Names select some: ``... flats spheres breaks printed cost``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Put what ``make bench`` measured against other programs into docs/accuracy.md.
 
-``python docs/peers_table.py`` reads ``out/bench/contact.json``, which the benchmark leaves.
+``python docs/scripts/peers_table.py`` reads ``out/bench/contact.json``, which the benchmark leaves.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 from measured_blocks import write_blocks
 from validation_tables import grid
 
-FOUND = Path(__file__).parents[1] / "out" / "bench" / "contact.json"
+FOUND = Path(__file__).parents[2] / "out" / "bench" / "contact.json"
 PEERS = ("aspher", "slippy", "tamaas", "ContactMechanics")
 KEYS = ("surface", "n", "boundary", "area", "threads")
 GOOD = 1.5e-8  # violation, over the rms height, of an answer that counts

@@ -1,8 +1,8 @@
-"""Make the pictures of the documentation with the program itself: ``python docs/pictures.py``.
+"""Pictures of the documentation, made by the commands: ``python docs/scripts/pictures.py``.
 
 Runs the scenes and their costs, keeps the figures that the pages show, with a palette of 128
 colours so that they stay small, and writes the numbers of the head-disk interface into the pages.
-Some minutes; names select some of the runs: ``python docs/pictures.py head-disk``.
+Some minutes; names select some of the runs: ``python docs/scripts/pictures.py head-disk``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from measured_blocks import write_blocks
 from PIL import Image
 from validation_tables import grid
 
-IMG = Path(__file__).parent / "img"
+IMG = Path(__file__).parents[1] / "img"
 # (scene, command): figures by the name they have in the pages.
 SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("fuel-injector", "run"): {

@@ -1,8 +1,8 @@
 """Write the tables of the documentation from the code they describe.
 
 A page holds ``<!-- table: NAME -->`` and ``<!-- end of table -->``; what stands between them is
-made here. ``python docs/tables.py`` brings all pages up to date, ``--check`` only says which are
-not; a test does the same.
+made here. ``python docs/scripts/tables.py`` brings all pages up to date, ``--check`` only lists
+those that are not; a test does the same.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import attrs
+from api_table import api_table
 from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from liquid_tables import law_table, liquid_table
@@ -66,7 +67,7 @@ FMUS: Mapping[str, type[PortSlave]] = {
     "contact-stop": ContactStop,
     "tip-contact": TipContact,
 }
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 
 
@@ -226,6 +227,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "mirror assumptions": lambda: assumption_table("micromirror"),
     "arc against exact": exact_table,
     "limits": limit_table,
+    "api": api_table,
 }
 
 

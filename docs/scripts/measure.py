@@ -1,6 +1,6 @@
 """Measure the numbers of the separation on docs/accuracy.md and docs/injector.md, and print them.
 
-Run it as ``python docs/measure.py``; it takes about half a minute and writes nothing.
+Run it as ``python docs/scripts/measure.py``; it takes about half a minute and writes nothing.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from contactkit.models.injector.monolithic import simulate as whole
 from contactkit.units import celsius
 
 CASES = json.loads(
-    (Path(__file__).parents[1] / "tests" / "data" / "release.json").read_text("utf-8")
+    (Path(__file__).parents[2] / "tests" / "data" / "release.json").read_text("utf-8")
 )
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 

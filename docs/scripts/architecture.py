@@ -1,0 +1,70 @@
+"""Draw the rooms of contactkit and their imports: ``python docs/scripts/architecture.py``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "rules"))
+
+import test_imports as rule  # noqa: E402
+
+LEFT_OUT = {"_lazy", "__main__", "errors", "units", "validators", "accuracy", "work_precision"}
+# Place along the row, 0 to 1, where arrows would otherwise pass behind a room.
+ACROSS = {
+    **{"cli": 0.5, "app": 0.5, "fmu": 0.5, "models": 0.6, "studies": 0.12, "plot": 0.97},
+    **{"analyses": 0.68, "files": 0.42, "effects": 0.45, "planning": 0.85, "contact": 0.33},
+    **{"separation": 0.77, "scene": 0.55, "liquids": 0.65, "data": 0.42, "as_published": 0.73},
+    **{"elasticity": 0.22, "roughness": 0.37, "capillary": 0.57, "lubrication": 0.79},
+    **{"adhesion": 0.98, "numerics": 0.68, "reference": 0.02},
+}
+
+
+def arrows() -> set[tuple[str, str]]:
+    """Pairs of rooms of which the first imports from the second."""
+    found = {
+        (rule.room(name), rule.room(target))
+        for name, targets in rule.IMPORTS.items()
+        for target in targets
+        if target.startswith("contactkit.") and name != "contactkit"
+    }
+    return {(a, b) for a, b in found if a != b and a and b and not {a, b} & LEFT_OUT}
+
+
+def direct(pairs: set[tuple[str, str]]) -> set[tuple[str, str]]:
+    """Arrows that do not follow from a chain of others (transitive reduction)."""
+
+    def reaches(start: str, goal: str, skipped: tuple[str, str]) -> bool:
+        steps = {b for a, b in pairs if a == start and (a, b) != skipped}
+        return goal in steps or any(reaches(step, goal, skipped) for step in steps)
+
+    return {(a, b) for a, b in pairs if not reaches(a, b, (a, b))}
+
+
+def draw(path: Path) -> None:
+    """Write the picture: one row per level, arrows from a room to those it imports from."""
+    rows = [[room for room in rooms if room not in LEFT_OUT] for rooms in rule.FLOORS]
+    rows = [row for row in rows if row]
+    place = {room: (ACROSS.get(room, 0.5), level) for level, row in enumerate(rows) for room in row}
+    figure, axes = plt.subplots(figsize=(9.0, 8.0))
+    boxes = {}
+    for room, (x, y) in place.items():
+        style = {"boxstyle": "round,pad=0.4", "fc": "white", "ec": "0.2"}
+        boxes[room] = axes.text(
+            x, y, room, ha="center", va="center", fontsize=10, bbox=style, zorder=3
+        )
+    figure.canvas.draw()
+    for above, below in sorted(direct(arrows())):
+        ends = {"patchA": boxes[above].get_bbox_patch(), "patchB": boxes[below].get_bbox_patch()}
+        style = {"arrowstyle": "-|>", "color": "0.45", "lw": 0.9, "shrinkA": 0, "shrinkB": 1}
+        axes.annotate("", place[below], place[above], arrowprops=style | ends, zorder=1)
+    axes.set(xlim=(0.0, 1.05), ylim=(-0.6, len(rows) - 0.4))
+    axes.axis("off")
+    figure.savefig(path, dpi=110, bbox_inches="tight")
+
+
+if __name__ == "__main__":
+    draw(ROOT / "docs" / "img" / "architecture.png")
