@@ -86,7 +86,7 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
         raise PlanError(
             "the scene does not call for adhesive-contact: add AdhesiveContact(...) to its effects"
         )
-    liquid = scene.interface.meniscus.liquid.at(scene.temperature)
+    liquid = scene.meniscus.liquid.at(scene.temperature)
     if missing := (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene)):
         raise PlanError("; ".join(f"AdhesiveContact needs {item}" for item in missing))
     from ..separation.effects.adhesion import states_at_loads

@@ -250,6 +250,11 @@ def _solid(value: Any, _: Any) -> Material | Stack | None:
     return _material(value, Material)
 
 
+def _is_contact_effect(kind: Any) -> bool:
+    """Whether a type is the base class of the effects of contacts, of any kind of part."""
+    return kind is ContactEffect or get_origin(kind) is ContactEffect
+
+
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
@@ -261,10 +266,7 @@ for _matches, _hook in (
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (
-        lambda kind: (get_origin(kind) or kind) is ContactEffect,
-        _tagged("effect", CONTACT_EFFECTS),
-    ),
+    (_is_contact_effect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these take for their fields.

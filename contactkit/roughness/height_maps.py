@@ -154,7 +154,6 @@ def _reason(file: Path, delimiter: str | None, message: str) -> DescriptionError
     return DescriptionError("HeightMap.heights", message, f"be numbers ({file.name})")
 
 
-Array = NDArray[np.float64]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
 
@@ -206,7 +205,6 @@ def _centred(values: Array) -> Array:
     return np.asarray(values - values.mean())
 
 
-Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
 _MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import IntEnum
 from functools import reduce
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from attrs import evolve, field, frozen
 
@@ -75,13 +75,13 @@ def write(places: Mapping[str, Place], scene: _T, values: Mapping[str, Any]) -> 
                 *owners, last = path.split(".")
                 owner = reduce(lambda at, part: at.setdefault(part, {}), owners, tree)
                 owner[last] = place.value_in_scene(values[name])
-    made: Any = _evolved(scene, tree)
+    made = _evolved(scene, tree)
     added = []
     for name, place in places.items():
         value = place.value_in_scene(values[name])
         if place.effect is not None and value is not None:
             added.append(place.effect(**{place.paths[0]: value}))
-    return evolve(made, effects=(*made.effects, *added)) if added else made
+    return cast(_T, evolve(made, effects=(*made.effects, *added)) if added else made)
 
 
 def _evolved(owner: Any, tree: Mapping[str, Any]) -> Any:

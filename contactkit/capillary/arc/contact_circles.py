@@ -30,6 +30,7 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 _SERIES = 0.25  # below this the remainder of the nine terms is below round-off
 _MOMENT = (
@@ -83,9 +84,6 @@ def segment(half: Array) -> Segment:
     d_far = 0.5 * area + cotangent * (1.5 * area * cotangent - 0.25)
     return Segment(area, moment, d_area, np.where(small, half * slope, d_far))
 
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 _RIGHT = np.pi / 2.0
 _COLD, _WARM = 30, 12  # maximum iterations from a cold start, and along a path

@@ -180,9 +180,6 @@ def _reordered(
     return reorder_ends(bodies, flipped, log_neck, shape, chart)
 
 
-Array = NDArray[np.float64]
-
-
 def from_neck(given: Problem, log_neck: Array, shape: Array) -> Solution:
     """Newton iteration from a neck radius (logarithm) and a shape e, both phases acute."""
     bodies = given.bodies

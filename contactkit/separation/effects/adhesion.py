@@ -95,7 +95,7 @@ class VanDerWaalsForce(SeparationForce):
 
         interface, hamaker, cutoff = prepared.scene.interface, self.hamaker_constant, self.cutoff
         lower, upper = prepared.curvatures
-        n = interface.meniscus.count
+        n = prepared.scene.meniscus.count
         area = math.pi * interface.rim_radius**2 if interface.is_flat else 0.0
 
         def between_flats(gap: float, speed: float) -> float:

@@ -41,7 +41,7 @@ def end_stop_impacts(scene: InjectorScene, run: InjectorRun) -> EndStopImpacts |
     if curve is None or not (events["meets"] and events["leaves"]):
         return None
     came, left = events["meets"][0].speed, events["leaves"][0].speed
-    depth = float(run.monolithic.gap.max()) - stop.gap
+    depth = float(run.monolithic["gap"].max()) - stop.gap
     approach = in_series(curve, depth, 0.0, stop.stiffness, beyond=True)[1]
     # Magnet and spring push as much out as in: the gap is the same.
     lost = 0.5 * (scene.loading.mass or 0.0) * (came * came - left * left)
