@@ -84,7 +84,7 @@ def test_forces_are_those_of_the_plan_of_any_scene(name, native, open_fmu):
         assert found["F_m"] == pytest.approx(static, rel=1e-9)
         assert found["F_v"] == pytest.approx(viscous, rel=1e-9)
         assert found["F"] == found["F_m"] + found["F_v"]
-        if limit is None:
+        if limit is LimitKind.NONE:
             assert found["c"] == pytest.approx(film.damping(gap), rel=1e-9)
         dh = 1e-5 * gap
         slope = (film.force(gap + dh, speed) - film.force(gap - dh, speed)) / (2.0 * dh)
@@ -93,7 +93,7 @@ def test_forces_are_those_of_the_plan_of_any_scene(name, native, open_fmu):
             assert found["k"] == pytest.approx(slope, abs=1e-6 * size)
         marks = [m for m in (*film.kinks, film.end, film.release) if gap < m < math.inf]
         assert found["h_above"] == pytest.approx(min(marks, default=0.0), rel=1e-14)
-        assert (found["limit"] == LimitKind.NONE) is (limit is None)
+        assert found["limit"] == limit
         assert found["state"] == (FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE)
 
 

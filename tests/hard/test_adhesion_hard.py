@@ -198,7 +198,7 @@ def start(made):
 def test_a_weak_pull_is_held_by_the_solids_and_says_so():
     result = run(ck.MeniscusForce(), SOFT, force=1e-9, mass=1e-12)
     assert result.status == "stuck"
-    assert "of the meniscus and adhesion at" in result.message
+    assert "of the meniscus force and adhesion of the solids at" in result.message
 
 
 def test_steps_of_any_length_lead_to_the_same_state():

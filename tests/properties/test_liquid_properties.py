@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -177,7 +178,9 @@ def test_a_liquid_gives_what_its_laws_give(law, density, share):
     state = Liquid(name="oil", kinematic_viscosity=law, density=density).at(temperature)
     assert state.viscosity == law(temperature) * density
     assert state.density == density
-    assert state.surface_tension is None
+    assert state.given("surface_tension") is None
+    with pytest.raises(DescriptionError, match=r"Liquid\.surface_tension must be given"):
+        _ = state.surface_tension
     assert state.temperature == temperature
 
 

@@ -88,7 +88,7 @@ films = st.builds(
 def test_a_film_without_limits_resists_opening_as_it_resists_closing(film, speed, open_by):
     force = film.plan().film.viscous_force
     gap = film.gap * open_by
-    assert force(gap, -speed) == (-force(gap, speed)[0], None)
+    assert force(gap, -speed) == (-force(gap, speed)[0], ck.LimitKind.NONE)
 
 
 @given(film=films, speed=decades(-9.0, 1.0))
@@ -111,7 +111,7 @@ def test_limits_take_force_away_and_never_turn_it(film, speed, open_by):
     newtonian = film.plan().film.viscous_force(gap, speed)[0]
     left, acting = film.plan(*LIMITED).film.viscous_force(gap, speed)
     assert 0.0 < left <= newtonian
-    assert (acting is None) == (left == newtonian)
+    assert (acting is ck.LimitKind.NONE) == (left == newtonian)
 
 
 @given(film=films, open_by=st.floats(1.1, 10.0), closure=st.sampled_from(["f", "v"]))

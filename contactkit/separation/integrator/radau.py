@@ -70,8 +70,8 @@ class Point(NamedTuple):
 class Forces(NamedTuple):
     """What resists opening at a gap and a speed: forces [N] and their slopes [N/m], [N.s/m].
 
-    `static` does not depend on the speed. Without a `limit` the viscous force is proportional to
-    the speed; with one it is what that leaves.
+    `static` does not depend on the speed. The viscous force is proportional to the speed where
+    `limit` is None; otherwise `limit` names the law that bounds it, by any object.
     """
 
     static: float
