@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Mapping
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -85,10 +84,10 @@ class Result(abc.ABC):
 
     def save(self, path: str | Path) -> Path:
         """Write the result to an npz file without pickle; `load_result` reads it."""
-        # By name, as the files stand above the results in the order of imports.
-        files = import_module("..files.results", __package__)
-        written: Path = files.save_result(self, path)
-        return written
+        # The one import of a room above: `save` is `save_result` as a method.
+        from ..files.results import save_result
+
+        return save_result(self, path)
 
     def __str__(self) -> str:
         numbers = self.scalars()
