@@ -26,7 +26,7 @@ from ..framework.places import Place, read, write
 from ..framework.ports import Port, Value
 from ..framework.slave import PortSlave
 
-__all__ = ["ValveDrive", "check_drive", "drive_values"]
+__all__ = ["ValveDrive", "check_drive", "drive_values", "valve_of"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
@@ -297,7 +297,7 @@ class ValveDrive(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         check_drive(self.values)
-        self.valve = write(PLACES, _VALVE, self.values)
+        self.valve = valve_of(self.values)
         faces = self.data.get("curve")
         self.faces = LoadDisplacementCurve.from_data(faces) if faces is not None else None
         self.largest = 0.0
@@ -411,6 +411,11 @@ _VALVE = law.Valve(
     ),
 )
 """Valve whose fields the parameters fill in."""
+
+
+def valve_of(values: Mapping[str, Any]) -> law.Valve:
+    """Valve that the parameters of the FMU describe; the inverse of `drive_values`."""
+    return write(PLACES, _VALVE, values)
 
 
 def drive_values(valve: law.Valve) -> dict[str, Any]:

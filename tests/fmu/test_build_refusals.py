@@ -88,10 +88,11 @@ def test_a_force_too_rough_for_a_table_is_named():
 
     class Rough:
         end, release, rejoin, kinks = 1e-4, float("inf"), 0.0, ()
+        known_to = float("inf")
 
     rough = lambda gap: 1.0 + 1e-3 * (hash(gap) % 1000)  # noqa: E731
     with pytest.raises(ck.ConvergenceError, match=r"MeniscusForce has no native form.*without"):
-        native_film._law_table(scene(volume=DROP), MeniscusForce, Rough(), 1e-8, rough)
+        native_film._law_table(scene(volume=DROP), MeniscusForce(), Rough(), 1e-8, rough)
 
 
 @needs_cc

@@ -293,7 +293,8 @@ def test_the_command_builds_one_from_a_contact_scene(tmp_path, capsys):
         [window]
         width = "30 um"
         periodic = false
-        [pressing]
+        [loading]
+        kind = "pressing"
         force = "0.2 N"
         [[effects]]
         effect = "half-space"

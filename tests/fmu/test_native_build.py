@@ -276,7 +276,7 @@ def test_what_cannot_be_built_is_refused(tmp_path):
     with pytest.raises(DescriptionError, match="is an output"):
         build_native(SCENES["drop"], out, start={"F": 1.0}, **ONE)
     massless = scene(mass=None)
-    with pytest.raises(DescriptionError, match=r"m must be given.*opening\.mass"):
+    with pytest.raises(DescriptionError, match=r"m must be given.*loading\.mass"):
         build_native(massless, out, **ONE)
     assert not out.exists()
     with pytest.raises(PlanError, match="valve-drive has no native form"):

@@ -205,7 +205,8 @@ def test_motion_is_that_of_the_python_model(name, tmp_path):
     loading = attrs.evolve(scene.loading, rest_gap=given.get("h_min", scene.loading.rest_gap))
     prepared = plan(moving(attrs.evolve(scene, loading=loading), None), FINE)
     # The laws behind the tables are finer than those of the tolerance of the motion.
-    prepared = type(prepared)(prepared.scene, attrs.evolve(FINE, time_rtol=1e-8), prepared.film)
+    accuracy = attrs.evolve(FINE, time_rtol=1e-8)
+    prepared = attrs.evolve(prepared, prepared=attrs.evolve(prepared.prepared, accuracy=accuracy))
     state = start(prepared)
     with Instance(path) as host:
         host.start({}, 1.0)

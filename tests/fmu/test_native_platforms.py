@@ -24,7 +24,7 @@ fmpy = pytest.importorskip("fmpy")
 from emulated_files import read_library, slices_of  # noqa: E402
 from hosts_fmus import reference  # noqa: E402
 from native_scenes import HERE  # noqa: E402
-from platforms_fmus import LIBRARIES, every_fmu, library_of, made_once  # noqa: E402
+from platforms_fmus import LIBRARIES, every_fmu, library_of  # noqa: E402
 
 from contactkit.fmu.framework.toolchain import (  # noqa: E402
     PLATFORMS,
@@ -222,7 +222,7 @@ def test_linux_on_arm_finds_the_same(fmus, rows_here, tmp_path, fmi):
 
 
 @pytest.fixture(scope="session")
-def wine(tmp_path_factory):
+def wine(shelf):
     """Environment of a Windows of Wine, made once."""
     if shutil.which("wine") is None:
         pytest.skip("needs Wine (Debian's wine and wine64)")
@@ -243,7 +243,7 @@ def wine(tmp_path_factory):
         )
 
     try:
-        prefix = made_once(tmp_path_factory, "wine", start)
+        prefix = shelf.folder("wine", start)
     except (OSError, subprocess.SubprocessError) as error:
         pytest.skip(f"Wine does not start: {error}")
     return common | {"WINEPREFIX": str(prefix)}

@@ -12,7 +12,7 @@ from attrs import evolve
 import contactkit as ck
 from contactkit.files.scenes import read_tables, structure
 from contactkit.fmu.python import build as building
-from contactkit.fmu.slaves.valve_drive import ValveDrive, _valve
+from contactkit.fmu.slaves.valve_drive import ValveDrive, valve_of
 from contactkit.models.injector import valve as law
 from contactkit.models.injector.monolithic import simulate
 from contactkit.models.injector.valve import Valve
@@ -42,7 +42,7 @@ def drive_fmu(shelf):
 def test_its_parameters_are_those_of_the_fuel_injector():
     tables = read_tables(MODEL)
     valve = structure(tables["valve"], Valve, MODEL.name)
-    built = _valve(ValveDrive.start_values())
+    built = valve_of(ValveDrive.start_values())
     for part in ("coil", "spring", "stop", "profile"):
         mine, theirs = getattr(built, part), getattr(valve, part)
         for name in type(mine).__annotations__:
