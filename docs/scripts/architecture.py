@@ -16,8 +16,8 @@ LEFT_OUT = {"_lazy", "__main__", "errors", "units", "validators", "accuracy", "w
 # Place along the row, 0 to 1, where arrows would otherwise pass behind a room.
 ACROSS = {
     **{"cli": 0.5, "app": 0.5, "fmu": 0.5, "models": 0.6, "studies": 0.12, "plot": 0.97},
-    **{"analyses": 0.68, "files": 0.42, "effects": 0.45, "planning": 0.85, "contact": 0.33},
-    **{"separation": 0.77, "scene": 0.55, "liquids": 0.65, "data": 0.42, "as_published": 0.73},
+    **{"analyses": 0.68, "files": 0.42, "effects": 0.53, "planning": 0.85, "contact": 0.33},
+    **{"separation": 0.77, "scene": 0.55, "liquids": 0.65, "data": 0.38, "as_published": 0.73},
     **{"elasticity": 0.22, "roughness": 0.37, "capillary": 0.57, "lubrication": 0.79},
     **{"adhesion": 0.98, "numerics": 0.68, "reference": 0.02},
 }
@@ -49,21 +49,22 @@ def draw(path: Path) -> None:
     rows = [[room for room in rooms if room not in LEFT_OUT] for rooms in rule.FLOORS]
     rows = [row for row in rows if row]
     place = {room: (ACROSS.get(room, 0.5), level) for level, row in enumerate(rows) for room in row}
-    figure, axes = plt.subplots(figsize=(9.0, 8.0))
+    figure, axes = plt.subplots(figsize=(8.0, 7.0), dpi=110)
     boxes = {}
     for room, (x, y) in place.items():
         style = {"boxstyle": "round,pad=0.4", "fc": "white", "ec": "0.2"}
         boxes[room] = axes.text(
             x, y, room, ha="center", va="center", fontsize=10, bbox=style, zorder=3
         )
-    figure.canvas.draw()
     for above, below in sorted(direct(arrows())):
         ends = {"patchA": boxes[above].get_bbox_patch(), "patchB": boxes[below].get_bbox_patch()}
         style = {"arrowstyle": "-|>", "color": "0.45", "lw": 0.9, "shrinkA": 0, "shrinkB": 1}
         axes.annotate("", place[below], place[above], arrowprops=style | ends, zorder=1)
-    axes.set(xlim=(0.0, 1.05), ylim=(-0.6, len(rows) - 0.4))
+    axes.set(xlim=(-0.05, 1.07), ylim=(-0.6, len(rows) - 0.4))
     axes.axis("off")
-    figure.savefig(path, dpi=110, bbox_inches="tight")
+    figure.subplots_adjust(left=0.01, right=0.99, bottom=0.0, top=1.0)
+    figure.canvas.draw()  # places the boxes, at which the arrows end
+    figure.savefig(path)
 
 
 if __name__ == "__main__":
