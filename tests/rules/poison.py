@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import functools
 import importlib
+import importlib.util
+import inspect
 import itertools
 import pkgutil
 import sys
@@ -51,6 +54,26 @@ def matches(name, patterns):
     return any(
         name.startswith(p.removesuffix("*")) if p.endswith("*") else name == p for p in patterns
     )
+
+
+def imported_by(kind):
+    """Patterns of what the module of an effect imports from the rooms, at its head or later."""
+    module = sys.modules[kind.__module__]
+    package = module.__name__.rpartition(".")[0]
+    found = set()
+    for node in ast.walk(ast.parse(inspect.getsource(module))):
+        if isinstance(node, ast.ImportFrom):
+            base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            names = [base, *(f"{base}.{alias.name}" for alias in node.names)]
+            found |= {name.removeprefix("contactkit.") for name in names}
+    known = {name.rpartition(".")[0] for name in kernels()}
+    return {f"{name}.*" for name in found & known}
+
+
+def with_needed_fields(kind):
+    """An effect of which only what must be given is given: one of each unit."""
+    needed = [a.name for a in attrs.fields(kind) if a.default is attrs.NOTHING]
+    return kind(**dict.fromkeys(needed, 1.0))
 
 
 def poison(monkeypatch, names):

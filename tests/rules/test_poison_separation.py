@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+import itertools
+
 import loadings
 import pytest
-from poison import by_kind, label, pairwise, poison_all_but, product_of, survives, unknown
+from poison import (
+    by_kind,
+    imported_by,
+    kernels,
+    label,
+    pairwise,
+    poison_all_but,
+    product_of,
+    survives,
+    unknown,
+    with_needed_fields,
+)
 
 import contactkit as ck
 from contactkit.separation import simulate as separation
 from contactkit.separation.effects.as_published import mixed
+from contactkit.separation.effects.base import SeparationForce
 from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -97,6 +111,14 @@ ROUGH = {
     for profile, kernels in (("thin-film", THIN), ("exact", CONDENSED))
 }
 
+TABLE = OWNED | SOLIDS | ROUGH
+# A force without a line above may call what its module imports. It is tried alone where it fits.
+OTHERS = {
+    with_needed_fields(kind): dict.fromkeys(BODIES, imported_by(kind))
+    for kind in SEPARATION_EFFECTS
+    if issubclass(kind, SeparationForce) and kind not in map(type, TABLE)
+}
+
 # What is not an effect's: how far the film reaches, the motion, and the ranges of validity.
 EXTENT = {
     "flats": {"lubrication.squeeze_film.disc_radius"},
@@ -137,7 +159,7 @@ def run(effects, body, imposed):
 
 def allowed(effects, body, imposed):
     kinds = {type(effect) for effect in effects}
-    owned = OWNED | SOLIDS | ROUGH
+    owned = TABLE | OTHERS
     names = set().union(EXTENT[body], *(owned[effect][body] for effect in effects))
     names |= set().union(*(VALIDITY.get(kind, set()) for kind in kinds))
     names |= VALIDITY_OF_BOTH if VALIDITY.keys() <= kinds else set()
@@ -177,6 +199,9 @@ def cases():
             yield (*case["film"], case["solid"]), body, case["imposed"]
     for case in product_of({"rough": ROUGH, "imposed": IMPOSED}):
         yield (case["rough"],), "flats", case["imposed"]
+    for other, body in itertools.product(OTHERS, BODIES):
+        if not other.lacks(scene_of((other,), body, "speed")):
+            yield (other,), body, "speed"
 
 
 CASES = list(dict.fromkeys(cases()))
@@ -312,9 +337,9 @@ def test_without_its_own_kernel_no_scene_runs(monkeypatch):
 
 
 def test_every_effect_and_every_choice_is_poisoned():
-    """A new effect, or a new choice of one, needs its line in the table."""
-    assert {type(effect) for effect in OWNED | SOLIDS | ROUGH} == set(SEPARATION_EFFECTS)
-    assert {effect for case in CASES for effect in case[0]} == {*OWNED, *SOLIDS, *ROUGH}
+    """Limits and ends of the film, and choices of an effect, need their lines in the table."""
+    assert {type(effect) for effect in TABLE | OTHERS} == set(SEPARATION_EFFECTS)
+    assert {effect for case in CASES for effect in case[0]} == {*TABLE, *OTHERS}
     solids = [effect for effect in SOLIDS if isinstance(effect, ck.AdhesiveContact)]
     assert {effect.model for effect in solids} == {"jkr", "dmt", "maugis-dugdale"}
     assert {effect.profile for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
@@ -322,6 +347,16 @@ def test_every_effect_and_every_choice_is_poisoned():
         "arc",
         "as-published",
     }
+
+
+def test_without_a_line_an_effect_owns_what_its_module_imports():
+    assert imported_by(ck.AsperityMenisci) == {
+        "capillary.arc.shape.*",
+        "capillary.asperities.*",
+        "capillary.asperity_bridges.*",
+        "capillary.kelvin.*",
+        "capillary.many_menisci.*",
+    } & {f"{name.rpartition('.')[0]}.*" for name in kernels()}
 
 
 def test_the_table_names_kernels_that_exist():
