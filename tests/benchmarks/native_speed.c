@@ -12,7 +12,7 @@
 #include "fmi2Functions.h"
 #include "motion.h"
 #include "model.h"
-#include "handles.h"
+#include "host.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -14,6 +14,36 @@
 
 enum { SWITCHES = 1 };
 
+/* Voltage [V] over time. */
+static double voltage_at(const ck_profile *p, double time) {
+    double since = time - p->delay;
+    if (!(since >= 0.0 && since < p->cycles * p->period)) return p->off;
+    since = fmod(since, p->period);
+    if (since >= p->on_time) return p->off;
+    return since < p->boost_time ? p->boost : p->hold;
+}
+
+static double next_switch(const ck_profile *p, double start, double end) {
+    /* one cycle early, as the quotient may be rounded up */
+    double cycle = floor((start - p->delay) / p->period) - 1.0;
+    int i, k;
+    if (!(cycle > 0.0)) cycle = 0.0;
+    for (i = 0; i < 5 && cycle < p->cycles; i++, cycle += 1.0) {
+        double begin = p->delay + cycle * p->period;
+        double times[3] = {begin, begin + p->boost_time, begin + p->on_time};
+        for (k = 0; k < 3; k++)
+            if (times[k] > start) return times[k] < end ? times[k] : end;
+    }
+    return end;
+}
+
+/* A time at which it switches, worked out from the times of the profile, may be rounded to either
+   side; the middle up to the next one is on neither. */
+static double voltage_after(const ck_profile *p, double time) {
+    double next = next_switch(p, time, HUGE_VAL);
+    return next < HUGE_VAL ? voltage_at(p, 0.5 * (time + next)) : p->off;
+}
+
 static const char *apply(ck_model *model) {
     const double *v = model->state.values;
     ck_drive *drive = &model->drive;
@@ -43,7 +73,7 @@ static void start(ck_model *model) {
     model->state.driven.largest = model->state.driven.ahead = 0.0;
     model->state.driven.pending = CK_NONE;
     v[CK_FLUX] = v[CK_DF_EXT] = 0.0;
-    v[CK_U] = ck_profile_at(&model->drive.profile, model->state.start_time);
+    v[CK_U] = voltage_at(&model->drive.profile, model->state.start_time);
 }
 
 /* The stop without its damping. */
@@ -108,8 +138,8 @@ static int carry(const ck_model *model, double time, way *gone) {
     double end = time + gone->length;
     long budget = MOST_STEPS;
     for (;;) {
-        double next = ck_profile_next(profile, begin, end), length = next - begin, reached;
-        double voltage = ck_profile_at(profile, 0.5 * (begin + next));
+        double next = next_switch(profile, begin, end), length = next - begin, reached;
+        double voltage = voltage_at(profile, 0.5 * (begin + next));
         reached = ck_coil_advance(&model->drive.coil, &gone->flux, gap + speed * (begin - time),
                                   speed, voltage, length, &budget);
         if (reached < length) {
@@ -162,7 +192,7 @@ static int step(ck_model *model, double time, double length) {
     state->driven.pending = gone.pauses ? SWITCHES : CK_NONE;
     state->end = time + gone.length;
     v[CK_FLUX] = gone.flux;
-    if (!gone.pauses) v[CK_U] = ck_profile_at(&model->drive.profile, state->end);
+    if (!gone.pauses) v[CK_U] = voltage_at(&model->drive.profile, state->end);
     fine = isfinite(gone.flux) && show(model);
     v[CK_DF_EXT] = (v[CK_F_EXT] - begun.pull) / gone.length;
     if (!fine || !isfinite(v[CK_DF_EXT])) {
@@ -180,7 +210,7 @@ static int step(ck_model *model, double time, double length) {
 /* The voltage switches, for which a step has paused. */
 static void resolve(ck_model *model) {
     model->state.driven.pending = CK_NONE;
-    model->state.values[CK_U] = ck_profile_after(&model->drive.profile, model->state.time);
+    model->state.values[CK_U] = voltage_after(&model->drive.profile, model->state.time);
 }
 
 /* Slopes at the gap and the speed that are set. */

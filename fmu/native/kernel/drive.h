@@ -1,4 +1,4 @@
-/* What a drive is made of: coil (coil.c), voltage over time (profile.c), rough faces (faces.c).
+/* What a drive is made of: coil (coil.c), voltage over time, rough faces (faces.c).
 
    Conventions and laws are those of contactkit/models/valve.py: SI units; the gap grows as the
    valve opens. */
@@ -56,10 +56,6 @@ double ck_coil_force(const ck_coil *coil, double flux);
    may still be taken. How far it got [s]: `duration`, if it did not fail. */
 double ck_coil_advance(const ck_coil *coil, double *flux, double gap, double speed, double voltage,
                        double duration, long *budget);
-
-double ck_profile_at(const ck_profile *profile, double time);
-double ck_profile_after(const ck_profile *profile, double time); /* once it has switched there */
-double ck_profile_next(const ck_profile *profile, double start, double end); /* switch, or end */
 
 /* Faces in series with a spring; both approach by this since they touched. */
 ck_pressed ck_faces_pressed(const ck_faces *faces, double approach, double largest,

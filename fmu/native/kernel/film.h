@@ -80,7 +80,7 @@ double ck_table_at(const ck_table *table, double gap, double log_gap, double *by
 void ck_forces_at(const ck_acting *acting, double gap, double speed, ck_forces *found);
 double ck_fixed_force(const ck_acting *acting, double gap);
 
-/* Over a time in which the gap moves at one speed; kinks are where it is to be cut (path.c). */
+/* Over a time in which the gap moves at one speed; kinks are where it is to be cut. */
 ck_impulse ck_along(const ck_acting *acting, double begin, double end, double length);
 
 void ck_disc_tension(double force, double area, double tension, ck_left *left);

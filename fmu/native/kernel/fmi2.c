@@ -2,7 +2,6 @@
 
 #include "fmi2Functions.h"
 
-#include "handles.h"
 #include "host.h"
 #include "model.h"
 
@@ -13,7 +12,7 @@
 #define WHOLE (CK_INTEGER | CK_ENUMERATION)
 
 typedef struct {
-    ck_model model; /* first: fmi2_state.c knows no more of an instance */
+    ck_model model;
     fmi2CallbackLogger logger;
     fmi2ComponentEnvironment environment;
     char *name;
@@ -288,4 +287,38 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
     OWN(c);
     (void)own, (void)kind, (void)value;
     return fmi2Discard;
+}
+
+/* The state of an instance --------------------------------------------------------------------- */
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);
+    return own ? (fmi2Status)ck_saved_take(&own->model, state) : fmi2Error;
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);
+    return own ? (fmi2Status)ck_saved_restore(&own->model, state) : fmi2Error;
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);
+    return own ? (fmi2Status)ck_saved_free(state) : fmi2Error;
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);
+    return own ? (fmi2Status)ck_saved_size(&own->model, state, size) : fmi2Error;
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[],
+                                 size_t size) {
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);
+    return own ? (fmi2Status)ck_saved_write(&own->model, state, bytes, size) : fmi2Error;
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size,
+                                   fmi2FMUstate *state) {
+    instance *own = (instance *)ck_handle_content(CK_INSTANCES, c);
+    return own ? (fmi2Status)ck_saved_read(&own->model, bytes, size, state) : fmi2Error;
 }

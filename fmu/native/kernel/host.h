@@ -1,4 +1,5 @@
-/* What both versions of FMI share: the folder of resources, and which messages are wanted. */
+/* Common to both versions of FMI, and to the guard of a Python FMU: the folder of resources, wanted
+   messages, and handles in place of pointers. */
 
 #ifndef CK_HOST_H
 #define CK_HOST_H
@@ -11,5 +12,13 @@ int ck_folder_of(const char *uri, char *folder, size_t size); /* 0 if it is no f
 int ck_wanted(int wanted, int on, size_t n, const char *const categories[]);
 int ck_category(const char *name);                            /* 0 if there is none */
 void ck_double_percents(const char *message, char *safe, size_t size);
+
+/* Handles are numbers that are checked before anything is touched: one that was freed, or never
+   given out, is recognised; freeing twice does no harm. */
+enum { CK_INSTANCES = 0, CK_STATES = 1 };
+
+void *ck_handle_new(int kind, void *content); /* NULL if there are too many */
+void *ck_handle_content(int kind, const void *handle);
+void *ck_handle_free(int kind, const void *handle); /* content, or NULL if it was no handle */
 
 #endif

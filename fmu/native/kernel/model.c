@@ -2,6 +2,8 @@
 
 #include "model.h"
 
+#include "host.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -292,4 +294,145 @@ int ck_model_restore(ck_model *model, const ck_state *state) {
     if (state->phase >= CK_STEPPING) ck_model_kind(model)->apply(model);
     ck_events_skip(model);
     return CK_OK;
+}
+
+/* Event mode ----------------------------------------------------------------------------------- */
+
+/* Outputs that are no continuous numbers change in event mode only, and the event a step ended for
+   is applied in it. Between two events the host sees what it has seen; `latest` is what is true. */
+static const int HELD[CK_HELD] = {CK_STATE,     CK_LIMIT,    CK_T_BREAK, CK_T_RELEASE, CK_N_BREAK,
+                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U};
+
+static int holds(const ck_model *model) {
+    return model->event_mode && model->state.phase == CK_STEPPING;
+}
+
+int ck_model_pends(const ck_model *model) {
+    const ck_state *state = &model->state;
+    return state->motion.pending || state->memory.pending || state->driven.pending;
+}
+
+void ck_events_note(ck_model *model) {
+    int i;
+    for (i = 0; i < CK_HELD; i++) model->state.latest[i] = model->state.values[HELD[i]];
+}
+
+void ck_events_lift(ck_model *model, double seen[CK_HELD]) {
+    int i;
+    if (!holds(model)) return;
+    for (i = 0; i < CK_HELD; i++) {
+        seen[i] = model->state.values[HELD[i]];
+        model->state.values[HELD[i]] = model->state.latest[i];
+    }
+}
+
+void ck_events_hold(ck_model *model, const double seen[CK_HELD]) {
+    int i;
+    if (!holds(model)) return;
+    ck_events_note(model);
+    for (i = 0; i < CK_HELD; i++) model->state.values[HELD[i]] = seen[i];
+}
+
+int ck_events_lag(const ck_model *model) {
+    int lags = ck_model_pends(model), i;
+    for (i = 0; i < CK_HELD; i++) lags |= model->state.latest[i] != model->state.values[HELD[i]];
+    return lags;
+}
+
+int ck_model_update(ck_model *model) {
+    int i;
+    if (model->state.failed || !ck_model_is_in(model, CK_EVENT, "updateDiscreteStates"))
+        return CK_ERROR;
+    for (i = 0; i < CK_HELD; i++) model->state.values[HELD[i]] = model->state.latest[i];
+    if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
+    model->state.event = model->state.shown = 0;
+    ck_model_follow(model);
+    ck_events_note(model);
+    return model->state.failed ? CK_ERROR : CK_OK;
+}
+
+void ck_events_skip(ck_model *model) {
+    int i;
+    if (model->event_mode) return;
+    if (model->state.phase == CK_EVENT) model->state.phase = CK_STEPPING;
+    if (!model->state.event) return;
+    for (i = 0; i < CK_HELD; i++) model->state.values[HELD[i]] = model->state.latest[i];
+    if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
+    model->state.event = model->state.shown = 0;
+}
+
+/* FMU states ----------------------------------------------------------------------------------- */
+
+/* Serialized: letters and a checksum, then the state as it lies in memory. */
+#define HEAD 16u
+#define SIZE (HEAD + sizeof(ck_state))
+
+static const char NO_STATE[] = "that is no FMU state, or it was freed; take one first";
+
+/* A state the host may keep: its own if it has one, else a new one. */
+static int keep(ck_model *model, const ck_state *content, void **state) {
+    ck_state *own = (ck_state *)ck_handle_content(CK_STATES, *state);
+    if (!own) {
+        void *handle;
+        own = (ck_state *)malloc(sizeof *own);
+        handle = own ? ck_handle_new(CK_STATES, own) : NULL;
+        if (!handle) {
+            free(own);
+            return ck_model_fail(model, "there is no room for more FMU states; free some");
+        }
+        *state = handle;
+    }
+    memcpy(own, content, sizeof *own);
+    return CK_OK;
+}
+
+int ck_saved_take(ck_model *model, void **state) {
+    if (!state) return ck_model_fail(model, "getFMUstate: the argument is missing");
+    return keep(model, &model->state, state);
+}
+
+int ck_saved_restore(ck_model *model, const void *state) {
+    const ck_state *content = (const ck_state *)ck_handle_content(CK_STATES, state);
+    return content ? ck_model_restore(model, content) : ck_model_fail(model, NO_STATE);
+}
+
+int ck_saved_free(void **state) {
+    if (!state) return CK_OK;
+    free(ck_handle_free(CK_STATES, *state));
+    *state = NULL;
+    return CK_OK;
+}
+
+int ck_saved_size(ck_model *model, const void *state, size_t *size) {
+    if (!size || !ck_handle_content(CK_STATES, state)) return ck_model_fail(model, NO_STATE);
+    *size = SIZE;
+    return CK_OK;
+}
+
+int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size) {
+    const ck_state *content = (const ck_state *)ck_handle_content(CK_STATES, state);
+    char *to = (char *)bytes;
+    uint64_t sum;
+    if (!content || !to) return ck_model_fail(model, NO_STATE);
+    if (size < SIZE) return ck_model_fail(model, "serializeFMUstate: there is too little room");
+    sum = ck_checksum(content, sizeof *content);
+    memcpy(to, "CKSTATE1", 8);
+    memcpy(to + 8, &sum, 8);
+    memcpy(to + HEAD, content, sizeof *content);
+    return CK_OK;
+}
+
+int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state) {
+    const char *from = (const char *)bytes;
+    ck_state content;
+    uint64_t sum;
+    if (!from || !state || size < SIZE || memcmp(from, "CKSTATE1", 8) != 0)
+        return ck_model_fail(model, "deSerializeFMUstate: these are no bytes of an FMU state; give those that "
+                                    "serializeFMUstate wrote, unchanged");
+    memcpy(&sum, from + 8, 8);
+    memcpy(&content, from + HEAD, sizeof content);
+    if (sum != ck_checksum(&content, sizeof content))
+        return ck_model_fail(model, "deSerializeFMUstate: the bytes were changed; give those that "
+                                    "serializeFMUstate wrote");
+    return keep(model, &content, state);
 }

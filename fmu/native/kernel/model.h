@@ -126,6 +126,14 @@ int ck_model_initialize(ck_model *model);
 int ck_model_step(ck_model *model, double time, double step);
 int ck_model_restore(ck_model *model, const ck_state *state);
 
+/* States of the host: taken, restored, freed, and as bytes. */
+int ck_saved_take(ck_model *model, void **state);
+int ck_saved_restore(ck_model *model, const void *state);
+int ck_saved_free(void **state);
+int ck_saved_size(ck_model *model, const void *state, size_t *size);
+int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size);
+int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state);
+
 /* Variables by value reference, from 1; `types` says which the call takes. */
 const ck_port *ck_model_port(ck_model *model, unsigned reference, int types, const char *call);
 int ck_model_set(ck_model *model, unsigned reference, int types, double value);
@@ -135,7 +143,7 @@ int ck_model_get(ck_model *model, unsigned reference, int types, double *value);
 int ck_model_derivative(ck_model *model, const unsigned unknown[], size_t n,
                         const unsigned known[], size_t m, const double seed[], double value[]);
 
-/* Event mode (events.c). Around whatever makes outputs: put true values in place of those the host
+/* Event mode. Around whatever makes outputs: put true values in place of those the host
    has seen, then back; noted as seen once event mode has shown them. */
 int ck_model_update(ck_model *model); /* let happen what the step ended for */
 int ck_model_pends(const ck_model *model);

@@ -42,9 +42,4 @@ int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, dou
 int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *acting,
               const ck_forces *forces, double pull);
 
-/* What can be read off a step once it is taken (reading.c). */
-double ck_highest(double first, const double stages[3], double *where);
-double ck_travel_integral(const ck_point *start, const ck_step *taken, double first,
-                          const double values[3]);
-
 #endif

@@ -7,7 +7,6 @@
 #define _GNU_SOURCE
 #include "fmi2Functions.h"
 
-#include "handles.h"
 #include "host.h"
 
 #include <dlfcn.h>
