@@ -1,20 +1,17 @@
-"""Contact whose load includes the pull of a liquid film: smallest equilibrium, and further ones."""
+"""Contact whose load includes the force of a liquid film: its equilibria."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 from ..errors import InfeasibleError
-from .effects.film import FilmMeniscus, FilmPart
+from .effects.base import Balance, Contact, LoadTerm
 from .friction_loop import Target
 from .hardness_loop import Solved, contact_of, solve_with_hardness
 from .plan import ContactPlan
 from .work import WorkCounter
-
-if TYPE_CHECKING:
-    from .effects.base import Contact
 
 __all__ = ["Pulled", "pulled_together"]
 
@@ -22,45 +19,48 @@ _MOST_ITERATIONS = 60
 _MOST_IMBALANCE = 0.05  # of the load, at a step of the force
 
 
-class Pulled(NamedTuple):
-    """A contact under its load and the pull of the film."""
+Part = TypeVar("Part")
+
+
+class Pulled(NamedTuple, Generic[Part]):
+    """A contact under its load and the force that adds to it."""
 
     solved: Solved
     contact: Contact
-    film: FilmPart
+    part: Part
 
 
-class _Trial(NamedTuple):
+class _Trial(NamedTuple, Generic[Part]):
     load: float
-    excess: float  # imposed load + film force - load on the contact [N]
+    excess: float  # imposed load + force - load on the contact [N]
     solved: Solved
     contact: Contact
-    film: FilmPart
+    part: Part
 
 
-_Attempt = Callable[[float, _Trial | None], _Trial | None]
+_Attempt = Callable[[float, _Trial[Part] | None], _Trial[Part] | None]
 
 
 def pulled_together(
-    plan: ContactPlan, film: FilmMeniscus, target: Target, counter: WorkCounter
-) -> Pulled:
-    """Find a load N on the contact with N = W + F(N), the smallest, and look for further ones.
+    plan: ContactPlan, term: LoadTerm[Part], target: Target, counter: WorkCounter
+) -> Pulled[Part]:
+    """Find the smallest load N on the contact with N = W + F(N), and look for further ones.
 
-    Steps N <- W + F(N) climb from W, sped up by secants where they crawl, inside a bracket that
-    always exists: the film cannot pull harder than over the whole window, and where the bodies
-    touch everywhere it does not pull at all. The force is a sum of pixels and has steps: if the
-    two sides meet at one, N is there, and `FilmPart.imbalance` says how high it is. Then loads
-    above N are tried, by factors of four: a change of sign is another equilibrium, and more than
-    one means that the bodies snap in when pressed beyond the second.
+    Fixed-point steps N <- W + F(N) climb from the imposed load W, accelerated by secants where
+    they are slow, inside a bracket that always exists: a film cannot pull harder than over the
+    whole window, and where the bodies touch everywhere it does not pull at all. The force is a sum
+    over pixels and has steps: if the two sides meet at one, N is there, and `Balance.imbalance` is
+    its height. Then loads above N are tried, by factors of four: a change of sign is another
+    equilibrium, and more than one means that the bodies snap in when pressed beyond the second.
     """
     area = plan.grid.area
     assert plan.mean_pressure is not None
     imposed = plan.mean_pressure * area
-    largest = imposed + film.largest_force(plan.scene, plan.grid)
+    largest = imposed + term.largest_force(plan.scene, plan.grid)
     if plan.hardness is not None:
         largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
 
-    def attempt(load: float, start: _Trial | None) -> _Trial | None:
+    def attempt(load: float, start: _Trial[Part] | None) -> _Trial[Part] | None:
         near = target._replace(mean_pressure=load / area)
         if start is not None:
             hardness = start.solved.hardness if isinstance(start.solved.hardness, float) else None
@@ -70,20 +70,16 @@ def pulled_together(
         except InfeasibleError:  # beyond what the hardness there can carry
             return None
         contact = contact_of(plan, solved)
-        part = film.observe(contact)
-        return _Trial(load, imposed + part.force - load, solved, contact, part)
+        part = term.observe(contact)
+        return _Trial(load, imposed + term.force_of(part) - load, solved, contact, part)
 
     found, is_settled = _smallest(plan, attempt, imposed, largest)
     others = _further(attempt, found, largest)
     # At a step of the force the balance says how much of it acts.
-    force = found.load - imposed if found.load > imposed else found.film.force
+    force = found.load - imposed if found.load > imposed else term.force_of(found.part)
     gap = abs(found.excess) / found.load if found.load > 0.0 else 0.0
-    part = found.film._replace(
-        force=force,
-        relative_force=force / imposed if imposed > 0.0 else math.inf,
-        equilibria=(found.load, *others),
-        imbalance=gap,
-    )
+    relative = force / imposed if imposed > 0.0 else math.inf
+    part = term.balanced(found.part, Balance(force, relative, (found.load, *others), gap))
     solved = found.solved
     if gap > _MOST_IMBALANCE and is_settled and not solved.problem:
         solved = solved._replace(problem=_step(found, gap))
@@ -92,7 +88,7 @@ def pulled_together(
     return Pulled(solved, found.contact, part)
 
 
-def _step(found: _Trial, gap: float) -> str:
+def _step(found: _Trial[Part], gap: float) -> str:
     return (
         f"the force of the film steps over the balance at a load of {found.load:.6g} N, which "
         f"it misses by {100.0 * gap:.2g} %: its menisci are a few pixels wide; use a finer "
@@ -109,8 +105,8 @@ def _unsettled(gap: float) -> str:
 
 
 def _smallest(
-    plan: ContactPlan, attempt: _Attempt, imposed: float, largest: float
-) -> tuple[_Trial, bool]:
+    plan: ContactPlan, attempt: _Attempt[Part], imposed: float, largest: float
+) -> tuple[_Trial[Part], bool]:
     """The smallest load that balances, and whether the iterations settled on it."""
     tolerance = max(plan.accuracy.outer_rtol, 1e-9)
     first = attempt(imposed, None)
@@ -138,14 +134,14 @@ def _smallest(
     return best, False
 
 
-def _secant(before: _Trial, now: _Trial) -> float:
-    """Where the line through two trials meets zero, at most four fixed-point steps ahead."""
+def _secant(before: _Trial[Part], now: _Trial[Part]) -> float:
+    """Zero of the line through two trials, at most four fixed-point steps ahead."""
     slope = (now.excess - before.excess) / (now.load - before.load)
     ahead = now.excess / max(-slope, 0.25)
     return now.load + ahead
 
 
-def _further(attempt: _Attempt, found: _Trial, largest: float) -> tuple[float, ...]:
+def _further(attempt: _Attempt[Part], found: _Trial[Part], largest: float) -> tuple[float, ...]:
     """Loads of further equilibria [N], each to the factor of four it was found in."""
     others: list[float] = []
     above, last = False, found

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .effects.base import DisplacementTerm
 from .plan import ContactPlan
 from .solver.contact_solver import Solution
 from .solver.warm_start import Start
@@ -24,11 +24,11 @@ _MOST_ITERATIONS = 60
 
 
 class Target(NamedTuple):
-    """What one solve is to reach, and from where.
+    """Load or approach of one solve, and its initial guess.
 
-    A mean pressure [Pa], or an approach of the zero plane of the heights [m]. `start` is a pressure
-    (ny, nx) [Pa], or pairs of mean pressure and pressure, the newest first; `hardness` [Pa] one
-    that was right nearby.
+    Either a mean pressure [Pa] or an approach of the zero plane of the heights [m]. `start` is a
+    pressure (ny, nx) [Pa], or pairs of mean pressure and pressure, the newest first; `hardness`
+    [Pa] is that of a solution nearby.
     """
 
     mean_pressure: float | None
@@ -38,10 +38,9 @@ class Target(NamedTuple):
 
 
 class Friction(NamedTuple):
-    """What friction did to a contact.
+    """Normal displacement caused by friction [m], and the pressure [Pa] without it, (ny, nx) each.
 
-    The normal displacement it causes [m], and the pressure [Pa] without it, (ny, nx) each;
-    `problem` says whether the two do not agree yet.
+    `problem` says why displacement and pressure do not agree yet; empty if they do.
     """
 
     displacement: Map
@@ -50,7 +49,7 @@ class Friction(NamedTuple):
 
 
 class Frictional(NamedTuple):
-    """A solved contact, and what friction did to it if the scene couples them."""
+    """A solved contact, and its friction if the scene couples them."""
 
     solution: Solution
     friction: Friction | None
@@ -59,12 +58,11 @@ class Frictional(NamedTuple):
 def solve_bounded(
     plan: ContactPlan, target: Target, bound: Map | float | None, counter: WorkCounter
 ) -> Frictional:
-    """Solve one contact under a given bound; with friction coupling, until that agrees too."""
+    """Solve one contact under a given bound; with friction coupling, iterate until it agrees."""
     begun = time.perf_counter()
-    term = plan.scene.effect(DisplacementTerm)  # type: ignore[type-abstract]
     solved = Frictional(_once(plan, target, bound, plan.heights, counter), None)
-    if term is not None:
-        solved = _coupled(plan, target, bound, counter, solved.solution, term)
+    if plan.coupling is not None:
+        solved = _coupled(plan, target, bound, counter, solved.solution, plan.coupling)
     counter.clock("contact", begun)
     return solved
 
@@ -75,13 +73,13 @@ def _coupled(
     bound: Map | float | None,
     counter: WorkCounter,
     solution: Solution,
-    term: DisplacementTerm[object],
+    caused_by: Callable[[Map], Map],
 ) -> Frictional:
     """Repeat the contact with the displacement of its own traction until it no longer changes."""
     without = solution.pressure
     displacement: Map = np.zeros(plan.grid.shape)
     for _ in range(_MOST_ITERATIONS):
-        caused = term.displacement(plan.scene, plan.grid, solution.pressure)
+        caused = caused_by(solution.pressure)
         scale = max(float(np.ptp(solution.displacement)), np.finfo(float).tiny)
         change = float(np.abs(caused - displacement).max()) / scale
         displacement = caused

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..errors import InfeasibleError
-from .effects.base import Contact, HardnessLaw
+from .effects.base import Contact, FixedHardness, VaryingHardness
 from .friction_loop import Friction, Target, solve_bounded
 from .plan import ContactPlan
 from .solver.contact_solver import Solution
@@ -64,11 +64,10 @@ def solve_with_hardness(plan: ContactPlan, target: Target, counter: WorkCounter)
         If the load exceeds what the hardness at the displacement reached can carry.
     """
     law = plan.hardness
-    if law is None or law.at is None:
-        hardness: Map | float | None = None
-        if law is not None:
-            hardness = law.values if law.values is not None else law.highest
-        return _solved(plan, target, hardness, counter)
+    if law is None:
+        return _solved(plan, target, None, counter)
+    if isinstance(law, FixedHardness):
+        return _solved(plan, target, law.value, counter)
     iterate = _local if law.is_local else _bracketed
     return iterate(plan, target, counter, law)
 
@@ -95,16 +94,17 @@ def _problem(plan: ContactPlan, solution: Solution, friction: Friction | None) -
     )
 
 
-def _at_the_largest_displacement(plan: ContactPlan, solution: Solution, law: HardnessLaw) -> float:
+def _at_largest_displacement(plan: ContactPlan, solution: Solution, law: VaryingHardness) -> float:
     """Hardness [Pa] at the largest displacement of each body under contact."""
     touching = solution.pressure > 0.0
     bodies = plan.prepared.displacements(solution.pressure, solution.displacement)
     largest = tuple(np.asarray(u[touching].max(initial=0.0)) for u in bodies)
-    assert law.at is not None
     return float(law.at(largest))
 
 
-def _bracketed(plan: ContactPlan, target: Target, counter: WorkCounter, law: HardnessLaw) -> Solved:
+def _bracketed(
+    plan: ContactPlan, target: Target, counter: WorkCounter, law: VaryingHardness
+) -> Solved:
     """One hardness for all: fixed-point iterations inside a bracket, so that they cannot cycle.
 
     Where the law gives more hardness than was assumed the root lies above, else below. A bracket
@@ -119,7 +119,7 @@ def _bracketed(plan: ContactPlan, target: Target, counter: WorkCounter, law: Har
     trial = guess if guess is not None and low < guess < high else high
     for _ in range(_MOST_ITERATIONS):
         solved = _solved(plan, target, trial, counter)
-        found = _at_the_largest_displacement(plan, solved.solution, law)
+        found = _at_largest_displacement(plan, solved.solution, law)
         if abs(found - trial) <= tolerance * trial or solved.problem:
             return solved
         target = target._replace(start=solved.solution.pressure)
@@ -155,10 +155,9 @@ def _jump(low: float, high: float, found: float) -> str:
     )
 
 
-def _local(plan: ContactPlan, target: Target, counter: WorkCounter, law: HardnessLaw) -> Solved:
+def _local(plan: ContactPlan, target: Target, counter: WorkCounter, law: VaryingHardness) -> Solved:
     """A hardness for each pixel: fixed-point iterations, damped where they do not contract."""
-    assert law.at is not None
-    hardness: Any = np.full(plan.grid.shape, law.highest)
+    hardness: Map = np.full(plan.grid.shape, law.highest)
     damping, last, least = 1.0, np.inf, np.inf
     for _ in range(_MOST_ITERATIONS):
         solved = _solved(plan, target, hardness, counter)

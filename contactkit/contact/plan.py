@@ -1,15 +1,18 @@
-"""Plan of a contact: checked, with heights, compliance, solver and hardness prepared."""
+"""Plan of a contact: checked, with heights, compliance, solver and hardness prepared once."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from attrs import evolve, field, frozen
+from attrs import Factory, evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
-from ..scene.effect import check_listed, choices
+from ..scene.effect import EffectRegistry, check_listed
 from ..scene.loading import Approach, ContactLoading
+from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat
 from ..scene.window import Grid
@@ -24,7 +27,7 @@ from .effects.base import (
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS
 from .grid import grid_of
-from .prepared import Preparation, PreparedInterface, interface_key
+from .prepared import Once, PreparedInterface, interface_key
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,11 +35,27 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["ContactPlan", "hardness_of", "plan_contact", "unprepared_plan"]
+__all__ = ["ContactPlan", "plan_contact", "unprepared_plan"]
+
+_SINGLE_ROLES = (PressureBound, LoadTerm, DisplacementTerm)  # one effect of each at most
+
+
+def _hardness(plan: ContactPlan) -> HardnessLaw | None:
+    bound = plan.scene.effect(PressureBound)
+    return bound.prepare(plan.scene, plan.grid) if bound is not None else None
+
+
+def _interface(plan: ContactPlan) -> Once[PreparedInterface]:
+    return Once(partial(PreparedInterface, plan.scene, plan.grid, plan.accuracy.threads))
+
+
+def _coupling(plan: ContactPlan) -> Once[Callable[[Map], Map]] | None:
+    term = plan.scene.effect(DisplacementTerm)
+    return Once(partial(term.prepare, plan.scene, plan.grid)) if term is not None else None
 
 
 @frozen(eq=False)
-class ContactPlan:
+class ContactPlan(ScenePlan):
     """A checked contact scene on its grid, with everything prepared that the load does not change.
 
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
@@ -50,24 +69,42 @@ class ContactPlan:
         How well it is solved.
     grid : Grid
         Pixels of the window.
-    hardness : HardnessLaw or None
+    hardness : FixedHardness, VaryingHardness or None
         Upper bound of the pressure; None where the scene lists none.
     """
+
+    known_effects: ClassVar[EffectRegistry[ContactEffect[Any]]] = CONTACT_EFFECTS
 
     scene: ContactScene
     accuracy: Accuracy
     grid: Grid = field(repr=False)
-    hardness: HardnessLaw | None = field(repr=False)
-    _preparation: Preparation = field(factory=Preparation, repr=False)
+    hardness: HardnessLaw | None = field(default=Factory(_hardness, takes_self=True), repr=False)
+    _interface: Once[PreparedInterface] = field(
+        default=Factory(_interface, takes_self=True), repr=False
+    )
+    _coupling: Once[Callable[[Map], Map]] | None = field(
+        default=Factory(_coupling, takes_self=True), repr=False
+    )
 
-    def has(self, kind: type[ContactEffect[Any]]) -> bool:
-        """Whether the scene calls for an effect."""
-        return any(type(effect) is kind for effect in self.scene.effects)
+    @property
+    def title(self) -> str:
+        """The scene, the load and the grid, in a line."""
+        (ny, nx), (dy, dx) = self.grid.shape, self.grid.pixel_size
+        edges = "periodic" if self.grid.periodic else "not periodic"
+        return (
+            f"{self.scene.name or 'contact'}: {self.scene.loading.summary}, window {nx * dx:g} m x "
+            f"{ny * dy:g} m, {edges}, {nx} x {ny} pixels"
+        )
 
     @property
     def prepared(self) -> PreparedInterface:
         """Heights, compliance and solver of the interface."""
-        return self._preparation.interface(self.scene, self.grid, self.accuracy.threads)
+        return self._interface()
+
+    @property
+    def coupling(self) -> Callable[[Map], Map] | None:
+        """Displacement [m] that the `DisplacementTerm` causes, as a function of the pressure."""
+        return self._coupling() if self._coupling is not None else None
 
     @property
     def heights(self) -> Map:
@@ -104,40 +141,30 @@ class ContactPlan:
         """
         made = evolve(self, scene=evolve(self.scene, loading=loading))
         _check_load(made)
-        _check_approach(made, made.prepared)
+        _check_approach(made)
+        return made
+
+    def prepare(self, like: ContactPlan | None = None) -> ContactPlan:
+        """Return the plan with its interface prepared, or taken over from a plan of the same one.
+
+        Raises
+        ------
+        DescriptionError, InfeasibleError
+            If the surfaces do not fit the grid, or no load brings them to the approach.
+        """
+        made = self
+        if like is not None and self.has_interface_of(like):
+            made = evolve(self, interface=like._interface)
+        made._interface()
+        _check_approach(made)
         return made
 
     def without_preparation(self) -> ContactPlan:
         """Return the plan without what it holds in memory; it prepares again if it is solved."""
-        return evolve(self, preparation=Preparation())
-
-    def cite(self) -> str:
-        """Sources of the equations of this run, one to a line."""
-        return "\n".join(
-            f"{effect.name}: {source}"
-            for effect in self.scene.effects
-            for source in effect.cites(self.scene)
-        )
-
-    def __str__(self) -> str:
-        (ny, nx), (dy, dx) = self.grid.shape, self.grid.pixel_size
-        edges = "periodic" if self.grid.periodic else "free"
-        title = (
-            f"{self.scene.name or 'contact'}: {self.scene.loading.summary}, window {nx * dx:g} m x "
-            f"{ny * dy:g} m, {edges}, {nx} x {ny} pixels"
-        )
-        on = [f"  on   {e.name:18s} {choices(e)}" for e in self.scene.effects]
-        off = [
-            f"  off  {kind.name:18s} {kind.summary}"
-            for kind in CONTACT_EFFECTS
-            if not self.has(kind)
-        ]
-        return "\n".join([title, *on, *off])
+        return ContactPlan(self.scene, self.accuracy, self.grid, self.hardness)
 
 
-def plan_contact(
-    scene: ContactScene, accuracy: Accuracy | None = None, like: ContactPlan | None = None
-) -> ContactPlan:
+def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
     """Check a contact scene and prepare its solve.
 
     Parameters
@@ -146,9 +173,6 @@ def plan_contact(
         What is there and which physics it calls for.
     accuracy : Accuracy, optional
         How well to solve; `Accuracy.standard` if not given.
-    like : ContactPlan, optional
-        A plan that is done with: what it prepared is taken over if surfaces, grid and compliance
-        are the same, and released if not.
 
     Raises
     ------
@@ -159,34 +183,23 @@ def plan_contact(
     InfeasibleError
         If the bodies cannot carry the load, or no load brings them to the approach.
     """
-    made = unprepared_plan(scene, accuracy)
-    if like is not None:
-        made = evolve(made, preparation=like._preparation)
-    _check_approach(made, made.prepared)
-    return made
+    return unprepared_plan(scene, accuracy).prepare()
 
 
 def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
-    """Check effects and load of a contact scene; what is costly waits until it is needed.
+    """Check effects and load of a contact scene; heights, compliance and solver are not made yet.
 
     Raises
     ------
     PlanError, DescriptionError, InfeasibleError
-        As `plan_contact`, but for what only the heights show.
+        As `plan_contact`, except for problems that only the heights show.
     """
     _check_bodies(scene)
     _check_effects(scene)
     accuracy = accuracy or Accuracy.standard
-    grid = grid_of(scene, accuracy)
-    made = ContactPlan(scene, accuracy, grid, hardness_of(scene, grid))
+    made = ContactPlan(scene, accuracy, grid_of(scene, accuracy))
     _check_load(made)
     return made
-
-
-def hardness_of(scene: ContactScene, grid: Grid) -> HardnessLaw | None:
-    """Upper bound of the pressure that a scene lists; None if it lists none."""
-    bound = scene.effect(PressureBound)  # type: ignore[type-abstract]
-    return bound.prepare(scene, grid) if bound is not None else None
 
 
 def _check_bodies(scene: ContactScene) -> None:
@@ -222,6 +235,10 @@ def _check_effects(scene: ContactScene) -> None:
         for effect in scene.effects
         for item in effect.lacks(scene)
     ]
+    for role in _SINGLE_ROLES:
+        names = [kind.__name__ for kind in kinds if issubclass(kind, role)]
+        if len(names) > 1:
+            problems.append(f"{' and '.join(names)} exclude each other: list one of them")
     if FrictionTraction not in kinds:
         problems += [
             f"{type(e).__name__} needs FrictionTraction(coefficient=...) beside it"
@@ -237,7 +254,7 @@ def _check_load(made: ContactPlan) -> None:
     load, scene = made.mean_pressure, made.scene
     if load is None:
         for effect in scene.effects:
-            if isinstance(effect, LoadTerm) and getattr(effect, "self_consistent", False):
+            if isinstance(effect, LoadTerm) and effect.self_consistent:
                 raise PlanError(
                     f"{type(effect).__name__}(self_consistent=True) adds its force to a load, and "
                     "Approach(approach=...) imposes none; impose pressure or force, or leave it out"
@@ -251,11 +268,12 @@ def _check_load(made: ContactPlan) -> None:
         )
 
 
-def _check_approach(made: ContactPlan, interface: PreparedInterface) -> None:
+def _check_approach(made: ContactPlan) -> None:
     """Refuse an approach at which no load closes a periodic window further."""
-    loading, heights = made.scene.loading, interface.heights
+    loading = made.scene.loading
     if not isinstance(loading, Approach) or made.hardness is not None or not made.grid.periodic:
         return
+    heights = made.heights
     limit = float(heights.max() - heights.mean())
     if loading.approach >= limit:
         raise InfeasibleError(

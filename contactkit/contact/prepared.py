@@ -1,10 +1,10 @@
-"""What a contact plan prepares once: heights, compliance and solver of an interface."""
+"""Preparation of a contact plan: heights, compliance and solver, each made once."""
 
 from __future__ import annotations
 
 import threading
-import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -21,7 +21,33 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["Preparation", "PreparedInterface", "interface_key"]
+__all__ = ["Once", "PreparedInterface", "interface_key"]
+
+T = TypeVar("T")
+
+
+class Once(Generic[T]):
+    """A value that is made when it is first called for, and then kept.
+
+    Examples
+    --------
+    >>> numbers = iter(range(2))
+    >>> first = Once(lambda: next(numbers))
+    >>> first(), first()
+    (0, 0)
+    """
+
+    def __init__(self, make: Callable[[], T]) -> None:
+        self._make = make
+        self._made: list[T] = []
+        self._lock = threading.Lock()
+
+    def __call__(self) -> T:
+        """Return the value; threads wait for the one that makes it."""
+        with self._lock:
+            if not self._made:
+                self._made.append(self._make())
+            return self._made[0]
 
 
 class PreparedInterface:
@@ -40,46 +66,36 @@ class PreparedInterface:
     ----------
     heights : ndarray (ny, nx)
         Heights of both bodies together [m], read-only.
+    compliances : tuple of callable
+        For each deforming body a function that makes its symbol.
     solver : ContactSolver
         For the compliance of both bodies together.
-    seconds : float
-        What the preparation took [s].
     """
 
     def __init__(self, scene: ContactScene, grid: Grid, threads: int) -> None:
-        begun = time.perf_counter()
         self.grid, self._threads = grid, threads
         self.heights = combined_heights(scene, grid)
         self.heights.flags.writeable = False
-        elastic = scene.effect(Compliance)  # type: ignore[type-abstract]
+        elastic = scene.effect(Compliance)
         assert elastic is not None  # plan_contact has checked the effects
         self.compliances = elastic.prepare(scene, grid)
         self.solver = ContactSolver(
             grid.shape, grid.pixel_size, _sum(self.compliances), grid.periodic, threads=threads
         )
-        self._bodies: tuple[Convolution, ...] | None = None
+        self._bodies = Once(lambda: tuple(self._operator(make) for make in self.compliances))
         self._lock = threading.Lock()
-        self.seconds = time.perf_counter() - begun
 
     @property
     def first_touch(self) -> float:
         """Rigid-body approach [m] at which the undeformed bodies touch."""
         return -float(self.heights.max())
 
-    @property
-    def nbytes(self) -> int:
-        """Memory held [bytes]."""
-        bodies = sum(one.nbytes for one in self._bodies or ())
-        return int(self.heights.nbytes + self.solver.nbytes + bodies)
-
     def displacements(self, pressure: Map, total: Map) -> tuple[Map, ...]:
         """Displacement [m] of the surface of each deforming body; `total` is their sum."""
         if len(self.compliances) == 1:
             return (total,)
-        with self._lock:
-            if self._bodies is None:
-                self._bodies = tuple(self._operator(make) for make in self.compliances)
-            return tuple(body(pressure) for body in self._bodies)
+        with self._lock:  # a convolution owns its maps
+            return tuple(body(pressure) for body in self._bodies())
 
     def _operator(self, make_symbol: SymbolMaker) -> Convolution:
         shape, periodic = self.grid.shape, self.grid.periodic
@@ -103,24 +119,4 @@ def _sum(makers: tuple[SymbolMaker, ...]) -> SymbolMaker:
 
 def interface_key(scene: ContactScene, grid: Grid, threads: int) -> tuple[object, ...]:
     """Everything that a prepared interface depends on."""
-    elastic = scene.effect(Compliance)  # type: ignore[type-abstract]
-    return (scene.interface.lower, scene.interface.upper, elastic, grid, threads)
-
-
-class Preparation:
-    """The prepared interface of a plan, made when it is first needed and kept.
-
-    Plans of one interface share it: those of a load curve prepare nothing twice.
-    """
-
-    def __init__(self) -> None:
-        self._key: tuple[object, ...] = ()
-        self._made: PreparedInterface | None = None
-
-    def interface(self, scene: ContactScene, grid: Grid, threads: int) -> PreparedInterface:
-        """Return what was prepared for the same interface, grid and compliance, or prepare it."""
-        key = interface_key(scene, grid, threads)
-        if self._made is None or self._key != key:
-            self._made = None  # so that two of them are never in memory
-            self._made, self._key = PreparedInterface(scene, grid, threads), key
-        return self._made
+    return (scene.interface.lower, scene.interface.upper, scene.effect(Compliance), grid, threads)

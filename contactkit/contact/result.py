@@ -1,15 +1,17 @@
-"""Result of a contact: maps, numbers, what each effect did, and how well it was solved."""
+"""Result of a contact: maps, numbers, the parts of the effects, residual and cost."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 from attrs import field, frozen
 
 from ..errors import NotSimulatedError
+from ..scene.result import Result
 from .effects.base import ContactEffect
 from .effects.plasticity import HardnessLimit
 from .plan import ContactPlan
@@ -26,13 +28,13 @@ _Part = TypeVar("_Part")
 
 
 @frozen(eq=False)
-class ContactResult:
+class ContactResult(Result):
     """Maps and numbers of one contact; arrays are read-only.
 
     Attributes
     ----------
     plan : ContactPlan
-        What was run; what it had prepared is released.
+        The plan that was run, without its preparation.
     status : str
         ``converged``, ``no contact``, or ``not converged``.
     message : str
@@ -48,7 +50,9 @@ class ContactResult:
     energy : float
         Complementary energy ``1/2 p C p - p h`` [J]; the solution is its minimum.
     work : ContactWork
-        What it cost.
+        Counts and seconds.
+    parts : mapping of effect class to its part
+        The parts of all effects; `of` gives one of them.
     """
 
     plan: ContactPlan = field(repr=False)
@@ -62,7 +66,13 @@ class ContactResult:
     residual: float
     energy: float
     work: ContactWork
-    parts: Mapping[type[ContactEffect[Any]], Any] = field(repr=False)
+    parts: Mapping[type[ContactEffect[Any]], object] = field(repr=False)
+
+    @property
+    def columns(self) -> Mapping[str, Map]:
+        """The maps by their names; ``result["gap"]`` is one of them."""
+        names = ("pressure", "gap", "displacement", "heights")
+        return MappingProxyType({name: getattr(self, name) for name in names})
 
     @property
     def contact(self) -> NDArray[np.bool_]:
@@ -132,23 +142,22 @@ class ContactResult:
         return self.of(HardnessLimit).area
 
     def of(self, kind: type[ContactEffect[_Part]]) -> _Part:
-        """Return what an effect did.
+        """Return the part of an effect: its maps and numbers.
 
         Raises
         ------
         NotSimulatedError
             If the scene does not call for the effect.
         """
-        if not self.plan.has(kind):
-            raise NotSimulatedError(
-                f"the scene does not call for {kind.name}: add {kind.__name__}(...) to its effects"
-            )
+        self.plan.listed(kind)
         if kind not in self.parts:
             raise NotSimulatedError(
                 f"{kind.__name__} has no part of its own; see result.displacement"
             )
-        part: _Part = self.parts[kind]
-        return part
+        return cast("_Part", self.parts[kind])
+
+    def _refuse(self, name: str) -> None:
+        """Every contact has the same maps."""
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""

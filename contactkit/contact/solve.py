@@ -1,4 +1,4 @@
-"""Solve a planned contact: the pressure, and then what else the scene lists."""
+"""Solve a planned contact: the pressure, then the effects that observe it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ConvergenceError, DescriptionError
-from .effects.base import Contact, LoadTerm
-from .effects.film import FilmMeniscus
+from .effects.base import Contact, ContactEffect, LoadTerm
 from .effects.plasticity import HardnessLimit
 from .film_loop import pulled_together
 from .friction_loop import Target
@@ -28,11 +27,11 @@ __all__ = ["solve"]
 
 
 class _Answer(NamedTuple):
-    """A solved contact, as the solver and as the effects see it, and what the effects did."""
+    """A solved contact, as the solver and as the effects see it, and the parts of the effects."""
 
     solved: Solved
     contact: Contact
-    parts: dict[Any, Any]
+    parts: dict[type[ContactEffect[Any]], object]
 
 
 def solve(
@@ -102,21 +101,22 @@ def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | 
                 f"a result on {one.pressure.shape} pixels",
                 f"be one on {plan.grid.shape} pixels",
             )
-    plastic = before[0].parts.get(HardnessLimit) if before else None
-    hardness = getattr(plastic, "hardness", None)
-    near = hardness if isinstance(hardness, float) else None
+    near = None
+    if before and before[0].has(HardnessLimit):
+        hardness = before[0].of(HardnessLimit).hardness
+        near = hardness if isinstance(hardness, float) else None
     pressures = [(one.mean_pressure, one.pressure) for one in before] or None
     return Target(plan.mean_pressure, plan.rigid_approach, pressures, near)
 
 
 def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answer:
-    """Solve the contact, with the pull of the film if that acts back on it; run the effects."""
-    parts: dict[Any, Any] = {}
-    film = plan.scene.effect(LoadTerm)  # type: ignore[type-abstract]
-    if isinstance(film, FilmMeniscus) and film.self_consistent:
+    """Solve the contact, with a force that adds to its load if there is one; run the effects."""
+    parts: dict[type[ContactEffect[Any]], object] = {}
+    term = plan.scene.effect(LoadTerm)
+    if term is not None and term.self_consistent:
         begun = time.perf_counter()
-        solved, contact, parts[FilmMeniscus] = pulled_together(plan, film, target, counter)
-        counter.clock(film.name, begun)
+        solved, contact, parts[type(term)] = pulled_together(plan, term, target, counter)
+        counter.clock(term.name, begun)
     else:
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)

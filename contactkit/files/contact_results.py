@@ -12,7 +12,7 @@ import numpy as np
 
 from ..accuracy import Accuracy
 from ..contact.effects.registry import CONTACT_EFFECTS
-from ..contact.plan import ContactPlan, hardness_of
+from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.work import ContactWork
 from ..scene.scenes import ContactScene
@@ -68,7 +68,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     grid, work = Grid((ny, nx), (dy, dx), periodic), header["work"]
     accuracy = Accuracy(**header["accuracy"])
     return ContactResult(
-        plan=ContactPlan(scene, accuracy, grid, hardness_of(scene, grid)),
+        plan=ContactPlan(scene, accuracy, grid),
         status=header["status"],
         message=header["message"],
         **{name: arrays[name] for name in _MAPS},

@@ -200,7 +200,7 @@ def _body(value: Any, _: Any) -> Body:
         if "solid" in value or "surface" in value:
             cure = "a body with a solid has its shape under surface: surface = { shape = ... }"
             raise DescriptionError("Body.shape", value["shape"], "stand alone", hint=cure)
-        return Body(surface=_CONVERTER.structure(value, Surface))  # type: ignore[type-abstract]
+        return Body(surface=_CONVERTER.structure(value, Surface))
     if not isinstance(value, Mapping):
         expected = "be a table with a key 'shape', or with surface and solid"
         raise DescriptionError("Body", value, expected)

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from attrs import frozen
 
 from ..accuracy import Accuracy
-from ..contact.plan import ContactPlan, plan_contact
+from ..contact.plan import ContactPlan, unprepared_plan
 from ..contact.result import ContactResult
 from ..contact.solve import solve
 from ..errors import ContactkitError, ConvergenceError, InfeasibleError
@@ -88,10 +88,11 @@ class _Chain:
     def run(self, scene: Scene, accuracy: Accuracy) -> Result:
         if not isinstance(scene, ContactScene):
             return simulate(plan(scene, accuracy))
-        last, self._plan = self._plan, plan_contact(scene, accuracy, like=self._plan)
-        if last is None or not self._plan.has_interface_of(last):
-            shape = self._plan.grid.shape
-            self._before = [r for r in self._before if r.pressure.shape == shape][:1]
+        made = unprepared_plan(scene, accuracy)
+        if self._plan is not None and not made.has_interface_of(self._plan):
+            self._plan = None  # before the next one, so that two solvers are never in memory
+            self._before = [r for r in self._before if r.pressure.shape == made.grid.shape][:1]
+        self._plan = made.prepare(like=self._plan)
         result = solve(self._plan, start=self._before)
         self._before = [result, *self._before[: _MAX_BEFORE - 1]]
         return result

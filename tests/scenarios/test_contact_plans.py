@@ -11,10 +11,12 @@ import pytest
 import contactkit as ck
 from contactkit.contact import grid, prepared
 from contactkit.contact.effects.elasticity import LayeredHalfSpace
+from contactkit.contact.effects.friction import FrictionCoupling
 from contactkit.contact.effects.plasticity import HardnessLimit
-from contactkit.contact.plan import plan_contact
+from contactkit.contact.plan import unprepared_plan
 
 STEEL = ck.Material(young_modulus=210e9, poisson_ratio=0.3, hardness=7.5e9)
+HARD = ck.Material(young_modulus=210e9, poisson_ratio=0.2, hardness=2e10)
 FILM = ck.Layer(
     material=ck.Material(young_modulus=280e9, poisson_ratio=0.25, hardness=1.5e10), thickness=2e-8
 )
@@ -26,7 +28,8 @@ def planned(*effects, surface=ROUGH, periodic=True, grid=48, **imposed):
     scene = ck.ContactScene(
         interface=ck.Interface(
             lower=ck.Body(solid=ck.Stack(layers=(FILM,), substrate=STEEL)),
-            upper=ck.Body(surface=surface, solid=STEEL),
+            upper=ck.Body(surface=surface, solid=HARD),
+            meniscus=ck.Meniscus(liquid=ck.load_liquid("water")),
         ),
         window=ck.Window(width=1e-6, periodic=periodic),
         loading=loadings.pressed(**(imposed or {"pressure": 5e7})),
@@ -37,7 +40,7 @@ def planned(*effects, surface=ROUGH, periodic=True, grid=48, **imposed):
 
 @pytest.fixture
 def calls(monkeypatch):
-    """How often heights, compliance, solver and hardness are made."""
+    """How often heights, compliance, solver, hardness and the coupling of friction are made."""
     found = {}
 
     def count(owner, name):
@@ -52,7 +55,7 @@ def calls(monkeypatch):
     count(prepared, "combined_heights")
     count(prepared, "ContactSolver")
     count(grid, "_rough")
-    for kind in (LayeredHalfSpace, HardnessLimit):
+    for kind in (LayeredHalfSpace, HardnessLimit, FrictionCoupling):
         original = kind.prepare
 
         def counted(self, *arguments, original=original, name=kind.__name__):
@@ -93,12 +96,60 @@ def test_another_load_prepares_nothing(calls):
         plan.with_loading(ck.Pressing(pressure=2e10))
 
 
+WAVE = ck.Wave(amplitude=5e-8, wavelength=1e-6)
+VARYING = ck.HardnessLimit(shift=0.0)
+SELF_CONSISTENT = ck.FilmMeniscus(film_thickness=5e-10, self_consistent=True)
+SLIDING = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
+
+
+@pytest.mark.parametrize(
+    ("effects", "at_least"),
+    [
+        ((VARYING,), 2),
+        ((ck.HardnessLimit(shift=0.0, displacement="local"),), 2),
+        ((VARYING, *SLIDING), 3),
+        ((VARYING, SELF_CONSISTENT), 3),
+        ((VARYING, *SLIDING, SELF_CONSISTENT), 4),
+    ],
+    ids=["hardness", "local hardness", "friction", "film", "all"],
+)
+def test_outer_iterations_prepare_nothing(calls, effects, at_least):
+    """They solve the contact again and again, with what the plan has prepared once."""
+    result = ck.solve(planned(*effects, surface=WAVE, pressure=1e9))
+    assert result.work.n_solves >= at_least
+    wave = {name: 1 for name in ONCE if name != "_rough"}
+    coupled = {"FrictionCoupling": 1} if SLIDING[1] in effects else {}
+    assert calls == wave | coupled
+
+
+def test_a_study_prepares_once_for_all_loads(calls):
+    """The hardness belongs to each of its plans, and that of the check before any solve."""
+    scene = planned(LIMIT).scene
+    calls.clear()
+    found = ck.study(scene, {"loading.pressure": [2e7, 4e7, 8e7]}, ck.Accuracy(grid=48))
+    assert not found.failed
+    assert calls == ONCE | {"HardnessLimit": 4}
+    calls.clear()
+    layers = "interface.lower.solid.layers.0.thickness"
+    ck.study(scene, {layers: [2e-8, 4e-8]}, ck.Accuracy(grid=48))
+    assert calls == dict.fromkeys(ONCE, 2) | {"HardnessLimit": 3}
+
+
+def test_a_load_displacement_curve_prepares_once(calls):
+    soft = ck.HardnessLimit(rule="constant", hardness=1e9)
+    scene = planned(soft, periodic=False, pressure=4e8).scene
+    calls.clear()
+    curve = ck.load_displacement(scene, points=6, accuracy=ck.Accuracy(grid=48))
+    assert curve.unloading
+    assert calls == ONCE
+
+
 def test_what_was_prepared_serves_a_like_plan_and_no_other():
     plan = planned()
-    same = plan_contact(planned(LIMIT).scene, plan.accuracy, like=plan)
+    same = unprepared_plan(planned(LIMIT).scene, plan.accuracy).prepare(like=plan)
     assert same.prepared is plan.prepared
     before = plan.prepared
-    other = plan_contact(plan.scene, ck.Accuracy(grid=32), like=plan)
+    other = unprepared_plan(plan.scene, ck.Accuracy(grid=32)).prepare(like=plan)
     assert other.prepared is not before
     assert other.heights.shape == (32, 32)
 

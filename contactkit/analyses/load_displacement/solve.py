@@ -138,7 +138,7 @@ def load_displacement(
     nodes: list[_Node] = []
     before: list[ContactResult] = []
     # Where pixels are capped, nested grids are a better start than the loads before.
-    is_capped = scene.effect(PressureBound) is not None  # type: ignore[type-abstract]
+    is_capped = scene.effect(PressureBound) is not None
     for i, value in enumerate(values):
         result = solve(plan.with_loading(_loading(key, value)), start=before or None)
         before = [] if is_capped else [result, *before][:_MOST_BEFORE]
@@ -220,8 +220,9 @@ def _node(result: ContactResult, nodes: list[_Node]) -> _Node:
             "full contact a periodic window has no approach of its own, and flat faces have none "
             "at all; end the loads below that, or use a window that is not periodic"
         )
-    part = result.parts.get(HardnessLimit)
-    area, overlap = (part.area, part.overlap) if part is not None and part.area else (0.0, None)
+    area, overlap = 0.0, None
+    if result.has(HardnessLimit) and result.plastic_area > 0.0:
+        area, overlap = result.plastic_area, result.of(HardnessLimit).overlap
     dented = nodes[-1].overlap if nodes else None
     if dented is not None and (overlap is None or overlap.sum() < 0.999 * dented.sum()):
         raise InfeasibleError(

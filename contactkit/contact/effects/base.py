@@ -3,8 +3,8 @@ r"""Base classes of the effects of a contact: the roles that physics may play in
 .. math:: \min_p \tfrac12 p^T C p - h^T p, \quad 0 \le p \le H, \quad \int p \, dA = W + F_m
 
 An effect holds choices only. `prepare` does once whatever does not depend on the unknown
-pressure; `observe` gives what the effect did in a solved contact, its part of the result. The
-class declares which numbers of that part belong into tables and files.
+pressure; `observe` evaluates the effect in a solved contact, as its part of the result. The class
+declares which numbers of that part are shown in tables and files.
 """
 
 from __future__ import annotations
@@ -28,15 +28,18 @@ if TYPE_CHECKING:
     SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Map]
 
 __all__ = [
+    "Balance",
     "Compliance",
     "Contact",
     "ContactEffect",
     "DisplacementTerm",
+    "FixedHardness",
     "HardnessLaw",
     "LoadTerm",
     "Observer",
     "PressureBound",
     "Scalar",
+    "VaryingHardness",
 ]
 
 Part = TypeVar("Part")
@@ -45,9 +48,10 @@ Part = TypeVar("Part")
 class Contact(NamedTuple):
     """A solved contact as the effects see it: maps (ny, nx) in SI units.
 
-    `overlap` is how deep the elastic surfaces would overlap [m], where plastic flow makes room;
-    `hardness` the bound of the pressure [Pa]. With friction coupling, `friction_displacement` is
-    the displacement that the traction causes and `frictionless_pressure` the pressure without it.
+    `overlap` is the depth by which the elastic surfaces would overlap [m], where plastic flow
+    makes room; `hardness` the bound of the pressure [Pa]. With friction coupling,
+    `friction_displacement` is the displacement that the traction causes and
+    `frictionless_pressure` the pressure without it.
     """
 
     scene: ContactScene
@@ -62,21 +66,48 @@ class Contact(NamedTuple):
     frictionless_pressure: Map | None = None
 
 
-class HardnessLaw(NamedTuple):
-    """Upper bound of the pressure [Pa].
+class FixedHardness(NamedTuple):
+    """A hardness [Pa] that does not depend on the displacement: one number, or a map (ny, nx)."""
 
-    `lowest` and `highest` bound its mean over the window. Where they differ, `at` gives it for the
-    displacements [m] of the deforming bodies, one map each: for every pixel if `is_local`, else for
-    the largest ones; `has_jumps` if it jumps with them. `values` is one that does not depend on
-    them and differs from pixel to pixel.
+    value: Map | float
+
+    @property
+    def highest(self) -> float:
+        """Largest mean pressure that it carries [Pa]."""
+        return self.value if isinstance(self.value, float) else float(self.value.mean())
+
+
+class VaryingHardness(NamedTuple):
+    """A hardness [Pa] that depends on the displacement of the surface.
+
+    `at` gives it for the displacements [m] of the deforming bodies, one map each: for every pixel
+    if `is_local`, else for the largest ones. It lies between `lowest` and `highest`, and
+    `has_jumps` where it is not continuous.
     """
 
     lowest: float
     highest: float
-    at: Callable[[tuple[Map, ...]], Map | float] | None = None
+    at: Callable[[tuple[Map, ...]], Map | float]
     is_local: bool = False
-    values: Map | None = None
     has_jumps: bool = False
+
+
+HardnessLaw = FixedHardness | VaryingHardness
+"""Upper bound of the pressure."""
+
+
+class Balance(NamedTuple):
+    """Balance of the imposed load, a force that adds to it, and the elastic bodies.
+
+    `force` [N] adds to the load, `relative_force` is its ratio to the load [-]. `equilibria` are
+    the loads [N] on the contact that balance, the smallest first; `imbalance` is what remains at
+    the first of them, over the load [-].
+    """
+
+    force: float
+    relative_force: float
+    equilibria: tuple[float, ...]
+    imbalance: float
 
 
 class Scalar(NamedTuple):
@@ -114,11 +145,11 @@ class ContactEffect(Effect, Generic[Part]):
 
 @frozen(kw_only=True)
 class Compliance(ContactEffect[None]):
-    """How the bodies deform elastically under pressure, C; exactly one."""
+    """The elastic compliance C of the bodies under pressure; exactly one."""
 
     @abc.abstractmethod
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
-        """Return for each deforming body what makes its transformed compliance on a grid."""
+        """Return for each deforming body a function that makes its symbol on a grid [m/Pa]."""
 
 
 @frozen(kw_only=True)
@@ -132,7 +163,24 @@ class PressureBound(ContactEffect[Part]):
 
 @frozen(kw_only=True)
 class LoadTerm(ContactEffect[Part]):
-    """A force F_m that pulls the bodies together, on top of the load."""
+    """A force F_m that pulls the bodies together, on top of the load; none or one."""
+
+    @property
+    @abc.abstractmethod
+    def self_consistent(self) -> bool:
+        """Whether the force adds to the load that presses the bodies together."""
+
+    @abc.abstractmethod
+    def largest_force(self, scene: ContactScene, grid: Grid) -> float:
+        """Return a bound of the force [N]: no contact of the scene has more."""
+
+    @abc.abstractmethod
+    def force_of(self, part: Part) -> float:
+        """Return the force [N] of a part."""
+
+    @abc.abstractmethod
+    def balanced(self, part: Part, balance: Balance) -> Part:
+        """Return the part with the force that balances."""
 
     @abc.abstractmethod
     def observe(self, contact: Contact) -> Part:
@@ -141,16 +189,16 @@ class LoadTerm(ContactEffect[Part]):
 
 @frozen(kw_only=True)
 class DisplacementTerm(ContactEffect[Part]):
-    """A normal displacement of the surface caused by something else than pressure."""
+    """A normal displacement of the surface by another traction than pressure; none or one."""
 
     @abc.abstractmethod
-    def displacement(self, scene: ContactScene, grid: Grid, pressure: Map) -> Map:
-        """Return the displacement into the lower body [m], for a pressure [Pa]."""
+    def prepare(self, scene: ContactScene, grid: Grid) -> Callable[[Map], Map]:
+        """Return the displacement into the lower body [m] as a function of the pressure [Pa]."""
 
 
 @frozen(kw_only=True)
 class Observer(ContactEffect[Part]):
-    """What is computed from the solved contact, and changes nothing in it."""
+    """A quantity computed from the solved contact, without effect on it."""
 
     @abc.abstractmethod
     def observe(self, contact: Contact) -> Part:

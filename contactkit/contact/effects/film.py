@@ -10,7 +10,7 @@ from attrs import Attribute, field, frozen
 
 from ...units import si
 from ...validators import optional, part, positive, refuse
-from .base import Contact, LoadTerm, Scalar
+from .base import Balance, Contact, LoadTerm, Scalar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -120,8 +120,16 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         return self.meniscus_height if self.meniscus_height is not None else self.film_thickness
 
     def largest_force(self, scene: ContactScene, grid: Grid) -> float:
-        """Force [N] of a film that fills the whole window: no contact has more."""
+        """See `LoadTerm.largest_force`: that of a film that fills the whole window."""
         return self._force(scene, grid.area)
+
+    def force_of(self, part: FilmPart) -> float:
+        """See `LoadTerm.force_of`."""
+        return part.force
+
+    def balanced(self, part: FilmPart, balance: Balance) -> FilmPart:
+        """See `LoadTerm.balanced`."""
+        return part._replace(**balance._asdict())
 
     def observe(self, contact: Contact) -> FilmPart:
         """See `LoadTerm.observe`."""

@@ -14,6 +14,8 @@ from ...validators import finite, fraction
 from .base import Contact, DisplacementTerm, Observer, Scalar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from .base import Map
@@ -106,8 +108,8 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
         """See `Effect.sources`."""
         return ("coupling compliance F12 of the layered half-space, Eq. (2.34)",)
 
-    def displacement(self, scene: ContactScene, grid: Grid, pressure: Map) -> Map:
-        """See `DisplacementTerm.displacement`."""
+    def prepare(self, scene: ContactScene, grid: Grid) -> Callable[[Map], Map]:
+        """See `DisplacementTerm.prepare`."""
         import numpy as np
 
         from ...elasticity.stress.planes import normal_displacement_of_traction
@@ -115,20 +117,24 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
         friction = scene.effect(FrictionTraction)
         assert friction is not None
         along_x, along_y = friction.components()
-        total: Map = np.zeros(grid.shape)
-        for body, sign in ((scene.interface.lower, 1.0), (scene.interface.upper, -1.0)):
-            stack = body.stack
-            if stack is not None:
-                total += normal_displacement_of_traction(
-                    sign * along_x * pressure if along_x else None,
-                    sign * along_y * pressure if along_y else None,
-                    grid.pixel_size,
-                    stack.young_moduli,
-                    stack.poisson_ratios,
-                    stack.thicknesses,
-                    mean="periodic" if grid.periodic else "free",
-                )
-        return total
+
+        def displacement(pressure: Map) -> Map:
+            total: Map = np.zeros(grid.shape)
+            for body, sign in ((scene.interface.lower, 1.0), (scene.interface.upper, -1.0)):
+                stack = body.stack
+                if stack is not None:
+                    total += normal_displacement_of_traction(
+                        sign * along_x * pressure if along_x else None,
+                        sign * along_y * pressure if along_y else None,
+                        grid.pixel_size,
+                        stack.young_moduli,
+                        stack.poisson_ratios,
+                        stack.thicknesses,
+                        mean="periodic" if grid.periodic else "free",
+                    )
+            return total
+
+        return displacement
 
     def observe(self, contact: Contact) -> CouplingPart:
         """See `ContactEffect.observe`: against the contact of the same load without coupling."""

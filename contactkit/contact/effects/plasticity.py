@@ -12,7 +12,7 @@ from attrs import Attribute, field, frozen
 from ...errors import DescriptionError
 from ...units import si
 from ...validators import choice, non_negative, positive
-from .base import Contact, HardnessLaw, PressureBound, Scalar
+from .base import Contact, FixedHardness, HardnessLaw, PressureBound, Scalar, VaryingHardness
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,7 +36,7 @@ def _as_map(value: Any) -> Map:
 
 @frozen(eq=False)
 class HardnessMap:
-    """A hardness for each pixel, for people who come with an array.
+    """A hardness for each pixel, as an array.
 
     Parameters
     ----------
@@ -65,10 +65,10 @@ def _hardness(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 class PlasticPart(NamedTuple):
-    """Where the bodies are plastic (ny, nx), over which area [m2], at which hardness [Pa].
+    """Plastic pixels (ny, nx), their area [m2], and the hardness [Pa].
 
-    `overlap` is the depth (ny, nx) [m] that the elastic surfaces would overlap there: what
-    plastic flow has to make room for.
+    `overlap` is the depth (ny, nx) [m] by which the elastic surfaces would overlap there, for
+    which plastic flow has to make room.
     """
 
     is_plastic: NDArray[np.bool_]
@@ -163,8 +163,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         stacks = scene.interface.stacks
         values = [[m.hardness or math.inf for m in stack.materials] for stack in stacks]
         if self.rule == "material" or all(len(set(v)) == 1 for v in values):
-            hardness = min(v[0] for v in values)
-            return HardnessLaw(hardness, hardness)
+            return FixedHardness(float(min(v[0] for v in values)))
         lowest, highest = min(min(v) for v in values), min(max(v) for v in values)
         rules = [self._of_body(stack) for stack in stacks]
 
@@ -175,13 +174,8 @@ class HardnessLimit(PressureBound[PlasticPart]):
             softer: Map = np.minimum.reduce(found)
             return softer if softer.ndim else float(softer)
 
-        return HardnessLaw(
-            lowest,
-            highest,
-            at,
-            is_local=self.displacement == "local",
-            has_jumps=self.rule == "literal",
-        )
+        is_local, has_jumps = self.displacement == "local", self.rule == "literal"
+        return VaryingHardness(lowest, highest, at, is_local, has_jumps)
 
     def _of_body(self, stack: Stack) -> Callable[[Map], Map]:
         """Hardness of one body for the displacement [m] of its surface."""
@@ -206,14 +200,13 @@ class HardnessLimit(PressureBound[PlasticPart]):
         return PlasticPart(is_plastic, area, contact.hardness, overlap)
 
 
-def _constant(hardness: float | HardnessMap, grid: Grid) -> HardnessLaw:
+def _constant(hardness: float | HardnessMap, grid: Grid) -> FixedHardness:
     if not isinstance(hardness, HardnessMap):
-        return HardnessLaw(hardness, hardness)
+        return FixedHardness(float(hardness))
     if hardness.values.shape != grid.shape:
         raise DescriptionError(
             "HardnessMap.values",
             f"an array of shape {hardness.values.shape}",
             f"have the {grid.shape} pixels of the surface",
         )
-    mean = float(hardness.values.mean())
-    return HardnessLaw(mean, mean, values=hardness.values)
+    return FixedHardness(hardness.values)
