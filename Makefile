@@ -34,11 +34,11 @@ test-all: test $(VENV)/.test-all
 CASES ?=
 bench: $(VENV)/.test peers
 	$(BIN)/python -m pytest tests/benchmarks --benchmark-only --benchmark-disable-gc --benchmark-columns=min,median,max,rounds
-	$(BIN)/python tests/benchmarks/contact_peers.py --peers $(VENV)/peers $(CASES)
+	$(BIN)/python tests/benchmarks/peers/compare.py --peers $(VENV)/peers $(CASES)
 
 # Other contact solvers, each in an environment of its own; what does not install is named with the reason.
 peers: $(VENV)/.made
-	$(BIN)/python tests/benchmarks/contact_peers_install.py $(VENV)/peers
+	$(BIN)/python tests/benchmarks/peers/install.py $(VENV)/peers
 
 # mypy reads the package as it is installed, fmu/ and models/ included, so it gets a copy laid out that way.
 lint: $(VENV)/.lint

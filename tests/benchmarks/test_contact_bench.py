@@ -6,7 +6,7 @@ import tracemalloc
 
 import attrs
 import pytest
-from contact_peers_cases import case
+from peers.cases import case
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from contact_peers_cases import LOADS, RMS_SLOPE, case, symbol_maker
+from peers.cases import LOADS, RMS_SLOPE, case, symbol_maker
 
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.elasticity.layered import normal_symbol

@@ -1,0 +1,183 @@
+# ruff: noqa: T201
+"""Press against other contact solvers: same surfaces, same measure of the answer, one run.
+
+    python tests/benchmarks/peers/compare.py --sizes 256 512 1024 --areas 1 5 20
+
+Each solver runs in a process of its own, and each answer is graded by one independent operator:
+largest violation of a contact condition over the rms roughness. A solver's tolerance is lowered
+until that is 1e-8, or it can no more. What is missing, refused or out of budget is said. Tables go
+to out/bench/contact.md, numbers to out/bench/contact.json.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import itertools
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from cases import BOUNDARIES, START, STEP, SURFACES
+from install import names
+from report import conditions, effects_table, line, table, verdict
+
+HERE = Path(__file__).parent
+SERIAL = {"ContactMechanics"}  # one thread whatever is asked
+
+
+def asked_for():
+    """Options of the command line."""
+    ask = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    ask.add_argument("--sizes", type=int, nargs="+", default=[256, 512], help="pixels a side")
+    ask.add_argument("--surfaces", nargs="+", default=["selfaffine"], choices=SURFACES)
+    ask.add_argument("--areas", type=int, nargs="+", default=[5], choices=[1, 5, 20])
+    ask.add_argument("--boundaries", nargs="+", default=BOUNDARIES, choices=BOUNDARIES)
+    ask.add_argument("--threads", type=int, nargs="+", default=[1, 2])
+    ask.add_argument("--budget", type=float, default=8.0, help="CPU seconds of a solver on a case")
+    ask.add_argument("--repeats", type=int, default=5, help="at least, of a short solve")
+    ask.add_argument("--only", nargs="+", help="solvers to run; plain and fast are ours")
+    ask.add_argument(
+        "--skip", nargs="+", default=[], metavar="NAME@SIZE", help="a peer to leave out at one size"
+    )
+    ask.add_argument("--no-effects", action="store_true", help="leave out layers, cap and curves")
+    ask.add_argument("--peers", type=Path, default=Path(".venv/peers"))
+    ask.add_argument("--out", type=Path, default=Path("out/bench"))
+    return ask.parse_args()
+
+
+def solvers(given):
+    """Interpreter of each solver, and why the others have none."""
+    found, missing = {"plain": sys.executable}, {}
+    has_fast = all(importlib.util.find_spec(name) for name in ("numba", "ducc0"))
+    if has_fast:
+        found["fast"] = sys.executable
+    else:
+        missing["fast"] = "numba or ducc0 is not installed"
+    for name in names():
+        python, refused = given.peers / name / "bin" / "python", given.peers / f"{name}.refused"
+        if refused.exists():
+            missing[name] = refused.read_text(encoding="utf-8").strip()
+        elif python.exists():
+            found[name] = str(python.absolute())  # not resolved: it is a link to its base
+        else:
+            missing[name] = "not installed; make peers does"
+    if given.only:
+        found = {name: python for name, python in found.items() if name in given.only}
+    return found, missing
+
+
+def run(python, job, patience=1.0):
+    """What the process prints, or ``{"failed": reason}``."""
+    threads = str(job["threads"])
+    pinned = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+    limit = patience * (4.0 * job["budget"] + 120.0)  # of wall time: the machine may be shared
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "job.json"
+        path.write_text(json.dumps(job), encoding="utf-8")
+        try:
+            done = subprocess.run(
+                [python, str(HERE / "run.py"), str(path)],
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=limit,
+                env=os.environ | dict.fromkeys(pinned, threads),
+            )
+        except subprocess.TimeoutExpired:
+            return {"failed": f"not done after {limit:.0f} s"}
+    if done.returncode:
+        last = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
+        return {"failed": last[-1][:100]}
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def contest(given, found):
+    """Yield a row for each solver on each case, smaller maps first."""
+    spent = {}
+    cases = itertools.product(
+        given.sizes, given.surfaces, given.boundaries, given.areas, given.threads
+    )
+    for n, surface, boundary, area, threads in cases:
+        for name, python in found.items():
+            key = (name, surface, boundary, area, threads)
+            row = {"solver": name, "n": n, "surface": surface, "boundary": boundary}
+            row |= {"area": area, "threads": threads}
+            size, seconds, tolerance = spent.get(key, (n, 0.0, START))
+            if f"{name}@{n}" in given.skip:
+                row["failed"] = "left out by --skip"
+            elif name in SERIAL and threads > 1 and 1 in given.threads:
+                row["failed"] = "runs on one thread only"
+            elif seconds * (n / size) ** 2 > given.budget:
+                row["failed"] = f"out of budget: {seconds:.0f} s at {size}"
+            else:
+                job = row | {"budget": given.budget, "repeats": given.repeats}
+                # A step looser than the smaller map took: no long solves in vain.
+                row |= run(python, job | {"tolerance": min(START, tolerance / STEP)})
+                if "failed" in row:
+                    spent[key] = (n, float("inf") if "not done" in row["failed"] else 0.0, START)
+                else:
+                    spent[key] = (n, row["seconds"], row["tolerance"])
+            yield row
+
+
+def effects(given, paths):
+    """Rows on layers, a hardness and load curves, one thread."""
+    for n, boundary, path in itertools.product(given.sizes, given.boundaries, paths):
+        job = {"solver": "effects", "n": n, "boundary": boundary, "area": 5, "threads": 1}
+        job |= {"budget": given.budget, "repeats": given.repeats, "path": path}
+        job["has_study"] = path == paths[-1]  # which takes whatever is installed
+        found = run(sys.executable, job, patience=5.0)
+        if "failed" in found:
+            print(f"effects {n} {boundary} {path}: {found['failed']}")
+        yield from found.get("rows", [])
+
+
+def write(given, before, missing, rows, more):
+    """Keep what is there so far, for a run may be stopped; return the tables."""
+    left_out = [f"- {name}: left out: {reason}" for name, reason in missing.items()]
+    text = "\n\n".join(
+        part
+        for part in (
+            f"Before: {before}  \nAfter: {conditions()}",
+            "\n".join(left_out),
+            table(rows),
+            verdict(rows),
+            effects_table(more) if more else "",
+        )
+        if part
+    )
+    given.out.mkdir(parents=True, exist_ok=True)
+    (given.out / "contact.md").write_text(text + "\n", encoding="utf-8")
+    kept = {"conditions": before, "missing": missing, "contest": rows, "effects": more}
+    (given.out / "contact.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    return text
+
+
+def main():
+    """Run, print, write."""
+    given = asked_for()
+    found, missing = solvers(given)
+    before = conditions()
+    print(before)
+    for name, reason in missing.items():
+        print(f"{name}: left out: {reason}")
+    paths = [path for path in ("plain", "fast") if path in found]
+    rows, more, text = [], [], ""
+    for row in contest(given, found):
+        rows.append(row)
+        print(line(row), flush=True)
+        text = write(given, before, missing, rows, more)
+    for row in [] if given.no_effects else effects(given, paths):
+        more.append(row)
+        name = f"{row['n']} {row['boundary']} {row['path']}: {row['name']}"
+        print(f"{name}: {row['ratio']:.2f}x (goal {row['goal']})", flush=True)
+        text = write(given, before, missing, rows, more)
+    print(f"\n{text}\n\nwritten to {given.out}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
