@@ -22,11 +22,10 @@ _REST = 0.02  # share of the whole time that is rested at once
 
 
 class Goal(NamedTuple):
-    """Where a walk ends, and how well it is to be followed."""
+    """Time and gap at which a run ends, and times at which a step has to end."""
 
     stop_time: float
     release_gap: float  # inf: none
-    tolerance: float
     jumps: Sequence[float] = ()  # times at which the pull is not smooth [s]
 
 
@@ -45,14 +44,23 @@ class Walk:
         Steps that were taken again, shorter.
     """
 
-    def __init__(self, film: FilmSide, pull: Pull, body: Body, first: Point, goal: Goal) -> None:
+    def __init__(
+        self,
+        film: FilmSide,
+        pull: Pull,
+        body: Body,
+        first: Point,
+        goal: Goal,
+        tolerance: float,
+    ) -> None:
         self.film, self.pull, self.body, self.goal = film, pull, body, goal
         self.points, self.pulls = [first], [math.nan]
         self.release_time = -1.0
         self.n_rejected = 0
         self._length = 1e-3 * (goal.stop_time - first.time)
         self._held = first.gap <= body.floor and first.speed <= 0.0
-        self._share = 0.5 * goal.tolerance
+        self._tolerance = tolerance
+        self._share = 0.5 * tolerance
         self._control = StepSize(order=3, grow=5.0, unsolved=0.5)
         if film.has_limits:  # without extrapolation errors add up from step to step
             self._share *= 0.5
@@ -82,7 +90,7 @@ class Walk:
             if rejected > _MOST_REJECTED or length < 1e-15 * max(point.time, 1e-12):
                 raise ConvergenceError(
                     f"no step can be taken from {point.time:g} s, gap {point.gap:g} m, that meets "
-                    f"the tolerance of {goal.tolerance:g}; loosen it, or use the FMU stiction-mass"
+                    f"the tolerance of {self._tolerance:g}; loosen it, or use the FMU stiction-mass"
                 )
         self.n_rejected += rejected
         is_cut = not rejected and length < self._length
@@ -157,7 +165,7 @@ class Walk:
         point = self.points[-1]
         travel = math.log(found.gap / point.gap)
         # A stiff film may hardly have moved, and its impulse is in what it did.
-        enough = 1e-3 * self.goal.tolerance * min(1.0, abs(travel))
+        enough = 1e-3 * self._tolerance * min(1.0, abs(travel))
 
         def beyond(step: Doubled) -> float:
             return math.copysign(1.0, travel) * math.log(step.gap / mark)

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from attrs import field, frozen
 
@@ -25,18 +25,19 @@ from ...validators import finite, non_negative, positive
 from .adaptive import Goal, Walk
 from .fixed import FixedWalk
 from .impulse_step import Body, Point
-from .sides import DrivePull, FilmSide, GivenPull
+from .sides import DrivePull, FilmSide, Fmu, GivenPull
+from .steps import AdaptiveSteps, FixedSteps
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Coupled", "Mass", "Scheme", "couple"]
-
-Scheme = Literal["impulse", "end-point", "gauss-seidel", "jacobi"]
-Progress = Callable[[float], None]
+__all__ = ["AdaptiveSteps", "Coupled", "FixedSteps", "Fmu", "Mass", "couple"]
 
 _NAMES = ("h", "v", "F_ext", "F", "F_m", "J")
+
+
+_ADAPTIVE = AdaptiveSteps()
 
 
 @frozen(kw_only=True)
@@ -100,61 +101,40 @@ class Coupled:
 
 
 def couple(
-    film: str | Path,
+    film: str | Path | Fmu,
     mass: Mass,
-    pull: Callable[[float], float] | float | str | Path,
+    pull: Callable[[float], float] | float | str | Path | Fmu,
     stop_time: float,
     *,
     release_gap: float = math.inf,
-    tolerance: float = 1e-3,
-    scheme: Scheme = "impulse",
-    step: float | None = None,
-    film_start: Mapping[str, float | str] | None = None,
-    pull_start: Mapping[str, float | str] | None = None,
     jumps: Sequence[float] = (),
-    refuse: bool = True,
-    max_steps: int = 100_000,
-    progress: Progress | None = None,
+    steps: AdaptiveSteps | FixedSteps = _ADAPTIVE,
 ) -> Coupled:
     """Couple a mass to a film FMU, from rest at the gap of the film to a gap or a time.
 
     Parameters
     ----------
-    film : path
-        An FMU of FMI 2.0 with the variables of ``stiction-force``.
+    film : path or Fmu
+        An FMU of FMI 2.0 with the variables of ``stiction-force``. Motion, mass and exchange are
+        the master's, and no start values.
     mass : Mass
         What the film holds.
-    pull : callable, float or path
+    pull : callable, float, path or Fmu
         Pull [N] on the mass at a time [s], smooth but at `jumps`; a steady one; or an FMU with the
         variables of ``valve-drive``.
     stop_time : float
         Where to end at the latest [s].
     release_gap : float
         Gap [m] at which the run ends as soon as it is reached; inf: at `stop_time` only.
-    tolerance : float
-        Relative error of the release time to aim at, between 1e-8 and 0.1.
-    scheme : {"impulse", "end-point", "gauss-seidel", "jacobi"}
-        What is exchanged: impulses, with steps of their own if no `step` is given; the force at the
-        end of a fixed step, found by iteration; or the force of the last one, the mass first, or
-        both at once.
-    step : float, optional
-        A fixed communication step [s]; needed by all but ``"impulse"``.
-    film_start, pull_start : mapping, optional
-        Start values of the FMUs by variable, in SI units or as texts with a unit; those baked in if
-        not given. Motion, mass and exchange of the film are the master's.
     jumps : sequence of float
         Times at which the pull jumps or has a kink [s].
-    refuse : bool
-        Refuse a step with which forces cannot be exchanged; only to show what happens, not.
-    max_steps : int
-        Steps after which to give up.
-    progress : callable, optional
-        Called with the share of the time that is done.
+    steps : AdaptiveSteps or FixedSteps
+        Communication steps, and what is exchanged in them.
 
     Returns
     -------
     Coupled
-        It ends at the release or at `stop_time`, nowhere else; with a fixed `step` the release is
+        It ends at the release or at `stop_time`, nowhere else; with `FixedSteps` the release is
         interpolated within the last one.
 
     Raises
@@ -171,18 +151,19 @@ def couple(
 
     Notes
     -----
-    Measured from 10 nm to 20 um: each `tolerance` from 1e-2 to 1e-5 is met by the release time, and
+    Measured from 10 nm to 20 um: each tolerance from 1e-2 to 1e-5 is met by the release time, and
     1e-6 in the release cases. Impulses give a method of third order; where a limit of the liquid
     may act the film is asked for forces, and it is of fifth.
     """
-    _check(stop_time, tolerance, scheme, step, release_gap)
+    _check(stop_time, release_gap)
     breaks = tuple(sorted(_checked("jumps", time, "be finite", unit="s") for time in jumps))
+    part = Fmu.of(film)
     with ExitStack() as stack:
-        side = stack.enter_context(FilmSide(Path(film)))
-        source = _source(pull, pull_start, stop_time, stack)
-        explicit = scheme in ("gauss-seidel", "jacobi")
+        side = stack.enter_context(FilmSide(Path(part.path)))
+        source = _source(pull, stop_time, stack)
+        explicit = isinstance(steps, FixedSteps) and steps.scheme in ("gauss-seidel", "jacobi")
         exchange = "FORCE" if explicit else "IMPULSE"
-        there = side.begin(film_start or {}, mass.mass, mass.speed, exchange)
+        there = side.begin(part.start, mass.mass, mass.speed, exchange)
         body = Body(mass.mass, mass.stiffness, side.first_gap, mass.rest_gap)
         if mass.rest_gap > body.rest:
             expected = f"not exceed the gap at the start, {body.rest:g} m"
@@ -191,32 +172,29 @@ def couple(
             expected = f"exceed the gap at the start, {body.rest:g} m"
             raise DescriptionError("release_gap", release_gap, expected, unit="m")
         first = Point(0.0, body.rest, mass.speed, mass.mass * mass.speed, 0.0, there)
-        goal = Goal(stop_time, release_gap, tolerance, breaks)
+        goal = Goal(stop_time, release_gap, breaks)
         walk: Walk | FixedWalk = (
-            Walk(side, source, body, first, goal)
-            if step is None
-            else FixedWalk(side, source, body, first, goal, scheme, step, refuse)
+            FixedWalk(side, source, body, first, goal, steps)
+            if isinstance(steps, FixedSteps)
+            else Walk(side, source, body, first, goal, steps.tolerance)
         )
         begun = clock.perf_counter()
-        _go(walk, goal, max_steps, progress)
+        _go(walk, goal, math.inf if isinstance(steps, FixedSteps) else steps.max_steps)
         log = side.log + (source.log if isinstance(source, DrivePull) else [])
         return _result(walk, side.calls + side.asked, tuple(log), clock.perf_counter() - begun)
 
 
 def _source(
-    pull: Callable[[float], float] | float | str | Path,
-    values: Mapping[str, float | str] | None,
+    pull: Callable[[float], float] | float | str | Path | Fmu,
     stop_time: float,
     stack: ExitStack,
 ) -> GivenPull | DrivePull:
     """What pulls the mass, ready to go."""
-    if isinstance(pull, str | Path):
-        drive = stack.enter_context(DrivePull(Path(pull)))
-        drive.start(values or {}, stop_time)
+    if isinstance(pull, str | Path | Fmu):
+        given = Fmu.of(pull)
+        drive = stack.enter_context(DrivePull(Path(given.path)))
+        drive.start(given.start, stop_time)
         return drive
-    if values:
-        expected = "be left out where the pull is no FMU"
-        raise DescriptionError("pull_start", dict(values), expected)
     if callable(pull):
         return GivenPull(pull)
     steady = _checked("pull", pull, "be finite, a function of time, or the path of an FMU", "N")
@@ -230,33 +208,19 @@ def _checked(name: str, value: Any, expected: str, unit: str = "") -> float:
     raise DescriptionError(name, value, expected, unit=unit)
 
 
-def _check(
-    stop_time: float, tolerance: float, scheme: str, step: float | None, release_gap: Any
-) -> None:
-    schemes = ("impulse", "end-point", "gauss-seidel", "jacobi")
-    if scheme not in schemes:
-        raise DescriptionError("scheme", scheme, f"be one of {', '.join(schemes)}")
-    if step is None and scheme != "impulse":
-        hint = "or take scheme='impulse', which chooses its steps"
-        raise DescriptionError("step", step, f"be given for {scheme!r}", unit="s", hint=hint)
-    for name, value in (("stop_time", stop_time), ("step", 1.0 if step is None else step)):
-        if not _checked(name, value, "be positive and finite", "s") > 0.0:
-            raise DescriptionError(name, value, "be positive and finite", unit="s")
-    if not 1e-8 <= _checked("tolerance", tolerance, "be between 1e-8 and 0.1") <= 0.1:
-        hint = "tighter ones are not met" if tolerance < 1e-8 else ""
-        raise DescriptionError("tolerance", tolerance, "be between 1e-8 and 0.1", hint=hint)
+def _check(stop_time: float, release_gap: Any) -> None:
+    if not _checked("stop_time", stop_time, "be positive and finite", "s") > 0.0:
+        raise DescriptionError("stop_time", stop_time, "be positive and finite", unit="s")
     if not (isinstance(release_gap, int | float) and release_gap > 0.0):
         raise DescriptionError("release_gap", release_gap, "be positive", unit="m")
 
 
-def _go(walk: Walk | FixedWalk, goal: Goal, max_steps: int, progress: Progress | None) -> None:
-    """Step to the end, and see to it that it is the end asked for."""
+def _go(walk: Walk | FixedWalk, goal: Goal, max_steps: float) -> None:
+    """Step to the final time or the release, whichever comes first."""
     while not walk.is_done:
         if len(walk.points) > max_steps:
             break
         walk.step()
-        if progress is not None:
-            progress(walk.points[-1].time / goal.stop_time)
     last = walk.points[-1].time
     if walk.release_time < 0.0 and abs(last - goal.stop_time) > 1e-9 * goal.stop_time:
         raise ConvergenceError(

@@ -8,6 +8,7 @@ from ...errors import ConvergenceError, InfeasibleError
 from .adaptive import Goal
 from .impulse_step import Body, Point, given, single
 from .sides import FilmSide, Pull, Reaction
+from .steps import FixedSteps
 
 __all__ = ["FixedWalk"]
 
@@ -15,7 +16,7 @@ _STABLE = {"gauss-seidel": 2.0, "jacobi": 1.0}  # times m/c
 
 
 class FixedWalk:
-    """Points at fixed steps; `step` adds one. Attributes as those of `master_run.Walk`."""
+    """Points at fixed steps; `step` adds one. Attributes as those of `adaptive.Walk`."""
 
     def __init__(
         self,
@@ -24,16 +25,14 @@ class FixedWalk:
         body: Body,
         first: Point,
         goal: Goal,
-        scheme: str,
-        step: float,
-        refuse: bool,
+        steps: FixedSteps,
     ) -> None:
         self.film, self.pull, self.body, self.goal = film, pull, body, goal
         self.points, self.pulls = [first], [math.nan]
         self.release_time, self.n_rejected = -1.0, 0
-        self._scheme, self._refuse = scheme, refuse
+        self._scheme, self._refuses = steps.scheme, steps.refuse_unstable
         self._late = first.film.force
-        self._count = max(1, math.ceil(goal.stop_time / step - 1e-9))
+        self._count = max(1, math.ceil(goal.stop_time / steps.step - 1e-9))
         self._check_step()
 
     @property
@@ -49,14 +48,14 @@ class FixedWalk:
         """Refuse a step with which the force of the film would feed on itself."""
         damping = self.points[-1].film.damping
         factor = _STABLE.get(self._scheme, math.inf)
-        if not self._refuse or self._length * damping <= factor * self.body.mass:
+        if not self._refuses or self._length * damping <= factor * self.body.mass:
             return
         stable = factor * self.body.mass / damping
         raise InfeasibleError(
             f"the communication step of {self._length:.3g} s exceeds {stable:.3g} s = "
             f"{factor:g} m/c at a gap of {self.points[-1].gap:.3g} m, the longest with which the "
             f"force of this film can be exchanged ({self._scheme}); take {0.1 * stable:.2g} s, or "
-            f"scheme='impulse', or the FMU stiction-mass, which has the mass inside and needs no "
+            f"AdaptiveSteps, or the FMU stiction-mass, which has the mass inside and needs no "
             f"short step"
         )
 
@@ -141,6 +140,5 @@ class FixedWalk:
     def _lost(self, point: Point) -> ConvergenceError:
         return ConvergenceError(
             f"{self._scheme} found no end of the step of {self._length:.3g} s from "
-            f"{point.time:.3g} s, gap {point.gap:.3g} m; take a shorter step, or scheme='impulse' "
-            "without one"
+            f"{point.time:.3g} s, gap {point.gap:.3g} m; take a shorter step, or AdaptiveSteps"
         )

@@ -20,13 +20,13 @@ from attrs import field, frozen
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
 from ...numerics.step_size import StepSize
 from ..framework.ports import Port
-from .sides import Restorable
+from .sides import Fmu, Restorable
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["CoSimulation", "DriveSide", "MassSide", "Steps", "cosimulate", "coupling_error"]
+__all__ = ["CoSimulation", "DriveSide", "Fmu", "MassSide", "Steps", "cosimulate", "coupling_error"]
 
 # What a step may miss, over the tolerance: of the pull, by its bend and by the jump at its end that
 # a blow on the stop brings about, and of the gap that the drive went on with. Measured.
@@ -213,14 +213,12 @@ class CoSimulation:
 
 
 def cosimulate(
-    drive: str | Path,
-    mass: str | Path,
+    drive: str | Path | Fmu,
+    mass: str | Path | Fmu,
     stop_time: float,
     step: float | None = None,
     *,
     tolerance: float | None = None,
-    drive_start: Mapping[str, float | str] | None = None,
-    mass_start: Mapping[str, float | str] | None = None,
     linear: bool = True,
     progress: Progress | None = None,
 ) -> CoSimulation:
@@ -228,7 +226,7 @@ def cosimulate(
 
     Parameters
     ----------
-    drive, mass : path
+    drive, mass : path or Fmu
         FMUs with the variables of ``valve-drive`` and ``stiction-mass``.
     stop_time : float
         Where to end [s].
@@ -238,9 +236,6 @@ def cosimulate(
         In place of a step: choose the steps by their error, so that a release is met to about
         this, relative to its delay. Both FMUs are taken back where a step was too long. The mass
         integrates its film to a hundredth of that, unless its start values say otherwise.
-    drive_start, mass_start : mapping, optional
-        Start values by variable name, in SI units or as texts with a unit; those baked into the
-        FMUs if not given.
     linear : bool
         Give the mass the pull as a straight line over the step, by its input ``dF_ext``; else
         hold the value at the start of the step, as a host without that input does.
@@ -262,10 +257,11 @@ def cosimulate(
     import numpy as np
 
     _check(stop_time, step, tolerance)
-    with DriveSide(Path(drive)) as one, MassSide(Path(mass)) as other:
-        one.start(drive_start or {}, stop_time)
+    left, right = Fmu.of(drive), Fmu.of(mass)
+    with DriveSide(Path(left.path)) as one, MassSide(Path(right.path)) as other:
+        one.start(left.start, stop_time)
         inner = {"rtol": 1e-2 * tolerance} if tolerance and "rtol" in other.variables else {}
-        other.start({**inner, **(mass_start or {})}, stop_time)
+        other.start({**inner, **right.start}, stop_time)
         told = progress or _nothing
         begun = clock.perf_counter()
         if tolerance is None:

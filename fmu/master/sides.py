@@ -10,15 +10,41 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 from ...errors import DescriptionError
 from ..framework.instance import Instance
 
-__all__ = ["DrivePull", "FilmSide", "Force", "GivenPull", "Pulling", "Reaction", "Restorable"]
+__all__ = [
+    "DrivePull",
+    "FilmSide",
+    "Fmu",
+    "Force",
+    "GivenPull",
+    "Pulling",
+    "Reaction",
+    "Restorable",
+]
 
 Pulling = Callable[[float], float]
 """Pull [N] at a time [s]."""
+
+
+class Fmu(NamedTuple):
+    """An FMU, and start values that replace those baked into it.
+
+    `start` is by variable, in SI units or as texts with a unit.
+    """
+
+    path: str | Path
+    start: Mapping[str, float | str] = MappingProxyType({})
+
+    @classmethod
+    def of(cls, given: str | Path | Fmu) -> Fmu:
+        """FMU of a path, with its own start values."""
+        return given if isinstance(given, Fmu) else cls(given)
 
 
 class Reaction(NamedTuple):
@@ -48,7 +74,7 @@ _OWN = {
     "h": "h0, the gap at which the film begins",
     "v": "Mass.speed",
     "m_ref": "Mass.mass",
-    "exchange": "scheme",
+    "exchange": "the coupling scheme",
 }
 
 
@@ -101,7 +127,7 @@ class FilmSide(Restorable):
         self._forces, self._limit = self.references(*_FORCES), self.references("limit")
         for name in _OWN.keys() & values.keys():
             raise DescriptionError(
-                f"film_start[{name!r}]",
+                f"start[{name!r}] of the film",
                 values[name],
                 "be left out: the master sets it",
                 hint=f"it follows from {_OWN[name]}",

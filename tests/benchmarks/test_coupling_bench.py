@@ -13,7 +13,7 @@ from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
-from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.couple import Fmu, Mass, couple
 from contactkit.fmu.master.injector import cosimulate
 from contactkit.fmu.native.build import build_native, native_scene
 from contactkit.fmu.native.drive import build_native_drive
@@ -122,12 +122,11 @@ def test_release_by_impulses(benchmark, film, name, most):
 
     def run():
         return couple(
-            film,
+            Fmu(film, start | {"meniscus_law": "PUBLISHED"}),
             Mass(mass=case["m"], stiffness=case["k_s"]),
             lambda t: force if tau == 0.0 else -force * math.expm1(-t / tau),
             2.0 * values["t_rel"],
             release_gap=case["h_rel"],
-            film_start=start | {"meniscus_law": "PUBLISHED"},
         )
 
     found = benchmark.pedantic(run, rounds=5)

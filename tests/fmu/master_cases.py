@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.couple import AdaptiveSteps, Fmu, Mass, couple
 
 
 def ramp(force, time):
@@ -18,14 +18,13 @@ def film_values(case):
     return {name: case[name] for name in kept} | angles | {"meniscus_law": "PUBLISHED"}
 
 
-def release(film, case, tolerance, until, **more):
+def release(film, case, until, steps=None, start=None, **more):
     return couple(
-        film,
+        Fmu(film, film_values(case) | (start or {})),
         Mass(mass=case["m"], stiffness=case["k_s"]),
         ramp(case["F0"], case["tau"]),
         until,
         release_gap=case["h_rel"],
-        tolerance=tolerance,
-        film_start=film_values(case) | more.pop("film_start", {}),
+        steps=steps or AdaptiveSteps(),
         **more,
     )

@@ -21,28 +21,25 @@ FACE = ck.Flat(radius=3.175e-3)
 FORCES = (ck.MeniscusForce(), ck.ViscousForce())
 
 
-def scene(
-    lower=FACE,
-    upper=FACE,
-    volume=None,
-    angles=(0.2, 0.2),
-    effects=FORCES,
-    gap=5e-6,
-    mass=0.02,
-    final=1e-4,
-    rest=0.0,
-    stiffness=5e3,
-    **meniscus,
-):
+LOADING = {"gap": 5e-6, "mass": 0.02, "final": 1e-4, "rest": 0.0, "stiffness": 5e3}
+
+
+def scene(lower=FACE, upper=FACE, angles=(0.2, 0.2), effects=FORCES, **given):
+    """Separation of two bodies; `given` are values of `LOADING`, and of the meniscus."""
+    pulled = LOADING | {name: given.pop(name) for name in LOADING if name in given}
     liquid = ck.Meniscus(
         liquid=OIL,
-        volume=volume,
         contact_angle_lower=angles[0],
         contact_angle_upper=angles[1],
-        **meniscus,
+        **given,
     )
     loading = ck.ImposedForce(
-        initial_gap=gap, final_gap=final, force=1.0, mass=mass, rest_gap=rest, stiffness=stiffness
+        initial_gap=pulled["gap"],
+        final_gap=pulled["final"],
+        force=1.0,
+        mass=pulled["mass"],
+        rest_gap=pulled["rest"],
+        stiffness=pulled["stiffness"],
     )
     return ck.SeparationScene(
         interface=ck.Interface(lower=lower, upper=upper, meniscus=liquid),

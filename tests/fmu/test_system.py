@@ -24,7 +24,7 @@ from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.app.system import write_system  # noqa: E402
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.injector import cosimulate  # noqa: E402
+from contactkit.fmu.master.injector import Fmu, cosimulate  # noqa: E402
 from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
 
@@ -299,7 +299,7 @@ def test_start_values_go_to_both_places_and_native_ones_move_as_ours(unpacked, t
             assert ("resources/film.bin" in packed.namelist()) == HAS_CC
     found = cosimulate(drive, film, STOP, STEP)
     whole = unpacked / "resources" / "stiction_mass.fmu"
-    python = cosimulate(drive, whole, STOP, STEP, mass_start=mass)
+    python = cosimulate(drive, Fmu(whole, mass), STOP, STEP)
     for name in ("t_release", "F_peak", "J"):
         assert found[name][-1] == pytest.approx(python[name][-1], rel=1e-6)
     assert np.max(np.abs(found["h"] - python["h"])) < 1e-6 * np.max(python["h"])

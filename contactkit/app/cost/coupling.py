@@ -25,7 +25,8 @@ from ...separation.plan import plan
 from ...units import si
 
 if TYPE_CHECKING:
-    from ...fmu.master.couple import Scheme
+    from ...fmu.master.couple import AdaptiveSteps, FixedSteps
+    from ...fmu.master.steps import Scheme
 
 __all__ = [
     "CASES",
@@ -203,12 +204,28 @@ def _settings(
     end = near = _BEYOND * exact
     if case.rise_time == 0.0:
         near = _JUST_BEYOND * exact
+    from ...fmu.master.couple import AdaptiveSteps, FixedSteps
+
     schemes: tuple[Scheme, ...] = ("jacobi", "gauss-seidel", "end-point", "impulse")
     for scheme in schemes:
         for n in (n for n in _COUNTS if n <= most):
-            yield scheme, n, partial(_coupled, case, film, end, scheme=scheme, step=end / n)
+            yield (
+                scheme,
+                n,
+                partial(
+                    _coupled,
+                    case,
+                    film,
+                    end,
+                    FixedSteps(step=end / n, scheme=scheme, refuse_unstable=False),
+                ),
+            )
     for tolerance in _TOLERANCES:
-        yield "impulse, adaptive", 0, partial(_coupled, case, film, end, tolerance=tolerance)
+        yield (
+            "impulse, adaptive",
+            0,
+            partial(_coupled, case, film, end, AdaptiveSteps(tolerance=tolerance)),
+        )
     for n in (n for n in _INSIDE if n <= most):
         yield "mass inside, held", n, partial(_inside, case, mass, near, n, linear=False)
         yield "mass inside", n, partial(_inside, case, mass, near, n, linear=True)
@@ -228,29 +245,17 @@ def _measure(scheme: Coupling, steps: int, run: Callable[[], _Found], exact: flo
     return Run(scheme=scheme, steps=steps or taken, seconds=seconds, error=error)
 
 
-def _coupled(
-    case: Case,
-    film: Path,
-    end: float,
-    *,
-    scheme: Scheme = "impulse",
-    step: float | None = None,
-    tolerance: float = 1e-3,
-) -> _Found:
+def _coupled(case: Case, film: Path, end: float, steps: AdaptiveSteps | FixedSteps) -> _Found:
     """Mass outside; what the master would refuse is let through."""
-    from ...fmu.master.couple import Mass, couple
+    from ...fmu.master.couple import Fmu, Mass, couple
 
     found = couple(
-        film,
+        Fmu(film, case.values),
         Mass(mass=MASS, stiffness=_SPRING),
         case.pull,
         end,
         release_gap=_END,
-        scheme=scheme,
-        step=step,
-        tolerance=tolerance,
-        film_start=case.values,
-        refuse=False,
+        steps=steps,
     )
     return found.release_time, found.n_steps, found.seconds
 

@@ -18,12 +18,13 @@ from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import ViscousForce
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..report import Report
-from ..run.injector.cosimulation import build_fmus
+from ..run.injector.cosimulation import InjectorFmus, build_fmus
 from .report import cost_report
 from .separation import TOLERANCES, monolithic_release, other_menisci, with_effect
 
 if TYPE_CHECKING:
-    from ...fmu.master.couple import Mass, Scheme
+    from ...fmu.master.couple import AdaptiveSteps, FixedSteps, Mass
+    from ...fmu.master.steps import Scheme
 
 __all__ = ["coupling_settings", "injector_cost", "injector_sweep"]
 
@@ -111,12 +112,16 @@ def _injector_settings(
 
 
 def _injector_pair(
-    scene: InjectorScene, film: SeparationScene, pair: tuple[Path, Path], step: float, linear: bool
+    scene: InjectorScene, film: SeparationScene, pair: InjectorFmus, step: float, linear: bool
 ) -> Outcome:
-    from ...fmu.master.injector import cosimulate
+    from ...fmu.master.injector import Fmu, cosimulate
 
     found = cosimulate(
-        *pair, scene.first_pulse_end, step, mass_start=mass_values(film), linear=linear
+        pair.drive,
+        Fmu(pair.mass, mass_values(film)),
+        scene.first_pulse_end,
+        step,
+        linear=linear,
     )
     return Outcome(
         float(found["t_release"][-1]) - scene.valve.profile.start_delay, {"steps": found.n_steps}
@@ -139,6 +144,7 @@ def coupling_settings(
     folder : Path
         Where the FMU ``stiction-force`` is written.
     """
+    from ...fmu.master.couple import AdaptiveSteps, FixedSteps
     from ...fmu.python.build import build
     from ...fmu.slaves.stiction_force import PORTS
 
@@ -151,7 +157,14 @@ def coupling_settings(
             Setting(
                 name,
                 f"step {step * 1e6:g} us",
-                partial(_coupled_release, scene, film, part, drive, scheme=scheme, step=step),
+                partial(
+                    _coupled_release,
+                    scene,
+                    film,
+                    part,
+                    drive,
+                    FixedSteps(step=step, scheme=scheme, refuse_unstable=False),
+                ),
             )
             for scheme, name in _NAMES.items()
             for step in _STEPS
@@ -160,7 +173,9 @@ def coupling_settings(
             Setting(
                 "film by impulse, adaptive steps",
                 f"tolerance {tolerance:.0e}",
-                partial(_coupled_release, scene, film, part, drive, tolerance=tolerance),
+                partial(
+                    _coupled_release, scene, film, part, drive, AdaptiveSteps(tolerance=tolerance)
+                ),
             )
             for tolerance in _IMPULSE_TOLERANCES
         ),
@@ -172,13 +187,10 @@ def _coupled_release(
     film: SeparationScene,
     part: Path,
     drive: Path,
-    *,
-    scheme: Scheme = "impulse",
-    step: float | None = None,
-    tolerance: float = 1e-3,
+    steps: AdaptiveSteps | FixedSteps,
 ) -> Outcome:
     """First release by one coupling scheme, those the master would refuse included."""
-    from ...fmu.master.couple import couple
+    from ...fmu.master.couple import FixedSteps, couple
 
     profile = scene.valve.profile
     found = couple(
@@ -187,16 +199,13 @@ def _coupled_release(
         drive,
         scene.first_pulse_end,
         release_gap=film.loading.final_gap,
-        tolerance=tolerance,
-        scheme=scheme,
-        step=step,
+        steps=steps,
         jumps=(profile.start_delay, profile.start_delay + profile.boost_time),
-        refuse=False,
     )
     if found.release_time < 0.0:
         raise ConvergenceError("never released")
     counts = {"steps": found.n_steps, "film calls": found.n_calls}
-    if scheme in ("jacobi", "gauss-seidel"):
+    if isinstance(steps, FixedSteps) and steps.scheme in ("jacobi", "gauss-seidel"):
         counts["warnings of the film"] = sum("m_ref/c" in line for line in found.log)
     return Outcome(found.release_time - profile.start_delay, counts)
 

@@ -13,7 +13,7 @@ from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.errors import ContactkitError, ConvergenceError, DescriptionError, InfeasibleError
 from contactkit.fmu.framework.instance import Instance
-from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.couple import Fmu, Mass, couple
 from contactkit.fmu.master.injector import cosimulate
 from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.valve_drive import ValveDrive
@@ -111,19 +111,19 @@ def test_a_step_or_a_tolerance_is_given(pair):
 
 def test_an_fmu_that_stops_says_why(pair):
     with pytest.raises(ConvergenceError, match=r"stiction-mass stopped at t = 0 s.*eta"):
-        cosimulate(*pair, 1e-3, 1e-5, mass_start={"eta": -1.0})
+        cosimulate(pair[0], Fmu(pair[1], {"eta": -1.0}), 1e-3, 1e-5)
 
 
 def test_an_unknown_start_value_is_named(pair):
     with pytest.raises(DescriptionError, match="etta must be a variable"):
-        cosimulate(*pair, 1e-3, 1e-5, mass_start={"etta": 1.0})
+        cosimulate(pair[0], Fmu(pair[1], {"etta": 1.0}), 1e-3, 1e-5)
 
 
 def test_nothing_is_left_behind(pair, tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     cosimulate(*pair, 1e-4, 1e-5)
     with pytest.raises(ConvergenceError):
-        cosimulate(*pair, 1e-3, 1e-5, mass_start={"eta": -1.0})
+        cosimulate(pair[0], Fmu(pair[1], {"eta": -1.0}), 1e-3, 1e-5)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -10,7 +10,7 @@ from master_cases import film_values, ramp, release
 
 from contactkit.accuracy import Accuracy
 from contactkit.errors import ConvergenceError
-from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.couple import AdaptiveSteps, Fmu, Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_mass import PORTS as MASS_PORTS
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of
@@ -43,7 +43,7 @@ def monolithic(case, **changes):
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
 def test_the_release_cases_are_met(film, release_cases, name, tolerance):
     case, values = release_cases[name]["case"], release_cases[name]["values"]
-    found = release(film, case, tolerance, 2.0 * values["t_rel"])
+    found = release(film, case, 2.0 * values["t_rel"], AdaptiveSteps(tolerance=tolerance))
     assert found.release_time == pytest.approx(values["t_rel"], rel=tolerance)
     assert found["v"][-1] == pytest.approx(values["v_rel"], rel=3.0 * tolerance)
     assert found.n_steps <= 200
@@ -55,7 +55,7 @@ def test_the_release_cases_are_met(film, release_cases, name, tolerance):
 def test_a_tight_tolerance_is_met(film, release_cases, name, most):
     """E has a limit: its kinks do not cost the order. Its reference is known to 3e-8."""
     case, values = release_cases[name]["case"], release_cases[name]["values"]
-    found = release(film, case, 1e-6, 2.0 * values["t_rel"])
+    found = release(film, case, 2.0 * values["t_rel"], AdaptiveSteps(tolerance=1e-6))
     assert found.release_time == pytest.approx(values["t_rel"], rel=1e-6)
     assert found.n_steps <= most
 
@@ -82,7 +82,7 @@ OTHERS = {
 def test_a_tolerance_of_a_thousandth_is_met_from_10_nm_to_20_um(film, release_cases, changes):
     case = release_cases["D"]["case"] | changes
     whole = monolithic(case)
-    found = release(film, case, 1e-3, 3.0 * whole.release_time)
+    found = release(film, case, 3.0 * whole.release_time)
     assert found.release_time == pytest.approx(whole.release_time, rel=1e-3)
     assert found.n_steps <= 200
 
@@ -90,7 +90,7 @@ def test_a_tolerance_of_a_thousandth_is_met_from_10_nm_to_20_um(film, release_ca
 def test_rupture_is_an_event(film, release_cases):
     case, rupture = release_cases["B"]["case"], {"h_break": 20e-6}
     whole = monolithic(case, **rupture)
-    found = release(film, case, 1e-3, 0.05, film_start=rupture)
+    found = release(film, case, 0.05, start=rupture)
     assert found.break_time == pytest.approx(whole.break_time, rel=1e-3)
     assert found.release_time == pytest.approx(whole.release_time, rel=1e-3)
     assert 20e-6 in found["h"]
@@ -103,13 +103,12 @@ def test_momentum_is_kept(film):
     start = {"h0": 1e-7, "gamma": 0.0}
     for tolerance in (1e-1, 1e-4):
         found = couple(
-            film,
+            Fmu(film, start),
             Mass(mass=0.02),
             lambda t: 40.0,
             80.0,
-            film_start=start,
             release_gap=1e-3,
-            tolerance=tolerance,
+            steps=AdaptiveSteps(tolerance=tolerance),
         )
         assert found.release_time > 0.0
         # where the film rules the speed is no more than an estimate, and m v is nothing
@@ -119,7 +118,7 @@ def test_momentum_is_kept(film):
 
 def test_it_ends_at_the_time_asked_for_and_says_that_nothing_was_released(film, release_cases):
     case = release_cases["B"]["case"]
-    found = release(film, case, 1e-3, 7.7e-3)
+    found = release(film, case, 7.7e-3)
     assert found.time[-1] == 7.7e-3
     assert found.release_time == -1.0
     assert found["h"][-1] < case["h_rel"]
@@ -127,7 +126,7 @@ def test_it_ends_at_the_time_asked_for_and_says_that_nothing_was_released(film, 
 
 def test_a_pull_below_the_meniscus_force_leaves_it_stuck(film):
     start = {"h0": 10e-9, "V": DISC * 10e-9}
-    found = couple(film, Mass(mass=0.02), lambda t: 40.0, 4.0, film_start=start, release_gap=1e-4)
+    found = couple(Fmu(film, start), Mass(mass=0.02), lambda t: 40.0, 4.0, release_gap=1e-4)
     assert found.release_time == -1.0
     assert found.time[-1] == 4.0
     assert 9.9e-9 < found["h"][-1] < 10e-9
@@ -135,7 +134,7 @@ def test_a_pull_below_the_meniscus_force_leaves_it_stuck(film):
 
 def test_a_run_without_its_end_is_an_error(film, release_cases):
     with pytest.raises(ConvergenceError, match=r"2 steps led to .* not to 0\.02 s"):
-        release(film, release_cases["B"]["case"], 1e-3, 0.02, max_steps=2)
+        release(film, release_cases["B"]["case"], 0.02, AdaptiveSteps(max_steps=2))
 
 
 def test_a_mass_rests_until_it_is_pulled(film):
@@ -162,7 +161,6 @@ def test_a_mass_that_is_pushed_back_lands_on_its_asperities(film):
         lambda t: -20.0,
         0.5,
         release_gap=1e-4,
-        tolerance=1e-3,
     )
     assert found["h"][-1] == 4e-6
     assert found["v"][-1] == 0.0

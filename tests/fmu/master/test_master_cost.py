@@ -7,7 +7,7 @@ import pytest
 from contactkit.app.cost.injector import coupling_settings
 from contactkit.app.cost.separation import monolithic_release
 from contactkit.app.scenes import open_scene
-from contactkit.fmu.master.couple import Mass, couple
+from contactkit.fmu.master.couple import Fmu, Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_force import PORTS
 from contactkit.fmu.slaves.stiction_mass import mass_values
@@ -55,12 +55,14 @@ def test_a_drive_fmu_may_pull(tmp_path):
     whole = monolithic_release(own, scene.valve, scene.first_pulse_end, 1e-5).value
     names = {port.name for port in PORTS if port.causality == "parameter"}
     found = couple(
-        building.build("stiction-force", tmp_path),
+        Fmu(
+            building.build("stiction-force", tmp_path),
+            {name: value for name, value in values.items() if name in names},
+        ),
         Mass(mass=values["m"], rest_gap=values["h_min"]),
         building.build("valve-drive", tmp_path, start=drive_values(scene.valve)),
         scene.first_pulse_end,
         release_gap=values["h_rel"],
-        film_start={name: value for name, value in values.items() if name in names},
         jumps=(profile.start_delay, profile.start_delay + profile.boost_time),
     )
     assert found.release_time - profile.start_delay == pytest.approx(whole, rel=1e-3)

@@ -25,7 +25,7 @@ from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve  #
 from contactkit.app.scenes import open_scene  # noqa: E402
 from contactkit.errors import DescriptionError, PlanError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.injector import cosimulate  # noqa: E402
+from contactkit.fmu.master.injector import Fmu, cosimulate  # noqa: E402
 from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
 from contactkit.fmu.native.drive import build_native_drive, face_numbers  # noqa: E402
@@ -535,7 +535,7 @@ def test_a_blow_on_rough_faces_is_that_of_the_python_fmu(film, folder):
     native = build_native_drive(folder / "rough.fmu", start=start, **ONE)
     python = build("valve-drive", folder / "rough python.fmu", start=start)
     one, other = (
-        cosimulate(drive, film, 1.75e-3, 2e-6, drive_start={"n_cycles": 1, "d_stop": "0.1 s/m"})
+        cosimulate(Fmu(drive, {"n_cycles": 1, "d_stop": "0.1 s/m"}), film, 1.75e-3, 2e-6)
         for drive in (native, python)
     )
     presses = other["F_stop"] > 0.0

@@ -16,7 +16,7 @@ if not HAS_CC:
 
 from contactkit.errors import DescriptionError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
-from contactkit.fmu.master.couple import Mass, couple  # noqa: E402
+from contactkit.fmu.master.couple import Fmu, Mass, couple  # noqa: E402
 from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
 from contactkit.fmu.native.film import FINE, moving  # noqa: E402
 from contactkit.fmu.python import build as building  # noqa: E402
@@ -210,13 +210,11 @@ def test_the_master_drives_it_as_the_python_one(name, release_cases, pair):
     free = {key: film[key] for key in ("h0", "eta", "gamma", "dp_cav", "tau_lim")}
     found = [
         couple(
-            path,
+            Fmu(path, start),
             Mass(mass=case["m"], stiffness=case["k_s"]),
             ramp(case["F0"], case["tau"]),
             2.0 * values["t_rel"],
             release_gap=case["h_rel"],
-            tolerance=1e-3,
-            film_start=start,
         )
         for path, start in zip(paths, (film_values(case), free), strict=True)
     ]

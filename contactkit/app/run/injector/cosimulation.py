@@ -22,9 +22,16 @@ if TYPE_CHECKING:
     from ....fmu.master.injector import CoSimulation
     from ....models.injector.monolithic import MonolithicResult
 
-__all__ = ["InjectorRun", "build_fmus", "cosimulate_cases", "drive_start"]
+__all__ = ["InjectorFmus", "InjectorRun", "build_fmus", "cosimulate_cases", "drive_start"]
 
 Progress = Callable[[float], None]
+
+
+class InjectorFmus(NamedTuple):
+    """Files of the FMUs ``valve-drive`` and ``stiction-mass`` of an injector."""
+
+    drive: Path
+    mass: Path
 
 
 class InjectorRun(NamedTuple):
@@ -63,7 +70,7 @@ def cosimulate_cases(
         ]
 
 
-def build_fmus(scene: InjectorScene, folder: Path) -> tuple[Path, Path]:
+def build_fmus(scene: InjectorScene, folder: Path) -> InjectorFmus:
     """Build drive and mass with the values of the scene as start values, and validate them.
 
     Raises
@@ -79,7 +86,7 @@ def build_fmus(scene: InjectorScene, folder: Path) -> tuple[Path, Path]:
     problems = validate(drive) + validate(mass)
     if problems:
         raise PlanError("FMU not valid: " + "; ".join(problems))
-    return drive, mass
+    return InjectorFmus(drive, mass)
 
 
 def drive_start(valve: Valve) -> dict[str, Any]:
@@ -90,21 +97,21 @@ def drive_start(valve: Valve) -> dict[str, Any]:
 
 def _cosimulate(
     scene: InjectorScene,
-    pair: tuple[Path, Path],
+    pair: InjectorFmus,
     temperature: float,
     limited: bool,
     progress: Progress,
 ) -> InjectorRun:
-    from ....fmu.master.injector import cosimulate
+    from ....fmu.master.injector import Fmu, cosimulate
     from ....models.injector.monolithic import simulate
 
     film = scene.separation(temperature, limited=limited)
     begun = perf_counter()
     coupled = cosimulate(
-        *pair,
+        pair.drive,
+        Fmu(pair.mass, mass_values(film)),
         scene.stop_time,
         scene.study.communication_step,
-        mass_start=mass_values(film),
         progress=progress,
     )
     seconds = perf_counter() - begun
