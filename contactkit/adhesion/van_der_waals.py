@@ -82,20 +82,23 @@ def hamaker_of_work(work: Any, cutoff: Any) -> Any:
     return 12.0 * math.pi * cutoff**2 * work
 
 
-def sphere_force(gap: Any, hamaker: Any, curvature: Any) -> Any:
+def sphere_force(gap: Any, hamaker: Any, curvature: Any, rim: Any = math.inf) -> Any:
     r"""Attraction [N] of two close bodies of relative curvature 1/R.
 
-    .. math:: F = \frac{A R}{6 D^2}
+    .. math:: F = \frac{A R}{6 D^2} \left[ 1 - \left( \frac{D}{D + s} \right)^2 \right],
+              \qquad s = \frac{a^2}{2 R}
 
-    Derjaguin approximation. Too large by the fraction D/R for a sphere on a flat, by more for two
-    spheres: `hamaker_sphere_force` takes the full shape.
+    within the radius a of a `rim` [m]; the bracket is 1 without one. Derjaguin approximation:
+    the pressure between flats, over the gap :math:`D + r^2/2R`. Too large by the fraction D/R for
+    a sphere on a flat, by more for two spheres: `hamaker_sphere_force` takes the full shape.
 
     Examples
     --------
     >>> round(sphere_force(1e-9, 6e-20, 1.0 / 100e-9) * 1e9, 12)
     1.0
     """
-    return hamaker / (6.0 * curvature * gap**2)
+    beyond = gap / (gap + 0.5 * curvature * rim**2)
+    return hamaker / (6.0 * curvature * gap**2) * (1.0 - beyond**2)
 
 
 def hamaker_sphere_force(gap: Any, hamaker: Any, curvature_lower: Any, curvature_upper: Any) -> Any:

@@ -86,6 +86,11 @@ class SeparationLoading(Loading):
         """See `Loading.summary`."""
         return f"{self.imposed} imposed, gap {self.initial_gap:g} m to {self.final_gap:g} m"
 
+    @property
+    def smallest_gap(self) -> float:
+        """Smallest gap [m] of an opening."""
+        return self.initial_gap
+
 
 @frozen(kw_only=True)
 class Vibration:
@@ -168,6 +173,11 @@ class ImposedSpeed(SeparationLoading):
                 unit="m",
                 hint="the bodies would touch; shake less, or start from a larger gap",
             )
+
+    @property
+    def smallest_gap(self) -> float:
+        """See `SeparationLoading.smallest_gap`: at most so small, with a vibration."""
+        return self.initial_gap - (self.vibration.amplitude if self.vibration else 0.0)
 
     @property
     def summary(self) -> str:

@@ -19,7 +19,7 @@ from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
 from ..scene.validity import ValidityNumber
 from ..units import nm
-from .bodies import check_bodies
+from .bodies import check_bodies, check_rim
 from .columns import COLUMNS
 from .effects.as_published import mixed
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, LimitKind, SeparationForce
@@ -131,6 +131,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     film = _film(prepared)
     if film.end <= scene.loading.initial_gap:
         raise _too_wide(scene, film.end)
+    check_rim(prepared)
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
     return Plan(prepared, film, _columns(scene), MappingProxyType(films), states)

@@ -92,7 +92,7 @@ FIELDS = [
     (ATTRACTION, "hamaker_constant", "J", POSITIVE, [0.0, -1e-19, None]),
     (ATTRACTION, "cutoff", "m", POSITIVE, [0.0, -1e-10, None]),
     (STICKY, "work_of_adhesion", "J/m2", POSITIVE, [0.0, -0.05, "wet", None]),
-    (STICKY, "reduced_modulus", "Pa", POSITIVE, [0.0, -1e9, None]),
+    (STICKY, "reduced_modulus", "Pa", POSITIVE, [0.0, -1e9]),
     (STICKY, "equilibrium_distance", "m", POSITIVE, [0.0, -1e-10, None]),
     (STICKY, "strength", "Pa", POSITIVE, [0.0, -1e6]),
     (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),

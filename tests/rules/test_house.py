@@ -174,7 +174,8 @@ REQUIRED = {
 
 def examples_of(kind):
     """One object of an effect for each of its choices."""
-    needed = REQUIRED.get(kind, {})
+    given = [a.name for a in attrs.fields(kind) if a.default is attrs.NOTHING]
+    needed = REQUIRED.get(kind, dict.fromkeys(given, 1.0))
     yield kind(**needed)
     for a in resolved(kind):
         for choice in typing.get_args(a.type):

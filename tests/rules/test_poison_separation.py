@@ -28,6 +28,7 @@ from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
 FACE = ck.Flat(radius=1e-4)
+LOWER = {"flats": FACE, "sphere": ck.Flat(radius=1e-3)}
 BODIES = {"flats": FACE, "sphere": ck.Sphere(radius=1e-2)}
 IMPOSED = ("speed", "time", "force")
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=900.0)
@@ -147,7 +148,7 @@ def scene_of(effects, body, imposed):
     volume = None if ROUGH.keys() & set(effects) else 6e-14
     film = ck.Meniscus(liquid=OIL, volume=volume, contact_angle_lower=0.3, contact_angle_upper=0.4)
     return ck.SeparationScene(
-        interface=ck.Interface(lower=FACE, upper=BODIES[body], meniscus=film),
+        interface=ck.Interface(lower=LOWER[body], upper=BODIES[body], meniscus=film),
         loading=loadings.imposed(initial_gap=1e-6, final_gap=1e-5, **motion),
         effects=effects,
     )

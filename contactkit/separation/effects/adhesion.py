@@ -21,6 +21,7 @@ from .base import ForceLaw, ForcePart, SeparationForce
 from .viscous import ViscousForce
 
 if TYPE_CHECKING:
+    from ...scene.interface import Interface
     from ...scene.scenes import SeparationScene
     from ..plan import Plan
     from ..results import SeparationResult
@@ -32,6 +33,7 @@ __all__ = [
     "AdhesiveContact",
     "ContactState",
     "VanDerWaalsForce",
+    "cohesive_radius",
     "cohesive_stress",
     "law",
     "numbers",
@@ -57,7 +59,8 @@ class VanDerWaalsForce(SeparationForce):
 
     Notes
     -----
-    Flats attract by A/(6 pi D^3) on the smaller face, which needs a radius. Under a sphere each of
+    Flats attract by A/(6 pi D^3) on the smaller face, which needs a radius. Under a sphere the
+    first closure ends at the rim of a bounded flat, and the second wants one wide enough. Each of
     `Meniscus.count` menisci has a sphere of its own. Rigid bodies, no retardation: right within a
     tenth below some 2 nm; at 10 nm half too much.
     """
@@ -97,13 +100,14 @@ class VanDerWaalsForce(SeparationForce):
         lower, upper = prepared.curvatures
         n = prepared.scene.meniscus.count
         area = math.pi * interface.rim_radius**2 if interface.is_flat else 0.0
+        rim = prepared.film.rim
 
         def between_flats(gap: float, speed: float) -> float:
             pressure = van_der_waals.pressure_between_flats(max(gap, cutoff), hamaker)
             return float(area * pressure)
 
         def near_sphere(gap: float, speed: float) -> float:
-            one = van_der_waals.sphere_force(max(gap, cutoff), hamaker, lower + upper)
+            one = van_der_waals.sphere_force(max(gap, cutoff), hamaker, lower + upper, rim)
             return float(n * one)
 
         def whole_sphere(gap: float, speed: float) -> float:
@@ -112,6 +116,12 @@ class VanDerWaalsForce(SeparationForce):
 
         of_spheres = whole_sphere if self.closure == "hamaker" else near_sphere
         return ForceLaw(between_flats if interface.is_flat else of_spheres, (cutoff,))
+
+    def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
+        """See `SeparationEffect.rimless_radius`: the circle that has 99 % of the attraction."""
+        if self.closure == "derjaguin":
+            return 0.0
+        return 3.0 * math.sqrt(2.0 * prepared.film.sphere_radius * max(gap, self.cutoff))
 
 
 @frozen(kw_only=True)
@@ -128,8 +138,9 @@ class AdhesiveContact(SeparationForce):
         Work that parting the surfaces takes [J/m2], through what lies between them; or that of the
         liquid that condenses around the contact, gamma (cos theta_1 + cos theta_2), which stands
         for the meniscus.
-    reduced_modulus : float
-        Contact modulus E* [Pa], 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
+    reduced_modulus : float, optional
+        Contact modulus E* [Pa], 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2. None: that of the
+        solids of the bodies.
     equilibrium_distance : float
         Distance of atoms that touch [m]; it gives the stress of the attraction, 1.03 w/z_0.
     strength : float, optional
@@ -160,7 +171,9 @@ class AdhesiveContact(SeparationForce):
         default="maugis-dugdale", validator=choice("maugis-dugdale", "jkr", "dmt")
     )
     work_of_adhesion: float | Literal["capillary"] = field(metadata=si("J/m2"))
-    reduced_modulus: float = field(validator=positive, metadata=si("Pa"))
+    reduced_modulus: float | None = field(
+        default=None, validator=optional(positive), metadata=si("Pa")
+    )
     equilibrium_distance: float = field(default=0.165e-9, validator=positive, metadata=si("m"))
     strength: float | None = field(default=None, validator=optional(positive), metadata=si("Pa"))
 
@@ -186,7 +199,7 @@ class AdhesiveContact(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
-        missing: list[str] = []
+        missing = self._lacks_of_solids(scene.interface)
         if scene.interface.is_flat:
             missing.append("a Sphere: two flats touch all over; take VanDerWaalsForce()")
         if isinstance(scene.loading, ImposedSpeed) and scene.loading.vibration is not None:
@@ -211,11 +224,32 @@ class AdhesiveContact(SeparationForce):
             missing.append("AdhesiveContact.strength [Pa], the suction of the liquid")
         return tuple(missing)
 
+    @property
+    def takes_solids(self) -> bool:
+        """See `SeparationEffect.takes_solids`."""
+        return self.reduced_modulus is None
+
+    def _lacks_of_solids(self, interface: Interface) -> list[str]:
+        if self.reduced_modulus is not None:
+            return []
+        if not interface.stacks:
+            return ["AdhesiveContact.reduced_modulus [Pa], or the solid of a body"]
+        if any(stack.layers for stack in interface.stacks):
+            return ["homogeneous solids, or AdhesiveContact.reduced_modulus [Pa] for layers"]
+        return []
+
+    def _modulus(self, interface: Interface) -> float:
+        """Contact modulus [Pa], given or of the solids of the bodies."""
+        if self.reduced_modulus is not None:
+            return self.reduced_modulus
+        return 1.0 / sum(1.0 / s.substrate.plane_strain_modulus for s in interface.stacks)
+
     def numbers(self, prepared: PreparedScene[SeparationScene]) -> AdhesionNumbers:
         """Return what the contact of one sphere of a scene comes to, without running it."""
         work = self._work(prepared)
-        radius, strength = prepared.scene.interface.sphere_radius, self._strength(prepared, work)
-        return numbers(self.model, radius, work, self.reduced_modulus, strength)
+        interface, strength = prepared.scene.interface, self._strength(prepared, work)
+        modulus = self._modulus(interface)
+        return numbers(self.model, interface.sphere_radius, work, modulus, strength)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
@@ -227,6 +261,10 @@ class AdhesiveContact(SeparationForce):
                 f"start closer, or take VanDerWaalsForce(), which acts across a gap"
             )
         return law(found, prepared.scene.meniscus.count, start)
+
+    def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
+        """See `SeparationEffect.rimless_radius`: as far as the solids attract each other."""
+        return cohesive_radius(self.numbers(prepared), gap)
 
     def validity(
         self, plan: Plan, path: Sequence[tuple[float, float]]
@@ -392,6 +430,20 @@ def law(found: AdhesionNumbers, count: int, start: float) -> ForceLaw:
         end = found.release_gap
         return ForceLaw(lambda gap, v: force(gap, v) if gap < end else 0.0, (*kinks, end))
     return ForceLaw(force, kinks, release=found.release_gap, rejoin=max(start, reach))
+
+
+def cohesive_radius(found: AdhesionNumbers, gap: float) -> float:
+    """Radius [m] within which the bodies of one contact attract each other at a gap [m]."""
+    units, transition = found.units, found.transition_parameter
+    if found.model == "jkr":
+        return float(units.radius * jkr.radius_at_gap(gap / units.approach))
+    assert transition is not None  # lacks() has asked for a stress
+    if found.model == "dmt":
+        reach = float(dmt.reach(transition)) * units.approach
+        return math.sqrt(2.0 * found.radius * max(reach - gap, 0.0))
+    bounds = maugis_dugdale.limits(transition)
+    state = maugis_dugdale.at_gap(gap / units.approach, transition, bounds)
+    return float(units.radius * state.cohesive_radius)
 
 
 def states_at_loads(found: AdhesionNumbers, loads: Sequence[float]) -> list[ContactState]:

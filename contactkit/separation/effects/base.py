@@ -142,6 +142,11 @@ class SeparationEffect(Effect):
         """Curves that this effect adds to a result."""
         return ()
 
+    @property
+    def takes_solids(self) -> bool:
+        """Whether it uses the solids of the bodies; where no effect does, the plan refuses them."""
+        return False
+
     def liquid_needs(self, scene: Any) -> tuple[str, ...]:
         """Names of the properties of the liquid that `prepare` reads."""
         return ()
@@ -157,6 +162,13 @@ class SeparationEffect(Effect):
     def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
         """Printed equations that a plan takes: value at the start, what is wrong, the right one."""
         return ()
+
+    def rimless_radius(self, prepared: PreparedScene[Any], gap: float) -> float:
+        """Radius [m] of the circle that is taken on a flat under a sphere as if that had no rim.
+
+        At a gap [m]; 0 for an effect that takes the rim into account.
+        """
+        return 0.0
 
     def validity(
         self, plan: Plan, path: Sequence[tuple[float, float]]

@@ -132,6 +132,12 @@ class MeniscusForce(SeparationForce):
             return self._printed(prepared)
         return exact_law(prepared) if self.profile == "exact" else arc_law(prepared)
 
+    def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
+        """See `SeparationEffect.rimless_radius`: the contact circle."""
+        from .meniscus_sphere import contact_radius
+
+        return contact_radius(prepared, self.profile, gap)
+
     def _printed(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         film, tension, angles = prepared.film, prepared.liquid.surface_tension, prepared.angles
         n, radius, pulled = film.menisci, film.radius, self.pulled

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from .prepared import PreparedScene
 
-__all__ = ["exact_end", "sphere_law"]
+__all__ = ["contact_radius", "exact_end", "sphere_law"]
 
 _DEGREES = 24, 48, 96  # of the polynomials
 _CLOSE = 1e-3  # of a curve, a stretch at its end that is not divided further
@@ -73,6 +73,28 @@ def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
     from ...capillary.exact.stability import stability_limit
 
     return float(stability_limit(prepared.film.volume, *fixed).gap)
+
+
+def contact_radius(prepared: PreparedScene[SeparationScene], profile: str, gap: float) -> float:
+    """Radius [m] of the contact circle on the flat body at a gap [m]; nan without a meniscus."""
+    pressure, film, fixed = prepared.scene.liquid_pressure, prepared.film, _fixed(prepared)
+    found: Any
+    if profile != "exact":
+        from ...capillary.arc import sphere as arc_sphere
+
+        shape = "parabola" if profile == "as-published" else "sphere"
+        found = arc_sphere.solve(gap, film.volume, *fixed, profile=shape)
+    elif pressure is None:
+        from ...capillary.exact.bridge import bridge
+
+        found = bridge(gap, film.volume, *fixed, beyond="nan")
+    else:
+        from ...capillary.exact.at_pressure import bridge_at_pressure
+
+        over = pressure / prepared.liquid.surface_tension
+        found = bridge_at_pressure(gap, over, *fixed, beyond="nan")
+    is_lower = prepared.curvatures.lower == 0.0
+    return float(found.radius_lower if is_lower else found.radius_upper)
 
 
 def _exact(prepared: PreparedScene[SeparationScene]) -> _Bridges:

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Rupture"]
 
+_JUST_BELOW = 1.0 - 1e-6  # of the gap at which a bridge ends
+
 
 @frozen(kw_only=True)
 class Rupture(FilmEnd):
@@ -89,6 +91,15 @@ class Rupture(FilmEnd):
             expected = f"exceed initial_gap = {start:g} m"
             raise DescriptionError("Rupture.gap", self.gap, expected, unit="m")
         return self.gap
+
+    def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
+        """See `SeparationEffect.rimless_radius`: the contact circle where the bridge ends."""
+        if self.gap is not None:
+            return 0.0
+        from .meniscus_sphere import contact_radius
+
+        profile = "exact" if self.criterion == "limit" else "arc"
+        return contact_radius(prepared, profile, self.prepare(prepared) * _JUST_BELOW)
 
     def takes_printed(self) -> bool:
         """See `SeparationEffect.takes_printed`: the zero neck of the source is the arc's end."""
