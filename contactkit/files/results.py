@@ -16,6 +16,7 @@ import numpy as np
 from ..accuracy import Accuracy
 from ..contact.result import ContactResult
 from ..errors import ContactkitError, DescriptionError
+from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.motion.state import MotionState
 from ..separation.plan import plan
@@ -32,9 +33,17 @@ if TYPE_CHECKING:
 
     Arrays = dict[str, NDArray[Any]]
 
-Result = SeparationResult | SlidingResult | ContactResult
+AnyResult = SeparationResult | SlidingResult | ContactResult
 
-__all__ = ["from_bytes", "load_result", "save_csv", "save_npz", "save_result", "to_bytes"]
+__all__ = [
+    "AnyResult",
+    "from_bytes",
+    "load_result",
+    "save_csv",
+    "save_npz",
+    "save_result",
+    "to_bytes",
+]
 
 # What reading anything but a whole result may raise.
 _UNREADABLE = (
@@ -64,7 +73,7 @@ def save_result(result: Result, path: str | Path) -> Path:
     Parameters
     ----------
     result : SeparationResult, SlidingResult or ContactResult
-        What to write: its curves or maps as arrays, the arrays that its scene and its effects
+        The result: its curves or maps as arrays, the arrays that its scene and its effects
         hold, and as ``header`` a JSON text with the scene, the accuracy, the status and the
         numbers.
     path : str or Path
@@ -79,7 +88,7 @@ def save_result(result: Result, path: str | Path) -> Path:
     return save_npz(path, columns, header)
 
 
-def load_result(path: str | Path) -> Result:
+def load_result(path: str | Path) -> AnyResult:
     """Read a result written by `save_result`.
 
     A `ContactResult` answers ``of`` and ``scalars`` as the one that was saved did. What it was
@@ -106,7 +115,7 @@ def to_bytes(result: Result) -> bytes:
     return buffer.getvalue()
 
 
-def from_bytes(data: bytes) -> Result:
+def from_bytes(data: bytes) -> AnyResult:
     """Read what `to_bytes` gave."""
     try:
         return _read(io.BytesIO(data), "result")
@@ -121,8 +130,10 @@ def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
         header, columns = pack_contact(result)
     elif isinstance(result, SlidingResult):
         header, columns = _pack_sliding(result), dict(result.columns)
-    else:
+    elif isinstance(result, SeparationResult):
         header, columns = _pack_separation(result), dict(result.columns)
+    else:
+        raise TypeError(f"a {type(result).__name__} has no place in a result file")
     return {"contactkit": __version__} | header, columns
 
 
@@ -134,7 +145,7 @@ def _no_result(where: str, error: Exception) -> ContactkitError:
     )
 
 
-def _read(source: IO[bytes], name: str) -> Result:
+def _read(source: IO[bytes], name: str) -> AnyResult:
     with np.load(source, allow_pickle=False) as file:
         header = json.loads(str(file["header"]))
         columns = {key: file[key] for key in file.files if key != "header"}

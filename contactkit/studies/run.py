@@ -20,7 +20,7 @@ from ..contact.plan import ContactPlan, unprepared_plan
 from ..contact.result import ContactResult
 from ..contact.solve import solve
 from ..errors import ContactkitError, ConvergenceError, InfeasibleError
-from ..files.results import Result, to_bytes
+from ..files.results import AnyResult, to_bytes
 from ..planning import plan
 from ..scene.scenes import ContactScene
 from ..separation.simulate import simulate
@@ -85,7 +85,7 @@ class _Chain:
         self._plan: ContactPlan | None = None
         self._before: list[ContactResult] = []
 
-    def run(self, scene: Scene, accuracy: Accuracy) -> Result:
+    def run(self, scene: Scene, accuracy: Accuracy) -> AnyResult:
         if not isinstance(scene, ContactScene):
             return simulate(plan(scene, accuracy))
         made = unprepared_plan(scene, accuracy)
@@ -124,10 +124,10 @@ def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> None:
         store.write(key, point, maps)
 
 
-def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, Result | None]:
+def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyResult | None]:
     scene, accuracy = changed(piece.scene, piece.accuracy, task.values)
     begun = time.perf_counter()
-    result: Result | None = None
+    result: AnyResult | None = None
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

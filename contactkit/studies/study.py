@@ -24,7 +24,7 @@ from .store import Store, StudyPoint
 from .table import Study
 
 if TYPE_CHECKING:
-    from ..files.results import Result
+    from ..files.results import AnyResult
 
 __all__ = ["Study", "StudyPoint", "study"]
 
@@ -142,7 +142,7 @@ class _Run:
             self._task(i, dict(zip(paths, v, strict=True))) for i, v in enumerate(product)
         ]
         self.points: dict[int, StudyPoint] = {}
-        self.results: dict[int, Result] = {}
+        self.results: dict[int, AnyResult] = {}
         self.problems: dict[int, str] = {}  # with the files of points
         if store is not None:
             store.sweep()

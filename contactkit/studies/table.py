@@ -19,7 +19,7 @@ from .store import StudyPoint
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..files.results import Result
+    from ..files.results import AnyResult
 
 __all__ = ["Study"]
 
@@ -45,10 +45,10 @@ class Study:
     points: tuple[StudyPoint, ...] = field(repr=False)
     shape: tuple[int, ...]
     units: Mapping[str, str] = field(repr=False)
-    _results: tuple[Result | None, ...] | None = field(repr=False)
+    _results: tuple[AnyResult | None, ...] | None = field(repr=False)
 
     @property
-    def results(self) -> tuple[Result | None, ...]:
+    def results(self) -> tuple[AnyResult | None, ...]:
         """Complete results with maps or curves; None where a point failed.
 
         Raises
