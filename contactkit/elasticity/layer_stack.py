@@ -13,9 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DescriptionError
 
-__all__ = ["Stack", "small_wavenumber_constant", "stack_of", "uniform_compliance"]
+__all__ = ["Layers", "Stack", "small_wavenumber_constant", "stack_of", "uniform_compliance"]
 
 Array = NDArray[np.float64]
+
+
+class Layers(NamedTuple):
+    """Materials of a layered half-space, the top layer first, the substrate last.
+
+    Young's moduli [Pa] and Poisson's ratios, (n_layers + 1,), and thicknesses [m], (n_layers,).
+    """
+
+    young_modulus: ArrayLike
+    poisson_ratio: ArrayLike
+    thickness: ArrayLike = ()
 
 
 class Stack(NamedTuple):

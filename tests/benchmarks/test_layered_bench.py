@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.layered import compliance, normal_symbol
 from contactkit.elasticity.stress.measures import maxima, tresca, von_mises
 from contactkit.elasticity.stress.planes import planes
+from contactkit.elasticity.stress.tractions import Tractions
 
 
 def stack(layers):
@@ -32,8 +34,8 @@ def test_symbol_of_a_map(benchmark, layers, pixel):
 @pytest.mark.parametrize("depth", [0.0, 2.0, 50.0])
 def test_one_plane_of_stress(benchmark, mean, depth):
     pressure = np.random.default_rng(0).uniform(size=(512, 512))
-    args = pressure, 0.3 * pressure, None, (1.0, 1.0), *stack(3), [depth]
-    (plane,) = benchmark(lambda: list(planes(*args, mean=mean)))
+    load = Tractions((1.0, 1.0), pressure, 0.3 * pressure)
+    (plane,) = benchmark(lambda: list(planes(load, Layers(*stack(3)), [depth], mean=mean)))
     assert plane.stress.shape == (6, 512, 512)
 
 
@@ -43,7 +45,7 @@ def test_maxima_of_a_dozen_planes(benchmark):
     depths = np.linspace(0.0, 20.0, 12)
 
     def search():
-        below = planes(pressure, None, None, (1.0, 1.0), *stack(3), depths)
+        below = planes(Tractions((1.0, 1.0), pressure), Layers(*stack(3)), depths)
         return maxima(below, measures, (1.0, 1.0))
 
     assert set(benchmark(search)) == set(measures)

@@ -29,7 +29,7 @@ OWNED = {
     ck.HardnessLimit(rule="constant", hardness=1e9): set(),
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
-        "elasticity.stress.planes.normal_displacement_of_traction",
+        "elasticity.stress.tractions.traction_coupling",
         *FIELDS,
     },
     ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
@@ -150,7 +150,7 @@ HEARTS = [
     (
         (ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),
         "periodic",
-        "elasticity.stress.planes.normal_displacement_of_traction",
+        "elasticity.stress.tractions.traction_coupling",
     ),
     ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.planes.planes"),
     ((ck.FilmMeniscus(film_thickness=1e-9),), "periodic", "capillary.film_islands.meniscus_area"),

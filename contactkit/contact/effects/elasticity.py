@@ -10,12 +10,13 @@ from attrs import frozen
 from .base import Compliance
 
 if TYPE_CHECKING:
+    from ...elasticity.layer_stack import Layers
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from .base import Map, SymbolMaker
 
-__all__ = ["HalfSpace", "LayeredHalfSpace"]
+__all__ = ["HalfSpace", "LayeredHalfSpace", "layers_of"]
 
 _FREE = "Love 1929, square patch on a half-space"
 _SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
@@ -90,21 +91,24 @@ def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
     return tuple(found)
 
 
+def layers_of(stack: Stack) -> Layers:
+    """Elastic constants and thicknesses of a stack."""
+    from ...elasticity.layer_stack import Layers
+
+    return Layers(stack.young_moduli, stack.poisson_ratios, stack.thicknesses)
+
+
 def _maker(stack: Stack, periodic: bool) -> SymbolMaker:
-    elastic = (stack.young_moduli, stack.poisson_ratios, stack.thicknesses)
-    return partial(_periodic if periodic else _free, elastic=elastic)
+    return partial(_periodic if periodic else _isolated, layers=layers_of(stack))
 
 
-Elastic = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
-
-
-def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], elastic: Elastic) -> Map:
+def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers) -> Map:
     from ...elasticity.layered import normal_symbol
 
-    return normal_symbol(shape, pixel_size, *elastic)
+    return normal_symbol(shape, pixel_size, *layers)
 
 
-def _free(shape: tuple[int, int], pixel_size: tuple[float, float], elastic: Elastic) -> Map:
+def _isolated(shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers) -> Map:
     from ...elasticity.influence import symbol
 
-    return symbol(shape, pixel_size, *elastic)
+    return symbol(shape, pixel_size, *layers)

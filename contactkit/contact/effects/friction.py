@@ -12,6 +12,7 @@ from attrs import field, frozen
 from ...units import si
 from ...validators import finite, fraction
 from .base import Contact, DisplacementTerm, Observer, Scalar
+from .elasticity import layers_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -112,26 +113,30 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
         """See `DisplacementTerm.prepare`."""
         import numpy as np
 
-        from ...elasticity.stress.planes import normal_displacement_of_traction
+        from ...elasticity.stress.tractions import traction_coupling
 
         friction = scene.effect(FrictionTraction)
         assert friction is not None
         along_x, along_y = friction.components()
+        bodies = (scene.interface.lower, 1.0), (scene.interface.upper, -1.0)
+        signs = [sign for body, sign in bodies if body.stack is not None]
+        couplings = [
+            traction_coupling(
+                grid.shape,
+                grid.pixel_size,
+                layers_of(stack),
+                mean="periodic" if grid.periodic else "free",
+            )
+            for stack in scene.interface.stacks
+        ]
 
         def displacement(pressure: Map) -> Map:
             total: Map = np.zeros(grid.shape)
-            for body, sign in ((scene.interface.lower, 1.0), (scene.interface.upper, -1.0)):
-                stack = body.stack
-                if stack is not None:
-                    total += normal_displacement_of_traction(
-                        sign * along_x * pressure if along_x else None,
-                        sign * along_y * pressure if along_y else None,
-                        grid.pixel_size,
-                        stack.young_moduli,
-                        stack.poisson_ratios,
-                        stack.thicknesses,
-                        mean="periodic" if grid.periodic else "free",
-                    )
+            for sign, coupling in zip(signs, couplings, strict=True):
+                total += coupling(
+                    sign * along_x * pressure if along_x else None,
+                    sign * along_y * pressure if along_y else None,
+                )
             return total
 
         return displacement

@@ -14,9 +14,11 @@ from attrs import Attribute, field, frozen
 from ...elasticity.stress import measures as stress_measures
 from ...elasticity.stress.maxima import Maximum, maxima
 from ...elasticity.stress.planes import Plane, planes
+from ...elasticity.stress.tractions import Tractions
 from ...units import si
 from ...validators import choice, non_negative, positive, refuse
 from .base import Contact, Observer, Scalar
+from .elasticity import layers_of
 from .friction import FrictionTraction
 
 if TYPE_CHECKING:
@@ -184,13 +186,8 @@ def scan(
     kept = np.empty((6, n, ny, nx)) if keep_planes else None
     layers = np.empty(n, dtype=int)
     found = planes(
-        pressure,
-        tractions[0],
-        tractions[1],
-        contact.grid.pixel_size,
-        stack.young_moduli,
-        stack.poisson_ratios,
-        stack.thicknesses,
+        Tractions(contact.grid.pixel_size, pressure, *tractions),
+        layers_of(stack),
         [depth for depth, _ in where],
         [side for _, side in where],
         mean="periodic" if contact.grid.periodic else "free",

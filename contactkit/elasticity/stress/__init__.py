@@ -1,8 +1,9 @@
-"""Subsurface stress under a map of pressure and tangential traction.
+"""Subsurface stress under a map of pressure and traction.
 
-planes    Stresses on planes at depth.
-measures  Equivalent stresses: von Mises, Tresca, principal stresses, interface shear.
-maxima    Maxima of these measures and their locations.
-periodic  Stresses on one plane, mode by mode of a periodic map.
-isolated  Removal of periodic images, for isolated contacts.
+planes     Stresses on planes at depth.
+tractions  Maps of tractions; normal displacement under tangential ones.
+measures   Equivalent stresses: von Mises, Tresca, principal stresses, interface shear.
+maxima     Maxima of these measures and their locations.
+periodic   Stresses on one plane, mode by mode of a periodic map.
+isolated   Grids of a map, and removal of periodic images for isolated contacts.
 """

@@ -1,4 +1,4 @@
-"""Removal of periodic images: fields of an isolated load from periodic transforms.
+"""Grids of a map of tractions, and the removal of periodic images for an isolated load.
 
 A map in a zero-padded window of twice its size is still affected by its periodic images, whose
 fields decay slowly under stiff layers but are smooth within the map.  Their contribution is the
@@ -15,20 +15,32 @@ highest wavenumber of the coarse grid.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
+from ...errors import DescriptionError
 from .periodic import Modes, grid_of_modes, spectrum
 
-__all__ = ["Grid", "Step", "added", "padded_shape", "single_load"]
+__all__ = [
+    "Grid",
+    "Grids",
+    "Mean",
+    "Step",
+    "add_correction",
+    "grids_of",
+    "isolated_grids",
+    "padded_shape",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Pair = tuple[float, float]
+Loads = list[Complex | None]
+Mean = Literal["periodic", "free"]
 
 COARSE = 64  # points per side of the periodic window of a step
 WIDER = 4  # ratio of windows from step to step
@@ -38,22 +50,84 @@ MARGIN = 6  # coarse points beyond the map, so that its edge is not the edge of 
 
 
 class Grid(NamedTuple):
-    """Spectra of the loads (None: no load) on a periodic grid, and the window to return."""
+    """A periodic grid, and the window of it that is wanted."""
 
-    loads: list[Complex | None]
     modes: Modes
     pixel_size: Pair
     window: tuple[int, int]
 
 
 class Step(NamedTuple):
-    """Two coarse grids of one load, and the splines from their points to the map."""
+    """Two coarse grids, the narrow one of a given period, and splines from them to the map."""
 
+    period: Pair
     wide: Grid
     narrow: Grid
     part: tuple[slice, slice]
     along_y: Array
     along_x: Array
+
+
+class Grids(NamedTuple):
+    """The grid of a map, and the steps that remove its periodic images; none if it is periodic."""
+
+    first: Grid
+    steps: tuple[Step, ...]
+
+    @property
+    def all(self) -> list[Grid]:
+        """The grid of the map, then the wide and the narrow grid of each step."""
+        return [self.first, *(grid for step in self.steps for grid in (step.wide, step.narrow))]
+
+    def spectra(self, maps: list[Array | None], workers: int | None = None) -> list[Loads]:
+        """Spectra of loads (None: no load) on each grid, in the order of `all`."""
+        first = self.first
+        (ny, nx), (dy, dx), shape = first.window, first.pixel_size, first.modes.shape
+        loads = [None if m is None else spectrum(m, shape, workers) for m in maps]
+        found = [loads]
+        if not self.steps:
+            return found
+        period, centre = self.steps[0].period, (0.5 * (ny - 1) * dy, 0.5 * (nx - 1) * dx)
+        lows = [None if q is None else _low(q, shape) * (dy * dx) for q in loads]
+        lows = [None if q is None else _shifted(q, period, centre) for q in lows]
+        for step in self.steps:
+            loads = [None if low is None else _smooth_load(low, step) for low in lows]
+            for grid in (step.wide, step.narrow):
+                size = grid.modes.shape
+                found.append([None if q is None else spectrum(q, size) for q in loads])
+            lows = _long_waves(found[-2], step)
+        return found
+
+
+def grids_of(shape: tuple[int, int], pixel_size: Pair, mean: Mean, padding: float) -> Grids:
+    """Grids on which the fields of a map of tractions are computed.
+
+    Parameters
+    ----------
+    shape, pixel_size
+        Pixels (ny, nx) of the map and their size (dy, dx) [m].
+    mean : {"periodic", "free"}
+        Outside of the map: periodic images, or no load.
+    padding : float
+        For "free": distance of the remaining images over the side of the map.
+
+    Raises
+    ------
+    DescriptionError
+        For another mean, or a padding below 1.
+
+    Examples
+    --------
+    >>> len(grids_of((8, 8), (1.0, 1.0), "free", 32.0).all)
+    5
+    """
+    if mean not in ("periodic", "free"):
+        raise DescriptionError("planes.mean", mean, 'be "periodic" or "free"')
+    if mean == "periodic":
+        return Grids(Grid(grid_of_modes(shape, pixel_size), pixel_size, shape), ())
+    if not 1.0 <= padding < np.inf:
+        raise DescriptionError("planes.padding", padding, "be 1 or more, and finite")
+    return isolated_grids(shape, pixel_size, padding)
 
 
 def padded_shape(window: tuple[int, int], pixel_size: Pair, padding: float) -> tuple[int, int]:
@@ -69,101 +143,85 @@ def padded_shape(window: tuple[int, int], pixel_size: Pair, padding: float) -> t
     return max(ny, window[0]), max(nx, window[1])
 
 
-def single_load(
-    maps: list[Array | None],
-    window: tuple[int, int],
-    pixel_size: Pair,
-    padding: float,
-    workers: int | None = None,
-) -> tuple[Grid, list[Step]]:
+def isolated_grids(window: tuple[int, int], pixel_size: Pair, padding: float) -> Grids:
     """Grid of an isolated load, and the steps that remove its periodic images.
 
     Parameters
     ----------
-    maps : list of (ndarray of shape (ny, nx) or None)
-        Loads.
     window : (ny, nx)
-        Their shape.
+        Shape of the map.
     pixel_size : (dy, dx)
         [m].
     padding : float
         Distance of the remaining images, over the side of the map.
-    workers : int, optional
-        Threads of the transforms.
 
     Returns
     -------
-    Grid, list of Step
-        No step if `padding` is at most 4: the grid itself is then that large.
+    Grids
+        Without steps if `padding` is at most 4: the grid itself is then that large.
 
     Examples
     --------
-    >>> grid, steps = single_load([np.ones((8, 8))], (8, 8), (1.0, 1.0), 32.0)
-    >>> grid.modes.shape, [step.wide.modes.shape for step in steps]
+    >>> grids = isolated_grids((8, 8), (1.0, 1.0), 32.0)
+    >>> grids.first.modes.shape, [step.wide.modes.shape for step in grids.steps]
     ((16, 16), [(256, 256), (256, 256)])
     """
     direct = padding <= WIDER
     shape = padded_shape(window, pixel_size, padding if direct else NARROWEST)
-    loads = [None if m is None else spectrum(m, shape, workers) for m in maps]
-    grid = Grid(loads, grid_of_modes(shape, pixel_size), pixel_size, window)
-    steps: list[Step] = []
+    first = Grid(grid_of_modes(shape, pixel_size), pixel_size, window)
     if direct:
-        return grid, steps
+        return Grids(first, ())
     period = shape[0] * pixel_size[0], shape[1] * pixel_size[1]
-    centre = 0.5 * (window[0] - 1) * pixel_size[0], 0.5 * (window[1] - 1) * pixel_size[1]
-    area = pixel_size[0] * pixel_size[1]
-    lows = [None if q is None else _low(q, shape) * area for q in loads]
-    lows = [None if q is None else _shifted(q, period, centre) for q in lows]
+    steps = []
     for _ in range(math.ceil(math.log(padding / NARROWEST, WIDER) - 1e-9)):
-        step, lows = _step(lows, period, window, pixel_size)
-        steps.append(step)
+        steps.append(_step(period, window, pixel_size))
         period = WIDER * period[0], WIDER * period[1]
-    return grid, steps
+    return Grids(first, tuple(steps))
 
 
-def added(field: Array, wide: Array, narrow: Array, step: Step) -> None:
+def add_correction(field: Array, wide: Array, narrow: Array, step: Step) -> None:
     """Add the correction of a step to one field of a map, in place.
 
     Examples
     --------
-    >>> _, (step, _) = single_load([np.ones((8, 8))], (8, 8), (1.0, 1.0), 32.0)
+    >>> step = isolated_grids((8, 8), (1.0, 1.0), 32.0).steps[0]
     >>> field = np.zeros((8, 8))
-    >>> added(field, np.full((64, 64), 3.0), np.ones((64, 64)), step)
+    >>> add_correction(field, np.full((64, 64), 3.0), np.ones((64, 64)), step)
     >>> bool(np.allclose(field, 2.0))
     True
     """
     field += step.along_y @ (wide - narrow)[step.part] @ step.along_x.T
 
 
-def _step(
-    lows: list[Complex | None], period: Pair, window: tuple[int, int], pixel_size: Pair
-) -> tuple[Step, list[Complex | None]]:
-    """One step, and the long waves of its wide grid for the next one.
-
-    `lows` are transforms (integrals, about the centre of the map) on the modes of a grid of
-    COARSE points a side.
-    """
+def _step(period: Pair, window: tuple[int, int], pixel_size: Pair) -> Step:
     coarse = period[0] / COARSE, period[1] / COARSE
-    loads = [None if low is None else _smooth_load(low, period, coarse) for low in lows]
-
-    def grid(size: int) -> Grid:
-        shape = size, size
-        spectra = [None if load is None else spectrum(load, shape) for load in loads]
-        return Grid(spectra, grid_of_modes(shape, coarse), coarse, (COARSE, COARSE))
-
-    wide, narrow = grid(WIDER * COARSE), grid(COARSE)
-    far, middle = (WIDER * period[0], WIDER * period[1]), (0.5 * period[0], 0.5 * period[1])
-    unit = coarse[0] * coarse[1] / _smoothing(far, coarse)
-    backs = [None if q is None else _low(q, wide.modes.shape) * unit for q in wide.loads]
-    nexts = [None if back is None else _shifted(back, far, middle) for back in backs]
+    wide, narrow = (
+        Grid(grid_of_modes((size, size), coarse), coarse, (COARSE, COARSE))
+        for size in (WIDER * COARSE, COARSE)
+    )
     (in_y, along_y), (in_x, along_x) = (
         _splines(n, d, c) for n, d, c in zip(window, pixel_size, coarse, strict=True)
     )
-    return Step(wide, narrow, (in_y, in_x), along_y, along_x), nexts
+    return Step(period, wide, narrow, (in_y, in_x), along_y, along_x)
 
 
-def _smooth_load(low: Complex, period: Pair, coarse: Pair) -> Array:
+def _long_waves(loads: Loads, step: Step) -> Loads:
+    """Long waves of the loads on the wide grid of a step, for the next one.
+
+    They are transforms (integrals, about the centre of the map) on the modes of a grid of COARSE
+    points a side.
+    """
+    coarse = step.wide.pixel_size
+    far = WIDER * step.period[0], WIDER * step.period[1]
+    middle = 0.5 * step.period[0], 0.5 * step.period[1]
+    unit = coarse[0] * coarse[1] / _smoothing(far, coarse)
+    lows = [None if q is None else _low(q, step.wide.modes.shape) * unit for q in loads]
+    return [None if low is None else _shifted(low, far, middle) for low in lows]
+
+
+def _smooth_load(low: Complex, step: Step) -> Array:
     """Load on the coarse grid, the centre of the map at its middle."""
+    period, coarse = step.period, step.wide.pixel_size
     smooth = low * _smoothing(period, coarse) / (coarse[0] * coarse[1])
     smooth = _shifted(smooth, period, (-0.5 * period[0], -0.5 * period[1]))
     return scipy.fft.irfft2(smooth, s=(COARSE, COARSE))

@@ -111,12 +111,14 @@ def maxima(
     Examples
     --------
     >>> from ..depths import default_depths
+    >>> from ..layer_stack import Layers
     >>> from .measures import sqrt_j2
     >>> from .planes import planes
+    >>> from .tractions import Tractions
     >>> wave = np.cos(2 * np.pi * np.arange(32) / 32)[None, :]
     >>> depths = list(np.linspace(0.05, 0.3, 41))
     >>> pixel = (1.0, 1 / 32)
-    >>> below = planes(wave, None, None, pixel, [1e9], [0.5], [], depths)
+    >>> below = planes(Tractions(pixel, wave), Layers([1e9], [0.5]), depths)
     >>> peak = maxima(below, {"sqrt_j2": sqrt_j2}, pixel, refine=True)["sqrt_j2"]
     >>> round(peak.value * np.e, 4), round(peak.z * 2 * np.pi, 3)  # k exp(-k) at k = 1
     (1.0, 1.0)

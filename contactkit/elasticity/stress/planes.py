@@ -19,25 +19,23 @@ free
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...errors import DescriptionError
-from ..depths import Side, default_depths, locate
-from ..layer_stack import Stack, stack_of
-from ..layered import compliance
+from ..depths import Side, locate
+from ..layer_stack import Layers, Stack, stack_of
 from ..layered_fields import PlaneStates, plane_states
-from .isolated import Grid, Step, added, single_load
-from .periodic import component, grid_of_modes, into_space, spectrum, table_of, within
+from .isolated import Grid, Mean, add_correction, grids_of
+from .periodic import component, into_space, table_of, within
+from .tractions import Tractions
 
-__all__ = ["Plane", "default_depths", "normal_displacement_of_traction", "planes"]
+__all__ = ["Plane", "planes"]
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Mean = Literal["periodic", "free"]
-Pair = tuple[float, float]
+Loads = list[NDArray[np.complex128] | None]
 
 CUTOFF = 40.0  # of alpha z: modes beyond carry (1 + 40) exp(-40) = 2e-16 of their load
 
@@ -53,13 +51,8 @@ class Plane(NamedTuple):
 
 
 def planes(
-    pressure: ArrayLike | None,
-    traction_x: ArrayLike | None,
-    traction_y: ArrayLike | None,
-    pixel_size: Pair,
-    young_modulus: ArrayLike,
-    poisson_ratio: ArrayLike,
-    thickness: ArrayLike,
+    load: Tractions,
+    layers: Layers,
     depths: Sequence[float],
     sides: Sequence[str] | str = "+",
     *,
@@ -72,11 +65,9 @@ def planes(
 
     Parameters
     ----------
-    pressure, traction_x, traction_y : array_like, shape (ny, nx), or None
-        Tractions on the surface [Pa]; None is skipped.
-    pixel_size : (dy, dx)
-        [m].
-    young_modulus, poisson_ratio, thickness : array_like
+    load : Tractions
+        Pressure and tangential tractions on the surface.
+    layers : Layers
         As in `layered.compliance`.
     depths, sides
         As in `depths.locate`, in order of layer and depth.
@@ -113,77 +104,50 @@ def planes(
     --------
     A wave of pressure, a sixth of its length deep:
 
-    >>> wave = np.cos(2 * np.pi * np.arange(8) / 8)[None, :]
-    >>> plane = next(planes(wave, None, None, (1.0, 1 / 8), [1e9], [0.3], [], [1 / (2 * np.pi)]))
+    >>> wave = Tractions((1.0, 1 / 8), np.cos(2 * np.pi * np.arange(8) / 8)[None, :])
+    >>> plane = next(planes(wave, Layers([1e9], [0.3]), [1 / (2 * np.pi)]))
     >>> print(np.round(plane.stress[:, 0, 0], 6), round(-2 * np.exp(-1), 6))
     [ 0.       -0.220728 -0.735759  0.        0.        0.      ] -0.735759
     """
-    maps = _checked([pressure, traction_x, traction_y], pixel_size)
-    stack = stack_of(young_modulus, poisson_ratio, thickness)
-    if mean not in ("periodic", "free"):
-        raise DescriptionError("planes.mean", mean, 'be "periodic" or "free"')
-    if mean == "free" and (displacement or not 1.0 <= padding < np.inf):
-        raise DescriptionError(
-            "planes.padding",
-            padding,
-            "be 1 or more, and displacement False",
-            hint='displacements are given for mean="periodic"',
-        )
+    maps, stack = load.checked(), stack_of(*layers)
+    if mean == "free" and displacement:
+        raise DescriptionError("planes.displacement", True, 'be False for mean="free"')
     locate(depths, sides, stack.h)
-    grids, steps = _grids(maps, pixel_size, mean, padding, workers)
-    every = [
-        plane_states(
-            grid.modes.length, young_modulus, poisson_ratio, thickness, depths, sides, cutoff=CUTOFF
-        )
-        for grid in grids
+    grids = grids_of(load.shape, load.pixel_size, mean, padding)
+    loads = grids.spectra(maps, workers)
+    states = [
+        plane_states(grid.modes.length, *layers, depths, sides, cutoff=CUTOFF) for grid in grids.all
     ]
     count = 9 if displacement else 6
-    return (
-        _plane(states, grids, steps, _mean_stress(states[0], stack, mean), count, workers)
-        for states in zip(*every, strict=True)
-    )
 
+    def plane(of_grids: tuple[PlaneStates, ...]) -> Plane:
+        uniform = _mean_stress(of_grids[0], stack, mean)
+        fields, *others = (
+            _fields(state, grid, one, uniform, count, workers)
+            for state, grid, one in zip(of_grids, grids.all, loads, strict=True)
+        )
+        for step, wide, narrow in zip(grids.steps, others[::2], others[1::2], strict=True):
+            for k in range(count):
+                add_correction(fields[k], wide[k], narrow[k], step)
+        first, moved = of_grids[0], fields[6:] if displacement else None
+        return Plane(first.depth, first.side, first.layer, fields[:6], moved)
 
-def _grids(
-    maps: list[Array | None], pixel_size: Pair, mean: Mean, padding: float, workers: int | None
-) -> tuple[list[Grid], list[Step]]:
-    """Grid of the map, then the wide and the narrow grid of each step."""
-    window = next(m.shape for m in maps if m is not None)
-    window = window[0], window[1]
-    if mean == "free":
-        first, steps = single_load(maps, window, pixel_size, padding, workers)
-    else:
-        loads = [None if m is None else spectrum(m, window, workers) for m in maps]
-        first, steps = Grid(loads, grid_of_modes(window, pixel_size), pixel_size, window), []
-    return [first, *(grid for step in steps for grid in step[:2])], steps
-
-
-def _plane(
-    states: tuple[PlaneStates, ...],
-    grids: list[Grid],
-    steps: list[Step],
-    uniform: Array,
-    count: int,
-    workers: int | None,
-) -> Plane:
-    fields, *others = (
-        _fields(s, grid, uniform, count, workers) for s, grid in zip(states, grids, strict=True)
-    )
-    for step, wide, narrow in zip(steps, others[::2], others[1::2], strict=True):
-        for k in range(count):
-            added(fields[k], wide[k], narrow[k], step)
-    moved = fields[6:] if count > 6 else None
-    return Plane(states[0].depth, states[0].side, states[0].layer, fields[:6], moved)
+    return (plane(of_grids) for of_grids in zip(*states, strict=True))
 
 
 def _fields(
-    states: PlaneStates, grid: Grid, uniform: Array, count: int, workers: int | None
+    states: PlaneStates,
+    grid: Grid,
+    loads: Loads,
+    uniform: Array,
+    count: int,
+    workers: int | None,
 ) -> Array:
     reached = within(grid.modes, states.transverse.shape[1], grid.pixel_size)
     across = reached.rank.shape[1]
     near = [
         None if q is None else turn * q[reached.rows, :across]
-        for turn, q in zip((1.0, -1j, -1j), grid.loads, strict=True)
+        for turn, q in zip((1.0, -1j, -1j), loads, strict=True)
     ]
     tables = table_of(states, grid.modes.length, displacement=count > 6)
     fields = np.empty((count, *grid.window))
@@ -191,7 +155,7 @@ def _fields(
         values = component(k, near, tables, reached)
         if k < 6:
             values[0, 0] = sum(
-                u * q[0, 0] for u, q in zip(uniform[:, k], grid.loads, strict=True) if q is not None
+                u * q[0, 0] for u, q in zip(uniform[:, k], loads, strict=True) if q is not None
             )
         fields[k] = into_space(values, reached, grid.window, workers)
     return fields
@@ -200,93 +164,13 @@ def _fields(
 def _mean_stress(states: PlaneStates, stack: Stack, mean: Mean) -> Array:
     """Stresses at wavenumber zero per unit of the three loads, shape (3, 6)."""
     nu = states.poisson_ratio
-    share = nu / (1.0 - nu)
-    lateral = -share
+    ratio = nu / (1.0 - nu)
+    lateral = -ratio
     if mean == "free":
         # All layers follow the long waves of the substrate; half of LL + TT remains.
         strain = states.shear_modulus * (1.0 - 2.0 * stack.nu[-1]) / stack.G[-1]
-        lateral = -0.5 * strain * (1.0 + nu) / (1.0 - nu) - share
+        lateral = -0.5 * strain * (1.0 + nu) / (1.0 - nu) - ratio
     uniform = np.zeros((3, 6))
     uniform[0, :3] = lateral, lateral, -1.0
     uniform[1, 4] = uniform[2, 5] = -1.0
     return uniform
-
-
-def normal_displacement_of_traction(
-    traction_x: ArrayLike | None,
-    traction_y: ArrayLike | None,
-    pixel_size: Pair,
-    young_modulus: ArrayLike,
-    poisson_ratio: ArrayLike,
-    thickness: ArrayLike,
-    *,
-    mean: Mean = "periodic",
-    padding: float = 128.0,
-    workers: int | None = None,
-) -> Array:
-    """Normal displacement of the surface under tangential tractions.
-
-    ``uz^ = -i F12 (xi qx^ + eta qy^)/alpha``: the coupling that Goodman's approximation neglects
-    in the normal problem; zero for a homogeneous solid with nu = 1/2.
-
-    Parameters
-    ----------
-    traction_x, traction_y : array_like, shape (ny, nx), or None
-        On the solid [Pa].
-    pixel_size, young_modulus, poisson_ratio, thickness, mean, padding, workers
-        As in `planes`.
-
-    Returns
-    -------
-    ndarray, shape (ny, nx)
-        uz, positive into the solid, without its mean over the (padded) window [m].
-
-    Raises
-    ------
-    DescriptionError
-        As `planes`.
-
-    Examples
-    --------
-    Dragged together, the surface bulges out; here it is pressed in a quarter of a wave later:
-
-    >>> wave = np.cos(2 * np.pi * np.arange(8) / 8)[None, :]
-    >>> uz = normal_displacement_of_traction(wave, None, (1.0, 0.125), [1.0], [0.0], [])
-    >>> print(np.round(uz[0, [2, 6]] * 2 * np.pi, 6))
-    [ 1. -1.]
-    """
-    maps = _checked([traction_x, traction_y], pixel_size)
-    layers = young_modulus, poisson_ratio, thickness
-    grids, steps = _grids(maps, pixel_size, mean, padding, workers)
-    field, *others = (
-        _pushed(grid, compliance(grid.modes.length, *layers).F12, workers) for grid in grids
-    )
-    for step, wide, narrow in zip(steps, others[::2], others[1::2], strict=True):
-        added(field, wide, narrow, step)
-    return field
-
-
-def _pushed(grid: Grid, F12: Array, workers: int | None) -> Array:
-    modes = grid.modes
-    total = np.zeros(modes.rank.shape, dtype=np.complex128)
-    for traction, direction in zip(grid.loads, (modes.x, modes.y), strict=True):
-        if traction is not None:
-            total += direction * traction
-    weight = np.concatenate([[0.0], F12])[modes.rank]
-    return into_space(-1j * (weight * total), modes, grid.window, workers)
-
-
-def _checked(maps: Sequence[ArrayLike | None], pixel_size: Pair) -> list[Array | None]:
-    checked = [None if m is None else np.asarray(m, dtype=np.float64) for m in maps]
-    shapes = {m.shape for m in checked if m is not None}
-    if len(shapes) != 1 or any(len(shape) != 2 or 0 in shape for shape in shapes):
-        raise DescriptionError(
-            "planes.maps", sorted(shapes), "be at least one map and share one shape (ny, nx)"
-        )
-    if not all(np.isfinite(m).all() for m in checked if m is not None):
-        raise DescriptionError("planes.maps", "nan or inf", "be finite", unit="Pa")
-    if not (len(pixel_size) == 2 and all(0.0 < d < np.inf for d in pixel_size)):
-        raise DescriptionError(
-            "planes.pixel_size", pixel_size, "be two positive lengths (dy, dx)", unit="m"
-        )
-    return checked

@@ -10,6 +10,7 @@ import pytest
 from numpy.polynomial import polynomial
 from scipy.interpolate import RectBivariateSpline
 
+from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.stress.measures import (
     interface_shear,
     max_principal_stress,
@@ -20,13 +21,14 @@ from contactkit.elasticity.stress.measures import (
     tresca,
     von_mises,
 )
-from contactkit.elasticity.stress.planes import Plane, normal_displacement_of_traction, planes
+from contactkit.elasticity.stress.planes import Plane, planes
+from contactkit.elasticity.stress.tractions import Tractions, traction_coupling
 from contactkit.errors import DescriptionError
 
 DATA = json.loads((Path(__file__).parents[2] / "data" / "layered.json").read_text())
 MEASURES = {"sqrt_j2": sqrt_j2, "von_mises": von_mises, "tresca": tresca}
-HALF = [1.0], [0.3], []
-STACK = [4.0, 0.5, 1.0], [0.3, 0.4, 0.2], [0.3, 0.5]
+HALF = Layers([1.0], [0.3])
+STACK = Layers([4.0, 0.5, 1.0], [0.3, 0.4, 0.2], [0.3, 0.5])
 
 
 def sphere(count, width, radius=1.0, shape=(1.0,)):
@@ -45,7 +47,7 @@ def test_largest_stresses_under_a_hertzian_pressure(row):
     nu, z, *expected = row
     pressure, _, pixel = sphere(96, 2.4)
     depths = z + np.linspace(-0.1, 0.1, 5)
-    below = planes(pressure, None, None, pixel, [1.0], [nu], [], depths, mean="free")
+    below = planes(Tractions(pixel, pressure), Layers([1.0], [nu]), depths, mean="free")
     found = maxima(below, MEASURES, pixel, refine=True)
     for name, value in zip(MEASURES, expected, strict=True):
         assert found[name].value == pytest.approx(value, rel=2e-4)
@@ -61,7 +63,8 @@ def test_trailing_edge_of_a_sliding_sphere():
     exact, errors = 0.4 / 3 + 4.3 * np.pi / 16, []
     for count in (80, 320):
         pressure, _, pixel = sphere(count, 2.4)
-        surface = next(planes(pressure, 0.5 * pressure, None, pixel, *HALF, [0.0], mean="free"))
+        load = Tractions(pixel, pressure, 0.5 * pressure)
+        surface = next(planes(load, HALF, [0.0], mean="free"))
         found = plane_maximum(max_principal_stress(surface.stress), pixel, 0.0, "+", 0)
         assert found.x - 1.2 == pytest.approx(-1.0, abs=1.5 * pixel[1])
         assert found.y == pytest.approx(1.2, abs=0.2)
@@ -76,11 +79,12 @@ def test_stress_under_a_sphere_on_layers(case):
     a, r = case["a"], np.array(case["r/a"])
     even = polynomial.polyfit(r**2, np.array(case["p"]) / np.sqrt(1 - r**2), 4)
     pressure, x, pixel = sphere(128, 2.4 * a, a, even)
-    stack = case["young_modulus"], case["poisson_ratio"], case["thickness"]
+    stack = Layers(case["young_modulus"], case["poisson_ratio"], case["thickness"])
     inside = [s for s in case["samples"] if s[0] > 0.2 and max(abs(s[2]), abs(s[3])) < x[-1]]
     assert len(inside) >= 5
     for z, side, px, py, mu, *expected in inside:
-        (plane,) = planes(pressure, mu * pressure, None, pixel, *stack, [z], side, mean="free")
+        load = Tractions(pixel, pressure, mu * pressure)
+        (plane,) = planes(load, stack, [z], side, mean="free")
         found = [RectBivariateSpline(x, x, one)(py, px)[0, 0] for one in plane.stress]
         assert np.abs(np.array(found) - expected).max() < 5e-5
 
@@ -90,13 +94,13 @@ def test_largest_stress_under_a_sphere_on_layers(case):
     a, r = case["a"], np.array(case["r/a"])
     even = polynomial.polyfit(r**2, np.array(case["p"]) / np.sqrt(1 - r**2), 4)
     pressure, _, pixel = sphere(96, 2.4 * a, a, even)
-    stack = case["young_modulus"], case["poisson_ratio"], case["thickness"]
+    stack = Layers(case["young_modulus"], case["poisson_ratio"], case["thickness"])
     faces = [(z, side) for z in np.cumsum(case["thickness"]) for side in "-+"]
     z = case["z"]
     near = [] if any(abs(z - f) < 1e-9 for f, _ in faces) else [(z * s, "+") for s in (0.9, 1, 1.1)]
     chosen = sorted(faces + near, key=lambda plane: (plane[0], plane[1] == "+"))
     depths, sides = zip(*chosen, strict=True)
-    below = planes(pressure, None, None, pixel, *stack, depths, sides, mean="free")
+    below = planes(Tractions(pixel, pressure), stack, depths, sides, mean="free")
     found = maxima(below, {"sqrt_j2": sqrt_j2}, pixel)["sqrt_j2"]
     assert found.value == pytest.approx(case["largest_sqrt_j2"], rel=1e-3)
     assert (found.layer, found.z) == (case["layer"], pytest.approx(z))
@@ -112,7 +116,9 @@ def rough(shape, seed=1):
 @pytest.mark.parametrize("shape", [(8, 8), (7, 9), (1, 12), (6, 5)])
 def test_the_surface_carries_the_tractions_and_every_plane_their_sum(shape):
     p, qx, qy = (rough(shape, seed) for seed in range(3))
-    deep = planes(p, qx, qy, (0.3, 0.2), *STACK, [0.0, 0.3, 0.3, 2.0], ["+", "-", "+", "+"])
+    deep = planes(
+        Tractions((0.3, 0.2), p, qx, qy), STACK, [0.0, 0.3, 0.3, 2.0], ["+", "-", "+", "+"]
+    )
     for plane in deep:
         for k, load in ((2, p), (4, qx), (5, qy)):
             assert plane.stress[k].mean() == pytest.approx(-load.mean(), rel=1e-13)
@@ -122,9 +128,9 @@ def test_the_surface_carries_the_tractions_and_every_plane_their_sum(shape):
 
 
 def test_a_uniform_pressure_lets_no_layer_strain_sideways():
-    E, nu, h = STACK
+    nu = STACK.poisson_ratio
     p, q = np.full((4, 6), 2.0), np.full((4, 6), 0.5)
-    for plane in planes(p, q, None, (1.0, 1.0), E, nu, h, [0.1, 0.5, 3.0]):
+    for plane in planes(Tractions((1.0, 1.0), p, q), STACK, [0.1, 0.5, 3.0]):
         lateral = -nu[plane.layer] / (1 - nu[plane.layer]) * 2.0
         uniform = [lateral, lateral, -2.0, 0.0, -0.5, 0.0]
         np.testing.assert_allclose(plane.stress.mean(axis=(1, 2)), uniform, atol=1e-15)
@@ -133,8 +139,8 @@ def test_a_uniform_pressure_lets_no_layer_strain_sideways():
 
 def test_exchanging_x_and_y_exchanges_the_components():
     p, q = rough((6, 9)), rough((6, 9), 2)
-    (one,) = planes(p, q, None, (0.2, 0.3), *STACK, [0.25], displacement=True)
-    (two,) = planes(p.T, None, q.T, (0.3, 0.2), *STACK, [0.25], displacement=True)
+    (one,) = planes(Tractions((0.2, 0.3), p, q), STACK, [0.25], displacement=True)
+    (two,) = planes(Tractions((0.3, 0.2), p.T, y=q.T), STACK, [0.25], displacement=True)
     swapped = two.stress[[1, 0, 2, 3, 5, 4]].transpose(0, 2, 1)
     np.testing.assert_allclose(one.stress, swapped, rtol=0, atol=1e-14)
     moved = two.displacement[[1, 0, 2]].transpose(0, 2, 1)
@@ -142,7 +148,7 @@ def test_exchanging_x_and_y_exchanges_the_components():
 
 
 def test_tractions_are_continuous_and_lateral_stresses_jump():
-    above, below = planes(rough((16, 16)), None, None, (0.1, 0.1), *STACK, [0.3, 0.3], ["-", "+"])
+    above, below = planes(Tractions((0.1, 0.1), rough((16, 16))), STACK, [0.3, 0.3], ["-", "+"])
     assert (above.layer, below.layer) == (0, 1)
     np.testing.assert_allclose(above.stress[[2, 4, 5]], below.stress[[2, 4, 5]], atol=1e-14)
     assert np.abs(above.stress[0] - below.stress[0]).max() > 0.1
@@ -153,7 +159,7 @@ def test_stresses_balance_inside_of_a_layer():
     n, pixel, d = 16, 0.1, 1e-3
     p, q = rough((n, n)), rough((n, n), 3)
     z = 0.15 + d * np.arange(-2, 3)
-    stress = np.array([pl.stress for pl in planes(p, q, None, (pixel, pixel), *STACK, z)])
+    stress = np.array([pl.stress for pl in planes(Tractions((pixel, pixel), p, q), STACK, z)])
     along_z = np.tensordot([1, -8, 0, 8, -1], stress, 1) / (12 * d)
     k = 2j * np.pi * np.fft.fftfreq(n, pixel)
     k[n // 2] = 0.0
@@ -175,16 +181,16 @@ def test_reciprocity_of_pressure_and_traction():
     """Betti: the work of a pressure on what a traction does is that of the traction on its own."""
     shape, pixel = (9, 7), (0.2, 0.3)  # odd: no alternating mode
     p, qx, qy = (rough(shape, seed) for seed in range(3))
-    (surface,) = planes(p, None, None, pixel, *STACK, [0.0], displacement=True)
-    pushed = normal_displacement_of_traction(qx, qy, pixel, *STACK)
+    (surface,) = planes(Tractions(pixel, p), STACK, [0.0], displacement=True)
+    pushed = traction_coupling(shape, pixel, STACK)(qx, qy)
     work = np.sum(surface.displacement[0] * qx + surface.displacement[1] * qy)
     assert np.sum(p * pushed) == pytest.approx(work, rel=1e-12)
-    (dragged,) = planes(None, qx, qy, pixel, *STACK, [0.0], displacement=True)
+    (dragged,) = planes(Tractions(pixel, None, qx, qy), STACK, [0.0], displacement=True)
     np.testing.assert_allclose(dragged.displacement[2], pushed, rtol=0, atol=1e-14)
 
 
 def test_nothing_is_pushed_by_tractions_on_an_incompressible_half_space():
-    pushed = normal_displacement_of_traction(rough((8, 8)), None, (1.0, 1.0), [1.0], [0.5], [])
+    pushed = traction_coupling((8, 8), (1.0, 1.0), Layers([1.0], [0.5]))(rough((8, 8)), None)
     assert np.abs(pushed).max() < 1e-16
 
 
@@ -194,12 +200,12 @@ def test_a_load_that_acts_once_feels_no_repetition():
     y = x[:, None]
     p = np.exp(-20 * (x**2 + y**2)) * (1 + x)
     q = np.exp(-20 * ((x - 0.1) ** 2 + (y + 0.1) ** 2))
-    args = (0.1, 0.1), *STACK, [0.3, 0.9], ["-", "+"]
-    far = planes(p, q, None, *args, mean="free", padding=8.0)
-    near = planes(p, q, None, *args, mean="free", padding=4.0)
+    pixel, args = (0.1, 0.1), (STACK, [0.3, 0.9], ["-", "+"])
+    far = planes(Tractions(pixel, p, q), *args, mean="free", padding=8.0)
+    near = planes(Tractions(pixel, p, q), *args, mean="free", padding=4.0)
     wide = np.zeros((2, 192, 192))
     wide[:, :24, :24] = p, q
-    direct = planes(*wide, None, *args, mean="free", padding=1.0)
+    direct = planes(Tractions(pixel, *wide), *args, mean="free", padding=1.0)
     for a, b, c in zip(far, near, direct, strict=True):
         exact = c.stress[:, :24, :24]
         assert np.abs(a.stress - exact).max() < 1e-8
@@ -212,7 +218,7 @@ def test_the_push_of_a_single_traction_is_that_of_cerruti():
     q = np.zeros((33, 33))
     q[14:19, 3:8] = weights
     pixel = 0.5
-    found = normal_displacement_of_traction(q, None, (pixel, pixel), *HALF, mean="free")
+    found = traction_coupling(q.shape, (pixel, pixel), HALF, mean="free")(q, None)
     i = np.arange(-2, 3)
     x = (np.arange(12, 33)[:, None, None] - 5 - i) * pixel
     forces = weights * pixel**2 * x / (x**2 + (i[:, None] * pixel) ** 2)
@@ -296,26 +302,21 @@ def test_a_maximum_on_a_face_stays_there():
     [
         ({"pressure": None}, "at least one map"),
         ({"pressure": np.ones(4)}, "shape"),
-        ({"traction_x": np.ones((2, 2))}, "share one shape"),
+        ({"x": np.ones((2, 2))}, "share one shape"),
         ({"pressure": np.full((4, 4), np.nan)}, "finite"),
         ({"pixel_size": (1.0, 0.0)}, "two positive lengths"),
         ({"mean": "none"}, '"periodic" or "free"'),
         ({"mean": "free", "padding": 0.5}, "padding must be 1 or more"),
-        ({"mean": "free", "displacement": True}, "displacement False"),
+        ({"mean": "free", "displacement": True}, "displacement must be False"),
         ({"depths": [-1.0]}, "zero or positive"),
         ({"poisson_ratio": [0.7]}, "poisson_ratio"),
     ],
 )
 def test_what_is_impossible_is_refused_before_anything_is_computed(change, message):
-    given = {
-        "pressure": np.ones((4, 4)),
-        "traction_x": None,
-        "traction_y": None,
-        "pixel_size": (1.0, 1.0),
-        "young_modulus": [1.0],
-        "poisson_ratio": [0.3],
-        "thickness": [],
-        "depths": [0.0],
-    }
+    load = {"pixel_size": (1.0, 1.0), "pressure": np.ones((4, 4))}
+    load |= {name: value for name, value in change.items() if name in Tractions._fields}
+    layers = {"young_modulus": [1.0], "poisson_ratio": [0.3]}
+    layers |= {name: value for name, value in change.items() if name in Layers._fields}
+    more = {n: v for n, v in change.items() if n not in Tractions._fields + Layers._fields}
     with pytest.raises(DescriptionError, match=message):
-        planes(**{**given, **change})
+        planes(Tractions(**load), Layers(**layers), **{"depths": [0.0], **more})
