@@ -14,7 +14,7 @@ from ..scene.window import Grid
 from .effects.base import Compliance
 from .grid import combined_heights
 from .solver.contact_solver import ContactSolver
-from .solver.convolution import Convolution, SymbolMaker, symbol_of
+from .solver.convolution import Convolution, SymbolMaker, Transforms, symbol_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -100,7 +100,8 @@ class PreparedInterface:
     def _operator(self, make_symbol: SymbolMaker) -> Convolution:
         shape, periodic = self.grid.shape, self.grid.periodic
         symbol = symbol_of(make_symbol, shape, self.grid.pixel_size, periodic)
-        return Convolution(shape, symbol, periodic, self._threads, fast_transforms_installed())
+        transforms = Transforms(self._threads, fast_transforms_installed())
+        return Convolution(shape, symbol, periodic, transforms)
 
 
 def _sum(makers: tuple[SymbolMaker, ...]) -> SymbolMaker:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactkit.contact.solver.contact_solver import ContactSolver
-from contactkit.contact.solver.convolution import Convolution, Patch, patch_symbol
+from contactkit.contact.solver.convolution import Convolution, Patch, Transforms, patch_symbol
 from contactkit.elasticity.influence import symbol
 from contactkit.numerics import fft as fft_backends
 
@@ -44,7 +44,7 @@ def test_on_its_pixels_a_patch_displaces_like_the_whole_map(pixels, fast):
     values = np.random.default_rng(2).random(at.size)
     pressure = np.zeros(shape)
     pressure.ravel()[at] = values
-    patch = Patch(influence(shape, pixel_size), fast=fast)
+    patch = Patch(influence(shape, pixel_size), Transforms(fast=fast))
     small = patch.take(at)
     assert small is not None
     assert small.shape[0] * small.shape[1] < 0.61 * shape[0] * shape[1]
@@ -101,7 +101,7 @@ def test_strips_of_columns_give_what_all_columns_give(monkeypatch, dtype, thread
     pytest.importorskip("ducc0")
     shape = (21, 70)  # 71 columns are no whole number of strips
     coefficients = half_space(shape, (1.0, 1.0))
-    given = (shape, coefficients, False, threads, True, dtype)
+    given = (shape, coefficients, False, Transforms(threads, fast=True), dtype)
     whole = Convolution(*given)
     monkeypatch.setattr(fft_backends, "CACHED_BYTES", 0)
     strips = Convolution(*given)

@@ -17,7 +17,7 @@ K       displacement of a map under unit pressure on its first pixel
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -30,6 +30,7 @@ __all__ = [
     "Convolution",
     "Patch",
     "SymbolMaker",
+    "Transforms",
     "patch_symbol",
     "self_influence",
     "symbol_of",
@@ -41,6 +42,21 @@ WORTH = 0.6  # fraction of the map up to which a patch pays, with the whole map 
 LEAST = 8  # pixels along the sides of a patch
 ROOMY = 1.3  # pixels, over those asked for, up to which the patch before is kept
 SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Floats]
+
+
+class Transforms(NamedTuple):
+    """Transforms of a convolution.
+
+    Their number of `threads`, whether they are those of ducc0 (`fast`) instead of scipy's, and
+    the in-place product of spectrum and symbol (`scale`).
+    """
+
+    threads: int = 1
+    fast: bool = False
+    scale: Callable[..., None] = scale_spectrum
+
+
+BY_SCIPY = Transforms()
 
 
 def symbol_of(
@@ -124,14 +140,10 @@ class Convolution:
         Real symbol, of the map if periodic, of the doubled map otherwise.
     periodic : bool
         Whether the map repeats.
-    threads : int
-        Threads of the transforms.
-    fast : bool
-        Transforms by ducc0 instead of scipy.
+    transforms : Transforms
+        Threads and backend.
     dtype : type
         Precision, ``np.float64`` or ``np.float32``.
-    scale : callable
-        In-place product of spectrum and symbol.
     lender : Convolution, optional
         One of the same map and no less precision, to share the memory of its spectrum.
 
@@ -153,10 +165,8 @@ class Convolution:
         shape: tuple[int, int],
         symbol: Floats,
         periodic: bool,
-        threads: int = 1,
-        fast: bool = False,
+        transforms: Transforms = BY_SCIPY,
         dtype: Any = np.float64,
-        scale: Callable[..., None] = scale_spectrum,
         lender: Convolution | None = None,
     ) -> None:
         self.shape = shape
@@ -168,15 +178,13 @@ class Convolution:
         self._spectrum = _lent(lender, symbol.shape, kind)
         lent = lender is not None and np.shares_memory(self._spectrum, lender._spectrum)
         self.nbytes = precise * (2 * shape[0] * shape[1] + (1 if lent else 3) * symbol.size)
-        if fast and not periodic:
+        if transforms.fast and not periodic:
             self.nbytes += precise * 2 * shape[0] * shape[1]  # the padded rows
         self._transform = make_transform(
             np.ascontiguousarray(symbol, dtype),
             shape,
             periodic,
-            threads,
-            fast,
-            scale,
+            *transforms,
             self._spectrum,
         )
 
@@ -222,8 +230,8 @@ class Patch:
     ----------
     response : ndarray (ny, nx)
         Displacement under unit pressure on the pixel (0, 0).
-    threads, fast, scale
-        As those of `Convolution`.
+    transforms : Transforms
+        Threads and backend.
     lender : Convolution
         Of the map, whose spectrum is borrowed.
 
@@ -239,15 +247,12 @@ class Patch:
     def __init__(
         self,
         response: Floats,
-        threads: int = 1,
-        fast: bool = False,
-        scale: Callable[..., None] = scale_spectrum,
+        transforms: Transforms = BY_SCIPY,
         lender: Convolution | None = None,
     ) -> None:
         self.response = response
         self.shape = response.shape
-        self._more: dict[str, Any] = {"threads": threads, "fast": fast}
-        self._more |= {"scale": scale, "lender": lender}
+        self._transforms, self._lender = transforms, lender
         self.operator: Convolution | None = None
         self.count = 0
 
@@ -267,7 +272,7 @@ class Patch:
             if size[0] * size[1] > WORTH * self.shape[0] * self.shape[1]:
                 return None
             symbol = patch_symbol(self.response, size)
-            here = Convolution(size, symbol, False, dtype=np.float32, **self._more)
+            here = Convolution(size, symbol, False, self._transforms, np.float32, self._lender)
         self.operator = here
         self.at = (row - top) * here.shape[1] + (column - left)
         return here

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from ...numerics.fft import fast_transforms_installed
 from . import loops_numpy
-from .convolution import Convolution, Patch, SymbolMaker, self_influence, symbol_of
+from .convolution import Convolution, Patch, SymbolMaker, Transforms, self_influence, symbol_of
 from .sparse_inverse import SparseInverse
 from .transfer import block_shape, nested_shapes
 from .two_level import CoarseBlocks, TwoLevel, inverse_stencil
 
-__all__ = ["Grid", "bytes_of", "compiled_loops", "prepare"]
+__all__ = ["Grid", "NestedGrids", "bytes_of", "compiled_loops", "prepare"]
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -114,6 +114,13 @@ class Grid(NamedTuple):
         self.quick.source[...] = 0.0
 
 
+class NestedGrids(NamedTuple):
+    """Grids from the finest to the coarsest, and the self influence of a finest pixel [m/Pa]."""
+
+    grids: list[Grid]
+    self_influence: float
+
+
 class _Symbols:
     """Symbols of any grid on the same window, in units of the finest grid's self influence."""
 
@@ -174,8 +181,8 @@ def _grid(
 ) -> Grid:
     symbol, periodic = symbols(shape), symbols.periodic
     threads = threads if min(shape) >= LEAST_THREADED else 1
-    scale = loops.scale_spectrum
-    exact = Convolution(shape, symbol, periodic, threads, fast, np.float64, scale)
+    transforms = Transforms(threads, fast, loops.scale_spectrum)
+    exact = Convolution(shape, symbol, periodic, transforms)
     response = _response(exact, periodic)
     decay = _decay(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
     two_level = None if decay > PLATE else _two_level(symbols, shape, symbol, fast, loops)
@@ -185,8 +192,8 @@ def _grid(
         pressure=exact.source if finest else np.zeros(shape),
         gap=exact.target if finest else np.zeros(shape),
         exact=exact if finest else None,
-        quick=Convolution(shape, symbol, periodic, threads, fast, np.float32, scale, exact),
-        patch=None if periodic else Patch(response, threads, fast, scale, exact),
+        quick=Convolution(shape, symbol, periodic, transforms, np.float32, exact),
+        patch=None if periodic else Patch(response, transforms, exact),
         response=response,
         change=np.zeros(shape[0] * shape[1], np.float32),
         inverse=SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
@@ -205,8 +212,8 @@ def prepare(
     periodic: bool,
     threads: int,
     fast: bool | None,
-) -> tuple[list[Grid], float]:
-    """Grids from the finest to the coarsest, and the self influence of a finest pixel [m/Pa].
+) -> NestedGrids:
+    """Make the grids from the finest to the coarsest.
 
     Parameters
     ----------
@@ -230,7 +237,7 @@ def prepare(
         )
         for s in nested_shapes(shape, pixel_size)
     ]
-    return grids, symbols.unit
+    return NestedGrids(grids, symbols.unit)
 
 
 def bytes_of(grids: list[Grid]) -> int:

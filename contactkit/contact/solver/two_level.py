@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .conjugate_gradient import conjugate_gradient
-from .convolution import Convolution, self_influence
+from .convolution import Convolution, Transforms, self_influence
 
 __all__ = ["CoarseBlocks", "Stencil", "TwoLevel", "inverse_stencil", "least_eigenvalue"]
 
@@ -142,7 +142,7 @@ class CoarseBlocks:
         self.load_fixed = False  # the sum is kept by `_without_mean`, in the weights of the blocks
         self.count = blocks[0] * blocks[1]
         self.width = shape[1]
-        self.operator = Convolution(blocks, symbol, periodic, 1, fast, np.float32)
+        self.operator = Convolution(blocks, symbol, periodic, Transforms(fast=fast), np.float32)
         self._row = np.arange(shape[0]) * blocks[0] // shape[0] * blocks[1]
         self._column = np.arange(shape[1]) * blocks[1] // shape[1]
         self._pixels = shape[0] * shape[1] / (blocks[0] * blocks[1])
