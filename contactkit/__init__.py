@@ -1,7 +1,7 @@
 """Contact of rough layered surfaces, and the forces that resist separating wetted ones.
 
-Scene -> Plan -> Result: describe what is there and which physics it calls for, `plan` it, and
-`simulate` the plan.
+Scene -> Plan -> Result: describe bodies, liquid, loading and effects in a scene, `plan` it, and
+`simulate` the plan (a separation or a sliding) or `solve` it (a contact).
 
 Examples
 --------
@@ -106,7 +106,7 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-# Every name is imported when it is first asked for: `import contactkit` costs next to nothing.
+# Every name is imported at its first use, so that `import contactkit` is fast.
 _HOMES = {
     "Accuracy": "accuracy",
     "AdhesiveContact": "separation.effects.registry",

@@ -26,11 +26,11 @@ def main(arguments: list[str] | None = None) -> int:
     except ContactkitError as error:
         print(f"contactkit: {error}", file=sys.stderr)
         return 2
-    except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
+    except BrokenPipeError:  # the reader of a pipe, such as head, has closed it
         sys.stderr.close()
         return 0
     except KeyboardInterrupt:
-        print("contactkit: interrupted; nothing half-written is left behind", file=sys.stderr)
+        print("contactkit: interrupted; no incomplete files are left", file=sys.stderr)
         return 130
 
 
@@ -45,13 +45,11 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     for name, command, text in (
         ("run", _run, "run a scene, print its numbers, write its curves and figures"),
-        ("plan", _plan, "print what a scene will simulate, what it will not, and the sources"),
-        ("cost", _cost, "show what accuracy costs in time, for this scene"),
+        ("plan", _plan, "print the effects of a scene, on and off, and their sources"),
+        ("cost", _cost, "measure error against computing time for a scene"),
     ):
         one = commands.add_parser(name, help=text, description=text)
-        one.add_argument(
-            "scene", help="a scene file, or the name of one that comes with contactkit"
-        )
+        one.add_argument("scene", help="a scene file, or the name of a scene of contactkit")
         one.set_defaults(command=command)
         if name != "plan":
             one.add_argument("--out", type=Path, help="folder to write curves and figures to")
@@ -76,8 +74,8 @@ def _add_build(fmu: Any) -> None:
     build = fmu.add_parser("build", help="write an FMU", description="write an FMU")
     build.add_argument(
         "what",
-        help="stiction-mass, stiction-force, valve-drive, tip-contact, contact-stop, or a scene "
-        "whose values are baked in",
+        help="stiction-mass, stiction-force, valve-drive, tip-contact, contact-stop, or a scene, "
+        "whose values become start values",
     )
     build.add_argument("--out", type=Path, required=True, help="FMU file to write, FILE.fmu")
     build.add_argument(
@@ -86,15 +84,15 @@ def _add_build(fmu: Any) -> None:
     build.add_argument(
         "--model",
         choices=("stiction-mass", "stiction-force", "valve-drive"),
-        help="of a native FMU of a scene: a mass with its film, the film alone, or its valve",
+        help="model of a native FMU: a mass with its film, the film alone, or the valve",
     )
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
     build.set_defaults(command=_build)
 
 
 def _add_system(fmu: Any) -> None:
-    """Commands that write more than one FMU, or what goes with them."""
-    text = "write a valve and its film as one system structure (SSP)"
+    """Commands that write several FMUs: system structures, cross-check files."""
+    text = "write a valve and its film as a system structure (SSP)"
     system = fmu.add_parser("system", help=text, description=text)
     system.add_argument(
         "scene", nargs="?", default="fuel-injector", help="a scene with a valve: fuel-injector"
@@ -104,7 +102,7 @@ def _add_system(fmu: Any) -> None:
         "--native", action="store_true", help="both FMUs in C, which need no Python to run"
     )
     system.set_defaults(command=_system)
-    text = "write reference files for native FMUs, as the FMI cross-check had them"
+    text = "write reference files for native FMUs in the format of the FMI cross-check"
     check = fmu.add_parser("crosscheck", help=text, description=text)
     check.add_argument("--out", type=Path, required=True, help="folder to write to")
     check.add_argument("--no-fmu", action="store_true", help="the tables only; needs no compiler")
@@ -126,7 +124,7 @@ def _progress(text: str) -> Iterator[Progress]:
     """Show progress on stderr for whatever takes longer than a second."""
     from tqdm import tqdm
 
-    # A terminal shows a bar that moves, a log a line now and then.
+    # A terminal shows a moving bar, a log file a line every ten seconds.
     pause = 0.1 if sys.stderr.isatty() else 10.0
     with tqdm(
         total=100,
@@ -138,15 +136,15 @@ def _progress(text: str) -> Iterator[Progress]:
         bar_format="{desc} {bar} {n:.0f} % {elapsed}",
     ) as bar:
 
-        def show(share: float) -> None:
-            bar.n = min(100.0 * share, 100.0)
+        def show(fraction: float) -> None:
+            bar.n = min(100.0 * fraction, 100.0)
             bar.update(0)
 
         yield show
 
 
 def _load(name: str) -> Any:
-    """Open a scene; what it needs is imported now, so that --help is quick."""
+    """Open a scene; its modules are imported here, so that --help is fast."""
     from .app.scenes import open_scene
 
     return open_scene(name)
@@ -186,7 +184,7 @@ def _build(parsed: argparse.Namespace) -> None:
 
 
 def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
-    """Write a native FMU; what it is, and the file."""
+    """Write a native FMU; return its description and the file."""
     from .fmu.native.build import build_native, native_scene
     from .fmu.native.drive import build_native_drive
     from .fmu.python.build import FMUS
@@ -206,7 +204,7 @@ def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
 
 
 def _drive_start(what: str) -> Mapping[str, Any]:
-    """Start values of the drive of a scene; none of one that is named itself."""
+    """Start values of the drive of a scene; none for a drive built by its name."""
     from .app.run.injector.cosimulation import drive_start
     from .errors import PlanError
     from .fmu.python.build import FMUS
@@ -215,12 +213,14 @@ def _drive_start(what: str) -> Mapping[str, Any]:
         return {}
     valve = None if what in FMUS else getattr(getattr(_load(what), "scene", None), "valve", None)
     if valve is None:
-        raise PlanError(f"{what} has no valve, of which a valve-drive could be made")
+        raise PlanError(
+            f"{what} has no valve; a valve-drive needs a scene with one, such as fuel-injector"
+        )
     return drive_start(valve)
 
 
 def _check_build(parsed: argparse.Namespace) -> None:
-    """Refuse options that contradict each other, before anything is built."""
+    """Refuse contradictory options before anything is built."""
     from .errors import DescriptionError, PlanError
 
     if parsed.fmi != "2" and not parsed.native:

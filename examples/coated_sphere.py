@@ -1,8 +1,8 @@
-"""A ball on coated steel, still and sliding, and what a stiff coating does for the steel.
+"""A ball on coated steel, at rest and sliding: stress in the coating and in the steel.
 
-The largest von Mises stress in the coating and below it, over the thickness. A thin coating
-leaves the steel as it was, and sliding doubles the stress in it. Only one of the size of the
-contact (37 um) relieves the steel.
+Maximum von Mises stress in the coating and below it, over the thickness. A thin coating does not
+change the stress in the steel, and sliding doubles that in the coating. Only a coating as thick
+as the contact (37 um) reduces the stress in the steel.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ COATING = ck.load_material("dlc-hard")
 
 
 def pressed(thickness: float | None, friction: float, pixels: int = 36) -> ck.ContactResult:
-    """Rigid ball on steel with a coating, or bare; stress down to two radii of the contact."""
+    """Rigid ball on steel, coated or uncoated; stress down to two contact radii."""
     radius = hertz.sphere(LOAD, RADIUS, STEEL.plane_strain_modulus).contact_radius
     layers = () if thickness is None else (ck.Layer(material=COATING, thickness=thickness),)
     depths = tuple(radius * float(z) for z in np.linspace(0.0, 1.4, 15) ** 2)
@@ -41,13 +41,13 @@ def pressed(thickness: float | None, friction: float, pixels: int = 36) -> ck.Co
 
 
 def largest(run: ck.ContactResult, layer: int) -> float:
-    """Largest von Mises stress [Pa] on the planes in a layer."""
+    """Maximum von Mises stress [Pa] on the planes in a layer."""
     part = run.of(ck.SubsurfaceStress)
     return float(part.largest_von_mises[part.layer == layer].max())
 
 
 def main(out: Path) -> float:
-    """Draw the stresses; return von Mises under the bare ball over Hertz's pressure [-]."""
+    """Draw the stresses; return the uncoated maximum over Hertz's pressure [-]."""
     thicknesses = [1.0 * um * 2.0**i for i in range(7)]
     figure, (left, right) = plot.figure(1, 2, size=(11.0, 4.6))
     for friction, color in ((0.0, plot.COLORS["gap"]), (FRICTION, plot.COLORS["meniscus"])):
@@ -56,11 +56,11 @@ def main(out: Path) -> float:
             values = [largest(run, layer) / GPa for run in runs]
             label = f"mu = {friction:g}"
             ax.plot([h / um for h in thicknesses], values, "o-", ms=3.5, color=color, label=label)
-        bare = pressed(None, friction).of(ck.SubsurfaceStress).maxima["von_mises"].value
-        right.axhline(bare / GPa, ls="--", lw=1.0, color=color)
-    for ax, title in ((left, "in the coating"), (right, "in the steel (dashed: bare)")):
+        uncoated = pressed(None, friction).of(ck.SubsurfaceStress).maxima["von_mises"].value
+        right.axhline(uncoated / GPa, ls="--", lw=1.0, color=color)
+    for ax, title in ((left, "in the coating"), (right, "in the steel (dashed: uncoated)")):
         ax.set(xscale="log", xlabel="thickness of the coating [um]")
-        ax.set_ylabel("largest von Mises stress [GPa]")
+        ax.set_ylabel("maximum von Mises stress [GPa]")
         plot.plain_log(ax.xaxis)
         plot.title(ax, f"Ball of 3 mm, 5 N: {title}")
     plot.legend(left)

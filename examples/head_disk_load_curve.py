@@ -1,9 +1,8 @@
 """The head-disk interface over the load, in one call.
 
-The scene that comes with the package on a smaller window, and only with the effects that a load
-curve needs. A study starts each contact from the one before. Contact grows somewhat slower than
-the load, as few summits carry it at first; the film adds a quarter of a small load, but little
-to a large one.
+The scene of the package on a smaller window, with the effects of a load curve only. A study
+starts each contact from the previous solution. The contact area grows somewhat slower than the
+load; the meniscus force is a quarter of a small load, but little of a large one.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from contactkit.units import MPa, um
 
 
 def main(out: Path) -> float:
-    """Draw contact and film; return the power with which contact grows with the load [-]."""
+    """Draw contact area and meniscus force; return the exponent of area over load [-]."""
     opened = open_scene("head-disk").scene
     wanted = (ck.LayeredHalfSpace, ck.HardnessLimit, ck.FilmMeniscus)
     scene = evolve(
@@ -45,7 +44,7 @@ def main(out: Path) -> float:
     for ax in (left, right):
         plot.plain_log(ax.xaxis)
     plot.title(left, "Head on disk: real area of contact")
-    plot.title(right, "Pull of a film of water, 1 nm")
+    plot.title(right, "Meniscus force of a film of water, 1 nm")
     plot.legend(left)
     plot.save(figure, out / "head_disk_load_curve")
     return float(np.polyfit(np.log(pressure), np.log(contact), 1)[0])

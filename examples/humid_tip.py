@@ -1,8 +1,8 @@
-"""A sphere on a flat in moist air: how hard the water pulls that condenses between them.
+"""A sphere on a flat in moist air: force of the meniscus that condenses between them.
 
-Touching bodies hardly feel the humidity, as long as the meniscus is thin against the sphere. A gap
-of a third of a nanometre makes them let go in dry air. Compares the exact bridge, at the pressure
-of Kelvin, with the law of a thin film, Eq. (3.7).
+In contact the force hardly depends on the humidity, as long as the meniscus is thin compared with
+the sphere. At a gap of a third of a nanometre there is no meniscus in dry air. Compares the exact
+bridge, at the pressure of Kelvin's equation, with the law of a thin film, Eq. (3.7).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ WETTING = 2.0  # sum of the cosines of both contact angles
 
 
 def curve(radius: float, gap: float, humidities: list[float]) -> HumidityCurve:
-    """Force over humidity at a held gap [m], both bodies wetted fully."""
+    """Force over humidity at a constant gap [m], contact angles of zero."""
     film = ck.Meniscus(liquid=WATER)
     scene = ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=radius), meniscus=film),
@@ -36,7 +36,7 @@ def curve(radius: float, gap: float, humidities: list[float]) -> HumidityCurve:
 
 
 def classical(radius: float) -> float:
-    """Pull of a thin meniscus on a touching sphere [N]: no humidity in it."""
+    """Force of a thin meniscus on a touching sphere [N], independent of the humidity."""
     tension = WATER.at(293.15).surface_tension
     assert tension is not None
     return 2.0 * math.pi * radius * tension * WETTING
@@ -49,9 +49,9 @@ def main(out: Path) -> float:
         for gap, style in ((0.0, "-"), (0.3 * nm, "--")):
             found = curve(radius, gap, HUMIDITIES)
             label = f"sphere of {radius / nm:g} nm" + (", touching" if not gap else ", 0.3 nm away")
-            share = found.force / classical(radius)
+            ratio = found.force / classical(radius)
             ax.plot(
-                100.0 * found.relative_humidity, share, style, color=plot.COLORS[name], label=label
+                100.0 * found.relative_humidity, ratio, style, color=plot.COLORS[name], label=label
             )
     ax.plot(
         [100.0 * h for h in HUMIDITIES],

@@ -1,6 +1,6 @@
-"""A measured map pressed on coated steel: how much of it touches, with and without the coating.
+"""A measured map pressed on coated steel: contact area with and without the coating.
 
-The map is made here, as an instrument would save it: heights in an array, with a size of a pixel. A
+The map is generated here in the form of an instrument: heights in an array, and the pixel size. A
 stiff coating thinner than the waves of the roughness cannot spread the load, a thicker one does.
 """
 
@@ -42,9 +42,9 @@ def coated(thickness: float) -> ck.Stack:
 
 
 def main(out: Path) -> float:
-    """Draw contact over thickness; return the largest fraction by which it leaves the limits [-].
+    """Draw contact over thickness; return the maximum relative error of the two limits [-].
 
-    On a coating without thickness the map touches as on steel, on an endless one as on the coating.
+    A coating of zero thickness has the contact of steel, an infinite one that of the coating.
     """
     heights = measured()
     thicknesses = [4 * nm * 2.0**i for i in range(10)]
@@ -53,8 +53,8 @@ def main(out: Path) -> float:
     figure, (left, right) = plot.figure(1, 2, size=(11.0, 4.6))
     contact_plot.pressure(found[3], left)
     plot.title(left, f"Pressure on a coating of {thicknesses[3] / nm:.0f} nm")
-    shares = [100.0 * result.contact_fraction for result in found]
-    right.plot([h / um for h in thicknesses], shares, "o-", label="coated steel")
+    contact = [100.0 * result.contact_fraction for result in found]
+    right.plot([h / um for h in thicknesses], contact, "o-", label="coated steel")
     for result, style, label in zip(ends, ("--", ":"), ("steel", "coating"), strict=True):
         right.axhline(100.0 * result.contact_fraction, ls=style, color="k", lw=1.0, label=label)
     right.set(xscale="log", xlabel="thickness of the coating [um]", ylabel="contact [%]")
@@ -68,4 +68,4 @@ def main(out: Path) -> float:
 
 
 if __name__ == "__main__":
-    sys.stdout.write(f"limits kept to {main(Path('out/examples')):.1g}\n")
+    sys.stdout.write(f"limits met to {main(Path('out/examples')):.1g}\n")

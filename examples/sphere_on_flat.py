@@ -18,7 +18,7 @@ from contactkit.units import deg, nm, us
 
 RADIUS, GAP = 100 * nm, 1 * nm
 HEIGHTS = (2, 3, 4, 5, 6)  # height of the film at its rim [nm]
-BREAKS = (39, 58, 73, 87, 99)  # where the source has the film break [nm]
+BREAKS = (39, 58, 73, 87, 99)  # gaps of rupture in the source [nm]
 PRINTED = (0.1976, 0.4826, 0.7487, 0.9861, 1.1974)  # mean viscous force in the source [nN]
 
 
@@ -37,12 +37,12 @@ def result(height: float, far: float, profile: str) -> ck.SeparationResult:
         effects=(ck.MeniscusForce(profile=profile), ck.ViscousForce()),
     )
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ck.ValidityWarning)  # 1 nm: hardly a continuum any more
+        warnings.simplefilter("ignore", ck.ValidityWarning)  # 1 nm: not a continuum
         return ck.simulate(ck.plan(scene))
 
 
 def main(out: Path) -> float:
-    """Draw the meniscus forces; return the largest error of the five mean viscous forces [-]."""
+    """Draw the meniscus forces; return the maximum error of the five mean viscous forces [-]."""
     figure, ax = plot.figure()
     worst = 0.0
     for height, far, printed in zip(HEIGHTS, BREAKS, PRINTED, strict=True):

@@ -1,7 +1,7 @@
-"""How long an oil film holds a spool against a steady pull, cold and warm.
+"""Release time of a spool from an oil film under a constant pull, over temperature.
 
-The film alone, with an oil that bears any tension: the closed form for a massless spool is drawn
-as a line, the motion of a spool of 20 g as dots. The mass hardly matters, the temperature does.
+Without a tensile limit of the oil: the closed form for a massless spool as a line, the motion of a
+spool of 20 g as dots. The mass has little influence, the temperature a large one.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def scene(degrees: float) -> ck.SeparationScene:
 
 
 def main(out: Path) -> float:
-    """Draw both over temperature; return the largest difference, relative to the motion [-]."""
+    """Draw both over temperature; return the maximum difference relative to the motion [-]."""
     degrees = [-20.0 + 10.0 * i for i in range(11)]
     motion, closed = [], []
     for value in degrees:
@@ -47,7 +47,7 @@ def main(out: Path) -> float:
     ax.plot(degrees, [t * 1e3 for t in motion], "o", color=plot.COLORS["gap"], label="20 g spool")
     ax.set(xlabel="oil temperature [degC]", ylabel="release time [ms]", yscale="log")
     plot.plain_log(ax.yaxis)
-    plot.title(ax, f"{PULL:g} N against an oil film of {GAP / um:g} um that cannot tear")
+    plot.title(ax, f"{PULL:g} N against an oil film of {GAP / um:g} um without a tensile limit")
     plot.legend(ax)
     plot.save(figure, out / "spool_sticks")
     return max(abs(c / m - 1.0) for c, m in zip(closed, motion, strict=True))

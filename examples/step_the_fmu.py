@@ -1,7 +1,7 @@
-"""Drive the FMU ``stiction-mass`` by hand with fmpy, as any FMI master would.
+"""Step the FMU ``stiction-mass`` call by call with fmpy, as an FMI master does.
 
-A pull that rises as 40 N (1 - exp(-t/0.2 ms)) opens a film of 5 um of oil that bears 10 bar. The
-host gives it as straight lines; `contactkit.simulate` finds the same release for the curved pull.
+A pull of 40 N (1 - exp(-t/0.2 ms)) opens a film of 5 um of oil with a tensile limit of 10 bar. The
+host approximates it by straight lines; `contactkit.simulate` takes the exact pull.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ STOP, STEPS, RISE, PULL = 1.2e-3, 600, 0.2e-3, 40.0  # [s], [-], [s], [N]
 
 
 def scene() -> ck.SeparationScene:
-    """Return the scene that the FMU stands for."""
+    """Return the scene of the FMU."""
     oil = ck.Liquid(name="cold oil", viscosity=0.1, surface_tension=0.03)
     face = ck.Flat(radius=3.175e-3)
     film = ck.Meniscus(liquid=oil, volume=math.pi * 3.175e-3**2 * 5e-6)

@@ -1,7 +1,7 @@
-"""Which force holds two wet flats together: the meniscus, or the viscosity of the film.
+"""Meniscus or viscous force: which one dominates the separation of two wetted flats.
 
-Compares the two impulses of opening a film at a constant speed. Both are proportional to one
-property of the liquid, so one run for each gap is enough for the map.
+Compares the two impulses of opening a film at constant speed. Each is proportional to one property
+of the liquid, so that one simulation per gap is enough for the map.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ def equal_viscosity(gap: float) -> float:
         effects=(ck.MeniscusForce(), ck.ViscousForce()),
     )
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ck.ValidityWarning)  # with 1 Pa.s, not on the map's line
+        warnings.simplefilter("ignore", ck.ValidityWarning)  # at 1 Pa.s, not on the line of the map
         result = ck.simulate(ck.plan(scene, ck.Accuracy.draft))
     return result.of(ck.MeniscusForce).impulse / result.of(ck.ViscousForce).impulse
 
 
 def main(out: Path) -> float:
-    """Draw the map; return the viscosity [Pa.s] that holds as the meniscus does at 10 um."""
+    """Draw the map; return the viscosity [Pa.s] of equal impulses at 10 um."""
     gaps = [0.1 * um * 10.0 ** (0.1 * i) for i in range(31)]
     equal = [equal_viscosity(gap) for gap in gaps]
     viscosities = [10.0 ** (-4.0 + 0.2 * i) for i in range(26)]
-    share = [[1.0 / (1.0 + line / eta) for line in equal] for eta in viscosities]
+    fraction = [[1.0 / (1.0 + line / eta) for line in equal] for eta in viscosities]
     figure, ax = plot.figure()
     drawn = ax.contourf(
-        [gap / um for gap in gaps], viscosities, share, 10, cmap="RdYlBu_r", alpha=0.7
+        [gap / um for gap in gaps], viscosities, fraction, 10, cmap="RdYlBu_r", alpha=0.7
     )
     ax.plot([gap / um for gap in gaps], equal, "k--", label="equal impulses")
     for name, viscosity in (("engine oil, 20 degC", 0.27), ("water", 1e-3)):
@@ -50,7 +50,7 @@ def main(out: Path) -> float:
         ax.annotate(name, (0.12, 1.2 * viscosity), fontsize=9)
     ax.set(xscale="log", yscale="log", xlabel="gap at the start [um]", ylabel="viscosity [Pa.s]")
     plot.plain_log(ax.xaxis)
-    figure.colorbar(drawn, ax=ax, label="share of the viscous impulse")
+    figure.colorbar(drawn, ax=ax, label="viscous fraction of the impulse")
     plot.title(ax, "Plates of 2 mm opened tenfold at 1 mm/s")
     ax.set_ylim(viscosities[0], viscosities[-1])
     plot.legend(ax, loc="lower right")

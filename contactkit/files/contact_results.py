@@ -30,7 +30,7 @@ _MAPS = ("pressure", "gap", "displacement", "heights")
 
 
 def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
-    """Take a result apart into a header of plain values and its arrays by name.
+    """Split a result into a header of plain values and its arrays by name.
 
     The header has the scene (arrays in it by a key), the grid, the accuracy, the status, the
     numbers with their units and what each effect did.
@@ -59,7 +59,7 @@ def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
 
 
 def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> ContactResult:
-    """Put a result together again from what `pack_contact` gave.
+    """Reassemble a result from the header and arrays of `pack_contact`.
 
     The plan is not made anew: a file that the scene names may have moved since.
     """
@@ -83,7 +83,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
 
 
 def _encode(value: Any, name: str, arrays: Arrays) -> Any:
-    """Turn a value into what JSON has; arrays go to `arrays`, under the path they are found at."""
+    """Convert a value to JSON types; arrays are put into `arrays`, under their path."""
     if isinstance(value, np.ndarray) and value.ndim:
         arrays[name] = value
         return {"array": name}

@@ -1,4 +1,4 @@
-"""Result files: npz with a JSON header, and CSV. Never half a file."""
+"""Result files: npz with a JSON header, and CSV, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ __all__ = [
     "to_bytes",
 ]
 
-# What reading anything but a whole result may raise.
+# Errors of reading a file that is not a complete result.
 _UNREADABLE = (
     OSError,
     ValueError,
@@ -100,7 +100,7 @@ def load_result(path: str | Path) -> AnyResult:
         If the file is none of ours, or is cut short.
     """
     try:
-        # Opened here, for numpy leaves a file open that it cannot read.
+        # Opened here, as numpy does not close a file that it cannot read.
         with Path(path).open("rb") as file:
             return _read(file, Path(path).name)
     except _UNREADABLE as error:
@@ -116,7 +116,7 @@ def to_bytes(result: Result) -> bytes:
 
 
 def from_bytes(data: bytes) -> AnyResult:
-    """Read what `to_bytes` gave."""
+    """Read a result from the bytes of `to_bytes`."""
     try:
         return _read(io.BytesIO(data), "result")
     except _UNREADABLE as error:
@@ -139,7 +139,7 @@ def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
 
 def _no_result(where: str, error: Exception) -> ContactkitError:
     if isinstance(error, ContactkitError):
-        return error  # a result, of something that this version refuses
+        return error  # a result whose content this version refuses
     return DescriptionError(
         "file", where, "be a result of contactkit", hint=f"{type(error).__name__}: {error}"
     )
@@ -204,9 +204,9 @@ def _pack_sliding(result: SlidingResult) -> dict[str, Any]:
 def _unpack_sliding(header: dict[str, Any], columns: Arrays, name: str) -> SlidingResult:
     scene = structure(header["scene"], SlidingScene, name)
     made = plan_sliding(scene, Accuracy(**header["accuracy"]))
-    said = (header["status"], header["message"])
+    outcome = (header["status"], header["message"])
     work = Work(**header["work"])
-    return SlidingResult(made, *said, columns, header["totals"], check_sliding(made), work)
+    return SlidingResult(made, *outcome, columns, header["totals"], check_sliding(made), work)
 
 
 def save_csv(path: str | Path, columns: Mapping[str, Any], headings: Mapping[str, str]) -> Path:

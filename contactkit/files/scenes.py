@@ -1,4 +1,4 @@
-"""Scene files: TOML, read whole or refused with every reason."""
+"""Scene files: TOML, read completely or refused with all errors."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ __all__ = [
 
 
 class ContactFile(NamedTuple):
-    """What a file of a contact scene holds: the scene, its accuracy, and what a study varies."""
+    """Content of a contact scene file: the scene, its accuracy, and the values of a study."""
 
     scene: ContactScene
     accuracy: Accuracy
@@ -88,7 +88,7 @@ def read_tables(path: str | Path) -> dict[str, Any]:
 def scene_kind(
     tables: Mapping[str, Any],
 ) -> type[SeparationScene] | type[SlidingScene] | type[ContactScene]:
-    """Kind of scene that tables describe, by the kind of their loading."""
+    """Kind of scene of some tables, by the kind of their loading."""
     loading = tables.get("loading")
     kind = LOADING_KINDS.get(str(loading.get("kind"))) if isinstance(loading, Mapping) else None
     if kind is None:
@@ -128,10 +128,10 @@ def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str |
 
 @contextmanager
 def write_whole(path: str | Path) -> Iterator[Path]:
-    """Give a temporary path beside `path` and move it there at the end: never half a file."""
+    """Yield a temporary path beside `path`, moved there at the end: no incomplete files."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    # Not tempfile: its files are private, and these are to be as readable as any other.
+    # Not tempfile, whose files are readable by their owner only.
     temporary = path.with_name(f".{path.stem}-{uuid.uuid4().hex[:8]}{path.suffix}")
     try:
         yield temporary

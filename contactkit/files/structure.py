@@ -52,12 +52,12 @@ _T = TypeVar("_T")
 
 
 def nearest(name: object, known: list[str]) -> str:
-    """Hint at the nearest of the known names, or list them."""
+    """Suggest the nearest of the known names, or list them."""
     close = difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
     return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
 
 
-# Keys of earlier files, and what is in their place.
+# Keys of earlier files, and their replacements.
 _RENAMED = {
     "opening": """[loading] with kind = "imposed-speed", "imposed-force" or "imposed-time\"""",
     "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
@@ -66,12 +66,12 @@ _RENAMED = {
 
 
 def renamed(key: str) -> str:
-    """Say what has taken the place of a key of earlier files; nothing if it never was one."""
+    """Name the replacement of a key of earlier files; empty if it never was one."""
     return f"it is now {_RENAMED[key]}" if key in _RENAMED else ""
 
 
 def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callable[[Any, Any], Any]:
-    """Structure a table by the kind it names under `tag`; effects may be registered later."""
+    """Structure a table by its kind under `tag`; effects may be registered later."""
 
     def hook(value: Any, _: Any) -> Any:
         if not isinstance(value, Mapping):
@@ -91,7 +91,7 @@ def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callab
 def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any], Any]:
     unit, field = attribute.metadata["unit"], f"{kind.__name__}.{attribute.name}"
     cure = ARRAY_FIELDS.get((kind, attribute.name))
-    # Words that may stand in place of a number, such as "vapour".
+    # Words allowed in place of a number, such as "vapour".
     words = [w for one in get_args(attribute.type) for w in get_args(one) if isinstance(w, str)]
 
     def hook(value: Any, target: Any) -> Any:
@@ -113,16 +113,16 @@ def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any
 
 
 def field_value(kind: type, name: str, value: Any) -> Any:
-    """Read a value for a field as a file would: quantities by their units, nouns by their names.
+    """Read a value of a field as in a file: quantities with units, objects by their names.
 
     Parameters
     ----------
     kind : type
-        Noun that has the field.
+        Class that has the field.
     name : str
         Name of the field.
     value : object
-        What is to be read; what is an object of contactkit, or None, stays as it is.
+        Value to read; an object of contactkit, or None, is returned unchanged.
 
     Examples
     --------
@@ -138,8 +138,8 @@ def field_value(kind: type, name: str, value: Any) -> Any:
         return value
     if "unit" in attribute.metadata:
         return _quantity(kind, attribute)(value, attribute.type)
-    nouns = any(attrs.has(one) for one in get_args(attribute.type) or (attribute.type,))
-    if nouns and isinstance(value, str | Mapping):
+    is_object = any(attrs.has(one) for one in get_args(attribute.type) or (attribute.type,))
+    if is_object and isinstance(value, str | Mapping):
         try:
             return _CONVERTER.structure(value, attribute.type)  # type: ignore[arg-type]
         except cattrs.ClassValidationError as error:
@@ -148,13 +148,13 @@ def field_value(kind: type, name: str, value: Any) -> Any:
 
 
 def _resolved(kind: type) -> None:
-    """Make the types of the fields of a noun known, those that modules import for checkers too."""
+    """Resolve the types of the fields of a class, including those imported for type checkers only."""
     names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect, "Map": Any}
     attrs.resolve_types(kind, localns=names)
 
 
 def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
-    """Structure an attrs class: quantities by their units, unknown keys refused with a guess."""
+    """Structure an attrs class: quantities with units; unknown keys refused with a suggestion."""
     _resolved(kind)
     hooks = {
         a.name: override(struct_hook=_quantity(kind, a))
@@ -195,7 +195,7 @@ def _material(value: Any, _: Any) -> Material:
 
 
 def _body(value: Any, _: Any) -> Body:
-    """A table of a surface and a solid; or of a surface alone, which is a rigid body."""
+    """A table of a surface and a solid, or of a surface alone for a rigid body."""
     if isinstance(value, Mapping) and "shape" in value:
         if "solid" in value or "surface" in value:
             cure = "a body with a solid has its shape under surface: surface = { shape = ... }"
@@ -209,9 +209,9 @@ def _body(value: Any, _: Any) -> Body:
 
 
 def _loading(value: Any, wanted: type[Loading]) -> Loading:
-    """A table with the kind of what is imposed, and the fields of that kind only."""
+    """A table with the kind of a loading, and the fields of that kind only."""
     kinds = {name: kind for name, kind in LOADING_KINDS.items() if issubclass(kind, wanted)}
-    expected = f"name what is imposed: {' or '.join(map(repr, kinds))}"
+    expected = f"name a loading: {' or '.join(map(repr, kinds))}"
     if not isinstance(value, Mapping):
         raise DescriptionError("loading", value, f"be a table with a key 'kind', to {expected}")
     given, fields = value.get("kind"), {key: value[key] for key in value if key != "kind"}
@@ -234,7 +234,7 @@ def _keys(kind: type) -> set[str]:
 
 
 def _bool(value: Any, _: Any) -> bool:
-    """Only true and false: a text would be true whatever it says."""
+    """Only true and false: any string would count as true."""
     if not isinstance(value, bool):
         raise DescriptionError("value", value, "be true or false")
     return value
@@ -269,7 +269,7 @@ for _matches, _hook in (
     (_is_contact_effect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
-# After the hooks, which these take for their fields.
+# After the hooks, which these use for their fields.
 _LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs_class(Body)
 _LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
 _law = _tagged("law", LAW_KINDS)
@@ -308,7 +308,7 @@ def _reasons(error: cattrs.ClassValidationError) -> str:
 
 
 class FileError(DescriptionError):
-    """A file with mistakes: the message is the list of them."""
+    """A file with errors, all of which the message lists."""
 
     def __init__(self, origin: str, reasons: str) -> None:
         super().__init__(origin, "", "be right")

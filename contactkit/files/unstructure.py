@@ -1,4 +1,4 @@
-"""Scene objects to tables of plain values, and the names that their kinds have there."""
+"""Scene objects to tables of plain values, and the names of their kinds in files."""
 
 from __future__ import annotations
 
@@ -64,19 +64,21 @@ _TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
     ("kind", LOADING_KINDS),
     ("law", LAW_KINDS),
 )
-# Fields that hold an array: what a file can have in its place.
+# Fields that may hold an array, and their alternative in a file.
 ARRAY_FIELDS: dict[tuple[type, str], str] = {
     (Heights, "heights"): "save the array as .npy and use Measured(path=..., pixel_size=..., "
     "unit='m', detrend='none'), in a file shape = 'measured'",
-    (HardnessMap, "values"): "a scene file holds one hardness; a map of it stays in Python, and "
-    "in what save_result writes",
+    (
+        HardnessMap,
+        "values",
+    ): "a scene file holds a uniform hardness; a map is kept in Python and in result files",
 }
 
-_ARRAY = "scene-array-"  # how the keys of arrays begin, as no other array of a result does
+_ARRAY = "scene-array-"  # prefix of the keys of arrays, which no other array of a result has
 
 
 def unstructure(value: Any, arrays: Arrays | None = None) -> Any:
-    """Turn attrs objects into tables of plain values; what is at its default is left out.
+    """Convert attrs objects to tables of plain values; defaults are left out.
 
     Parameters
     ----------
@@ -127,7 +129,7 @@ def _put_away(item: Any, kind: type, name: str, arrays: Arrays | None) -> str:
 
 
 def with_arrays(tables: Any, arrays: Mapping[str, Any]) -> Any:
-    """Put arrays back into tables, in the place of the keys that stand for them."""
+    """Put arrays back into tables, in place of their keys."""
     if isinstance(tables, Mapping):
         return {name: with_arrays(item, arrays) for name, item in tables.items()}
     if isinstance(tables, list):

@@ -1,5 +1,5 @@
-"""Figures; the only importer of matplotlib.
+"""Figures; the only room that imports matplotlib.
 
-contact     Figures of contacts, on axes that `plot` makes; they draw, and compute nothing.
-separation  Figures. The only module that imports matplotlib; it draws, and computes nothing.
+separation  Figures of separations and costs; axes, legends and colours of all figures.
+contact     Figures of contacts.
 """

@@ -1,4 +1,4 @@
-"""Figures of contacts, on axes that `plot` makes; they draw, and compute nothing."""
+"""Figures of contacts, on given axes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plastic": "#c1440e"}
-"""Colours of what a pixel is."""
+"""Colours of the states of a pixel."""
 
 _LAYER_COLOURS = ("#264653", "#2a9d8f", "#8ab17d", "#e9c46a", "#f4a261", "#e76f51")
 
@@ -52,7 +52,7 @@ def _place(ax: Axes, unit: str) -> None:
 
 
 def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw the map of the pressure; what is not in contact stays white."""
+    """Draw the pressure map; pixels out of contact are white."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
     touching = np.ma.masked_less_equal(result.pressure / 1e9, 0.0)
@@ -66,7 +66,7 @@ def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
 
 
 def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw where the bodies touch, where they are plastic, and where menisci are."""
+    """Draw the contact, plastic and wetted areas."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
     kinds = np.zeros(result.pressure.shape, dtype=int)
@@ -107,7 +107,7 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
 
 
 def von_mises_section(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw the von Mises stress under the row of largest pressure, depth on a stretched scale."""
+    """Draw the von Mises stress under the row of maximum pressure, depth on a stretched scale."""
     from ..elasticity.stress.measures import von_mises
 
     ax = ax if ax is not None else figure()[1]
@@ -124,7 +124,7 @@ def von_mises_section(result: ContactResult, ax: Axes | None = None) -> Axes:
     edges = _faces(part)
     image = ax.pcolormesh(x, np.arange(len(edges)), values[:, columns], cmap="inferno")
     _depth_axis(ax, part, edges, stack)
-    ax.set(xlabel=f"x from the largest pressure [{unit}]", ylabel="depth")
+    ax.set(xlabel=f"x from the maximum pressure [{unit}]", ylabel="depth")
     ax.grid(visible=False)
     bar = ax.figure.colorbar(image, ax=ax)
     bar.set_label("von Mises stress [GPa]")
@@ -162,7 +162,7 @@ def _depth_axis(ax: Axes, part: StressPart, edges: NDArray[np.float64], stack: S
 
 
 def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes:
-    """Draw a stack as a cross-section; thicknesses are written, not to scale."""
+    """Draw a stack as a cross-section, not to scale; thicknesses are labelled."""
     ax = ax if ax is not None else figure()[1]
     rows = len(stack.materials)
     for i, material in enumerate(stack.materials):
@@ -200,7 +200,7 @@ def _block(row: int, colour: str) -> Any:
 def load_curve(
     curves: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[Axes]
 ) -> Sequence[Axes]:
-    """Draw what changes with the load, one panel for each quantity.
+    """Draw load curves, one panel for each quantity.
 
     Parameters
     ----------
@@ -220,10 +220,10 @@ def load_curve(
 
 
 LOAD_PANELS = (
-    ("max_pressure", "largest pressure [GPa]", 1e9),
+    ("max_pressure", "maximum pressure [GPa]", 1e9),
     ("contact_fraction", "contact area [% of the window]", 0.01),
     ("plastic_fraction", "plastic area [% of the window]", 0.01),
-    ("max_displacement", "largest displacement [nm]", 1e-9),
+    ("max_displacement", "maximum displacement [nm]", 1e-9),
     ("relative_meniscus_force", "meniscus force / load [-]", 1.0),
 )
 
@@ -231,5 +231,5 @@ LOAD_PANELS = (
 def panels_of(
     curves: Sequence[tuple[str, Mapping[str, Any]]],
 ) -> list[tuple[str, str, float]]:
-    """Panels of `LOAD_PANELS` that some curve has a column for."""
+    """Panels of `LOAD_PANELS` for which at least one curve has a column."""
     return [panel for panel in LOAD_PANELS if any(panel[0] in c for _, c in curves)]

@@ -1,4 +1,4 @@
-"""Figures. The only module that imports matplotlib; it draws, and computes nothing."""
+"""Figures of separations and costs; axes, legends and colours of all figures."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def figure(
 
 
 def save(made: Figure, path: str | Path) -> Path:
-    """Write a figure as a PNG file, whole or not at all."""
+    """Write a figure as a PNG file, completely or not at all."""
     path = Path(path).with_suffix(".png")
     with write_whole(path) as temporary, mpl.rc_context(_STYLE):
         made.savefig(temporary, format="png")
@@ -107,7 +107,7 @@ def legend(ax: Axes, **more: Any) -> None:
 
 
 def shared_legend(made: Figure, ax: Axes) -> None:
-    """One legend below all panels, from the curves of one of them, in as many rows as it takes."""
+    """One legend below all panels, from the curves of one of them, in as many rows as needed."""
     handles, labels = ax.get_legend_handles_labels()
     widest = 0.6 + 0.085 * max(map(len, labels))  # [inch]
     columns = max(1, min(len(labels), int(made.get_figwidth() / widest)))
@@ -115,14 +115,14 @@ def shared_legend(made: Figure, ax: Axes) -> None:
 
 
 def plain_log(axis: Axis) -> None:
-    """Label a logarithmic axis with plain numbers, at 1, 2 and 5."""
+    """Label a logarithmic axis at 1, 2 and 5, without powers of ten."""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(NullFormatter())
 
 
 def label_axis(column: Column, display: str = "") -> str:
-    """Label of a column of a result, with its unit, or with the unit it is displayed in."""
+    """Label of a column of a result, with its unit or its display unit."""
     unit = display or column.unit
     return column.label if unit == "-" else f"{column.label} [{unit}]"
 
@@ -166,7 +166,7 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
         if column.unit == "N" and column.name in result.columns
     ]
     if not drawn:
-        result["pull"]  # says why there is none
+        result["pull"]  # raises, with the reason
     pull = [COLUMNS["pull"]] if "pull" in result.columns else []
     ax = ax if ax is not None else figure()[1]
     gap = result.gap * 1e6
@@ -187,7 +187,7 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     held = [result[one.name] for one in drawn if one.name != "newtonian_force"]
     top = max([0.0, *(float(curve.max()) for curve in (*held, *(result[p.name] for p in pull)))])
     bottom = min([0.0, *(float(curve.min()) for curve in held)])
-    if top > bottom:  # else there is no force anywhere
+    if top > bottom:  # otherwise there is no force
         ax.set_ylim(1.1 * bottom, 1.15 * top)
     plain_log(ax.xaxis)
     legend(ax)
@@ -207,7 +207,7 @@ def cycles(result: SeparationResult, ax: Axes | None = None) -> Axes:
 
 
 def slide(result: SlidingResult, ax: Axes | None = None) -> Axes:
-    """Draw the tangential forces over the travel, or the impulse where only a time is given."""
+    """Draw the tangential forces over the travel, or the impulse if a time is imposed."""
     ax = ax if ax is not None else figure()[1]
     plan, travel = result.plan, result.travel * 1e6
     own = [column for kind in plan.laws for column in kind.curves()]
@@ -235,7 +235,7 @@ def bars(names: Sequence[str], values: Sequence[float], ax: Axes, label: str) ->
 
 
 def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
-    """Draw error against seconds for each gap: a colour for each closure, a sign for each bridge.
+    """Draw error against seconds per gap: a colour for each closure, a marker for each bridge.
 
     Full signs stand for whole curves or whole answers, open ones for one gap at a time.
     """
@@ -260,7 +260,7 @@ def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
     low = 0.1 * min([found.floor, *(p.error for p in found.points if p.error > 0.0)])
     ax.axhspan(max(low, 1e-16), found.floor, color="0.9", label="error of the reference")
     each = "gap" if any("gap" in p.label for p in found.points) else "bridge"
-    ax.set(xscale="log", yscale="log", xlabel=f"seconds for each {each}")
+    ax.set(xscale="log", yscale="log", xlabel=f"seconds per {each}")
     ax.set_ylabel(f"relative error of the {found.quantity}")
     return ax
 
@@ -272,13 +272,13 @@ def work_precision(
     *,
     beside: bool = True,
 ) -> Axes:
-    """Draw error against seconds, one line for each method; models of the physics lie flat.
+    """Draw error against seconds, a line for each method; errors of models are horizontal.
 
     `beside` puts the legend at the side of the panel, else below it.
     """
     ax = ax if ax is not None else figure()[1]
     methods = list(dict.fromkeys(p.method for p in found.points))
-    for method, marker in zip(methods, cycle(markers), strict=False):  # as many as there are
+    for method, marker in zip(methods, cycle(markers), strict=False):  # repeated as needed
         points = [p for p in found.points if p.method == method]
         good = [p for p in points if p.error == p.error]
         style = "--" if any(p.is_model for p in points) else "-"

@@ -1,4 +1,4 @@
-"""Tables of what rough contacts cost on this machine; `measure_contact.py` writes them."""
+"""Tables of the cost of rough contacts on this machine, for `measure_contact.py`."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def fast_table() -> str:
 
 
 def ratio_table() -> str:
-    """What layers and a hardness cost, on 512 x 512 pixels and 5 % contact."""
+    """Cost of layers and hardness, on 512 x 512 pixels and 5 % contact."""
     coated = ck.Stack(
         layers=tuple(
             ck.Layer(material=ck.load_material(m), thickness=h)

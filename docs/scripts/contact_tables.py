@@ -1,4 +1,4 @@
-"""Tables of the contact pages: nouns, surfaces, materials, and what the head-disk scene assumes."""
+"""Tables of the contact pages: surfaces, materials, assumptions of the head-disk scene."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FACES = {"flat", "sphere"}  # described with the separation scenes
 
 
 def surface_kinds() -> list[tuple[str, type]]:
-    """Shapes that a file may name, but for those of separation scenes."""
+    """Shapes that a file may name, except those of separation scenes."""
     without = FACES | ONLY_IN_PYTHON
     return [(name, kind) for name, kind in SURFACE_KINDS.items() if name not in without]
 
@@ -44,7 +44,7 @@ def _sources_of_materials() -> Mapping[str, str]:
 
 
 def material_table() -> str:
-    """Materials of the library, with what the file says about their numbers."""
+    """Materials of the library, with the sources in its comments."""
     told, rows = _sources_of_materials(), []
     for name in tomllib.loads((DATA / "materials.toml").read_text("utf-8")):
         one = ck.load_material(name)
@@ -74,7 +74,7 @@ def head_disk_table() -> str:
 
 
 def _entry(section: str, code: str) -> tuple[str, str]:
-    """Key and value of a line; a layer is told by its material."""
+    """Key and value of a line; a layer is named by its material."""
     if code.startswith("{"):
         parts = dict(item.split(" = ") for item in code.strip("{} ").split(", "))
         material = parts["material"].strip('"')

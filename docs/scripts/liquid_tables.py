@@ -1,4 +1,4 @@
-"""Tables of the liquids of the library, and of the laws of temperature behind them."""
+"""Tables of the liquids of the library and of their temperature laws."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from contactkit.units import celsius, cSt
 
 
 def liquid_table() -> str:
-    """Viscosity of the liquids of the library over temperature, and what else they have."""
+    """Viscosity of the liquids of the library over temperature, surface tension, density."""
     text = (Path(ck.__path__[0]) / "data" / "liquids.toml").read_text("utf-8")
     at = (-20.0, 0.0, 20.0, 40.0, 80.0, 100.0)
     rows = []
@@ -38,7 +38,7 @@ def liquid_table() -> str:
 
 
 def law_table() -> str:
-    """Laws of temperature against values from elsewhere."""
+    """Temperature laws against values from other sources."""
 
     def oil(low: float, high: float) -> Callable[[float], float]:
         kind = LAWS[0]

@@ -126,34 +126,34 @@ def fmu_table(fmu: Path, counts: Sequence[int] = (1, 10, 100, 1000, 10000)) -> s
 
 
 def step_cost(fmu: Path) -> str:
-    """Time of one exchange (set two inputs, doStep, get two outputs), by what the film does."""
+    """Time of one exchange (set two inputs, doStep, get two outputs), by state of the film."""
     lines = ["| state of the film | set 2, doStep, get 2 [us] |", "|---|---|"]
     base = fmu_values(CASES["B"]["case"])
-    # h0 just below h_break: the film breaks in the first steps, and a free mass is left.
+    # h0 just below h_break: the film breaks in the first steps, then the mass moves freely.
     cases = {
         "film acts, step 5 us, pull 40 N": ({}, 40.0, 5e-6, 1000),
         "film and tension limit act, step 0.5 us, pull 40 N": ({"dp_cav": 1e6}, 40.0, 5e-7, 1000),
-        "broken, the mass flies freely": ({"h_break": 5.01e-6, "dp_cav": 1e4}, 40.0, 5e-6, 1000),
-        "closed, rests on asperities": ({"h_min": 5e-6}, -1.0, 5e-6, 1000),
+        "broken, free motion of the mass": ({"h_break": 5.01e-6, "dp_cav": 1e4}, 40.0, 5e-6, 1000),
+        "at rest on asperities": ({"h_min": 5e-6}, -1.0, 5e-6, 1000),
     }
     for label, (more, force, length, n) in cases.items():
         with Instance(fmu) as one:
             one.start(base | more, 1.0)
             inputs, motion = one.references("F_ext", "dF_ext"), one.references("h", "v")
-            at, spent = 0.0, []
+            at, seconds = 0.0, []
             for _ in range(n):
                 begun = time.perf_counter()
                 one.set(inputs, [force, 0.0])
                 one.step(at, length)
                 one.get(motion)
-                spent.append(time.perf_counter() - begun)
+                seconds.append(time.perf_counter() - begun)
                 at += length
-        lines.append(f"| {label} | {sorted(spent)[n // 2] * 1e6:.0f} |")
+        lines.append(f"| {label} | {sorted(seconds)[n // 2] * 1e6:.0f} |")
     return "\n".join(lines)
 
 
 def _forget() -> None:
-    """Drop what kernels remember of bridges, so that a plan is made as in a fresh process."""
+    """Clear the caches of bridges, so that a plan is made as in a fresh process."""
     for module in (flat_law, flat_family, bridge_limit, bridge_film):
         for made in vars(module).values():
             if hasattr(made, "cache_clear"):
@@ -232,7 +232,10 @@ def _law_row(name: str, scene: ck.SeparationScene, profile: str) -> str:
 
 def law_table() -> str:
     """Cost of the meniscus force in the loop, and its error against bridges solved one by one."""
-    lines = ["| film | profile | set-up [s] | one call [us] | error |", "|---|---|---|---|---|"]
+    lines = [
+        "| film | profile | set-up [s] | one evaluation [us] | error |",
+        "|---|---|---|---|---|",
+    ]
     for name, scene in meniscus_scenes().items():
         at_pressure = scene.interface.meniscus.pressure is not None
         profiles = ("exact",) if at_pressure else ("exact", "arc")
@@ -241,7 +244,7 @@ def law_table() -> str:
 
 
 def tension_table() -> str:
-    """Release delay of the injector over the tension the oil bears."""
+    """Release delay of the injector over the tensile limit of the oil."""
     injector = open_scene("fuel-injector").scene
     temperatures = injector.study.temperatures
     degrees = [f"{t - celsius(0.0):.0f} degC [ms]" for t in temperatures]

@@ -86,7 +86,7 @@ ROLES: Mapping[type, str] = {
 
 
 def descriptions(kind: type) -> dict[str, str]:
-    """What the docstring of a class, or of its bases, says about each parameter."""
+    """Descriptions of the parameters in the docstring of a class, or of its bases."""
     found: dict[str, str] = {}
     for one in kind.__mro__:
         text = inspect.cleandoc(one.__dict__.get("__doc__") or "")
@@ -139,8 +139,8 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
     return "\n\n".join(parts)
 
 
-# What an effect needs beside numbers, to be asked for its sources.
-NOUNS = {"asperities": ck.AsperityPopulation(density=1.0, radius=1.0)}
+# Arguments of effects other than numbers, to construct them for their sources.
+OBJECTS = {"asperities": ck.AsperityPopulation(density=1.0, radius=1.0)}
 PAIRS = {ck.ContactAngleHysteresis: {"advancing_lower": 1.0, "receding_lower": 1.0}}
 
 
@@ -149,7 +149,7 @@ def effect_table(kinds: Iterable[type[Effect]]) -> str:
     rows = []
     for kind in kinds:
         needed = [f.name for f in attrs.fields(kind) if f.default is attrs.NOTHING]
-        must = PAIRS.get(kind, {name: NOUNS.get(name, 1.0) for name in needed})
+        must = PAIRS.get(kind, {name: OBJECTS.get(name, 1.0) for name in needed})
         role = next(word for base, word in ROLES.items() if issubclass(kind, base))
         source = "; ".join(kind(**must).sources)
         rows.append((f"`{kind.name}`", f"`{kind.__name__}`", role, kind.summary, source))

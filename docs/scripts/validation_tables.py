@@ -28,7 +28,7 @@ def grid(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def errata_table() -> str:
-    """What is wrong with the printed equations."""
+    """Errata of the printed equations."""
     return grid(
         ("equation", "what is wrong"),
         [(n if " " in n else f"({n})", text) for n, text in published.ERRATA.items()],

@@ -66,28 +66,20 @@ TERMS = {
     r"\beither way out\b|\bboth ways\b": "in both directions",
 }
 # Where one of them is the right word: pattern of the path, phrase, reason.
-DELIBERATE: list[tuple[str, str, str]] = []
+DELIBERATE: list[tuple[str, str, str]] = [
+    ("docs/usage.md", '= "clipped"`', "former spelling of a key"),
+]
 # Rooms that are still being cleaned.
 NOT_YET = (
     "*.c",
     "*.h",
-    "*.md",
-    "*.toml",
-    "*.yml",
     "tests/*",
-    "docs/*",
-    "examples/*",
     "fmu/*",
     "models/*",
-    "contactkit/__init__.py",
-    "contactkit/cli.py",
     "contactkit/analyses/load_displacement/*",
     "contactkit/app/*",
     "contactkit/contact/*",
-    "contactkit/data/*",
-    "contactkit/files/*",
     "contactkit/numerics/*",
-    "contactkit/plot/*",
     "contactkit/scene/*",
     "contactkit/separation/*",
 )
@@ -95,6 +87,7 @@ NOT_YET = (
 # First lines that are a riddle: what the thing is must come first.
 RIDDLE = re.compile(r"(What|How|Where|When|Which|Why|That)\b")
 
+GENERATED = re.compile(r"<!-- table: .*?<!-- end of table -->", re.DOTALL)
 KINDS = ("*.py", "*.md", "*.toml", "*.c", "*.h", "*.yml")
 LEFT_OUT = ("CHANGELOG.md", "tests/rules/test_words.py")
 
@@ -129,6 +122,8 @@ def texts(path):
     source = (ROOT / path).read_text("utf-8")
     if path.endswith(".py"):
         yield from python_texts(source)
+    elif path.endswith(".md"):  # generated tables repeat docstrings, which are searched themselves
+        yield 1, GENERATED.sub(lambda found: "\n" * found[0].count("\n"), source)
     else:
         yield 1, source
 
