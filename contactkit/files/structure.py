@@ -148,7 +148,7 @@ def field_value(kind: type, name: str, value: Any) -> Any:
 
 
 def _resolved(kind: type) -> None:
-    """Resolve the types of the fields of a class, including those imported for type checkers only."""
+    """Resolve the types of the fields of a class, also those imported for type checkers only."""
     names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect, "Map": Any}
     attrs.resolve_types(kind, localns=names)
 

@@ -17,11 +17,11 @@ from validation_tables import grid
 FOUND = Path(__file__).parents[2] / "out" / "bench" / "contact.json"
 PEERS = ("aspher", "slippy", "tamaas", "ContactMechanics")
 KEYS = ("surface", "n", "boundary", "area", "threads")
-GOOD = 1.5e-8  # violation, over the rms height, of an answer that counts
+GOOD = 1.5e-8  # maximum violation, over the rms height, of an accepted solution
 
 
 def times(row: Mapping[str, Any] | None, by: float) -> str:
-    """How many times our time a peer took; a dash where it was not run or not good enough."""
+    """Ratio of a peer's time to ours; a dash where it was not run or not accurate enough."""
     if row is None or not row.get("kkt", 1.0) <= GOOD:
         return "-"
     return f"{row['seconds'] / by:.1f}"
