@@ -4,6 +4,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
+# Bytecode is kept whatever the shell says: the tests start a hundred interpreters, and each would
+# compile numpy again.
+export PYTHONDONTWRITEBYTECODE :=
+
 .PHONY: demo test test-all lint bench peers docs format clean
 
 $(VENV)/.made:

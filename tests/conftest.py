@@ -19,7 +19,7 @@ UNTIMED = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.too_slow, HealthCheck.filter_too_much],
 }
-settings.register_profile("repeatable", derandomize=True, max_examples=20, **UNTIMED)
+settings.register_profile("repeatable", derandomize=True, max_examples=10, **UNTIMED)
 settings.register_profile("random", database=None, print_blob=True, **UNTIMED)
 settings.load_profile("repeatable")
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from native_scenes import HAS_CC
 from scipy.interpolate import CubicHermiteSpline
+from selection import quick
 
 fmpy = pytest.importorskip("fmpy")
 
@@ -76,7 +77,7 @@ def test_the_references_pass_the_release_known_from_elsewhere(name, release_case
 
 
 @pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", quick(CASES, 1))
 def test_a_native_fmu_follows_its_reference(name, tmp_path):
     if name == "release_A":  # the others without their tables, which take a second each
         *_, fmu = write_crosscheck(tmp_path, names=[name], **ONE)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 from contactkit.as_published.printed import common as published
@@ -48,7 +49,7 @@ def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, share):
     assert law.force(gap, 0.0) == pytest.approx(exact(gap, profile), rel=rel, abs=1e-9 * 2e-3)
 
 
-@pytest.mark.parametrize("lower", [180.0, 179.9, 90.0])
+@pytest.mark.parametrize("lower", quick([180.0, 179.9, 90.0], 1))
 def test_slopes_are_right_up_to_where_a_repelling_sphere_lets_go(film_scene, lower):
     """The force ends as no power there, and a single polynomial scattered long before."""
     angles = (math.radians(lower), math.pi)

@@ -57,6 +57,7 @@ def test_errors_on_a_sphere(volume, angle, expected):
         assert found == pytest.approx(right, rel=0.06, abs=0.06)
 
 
+@pytest.mark.slow
 def test_cost_shows_all_closures_with_a_picture(few, tmp_path, capsys):
     out = tmp_path / "out"
     out.mkdir()

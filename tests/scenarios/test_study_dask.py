@@ -10,6 +10,8 @@ import pytest
 
 import contactkit as ck
 
+pytestmark = pytest.mark.slow  # a cluster of processes
+
 ACCURACY = ck.Accuracy(grid=32, rtol=1e-8)
 PRESSURES = [1e7, 2e7, 4e7, 8e7]
 
@@ -86,7 +88,6 @@ def test_a_large_map_travels_without_a_warning(client):
     assert [p.status for p in study.points] == ["infeasible"] * 2
 
 
-@pytest.mark.slow
 def test_anything_that_gives_futures_will_do():
     """A pool of one thread, for one: nothing of a cluster is needed but `submit`."""
     with ThreadPoolExecutor(1) as pool:

@@ -54,6 +54,7 @@ def test_fmpy_releases_case_a(fmu, kind):
     assert found["t_release"][-1] == pytest.approx(reference("A"), rel=ROOM[kind])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_fmpy_releases_case_b(fmu, kind):
     """The pull of a magnet as a table of its values, held over each step: first order."""

@@ -13,6 +13,8 @@ from contactkit.fmu.slaves.stiction_force import PORTS
 from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.fmu.slaves.valve_drive import drive_values
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def settings(tmp_path_factory):

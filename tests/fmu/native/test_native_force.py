@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from master_cases import film_values, ramp
 from native_scenes import HAS_CC, SCENES, scene
+from selection import quick
 
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
@@ -69,8 +70,9 @@ def test_variables_are_those_of_the_python_fmu(native):
 # Forces --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", quick(SCENES, 5, 8, 12))
 def test_forces_are_those_of_the_plan_of_any_scene(name, native, open_fmu):
+    """The kernel of every scene, to 1e-10, is in `test_native_kernel`."""
     film = plan(moving(SCENES[name], None), FINE).film
     host = open_fmu(native(name)).start()
     first = SCENES[name].loading.initial_gap

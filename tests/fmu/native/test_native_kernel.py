@@ -19,6 +19,7 @@ from native_scenes import (
     compile_c,
     write_sources,
 )
+from selection import quick
 
 pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
@@ -190,7 +191,10 @@ MOTIONS = {
 }
 
 
-@pytest.mark.parametrize("name", MOTIONS)
+QUICK = ("rewetting", "sphere", "shear", "tip that sticks", "rough")
+
+
+@pytest.mark.parametrize("name", quick(MOTIONS, *map([*MOTIONS].index, QUICK)))
 def test_motion_is_that_of_the_python_model(name, tmp_path):
     """Rupture, release, rest, re-wetting and limits come at the same times."""
     pulls, step, given = MOTIONS[name]

@@ -337,6 +337,7 @@ def valve(curve, tmp_path_factory):
     return made
 
 
+@pytest.mark.slow
 def test_rough_faces_soften_the_stop_of_the_valve_and_take_energy(valve, curve):
     plain, rough = (
         cosimulate(valve[drive], valve["mass"], 1.75e-3, 5e-6) for drive in ("plain", "rough")

@@ -248,6 +248,7 @@ def hertz_scene():
     }
 
 
+@pytest.mark.slow
 def test_a_pair_of_fmus_bounces_as_one_system_does(soft, tmp_path):
     end = 3.72e-6
     plan = tip_law(soft.tip, 0.0, 1e-7)
