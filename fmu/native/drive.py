@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from ...analyses.load_displacement.curve import HERTZ, LoadDisplacementCurve, way_of
+from ...analyses.load_displacement.curve import HERTZ, LoadDisplacementCurve, normalized
 from ...errors import PlanError
 from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
 from ..contents.end_stop import bake
@@ -60,7 +60,7 @@ def build_native_drive(
     DescriptionError
         If a name, a start value, the curve, a platform or a version is not possible.
     PlanError
-        If the curve has more ways out than the kernel holds.
+        If the curve has more unloading curves than the kernel holds.
     ContactkitError
         If a compiler is missing.
     """
@@ -95,24 +95,24 @@ def face_numbers(curve: LoadDisplacementCurve | None) -> list[float]:
     Raises
     ------
     PlanError
-        If there are more ways out than the kernel holds.
+        If there are more unloading curves than the kernel holds.
     """
     if curve is None:
         return [0.0]
     out = curve.unloading
     if len(out) > _MOST_WAYS:
         raise PlanError(
-            f"a native valve-drive holds {_MOST_WAYS} ways out of its faces, this curve has "
-            f"{len(out)}; make it with fewer, or leave out --native"
+            f"a native valve-drive holds {_MOST_WAYS} unloading curves of its faces, this curve "
+            f"has {len(out)}; make it with fewer, or leave out --native"
         )
     numbers = [1.0, curve.elastic_limit, float(len(out))]
     numbers += _in_logarithms(power_curve(curve.approach, curve.force, HERTZ), curve.approach)
     if out:
-        nodes = (curve.elastic_limit, *(one.largest_approach for one in out))
+        nodes = (curve.elastic_limit, *(one.max_approach for one in out))
         left = (0.0, *(one.residual_approach for one in out))
         numbers += _plain(monotone_curve(nodes, left), nodes)
     for one in out:
-        numbers += [one.largest_approach, *_in_logarithms(way_of(one).force, one.ways)]
+        numbers += [one.max_approach, *_in_logarithms(normalized(one).force, one.fractions)]
     return numbers
 
 

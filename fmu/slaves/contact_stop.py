@@ -18,7 +18,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from pythonfmu.enums import Fmi2Status
 
-from ...analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch, StopPoint
+from ...analyses.load_displacement.curve import Branch, CurvePoint, LoadDisplacementCurve
 from ...analyses.load_displacement.impact import in_series
 from ...errors import DescriptionError
 from ..framework.ports import Port
@@ -88,8 +88,8 @@ PORTS = (
         "branch of the contact",
         _STATIC,
         kind="enumeration",
-        enumeration=StopBranch,
-        start=StopBranch.FREE,
+        enumeration=Branch,
+        start=Branch.FREE,
     ),
     _output("n_beyond", "-", "number of steps that ended beyond the tables", (), kind="integer"),
     _size("h_touch", "m", "gap at which the faces touch", 25e-6, display_unit="um"),
@@ -139,7 +139,7 @@ class ContactStop(PortSlave):
     curve: LoadDisplacementCurve
     memory: _Memory
     lost_before: float
-    answered: tuple[tuple[float, float, float], tuple[StopPoint, float]] | None
+    answered: tuple[tuple[float, float, float], tuple[CurvePoint, float]] | None
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
@@ -151,11 +151,11 @@ class ContactStop(PortSlave):
                 "be built by contactkit.fmu.python.build, which makes them",
             )
         self.curve = LoadDisplacementCurve.from_data(self.data["curve"]).scaled(values["scale"])
-        if values["d_max0"] > self.curve.most:
-            expected = f"not exceed {self.curve.most:.6g} m, where the tables end"
+        if values["d_max0"] > self.curve.max_approach:
+            expected = f"not exceed {self.curve.max_approach:.6g} m, where the tables end"
             raise DescriptionError("d_max0", values["d_max0"], expected, unit="m")
         self.memory, self.answered = _Memory(values["d_max0"], 0.0, 0.0, 0.0, False), None
-        self.lost_before = self.curve.lost(values["d_max0"])
+        self.lost_before = self.curve.dissipated_work(values["d_max0"])
         values.update(W=0.0, W_d=0.0, n_beyond=0)
         point, _ = self._show()
         self.memory = self._memory(values["d_max0"], point)
@@ -171,7 +171,7 @@ class ContactStop(PortSlave):
         sign = 1.0 if values["side"] == StopSide.ABOVE else -1.0
         return sign * (values["h"] - values["h_touch"]), sign * values["v"]
 
-    def _show(self) -> tuple[StopPoint, float]:
+    def _show(self) -> tuple[CurvePoint, float]:
         values, memory = self.values, self.memory
         asked = values["h"], values["v"], memory.largest
         if self.answered is not None and self.answered[0] == asked:
@@ -180,7 +180,7 @@ class ContactStop(PortSlave):
         self.answered = asked, found
         return found
 
-    def _look_up(self) -> tuple[StopPoint, float]:
+    def _look_up(self) -> tuple[CurvePoint, float]:
         values, (depth, speed) = self.values, self._depth()
         point, faces = in_series(
             self.curve,
@@ -203,23 +203,25 @@ class ContactStop(PortSlave):
         )
         return point, faces
 
-    def _memory(self, largest: float, point: StopPoint) -> _Memory:
+    def _memory(self, largest: float, point: CurvePoint) -> _Memory:
         depth, damping = self._depth()[0], self.values["F"] - point.force
-        beyond = point.branch is StopBranch.BEYOND
+        beyond = point.branch is Branch.BEYOND
         return _Memory(largest, max(depth, 0.0), self.values["d"], damping, beyond)
 
     def _remember(self) -> None:
         curve, largest = self.curve, self.memory.largest
         # The area of the loop that a host sees. Between the ways that were solved it may fall by a
         # thousandth of the work, as the tables give that back.
-        lost = curve.lost(largest) - self.lost_before
+        lost = curve.dissipated_work(largest) - self.lost_before
         self.values.update(d_max=largest, d_res=curve.residual(largest), W=lost)
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`: the gap that was set is where the step ends."""
         before, values = self.memory, self.values
         point, faces = self._show()
-        self.memory = now = self._memory(max(before.largest, min(faces, self.curve.most)), point)
+        self.memory = now = self._memory(
+            max(before.largest, min(faces, self.curve.max_approach)), point
+        )
         if now.largest > before.largest:
             self._remember()
         values["W_d"] += 0.5 * (before.damping + now.damping) * (now.depth - before.depth)
@@ -227,8 +229,8 @@ class ContactStop(PortSlave):
         if now.beyond and not before.beyond:
             self.log(
                 f"the faces are pressed by {faces:.4g} m at t = {time + step:.9g} s, beyond "
-                f"{self.curve.most:.4g} m where their tables end: the force goes on along its "
-                "tangent; build the FMU with larger loads",
+                f"{self.curve.max_approach:.4g} m where their tables end: the force goes on along "
+                "its tangent; build the FMU with larger loads",
                 Fmi2Status.warning,
                 "logStatusWarning",
             )

@@ -369,7 +369,7 @@ class TipContact(PortSlave):
     def _show(self) -> None:
         state, motion, n = self.state, self.state.motion, self.values["N"]
         stop = self.stop
-        taken = stop.curve.lost(state.largest) if stop is not None else 0.0
+        taken = stop.curve.dissipated_work(state.largest) if stop is not None else 0.0
         status = TipStatus.FREE if state.free else TipStatus.HELD
         self.values.update(
             h=state.gap,

@@ -331,11 +331,11 @@ class ValveDrive(PortSlave):
         before, end = law.pull(valve, flux, gap, speed, stopping), time + step
         # What is remembered is where the spool was, not where it may be at the end of the step.
         known, self.largest = self.largest, max(self.largest, faces)
-        if self.faces is not None and known <= self.faces.most < faces:
+        if self.faces is not None and known <= self.faces.max_approach < faces:
             self.log(
                 f"the faces of the stop are pressed by {faces:.6g} m at t = {time:.9g} s, beyond "
-                f"{self.faces.most:.6g} m where their tables end: the force goes on along its "
-                "tangent; give the stop a larger area, or faces solved to larger loads",
+                f"{self.faces.max_approach:.6g} m where their tables end: the force goes on along "
+                "its tangent; give the stop a larger area, or faces solved to larger loads",
                 Fmi2Status.warning,
                 "logStatusWarning",
             )

@@ -513,7 +513,7 @@ class _Run:
         if self.valve is not None and self.faces is not None:
             gap, before = float(self.state[0]), self.mode.largest
             _, depth = law.rough_stop_force(self.valve.stop, self.faces, before, gap, 0.0)
-            self.mode = self.mode._replace(largest=max(before, min(depth, self.faces.most)))
+            self.mode = self.mode._replace(largest=max(before, min(depth, self.faces.max_approach)))
 
     def _block(self) -> None:
         self.state[2] = 0.0

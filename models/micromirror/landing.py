@@ -119,7 +119,7 @@ def land(
         expected = "be zero or positive, and finite"
         raise DescriptionError("land(attraction)", attraction, expected, unit="J")
     kinetic = 0.5 * mass * speed * speed
-    # The attraction brings its work with it: the blow is that of a faster tip.
-    blow = impact(faces, mass, math.sqrt(speed * speed + 2.0 * attraction / mass))
-    left = max(kinetic - blow.lost, 0.0)
-    return TipLanding(blow.approach, blow.force, blow.lost, math.sqrt(left / kinetic))
+    # The attraction brings its work with it: the found is that of a faster tip.
+    found = impact(faces, mass, math.sqrt(speed * speed + 2.0 * attraction / mass))
+    left = max(kinetic - found.dissipated_work, 0.0)
+    return TipLanding(found.approach, found.force, found.dissipated_work, math.sqrt(left / kinetic))

@@ -155,12 +155,13 @@ def sprung_back(curve: LoadDisplacementCurve, depth: float, largest: float) -> f
 
 
 def _known(curve: LoadDisplacementCurve, depth: float, time: float) -> float:
-    if depth > curve.most * (1.0 + 1e-12):
+    if depth > curve.max_approach * (1.0 + 1e-12):
         raise InfeasibleError(
-            f"at t = {time:.9g} s a tip is pressed {depth:.4g} m deep, beyond {curve.most:.4g} m "
-            f"and {curve.force[-1]:.4g} N where its curve ends; make it with a larger approach"
+            f"at t = {time:.9g} s a tip is pressed {depth:.4g} m deep, beyond "
+            f"{curve.max_approach:.4g} m and {curve.force[-1]:.4g} N where its curve ends; make it "
+            "with a larger approach"
         )
-    return min(depth, curve.most)
+    return min(depth, curve.max_approach)
 
 
 def _rates_of(contact: Contact, largest: float) -> _Rates:
@@ -269,7 +270,7 @@ def _turned(contact: Contact, now: Blow) -> Blow:
     """At the deepest point: remember it, and rest if there is not the energy to come out."""
     curve, depth = contact.stop.curve, now.depth
     largest = max(now.largest, depth)
-    lost = curve.lost(largest) - curve.lost(now.largest)
+    lost = curve.dissipated_work(largest) - curve.dissipated_work(now.largest)
     now = now._replace(largest=largest, lost=now.lost + max(lost, 0.0))
     out = curve.residual(largest)
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from selection import quick
 
 import contactkit as ck
-from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch
+from contactkit.analyses.load_displacement.curve import Branch, LoadDisplacementCurve
 from contactkit.analyses.load_displacement.impact import impact, in_series
 from contactkit.app.scenes import open_scene
 from contactkit.models.micromirror.landing import land, tip_faces
@@ -56,7 +56,7 @@ def rough_scene():
 
 @pytest.fixture(scope="module")
 def rough(rough_scene):
-    return ck.load_displacement(rough_scene, points=24, ways=8, accuracy=GRID)
+    return ck.load_displacement(rough_scene, points=24, unloadings=8, accuracy=GRID)
 
 
 # The kernel -----------------------------------------------------------------------------------
@@ -116,28 +116,30 @@ def test_points_out_of_order_are_refused(nodes, values, said):
 
 def test_a_smooth_sphere_is_hertz(ball):
     """Nodes are solves on pixels; the contact of the first has a radius of 8 of them."""
-    for approach in np.geomspace(ball.approach[0], ball.most, 30):
+    for approach in np.geomspace(ball.approach[0], ball.max_approach, 30):
         point = ball.at(approach)
         assert point.force == pytest.approx(hertz(approach), rel=5e-3)
         assert point.stiffness == pytest.approx(1.5 * hertz(approach) / approach, rel=1e-2)
-    assert ball.work(ball.most) == pytest.approx(0.4 * hertz(ball.most) * ball.most, rel=1e-3)
-    assert ball.contact_area[-1] == pytest.approx(math.pi * RADIUS * ball.most, rel=0.05)
+    assert ball.work(ball.max_approach) == pytest.approx(
+        0.4 * hertz(ball.max_approach) * ball.max_approach, rel=1e-3
+    )
+    assert ball.contact_area[-1] == pytest.approx(math.pi * RADIUS * ball.max_approach, rel=0.05)
     assert "far from" in ball.datum
 
 
 def test_an_elastic_contact_comes_back_as_it_went(ball):
     assert ball.unloading == ()
-    assert ball.elastic_limit == ball.most
-    for approach in (1e-9, 3e-8, ball.most):
-        assert ball.at(approach, ball.most) == ball.at(approach)
-    assert ball.lost(ball.most) == ball.residual(ball.most) == 0.0
-    assert ball.recoverable(ball.most) == ball.work(ball.most)
+    assert ball.elastic_limit == ball.max_approach
+    for approach in (1e-9, 3e-8, ball.max_approach):
+        assert ball.at(approach, ball.max_approach) == ball.at(approach)
+    assert ball.dissipated_work(ball.max_approach) == ball.residual(ball.max_approach) == 0.0
+    assert ball.elastic_work(ball.max_approach) == ball.work(ball.max_approach)
 
 
 def test_it_starts_without_a_kink(ball, rough):
     for curve in (ball, rough):
         assert curve.at(0.0)[:3] == curve.at(-1e-6)[:3] == (0.0, 0.0, 0.0)
-        assert curve.at(0.0).branch is StopBranch.FREE
+        assert curve.at(0.0).branch is Branch.FREE
         first = curve.at(curve.approach[0]).stiffness
         assert curve.at(1e-6 * curve.approach[0]).stiffness < 2e-3 * first
         for node in curve.approach[:-1]:
@@ -147,10 +149,10 @@ def test_it_starts_without_a_kink(ball, rough):
 
 def test_beyond_the_tables_it_says_so(ball):
     with pytest.raises(ck.InfeasibleError, match=r"beyond the tables.*larger loads"):
-        ball.at(1.01 * ball.most)
-    point = ball.at(2.0 * ball.most, beyond=True)
-    assert point.branch is StopBranch.BEYOND
-    expected = ball.force[-1] + ball.at(ball.most).stiffness * ball.most
+        ball.at(1.01 * ball.max_approach)
+    point = ball.at(2.0 * ball.max_approach, beyond=True)
+    assert point.branch is Branch.BEYOND
+    expected = ball.force[-1] + ball.at(ball.max_approach).stiffness * ball.max_approach
     assert point.force == pytest.approx(expected)
     assert math.isfinite(ball.at(1e200, beyond=True).force)
     with pytest.raises(ck.DescriptionError, match="numbers"):
@@ -166,47 +168,49 @@ def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
     The first way lies where the contact is a handful of pixels.
     """
     between = [math.sqrt(a * b) for a, b in zip(rough.approach, rough.approach[1:], strict=False)]
-    fresh = ck.load_displacement(rough_scene, approaches=between[-8:], ways=3, accuracy=GRID)
+    fresh = ck.load_displacement(rough_scene, approaches=between[-8:], unloadings=3, accuracy=GRID)
     for approach, force in zip(fresh.approach, fresh.force, strict=True):
         assert rough.at(approach).force == pytest.approx(force, rel=min(rough.error, 0.03))
     for one, share in zip(fresh.unloading, (0.06, 0.01, 0.01), strict=True):
-        whole, residual = rough.at(one.largest_approach).force, one.residual_approach
-        assert rough.residual(one.largest_approach) == pytest.approx(residual, rel=0.1)
-        for way, force in zip(one.ways, one.forces, strict=True):
-            approach = residual + way * (one.largest_approach - residual)
-            found = rough.at(approach, one.largest_approach).force / whole
+        whole, residual = rough.at(one.max_approach).force, one.residual_approach
+        assert rough.residual(one.max_approach) == pytest.approx(residual, rel=0.1)
+        for way, force in zip(one.fractions, one.forces, strict=True):
+            approach = residual + way * (one.max_approach - residual)
+            found = rough.at(approach, one.max_approach).force / whole
             assert found == pytest.approx(force, abs=share)
 
 
 def test_the_work_lost_is_the_hardness_times_the_dents(rough):
     """The tables know only forces over approaches; the dents only depths."""
     for one in rough.unloading[1:]:
-        lost = rough.lost(one.largest_approach)
+        lost = rough.dissipated_work(one.max_approach)
         dents = HARDNESS * one.plastic_volume
-        assert lost == pytest.approx(dents, rel=0.05, abs=0.01 * rough.work(one.largest_approach))
-    assert rough.lost(rough.most) > 0.02 * rough.work(rough.most)
+        assert lost == pytest.approx(dents, rel=0.05, abs=0.01 * rough.work(one.max_approach))
+    assert rough.dissipated_work(rough.max_approach) > 0.02 * rough.work(rough.max_approach)
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
 def test_every_way_rises_and_lies_below_the_first_loading(rough, share, one, other):
-    largest = share * rough.most
+    largest = share * rough.max_approach
     low, high = sorted((one * largest, other * largest))
     below, above = rough.at(low, largest), rough.at(high, largest)
     assert below.force <= above.force * (1.0 + 1e-12)
     assert below.contact_area <= above.contact_area * (1.0 + 1e-12)
     assert above.force <= rough.at(high).force
-    assert 0.0 <= rough.lost(largest) <= rough.work(largest)
+    assert 0.0 <= rough.dissipated_work(largest) <= rough.work(largest)
 
 
 @pytest.mark.parametrize("share", [0.3, 0.62, 0.9, 1.0])
 def test_a_loop_is_closed_and_its_area_is_the_work_lost(rough, share):
-    largest = share * rough.most
+    largest = share * rough.max_approach
     down = np.linspace(0.0, largest, 4001)
     out = np.array([rough.at(d, largest).force for d in down])
     there = np.array([rough.at(d).force for d in down])
     assert out[-1] == pytest.approx(there[-1], rel=1e-12)  # and on along the first loading
     area = float(np.trapezoid(there - out, down))
-    assert area == pytest.approx(rough.lost(largest), rel=2e-3, abs=0.01 * rough.work(largest))
+    assert area == pytest.approx(
+        rough.dissipated_work(largest), rel=2e-3, abs=0.01 * rough.work(largest)
+    )
     assert area >= 0.0
     assert rough.at(0.5 * rough.residual(largest), largest)[:3] == (0.0, 0.0, 0.0)
 
@@ -216,33 +220,35 @@ def test_a_loop_is_closed_and_its_area_is_the_work_lost(rough, share):
 )
 def test_near_yield_too_the_work_lost_is_the_area_of_the_loop(rough, reach):
     """There the mixed way out is cut off at the first curve, along much of its length."""
-    limit, one = rough.elastic_limit, rough.unloading[1].largest_approach
+    limit, one = rough.elastic_limit, rough.unloading[1].max_approach
     largest = limit + reach * (one - limit)
     ends = {*rough.approach, rough.residual(largest), *np.linspace(0.0, largest, 8001)}
     at = np.array(sorted(float(x) for x in ends if x <= largest))
     loop = [rough.at(x).force - rough.at(x, largest).force for x in at.tolist()]
     assert min(loop) >= 0.0
-    assert rough.lost(largest) == pytest.approx(
+    assert rough.dissipated_work(largest) == pytest.approx(
         float(np.trapezoid(loop, at)), rel=0.0, abs=1e-6 * rough.work(largest)
     )
 
 
 def test_it_yields_where_the_hardness_is_met(rough):
-    assert 0.0 < rough.elastic_limit < rough.most
+    assert 0.0 < rough.elastic_limit < rough.max_approach
     for approach in rough.approach:
         elastic = approach <= rough.elastic_limit
         assert (rough.at(approach).plastic_area == 0.0) is elastic
         assert (rough.residual(approach) == 0.0) >= elastic
-    assert rough.at(1e-9, rough.most).plastic_area == rough.plastic_area[-1]
+    assert rough.at(1e-9, rough.max_approach).plastic_area == rough.plastic_area[-1]
 
 
 def test_it_scales_and_travels_as_data(rough):
     twice = rough.scaled(2.0)
     assert twice.at(1e-7).force == pytest.approx(2.0 * rough.at(1e-7).force)
-    assert twice.lost(rough.most) == pytest.approx(2.0 * rough.lost(rough.most))
+    assert twice.dissipated_work(rough.max_approach) == pytest.approx(
+        2.0 * rough.dissipated_work(rough.max_approach)
+    )
     again = LoadDisplacementCurve.from_data(json.loads(json.dumps(rough.to_data())))
     assert again == rough
-    assert again.at(1.3e-7, rough.most) == rough.at(1.3e-7, rough.most)
+    assert again.at(1.3e-7, rough.max_approach) == rough.at(1.3e-7, rough.max_approach)
 
 
 # Hard cases -----------------------------------------------------------------------------------
@@ -264,14 +270,16 @@ def test_near_the_hardness_nothing_elastic_is_left_but_the_tables_stand():
     limit = ck.HardnessLimit(rule="material")
     heavy = scene(ROUGH, ck.Pressing(pressure=0.98 * HARDNESS), limit)
     curve = ck.load_displacement(
-        heavy, points=8, decades=1.0, ways=2, accuracy=ck.Accuracy(grid=32)
+        heavy, points=8, decades=1.0, unloadings=2, accuracy=ck.Accuracy(grid=32)
     )
     assert curve.elastic_limit == 0.0
     assert curve.plastic_area[-1] > 0.9 * curve.nominal_area
     last = curve.unloading[-1]
-    assert curve.lost(curve.most) == pytest.approx(HARDNESS * last.plastic_volume, rel=0.1)
+    assert curve.dissipated_work(curve.max_approach) == pytest.approx(
+        HARDNESS * last.plastic_volume, rel=0.1
+    )
     small = curve.at(0.5 * curve.approach[0] * 0.9, 0.5 * curve.approach[0])
-    assert small.branch is StopBranch.UNLOADING  # the first way out serves all below it
+    assert small.branch is Branch.UNLOADING  # the first way out serves all below it
     with pytest.raises(ck.InfeasibleError, match="hardness"):
         ck.load_displacement(scene(ROUGH, ck.Pressing(pressure=HARDNESS), limit), accuracy=GRID)
 
@@ -292,15 +300,19 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
         loading=ck.Pressing(pressure=1e8),
         effects=(ck.LayeredHalfSpace(), ck.HardnessLimit()),
     )
-    with pytest.raises(ck.InfeasibleError, match=r"dents of smaller loads are forgotten.*material"):
-        ck.load_displacement(made, points=12, ways=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6))
+    with pytest.raises(
+        ck.InfeasibleError, match=r"residual indentations of smaller loads are lost.*material"
+    ):
+        ck.load_displacement(
+            made, points=12, unloadings=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6)
+        )
 
 
 @pytest.mark.parametrize(
     ("choice", "said"),
     [
         ({"points": 3}, "points"),
-        ({"ways": 0}, "ways"),
+        ({"unloadings": 0}, "unloadings"),
         ({"decades": 0.0}, "decades"),
         ({"loads": [1.0]}, "ascending"),
         ({"loads": [1.0, 1.0]}, "ascending"),
@@ -349,8 +361,8 @@ def test_data_that_is_no_curve_is_refused(rough, change, said):
 
 @pytest.mark.parametrize("stiffness", [1e-3, 1e3, 1e6, 1e9, 1e15])
 def test_springs_in_series_carry_one_force(rough, stiffness):
-    for total in (1e-12, 1e-8, 1.5e-7, rough.most):
-        for largest in (0.0, 0.7 * rough.most, rough.most):
+    for total in (1e-12, 1e-8, 1.5e-7, rough.max_approach):
+        for largest in (0.0, 0.7 * rough.max_approach, rough.max_approach):
             point, faces = in_series(rough, total, largest, stiffness)
             assert 0.0 <= faces <= total
             assert faces + point.force / stiffness == pytest.approx(total, rel=1e-9)
@@ -363,9 +375,9 @@ def test_springs_in_series_carry_one_force(rough, stiffness):
 @pytest.mark.parametrize("stiffness", [0.0, 3e6])
 def test_a_blow_is_what_a_motion_gives(rough, stiffness):
     """Energy, against stepping the equation of motion in and out."""
-    mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.most) / 0.5e-6)
+    mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.max_approach) / 0.5e-6)
     blow = impact(rough, mass, speed, stiffness=stiffness)
-    position, velocity, largest, dt = 0.0, speed, 0.0, 5e-4 * rough.most / speed
+    position, velocity, largest, dt = 0.0, speed, 0.0, 5e-4 * rough.max_approach / speed
     peak, force = 0.0, 0.0
     while velocity > 0.0 or force > 0.0:
         velocity -= 0.5 * dt * force / mass
@@ -377,16 +389,16 @@ def test_a_blow_is_what_a_motion_gives(rough, stiffness):
     assert blow.force == pytest.approx(peak, rel=1e-3)
     assert blow.approach == pytest.approx(largest, rel=1e-3)
     assert blow.restitution == pytest.approx(-velocity / speed, abs=2e-4)
-    assert blow.lost == pytest.approx(rough.lost(largest), rel=1e-2)
+    assert blow.dissipated_work == pytest.approx(rough.dissipated_work(largest), rel=1e-2)
 
 
 def test_a_second_blow_of_the_same_speed_loses_nothing(rough):
-    mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.most) / 0.5e-6)
+    mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.max_approach) / 0.5e-6)
     first = impact(rough, mass, speed)
-    again = impact(rough, mass, 0.9 * first.restitution * speed, largest=first.approach)
-    assert (again.restitution, again.lost) == (1.0, 0.0)
+    again = impact(rough, mass, 0.9 * first.restitution * speed, max_approach=first.approach)
+    assert (again.restitution, again.dissipated_work) == (1.0, 0.0)
     assert again.force < first.force
-    harder = impact(rough, mass, 1.2 * speed, largest=first.approach)
+    harder = impact(rough, mass, 1.2 * speed, max_approach=first.approach)
     assert harder.force > first.force
     with pytest.raises(ck.InfeasibleError, match="tables end"):
         impact(rough, mass, 10.0 * speed)

@@ -1,11 +1,11 @@
-"""The force of a rough contact over its approach, as tables that need no numpy.
+"""Load-displacement curve of a rough contact: force over approach, as tables without numpy.
 
-A contact that is pressed for the first time follows one curve. Once it is plastic it does not
-come back on it: on the way out it is the elastic contact of the surface that was left behind,
-which lets go at a residual approach above zero. That branch depends on the largest approach
-alone; pressed again, the contact follows it up to there, and then goes on along the first curve.
+The first loading follows one curve. Unloading from a plastic contact follows another one: that of
+the elastic contact of the plastically deformed surface, which loses contact at a residual approach
+above zero. It depends on the maximum approach alone; reloading follows it up to there and then
+continues along the loading curve.
 
-All curves rise. What they pass by: time (creep, rate), and friction.
+All curves rise. Left out: time (creep, rate dependence) and friction.
 """
 
 from __future__ import annotations
@@ -27,28 +27,28 @@ from ...units import si
 
 __all__ = [
     "HERTZ",
-    "StopBranch",
+    "Branch",
+    "CurvePoint",
     "LoadDisplacementCurve",
-    "StopPoint",
+    "NormalizedUnloading",
     "Unloading",
-    "Way",
-    "WayBack",
+    "UnloadingCurve",
     "area_above",
     "area_below",
     "as_floats",
-    "reversible_way",
-    "unloading_of",
-    "way_of",
+    "normalized",
+    "reversible",
+    "unloading_from",
 ]
 
-HERTZ = 1.5  # least exponent at touch: a summit that is round below the grid
-_POINTS = 8  # of Gauss on a piece of a table
-_COARSE = 3  # the same for what is cut off
-_LEAST = 1e-3  # share of a way below which nothing of account is cut off
+HERTZ = 1.5  # minimum exponent at touch: a summit that is round below the grid
+_POINTS = 8  # Gauss points on a piece of a table
+_COARSE = 3  # the same for the area that is cut off
+_LEAST = 1e-3  # fraction of an unloading curve below which the part cut off is negligible
 
 
-class StopBranch(IntEnum):
-    """Which curve a contact is on."""
+class Branch(IntEnum):
+    """Branch of the load-displacement curve."""
 
     FREE = 1
     LOADING = 2
@@ -56,50 +56,57 @@ class StopBranch(IntEnum):
     BEYOND = 4
 
 
-class StopPoint(NamedTuple):
+class CurvePoint(NamedTuple):
     """Force [N], its slope over the approach [N/m], and areas [m2], on a branch."""
 
     force: float
     stiffness: float
     contact_area: float
     plastic_area: float
-    branch: StopBranch
+    branch: Branch
 
 
 class Unloading(NamedTuple):
-    """The way out from a largest approach, and what is left.
+    """A computed unloading curve, from its maximum to its residual approach.
 
-    `ways` are shares of the way from the residual to the largest approach; `forces` and `areas`
-    are over those at the largest approach. `plastic_volume` [m3] is that of the overlap which
-    plastic flow has made room for.
+    `fractions` are those of the distance from the residual to the maximum approach; `forces` and
+    `areas` are over those at the maximum approach. `plastic_volume` [m3] is that of the overlap
+    for which plastic flow has made room.
     """
 
-    largest_approach: float
+    max_approach: float
     residual_approach: float
-    ways: tuple[float, ...]
+    fractions: tuple[float, ...]
     forces: tuple[float, ...]
     areas: tuple[float, ...]
     plastic_volume: float
 
 
-class Way(NamedTuple):
-    """A way out made ready: shares of force and area over it, the mean of the force, and nodes."""
+class NormalizedUnloading(NamedTuple):
+    """An unloading curve over its values at the maximum approach, as functions of the fraction.
 
-    largest: float
+    `mean` is the mean of the normalised force, `nodes` the fractions of its table.
+    """
+
+    max_approach: float
     force: Curve
     area: Curve
     mean: float
     nodes: tuple[float, ...]
 
 
-class WayBack(NamedTuple):
-    """The way out from any largest approach: its length, the force at its end, and its parts."""
+class UnloadingCurve(NamedTuple):
+    """The unloading curve from any maximum approach: a weighted mean of normalised ones.
 
-    largest: float = -1.0
+    `length` is the distance from the `residual` to the maximum approach [m], `max_force` the force
+    there [N]; `parts` are pairs of a weight and a normalised curve.
+    """
+
+    max_approach: float = -1.0
     residual: float = 0.0
     length: float = 0.0
-    whole: float = 0.0
-    mixed: tuple[tuple[float, Way], ...] = ()
+    max_force: float = 0.0
+    parts: tuple[tuple[float, NormalizedUnloading], ...] = ()
 
 
 def as_floats(values: Sequence[float]) -> tuple[float, ...]:
@@ -107,40 +114,43 @@ def as_floats(values: Sequence[float]) -> tuple[float, ...]:
     return tuple(float(value) for value in values)
 
 
-def unloading_of(data: Mapping[str, Any]) -> Unloading:
-    """Make a way out of what `LoadDisplacementCurve.to_data` gave."""
+def unloading_from(data: Mapping[str, Any]) -> Unloading:
+    """Make an unloading curve from the data of `LoadDisplacementCurve.to_data`."""
     made = Unloading(**data)
     return made._replace(
-        ways=as_floats(made.ways), forces=as_floats(made.forces), areas=as_floats(made.areas)
+        fractions=as_floats(made.fractions),
+        forces=as_floats(made.forces),
+        areas=as_floats(made.areas),
     )
 
 
-def way_of(one: Unloading) -> Way:
-    """Make a way out ready."""
-    force = power_curve(one.ways, one.forces, HERTZ)
-    area = power_curve(one.ways, one.areas, 1.0)
-    power = force(one.ways[0])[1] * one.ways[0] / one.forces[0]
-    mean = one.forces[0] * one.ways[0] / (power + 1.0)
-    mean += sum(area_below(force, a, b) for a, b in pairwise(one.ways))
-    return Way(one.largest_approach, force, area, mean, one.ways)
+def normalized(one: Unloading) -> NormalizedUnloading:
+    """Interpolate a computed unloading curve."""
+    force = power_curve(one.fractions, one.forces, HERTZ)
+    area = power_curve(one.fractions, one.areas, 1.0)
+    first = one.fractions[0]
+    power = force(first)[1] * first / one.forces[0]
+    mean = one.forces[0] * first / (power + 1.0)
+    mean += sum(area_below(force, a, b) for a, b in pairwise(one.fractions))
+    return NormalizedUnloading(one.max_approach, force, area, mean, one.fractions)
 
 
-def reversible_way(
-    first: Curve, area: Curve, limit: float, work: float, nodes: Sequence[float]
-) -> Way:
-    """Way out from the elastic limit: the first curve itself, given with its work up to there."""
-    forces, areas = first(limit)[0], area(limit)[0]
+def reversible(
+    loading: Curve, area: Curve, limit: float, work: float, nodes: Sequence[float]
+) -> NormalizedUnloading:
+    """Unloading curve from the elastic limit: the loading curve itself, of given work up to it."""
+    force_there, area_there = loading(limit)[0], area(limit)[0]
 
-    def back(way: float) -> tuple[float, float]:
-        value, slope = first(way * limit)
-        return value / forces, slope * limit / forces
+    def unloading(fraction: float) -> tuple[float, float]:
+        value, slope = loading(fraction * limit)
+        return value / force_there, slope * limit / force_there
 
-    def touched(way: float) -> tuple[float, float]:
-        value, slope = area(way * limit)
-        return value / areas, slope * limit / areas
+    def touching(fraction: float) -> tuple[float, float]:
+        value, slope = area(fraction * limit)
+        return value / area_there, slope * limit / area_there
 
-    shares = tuple(x / limit for x in nodes if x < limit)
-    return Way(limit, back, touched, work / (forces * limit), shares)
+    fractions = tuple(x / limit for x in nodes if x < limit)
+    return NormalizedUnloading(limit, unloading, touching, work / (force_there * limit), fractions)
 
 
 def area_below(curve: Curve, a: float, b: float) -> float:
@@ -154,23 +164,23 @@ def area_below(curve: Curve, a: float, b: float) -> float:
     return width * total
 
 
-def area_above(first: Curve, back: WayBack, nodes: Sequence[float]) -> float:
-    """Area of a way out that lies above the first curve, whose nodes are given.
+def area_above(loading: Curve, back: UnloadingCurve, nodes: Sequence[float]) -> float:
+    """Area of an unloading curve that lies above the loading curve, whose nodes are given.
 
-    Both are smooth between the nodes; a piece is passed by if it is not above at either end and
-    does not rise from one to fall to the other. The whole is a thousandth of the work, so a few
-    points on a piece will do.
+    Both are smooth between the nodes; a piece is skipped if it is not above at either end and does
+    not rise from one to fall to the other. The area is a thousandth of the work, so a few points
+    on a piece are enough.
     """
-    ends = {back.residual + back.length * n for _, way in back.mixed for n in (_LEAST, *way.nodes)}
+    ends = {back.residual + back.length * n for _, one in back.parts for n in (_LEAST, *one.nodes)}
     ends |= {x for x in nodes if x > min(ends)}
-    xs = [*sorted(x for x in ends if x < back.largest), back.largest]
+    xs = [*sorted(x for x in ends if x < back.max_approach), back.max_approach]
 
     def over(x: float) -> tuple[float, float]:
-        share = (x - back.residual) / back.length
-        mixed = [(weight, one.force(share)) for weight, one in back.mixed]
-        value, slope = first(x)
-        force = back.whole * sum([weight * at[0] for weight, at in mixed])
-        rise = back.whole / back.length * sum([weight * at[1] for weight, at in mixed])
+        fraction = (x - back.residual) / back.length
+        mixed = [(weight, one.force(fraction)) for weight, one in back.parts]
+        value, slope = loading(x)
+        force = back.max_force * sum([weight * at[0] for weight, at in mixed])
+        rise = back.max_force / back.length * sum([weight * at[1] for weight, at in mixed])
         return force - value, rise - slope
 
     at = [over(x) for x in xs]
@@ -183,7 +193,7 @@ def area_above(first: Curve, back: WayBack, nodes: Sequence[float]) -> float:
 
 
 def _positive_area(over: Curve, a: float, b: float) -> float:
-    """Integral of the positive part of a smooth function, of which the slope is known too."""
+    """Integral of the positive part of a smooth function of known slope."""
     points, weights = gauss_legendre(_COARSE)
 
     def area(low: float, high: float) -> float:
@@ -214,18 +224,18 @@ class LoadDisplacementCurve:
     Attributes
     ----------
     approach, force, contact_area, plastic_area : tuple of float
-        The first loading: approach from first touch [m], force [N], areas [m2].
+        First loading: approach from first touch [m], force [N], areas [m2].
     unloading : tuple of Unloading
-        Ways out from some largest approaches; none for an elastic contact.
+        Unloading curves from some maximum approaches; none for an elastic contact.
     elastic_limit : float
-        Approach up to which all is reversible [m].
+        Approach up to which the contact is reversible [m].
     nominal_area : float
         Area that force and areas belong to [m2].
     datum : str
-        What the approach is measured against.
+        Datum of the approach.
     error : float
-        How far the force is off between the points, relative [-]: estimated from the tables that
-        every other point makes, so it is on the safe side.
+        Relative error of the force between the points [-], estimated from the tables of every
+        other point and therefore conservative.
     """
 
     approach: tuple[float, ...] = field(converter=as_floats, metadata=si("m"))
@@ -237,15 +247,15 @@ class LoadDisplacementCurve:
     nominal_area: float = field(metadata=si("m2"))
     datum: str = ""
     error: float = field(default=0.0, metadata=si("-"))
-    _first: Curve = field(init=False, repr=False, eq=False)
+    _loading: Curve = field(init=False, repr=False, eq=False)
     _area: Curve = field(init=False, repr=False, eq=False)
     _plastic: Curve = field(init=False, repr=False, eq=False)
     _residual: Curve = field(init=False, repr=False, eq=False)
     _works: tuple[float, ...] = field(init=False, repr=False, eq=False)
-    _ways: tuple[Way, ...] = field(init=False, repr=False, eq=False)
+    _normalized: tuple[NormalizedUnloading, ...] = field(init=False, repr=False, eq=False)
     _ends: tuple[float, ...] = field(init=False, repr=False, eq=False)
-    _last: WayBack = field(init=False, repr=False, eq=False)
-    _lost: tuple[float, float] = field(init=False, repr=False, eq=False)
+    _last: UnloadingCurve = field(init=False, repr=False, eq=False)
+    _dissipated: tuple[float, float] = field(init=False, repr=False, eq=False)
 
     def __attrs_post_init__(self) -> None:
         n = len(self.approach)
@@ -253,11 +263,11 @@ class LoadDisplacementCurve:
         if n < 2 or any(len(row) != n for row in rows):
             expected = "be two or more, each with a force and two areas"
             raise DescriptionError("LoadDisplacementCurve.approach", n, expected)
-        ends = [u.largest_approach for u in self.unloading]
+        ends = [u.max_approach for u in self.unloading]
         if ends and not self.elastic_limit < ends[0] <= ends[-1] <= self.approach[-1]:
             expected = f"lie above {self.elastic_limit:g} m and not above {self.approach[-1]:g} m"
             raise DescriptionError("LoadDisplacementCurve.unloading", ends, expected, unit="m")
-        self._keep(_first=power_curve(self.approach, self.force, HERTZ))
+        self._keep(_loading=power_curve(self.approach, self.force, HERTZ))
         self._keep(_area=power_curve(self.approach, self.contact_area, 1.0))
         self._keep(_plastic=monotone_curve((0.0, *self.approach), (0.0, *self.plastic_area)))
         self._keep(_works=self._node_works())
@@ -265,51 +275,52 @@ class LoadDisplacementCurve:
         self._keep(
             _residual=monotone_curve((self.elastic_limit, *ends), (0.0, *residuals))
             if ends
-            else lambda largest: (0.0, 0.0)
+            else lambda max_approach: (0.0, 0.0)
         )
-        self._keep(_ways=self._ready_ways())
-        self._keep(_ends=tuple(one.largest for one in self._ways), _last=WayBack())
-        self._keep(_lost=(-1.0, 0.0))
+        self._keep(_normalized=self._normalized_unloading())
+        self._keep(_ends=tuple(one.max_approach for one in self._normalized))
+        self._keep(_last=UnloadingCurve(), _dissipated=(-1.0, 0.0))
 
     def _keep(self, **made: Any) -> None:
         for name, value in made.items():
             object.__setattr__(self, name, value)
 
     def _node_works(self) -> tuple[float, ...]:
-        slope = self._first(self.approach[0])[1]
+        slope = self._loading(self.approach[0])[1]
         power = slope * self.approach[0] / self.force[0]
         works = [self.force[0] * self.approach[0] / (power + 1.0)]
         for i in range(len(self.approach) - 1):
-            works.append(works[-1] + area_below(self._first, *self.approach[i : i + 2]))
+            works.append(works[-1] + area_below(self._loading, *self.approach[i : i + 2]))
         return tuple(works)
 
-    def _ready_ways(self) -> tuple[Way, ...]:
-        ways, limit = list[Way](), self.elastic_limit
+    def _normalized_unloading(self) -> tuple[NormalizedUnloading, ...]:
+        found, limit = list[NormalizedUnloading](), self.elastic_limit
         if self.unloading and limit > 0.0:
-            nodes, work = self.approach, self.work(limit)
-            ways.append(reversible_way(self._first, self._area, limit, work, nodes))
-        ways += [way_of(one) for one in self.unloading]
-        return tuple(ways)
+            found.append(
+                reversible(self._loading, self._area, limit, self.work(limit), self.approach)
+            )
+        found += [normalized(one) for one in self.unloading]
+        return tuple(found)
 
     # the contact ------------------------------------------------------------------------------
 
     @property
-    def most(self) -> float:
-        """Largest approach of the tables [m]."""
+    def max_approach(self) -> float:
+        """Maximum approach of the tables [m]."""
         return self.approach[-1]
 
-    def at(self, approach: float, largest: float = 0.0, *, beyond: bool = False) -> StopPoint:
+    def at(self, approach: float, max_approach: float = 0.0, *, beyond: bool = False) -> CurvePoint:
         """Force, stiffness and areas at an approach.
 
         Parameters
         ----------
         approach : float
             Approach from first touch [m]; negative while the bodies are apart.
-        largest : float
-            Largest approach the contact has had [m].
+        max_approach : float
+            Maximum approach the contact has had [m].
         beyond : bool
-            Beyond the tables go on along the tangent, on the branch BEYOND, reversibly and with
-            the areas of their end; otherwise refuse.
+            Whether to continue beyond the tables along the tangent, on the branch BEYOND,
+            reversibly and with the areas of their end; otherwise that is refused.
 
         Raises
         ------
@@ -320,111 +331,119 @@ class LoadDisplacementCurve:
 
         Notes
         -----
-        `plastic_area` is what has yielded so far: it stays on the way out.
+        `plastic_area` is the area that has yielded so far; it does not change on unloading.
         """
-        if math.isnan(approach) or math.isnan(largest):
+        if math.isnan(approach) or math.isnan(max_approach):
             raise DescriptionError(
-                "LoadDisplacementCurve.at", (approach, largest), "be numbers", unit="m"
+                "LoadDisplacementCurve.at", (approach, max_approach), "be numbers", unit="m"
             )
-        largest = min(max(largest, 0.0), self.most)
-        if approach > self.most * (1.0 + _SAME) and not beyond:
+        max_approach = min(max(max_approach, 0.0), self.max_approach)
+        if approach > self.max_approach * (1.0 + _SAME) and not beyond:
             raise InfeasibleError(
                 f"an approach of {approach:.6g} m lies beyond the tables of this contact, which "
-                f"end at {self.most:.6g} m and {self.force[-1]:.6g} N; make them with larger loads"
+                f"end at {self.max_approach:.6g} m and {self.force[-1]:.6g} N; make them with "
+                "larger loads"
             )
-        plastic = self._plastic(min(max(approach, largest), self.most))[0]
-        force, stiffness = self.force_at(approach, largest)
+        plastic = self._plastic(min(max(approach, max_approach), self.max_approach))[0]
+        force, stiffness = self.force_at(approach, max_approach)
         if force <= 0.0:
-            return StopPoint(0.0, 0.0, 0.0, plastic, StopBranch.FREE)
-        if approach < largest and largest > self.elastic_limit:
-            way = self._way_back(largest)
-            share = (approach - way.residual) / way.length
-            area = sum(weight * one.area(share)[0] for weight, one in way.mixed)
-            area *= self._area(largest)[0]
-            return StopPoint(force, stiffness, area, plastic, StopBranch.UNLOADING)
-        area = self._area(min(approach, self.most))[0]
-        on = StopBranch.BEYOND if approach > self.most * (1.0 + _SAME) else StopBranch.LOADING
-        return StopPoint(force, stiffness, area, plastic, on)
+            return CurvePoint(0.0, 0.0, 0.0, plastic, Branch.FREE)
+        if approach < max_approach and max_approach > self.elastic_limit:
+            back = self._unloading_curve(max_approach)
+            fraction = (approach - back.residual) / back.length
+            area = sum(weight * one.area(fraction)[0] for weight, one in back.parts)
+            area *= self._area(max_approach)[0]
+            return CurvePoint(force, stiffness, area, plastic, Branch.UNLOADING)
+        area = self._area(min(approach, self.max_approach))[0]
+        on = Branch.BEYOND if approach > self.max_approach * (1.0 + _SAME) else Branch.LOADING
+        return CurvePoint(force, stiffness, area, plastic, on)
 
-    def force_at(self, approach: float, largest: float) -> tuple[float, float]:
+    def force_at(self, approach: float, max_approach: float) -> tuple[float, float]:
         """Force [N] and its slope [N/m] as in `at`, unchecked, along the tangent beyond the end."""
-        first = self._first(approach)
-        if approach >= min(largest, self.most) or largest <= self.elastic_limit:
-            return first
-        way = self._way_back(min(largest, self.most))
-        share, force, slope = (approach - way.residual) / way.length, 0.0, 0.0
-        if share <= 0.0:
+        loading = self._loading(approach)
+        if approach >= min(max_approach, self.max_approach) or max_approach <= self.elastic_limit:
+            return loading
+        back = self._unloading_curve(min(max_approach, self.max_approach))
+        fraction, force, slope = (approach - back.residual) / back.length, 0.0, 0.0
+        if fraction <= 0.0:
             return 0.0, 0.0
-        for weight, one in way.mixed:
-            value, rate = one.force(share)
+        for weight, one in back.parts:
+            value, rate = one.force(fraction)
             force, slope = force + weight * value, slope + weight * rate
-        if force * way.whole > first[0]:  # mixed a little too high: no way gives more than it took
-            return first
-        return force * way.whole, slope * way.whole / way.length
+        if force * back.max_force > loading[0]:  # by interpolation only: no cycle gains energy
+            return loading
+        return force * back.max_force, slope * back.max_force / back.length
 
-    def _way_back(self, largest: float) -> WayBack:
-        """The way out from a largest approach: those that were solved on both sides, mixed."""
-        if largest == self._last.largest:  # it changes seldom, and is asked for often
+    def _unloading_curve(self, max_approach: float) -> UnloadingCurve:
+        """Unloading curve from a maximum approach, interpolated between the computed ones."""
+        if max_approach == self._last.max_approach:  # changes seldom, and is evaluated often
             return self._last
-        ways, i = self._ways, bisect_right(self._ends, largest)
-        mixed: tuple[tuple[float, Way], ...]
-        if i in (0, len(ways)):
-            mixed = ((1.0, ways[max(i - 1, 0)]),)
+        known, i = self._normalized, bisect_right(self._ends, max_approach)
+        parts: tuple[tuple[float, NormalizedUnloading], ...]
+        if i in (0, len(known)):
+            parts = ((1.0, known[max(i - 1, 0)]),)
         else:
-            low, high = ways[i - 1], ways[i]
-            t = math.log(largest / low.largest) / math.log(high.largest / low.largest)
-            mixed = ((1.0 - t, low), (t, high))
-        residual = self._residual(largest)[0]
-        made = WayBack(largest, residual, largest - residual, self._first(largest)[0], mixed)
+            low, high = known[i - 1], known[i]
+            t = math.log(max_approach / low.max_approach)
+            t /= math.log(high.max_approach / low.max_approach)
+            parts = ((1.0 - t, low), (t, high))
+        residual = self._residual(max_approach)[0]
+        made = UnloadingCurve(
+            max_approach, residual, max_approach - residual, self._loading(max_approach)[0], parts
+        )
         self._keep(_last=made)
         return made
 
-    def residual(self, largest: float) -> float:
-        """Approach at which the contact lets go after a largest approach [m]."""
-        return self._residual(min(largest, self.most))[0] if largest > self.elastic_limit else 0.0
+    def residual(self, max_approach: float) -> float:
+        """Residual approach [m], at which contact is lost on unloading from a maximum approach."""
+        return (
+            self._residual(min(max_approach, self.max_approach))[0]
+            if max_approach > self.elastic_limit
+            else 0.0
+        )
 
     # energy -----------------------------------------------------------------------------------
 
     def work(self, approach: float) -> float:
         """Work of the first loading up to an approach within the tables [J]."""
         if approach <= self.approach[0]:
-            value, slope = self._first(approach)
+            value, slope = self._loading(approach)
             return value * approach / (slope * approach / value + 1.0) if value > 0.0 else 0.0
-        i = bisect_right(self.approach, min(approach, self.most)) - 1
+        i = bisect_right(self.approach, min(approach, self.max_approach)) - 1
         start = self.approach[i]
-        rest = area_below(self._first, start, min(approach, self.most))
-        force, slope = self.force[-1], self._first(self.most)[1]
-        over = max(approach - self.most, 0.0)
+        rest = area_below(self._loading, start, min(approach, self.max_approach))
+        force, slope = self.force[-1], self._loading(self.max_approach)[1]
+        over = max(approach - self.max_approach, 0.0)
         return self._works[i] + rest + over * (force + 0.5 * slope * over)
 
-    def recoverable(self, largest: float) -> float:
-        """Work that comes back on the way out from a largest approach [J]."""
-        within = min(largest, self.most)
-        over, largest = self.work(largest) - self.work(within), within
-        if largest <= self.elastic_limit:
-            return self.work(largest) + over
-        way = self._way_back(largest)
-        mean = sum(weight * one.mean for weight, one in way.mixed)
-        cut = area_above(self._first, way, self.approach)  # `force_at` does not go there either
-        return mean * way.whole * way.length - cut + over
+    def elastic_work(self, max_approach: float) -> float:
+        """Elastic work recovered on unloading from a maximum approach [J]."""
+        within = min(max_approach, self.max_approach)
+        over, max_approach = self.work(max_approach) - self.work(within), within
+        if max_approach <= self.elastic_limit:
+            return self.work(max_approach) + over
+        back = self._unloading_curve(max_approach)
+        mean = sum(weight * one.mean for weight, one in back.parts)
+        cut = area_above(self._loading, back, self.approach)  # left out by `force_at` too
+        return mean * back.max_force * back.length - cut + over
 
-    def lost(self, largest: float) -> float:
-        """Work that a cycle up to a new largest approach leaves in the bodies [J].
+    def dissipated_work(self, max_approach: float) -> float:
+        """Work dissipated by loading to a new maximum approach and unloading [J].
 
-        It is the area of the loop of `at`, to 1e-6 of the work; between the ways that were solved
-        that loop is off by up to a hundredth of the work.
+        It is the area of the hysteresis loop of `at`, to 1e-6 of the work; between the computed
+        unloading curves that loop is off by up to a hundredth of the work.
         """
-        if largest <= self.elastic_limit:
+        if max_approach <= self.elastic_limit:
             return 0.0
-        if largest != self._lost[0]:
-            lost = max(self.work(largest) - self.recoverable(largest), 0.0)
-            self._keep(_lost=(largest, lost))
-        return self._lost[1]
+        if max_approach != self._dissipated[0]:
+            dissipated = max(self.work(max_approach) - self.elastic_work(max_approach), 0.0)
+            self._keep(_dissipated=(max_approach, dissipated))
+        return self._dissipated[1]
 
     # other forms ------------------------------------------------------------------------------
 
     def scaled(self, factor: float) -> LoadDisplacementCurve:
-        """Return the curve of so many equal contacts side by side."""
+        """Return the curve of a number of equal contacts in parallel."""
         if not (math.isfinite(factor) and factor > 0.0):
             raise DescriptionError(
                 "LoadDisplacementCurve.scaled(factor)", factor, "be positive and finite"
@@ -455,16 +474,16 @@ class LoadDisplacementCurve:
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> LoadDisplacementCurve:
-        """Make a curve of what `to_data` gave.
+        """Make a curve from the data of `to_data`.
 
         Raises
         ------
         DescriptionError
-            If something is missing, too much or out of order.
+            If something is missing, unknown or out of order.
         """
         try:
             rest = dict(data)
-            out = tuple(unloading_of(one) for one in rest.pop("unloading", ()))
+            out = tuple(unloading_from(one) for one in rest.pop("unloading", ()))
             return cls(unloading=out, **rest)
         except (AttributeError, TypeError, ValueError) as error:
             if isinstance(error, DescriptionError):

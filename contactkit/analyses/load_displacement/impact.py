@@ -1,11 +1,11 @@
-r"""A body that meets an end stop: the stop in series with the bodies behind it, and one blow.
+r"""Impact on a rough contact, and the contact in series with the compliance of its bodies.
 
 .. math:: D = d + F(d)/K, \qquad
           \tfrac12 m v^2 = \int_0^{d_m} F\,dd + \frac{F(d_m)^2}{2K}, \qquad
-          e^2 = \frac{\text{what comes back}}{\tfrac12 m v^2}
+          e^2 = \frac{\text{elastic work}}{\tfrac12 m v^2}
 
 D is the approach of points behind the bodies, d that of the rough faces, K the stiffness of the
-bodies. Plain floats: this also runs inside an FMU.
+bodies. In floats, without numpy: this also runs inside an FMU.
 """
 
 from __future__ import annotations
@@ -16,32 +16,42 @@ from typing import NamedTuple
 
 from ...errors import DescriptionError, InfeasibleError
 from ...numerics.roots import bracketed_root, newton_root
-from .curve import LoadDisplacementCurve, StopPoint, area_below
+from .curve import CurvePoint, LoadDisplacementCurve, area_below
 
-__all__ = ["StopImpact", "impact", "in_series"]
+__all__ = ["Impact", "SeriesPoint", "impact", "in_series"]
 
 _CLOSE = 1e-13
 
 
-class StopImpact(NamedTuple):
-    """A blow: largest approach of the faces [m], force [N], work lost [J], restitution [-]."""
+class Impact(NamedTuple):
+    """Maximum approach of the faces [m], force [N], dissipated work [J], restitution [-]."""
 
     approach: float
     force: float
-    lost: float
+    dissipated_work: float
     restitution: float
+
+
+class SeriesPoint(NamedTuple):
+    """Point of a contact with a spring in series, and the approach of its faces [m].
+
+    The stiffness of the point is that of both together.
+    """
+
+    point: CurvePoint
+    faces: float
 
 
 def in_series(
     curve: LoadDisplacementCurve,
     approach: float,
-    largest: float,
+    max_approach: float,
     stiffness: float,
     *,
     beyond: bool = False,
     near: float = 0.0,
-) -> tuple[StopPoint, float]:
-    """Point of a stop with a spring behind it, and the approach of the faces [m].
+) -> SeriesPoint:
+    """Point of a contact with a spring in series.
 
     Parameters
     ----------
@@ -49,26 +59,24 @@ def in_series(
         The faces.
     approach : float
         Approach of faces and spring together, from first touch [m].
-    largest : float
-        Largest approach the faces have had [m].
+    max_approach : float
+        Maximum approach the faces have had [m].
     stiffness : float
         Stiffness of the spring behind them [N/m]; 0: rigid.
     beyond : bool
         See `LoadDisplacementCurve.at`.
     near : float
-        Approach of the faces not long ago, to begin with [m]; 0: unknown.
+        Initial guess of the approach of the faces [m]; 0: unknown.
 
     Returns
     -------
-    StopPoint
-        Its stiffness is that of both together.
-    float
-        Approach of the faces.
+    SeriesPoint
+        Force, stiffness and areas, and the approach of the faces.
 
     Raises
     ------
     InfeasibleError, DescriptionError
-        See `LoadDisplacementCurve.at`; a stiffness that is negative or not finite.
+        As `LoadDisplacementCurve.at`; for a stiffness that is negative or not finite.
 
     Examples
     --------
@@ -84,20 +92,26 @@ def in_series(
         expected = "be zero or positive, and finite"
         raise DescriptionError("in_series(stiffness)", stiffness, expected, unit="N/m")
     if stiffness == 0.0 or not approach > 0.0:
-        return curve.at(approach, largest, beyond=beyond), approach
-    faces = _shared(curve, approach, largest, stiffness, near if near > 0.0 else curve.most)
-    point = curve.at(faces, largest, beyond=beyond)
+        return SeriesPoint(curve.at(approach, max_approach, beyond=beyond), approach)
+    faces = _faces(
+        curve, approach, max_approach, stiffness, near if near > 0.0 else curve.max_approach
+    )
+    point = curve.at(faces, max_approach, beyond=beyond)
     both = point.stiffness * stiffness / (point.stiffness + stiffness)
-    return point._replace(stiffness=both), faces
+    return SeriesPoint(point._replace(stiffness=both), faces)
 
 
-def _shared(
-    curve: LoadDisplacementCurve, approach: float, largest: float, stiffness: float, near: float
+def _faces(
+    curve: LoadDisplacementCurve,
+    approach: float,
+    max_approach: float,
+    stiffness: float,
+    near: float,
 ) -> float:
-    """Approach of the faces: what they and the spring share rises with it, so Newton, bracketed."""
+    """Approach of the faces by bracketed Newton iterations: the sum of both rises with it."""
 
     def excess(faces: float) -> tuple[float, float]:
-        force, slope = curve.force_at(faces, largest)
+        force, slope = curve.force_at(faces, max_approach)
         return faces + force / stiffness - approach, 1.0 + slope / stiffness
 
     return newton_root(excess, 0.0, approach, near if near < approach else 0.5 * approach, _CLOSE)
@@ -108,19 +122,19 @@ def impact(
     mass: float,
     speed: float,
     *,
-    largest: float = 0.0,
+    max_approach: float = 0.0,
     stiffness: float = 0.0,
-) -> StopImpact:
-    """One blow of a free mass on a stop, by its energy.
+) -> Impact:
+    """Impact of a free mass on a contact, by its energy.
 
     Parameters
     ----------
     curve : LoadDisplacementCurve
         The faces.
     mass, speed : float
-        What arrives [kg], and how fast [m/s].
-    largest : float
-        Largest approach the faces have had before [m].
+        Mass [kg] and its speed before the impact [m/s].
+    max_approach : float
+        Maximum approach the faces have had before [m].
     stiffness : float
         Stiffness of the bodies behind the faces [N/m]; 0: rigid.
 
@@ -133,64 +147,65 @@ def impact(
 
     Notes
     -----
-    Lost is what plasticity takes; waves that run away in the bodies, the liquid and friction are
-    left out, so the restitution is an upper bound. What presses the mass on the way, such as a
-    magnet, is left out too.
+    Only plastic work is dissipated; elastic waves in the bodies, the liquid and friction are left
+    out, so the restitution is an upper bound. Forces on the mass during the impact, such as that
+    of a magnet, are left out too.
 
     Examples
     --------
-    An elastic stop gives back everything:
+    An elastic contact dissipates nothing:
 
     >>> from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
     >>> faces = LoadDisplacementCurve(
     ...     approach=(1e-7, 2e-7), force=(1.0, 2.0**1.5), contact_area=(1e-12,) * 2,
     ...     plastic_area=(0.0, 0.0), elastic_limit=2e-7, nominal_area=1e-8)
-    >>> blow = impact(faces, 1e-3, 0.01)
-    >>> f"{blow.force:.4f} N", blow.restitution
+    >>> first = impact(faces, 1e-3, 0.01)
+    >>> f"{first.force:.4f} N", first.restitution
     ('1.1433 N', 1.0)
     """
     for name, value in (("mass", mass), ("speed", speed)):
         if not (math.isfinite(value) and value > 0.0):
             raise DescriptionError(f"impact({name})", value, "be positive and finite")
-    energy, begun = 0.5 * mass * speed * speed, min(max(largest, 0.0), curve.most)
-    spent = curve.lost(begun)  # what earlier blows have taken, this one need not bring
+    energy, begun = 0.5 * mass * speed * speed, min(max(max_approach, 0.0), curve.max_approach)
+    before = curve.dissipated_work(begun)  # by earlier impacts
 
-    def left(approach: float) -> float:
+    def excess(approach: float) -> float:
         force = curve.at(approach).force
-        bent = 0.5 * force * force / stiffness if stiffness else 0.0
-        return curve.work(approach) - spent + bent - energy
+        bending = 0.5 * force * force / stiffness if stiffness else 0.0
+        return curve.work(approach) - before + bending - energy
 
-    if left(curve.most) < 0.0:
+    if excess(curve.max_approach) < 0.0:
         raise InfeasibleError(
-            f"{energy:.4g} J bring the faces beyond {curve.most:.4g} m and {curve.force[-1]:.4g} "
-            "N, where the tables end; make them with larger loads"
+            f"{energy:.4g} J press the faces beyond {curve.max_approach:.4g} m and "
+            f"{curve.force[-1]:.4g} N, where the tables end; make them with larger loads"
         )
-    if left(begun) >= 0.0:
+    if excess(begun) >= 0.0:
         approach, force = _within(curve, energy, begun, stiffness)
-        return StopImpact(approach, force, 0.0, 1.0)
-    approach = bracketed_root(left, begun, curve.most, 1e-13)
-    lost = curve.lost(approach) - spent
+        return Impact(approach, force, 0.0, 1.0)
+    approach = bracketed_root(excess, begun, curve.max_approach, 1e-13)
+    dissipated = curve.dissipated_work(approach) - before
     force = curve.at(approach).force
-    return StopImpact(approach, force, lost, math.sqrt(max(1.0 - lost / energy, 0.0)))
+    restitution = math.sqrt(max(1.0 - dissipated / energy, 0.0))
+    return Impact(approach, force, dissipated, restitution)
 
 
 def _within(
-    curve: LoadDisplacementCurve, energy: float, largest: float, stiffness: float
+    curve: LoadDisplacementCurve, energy: float, max_approach: float, stiffness: float
 ) -> tuple[float, float]:
-    """Where a blow ends that stays on the way of an earlier one, by integrating that way."""
-    begin = curve.residual(largest)
-    length = largest - begin
+    """Maximum approach and force of an impact on the unloading curve of an earlier one."""
+    begin = curve.residual(max_approach)
+    length = max_approach - begin
 
-    def left(way: float) -> float:
-        force = curve.at(begin + way * length, largest).force
-        edges = [way * 2.0**-i for i in range(40, -1, -1)]
-        share = sum(
-            area_below(lambda w: curve.force_at(begin + w * length, largest), a, b)
+    def excess(fraction: float) -> float:
+        force = curve.at(begin + fraction * length, max_approach).force
+        edges = [fraction * 2.0**-i for i in range(40, -1, -1)]
+        area = sum(
+            area_below(lambda x: curve.force_at(begin + x * length, max_approach), a, b)
             for a, b in pairwise(edges)
         )
-        bent = 0.5 * force * force / stiffness if stiffness else 0.0
-        return share * length + bent - energy
+        bending = 0.5 * force * force / stiffness if stiffness else 0.0
+        return area * length + bending - energy
 
-    way = 1.0 if left(1.0) <= 0.0 else bracketed_root(left, 1e-9, 1.0, 1e-10)
-    approach = begin + way * length
-    return approach, curve.at(approach, largest).force
+    fraction = 1.0 if excess(1.0) <= 0.0 else bracketed_root(excess, 1e-9, 1.0, 1e-10)
+    approach = begin + fraction * length
+    return approach, curve.at(approach, max_approach).force

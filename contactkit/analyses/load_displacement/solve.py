@@ -1,8 +1,8 @@
-"""The load-approach curve of a rough contact: what an end stop pushes back with, out and in.
+"""Computation of a load-displacement curve: contacts under rising loads, and unloading curves.
 
-Loads or approaches are solved one after the other, each from where the last one ended. Where
-pixels have yielded, the surface is what plastic flow has left: heights less the overlap it made
-room for. The elastic contact of that surface is the way out.
+Loads or approaches are solved in sequence, each starting from the solution before. Where pixels
+have yielded, the heights are reduced by the overlap for which plastic flow has made room; the
+elastic contact of that surface is the unloading curve.
 """
 
 from __future__ import annotations
@@ -35,12 +35,13 @@ __all__ = ["load_displacement"]
 
 Progress = Callable[[float], None]
 
-_MOST_BEFORE = 2
-_WAYS = (0.01, 0.025, 0.05, 0.09, 0.15, 0.23, 0.33, 0.45, 0.58, 0.72, 0.86)  # shares; 1 is known
+_MAX_BEFORE = 2
+# Fractions of the distance from the residual to the maximum approach; 1 is known.
+_FRACTIONS = (0.01, 0.025, 0.05, 0.09, 0.15, 0.23, 0.33, 0.45, 0.58, 0.72, 0.86)
 
 
 class _Node(NamedTuple):
-    """One load: what goes into the tables, and the surface that it leaves."""
+    """A point of the loading curve, with its pressure and the overlap of its plastic pixels."""
 
     approach: float
     force: float
@@ -57,32 +58,32 @@ def load_displacement(
     approaches: Sequence[float] | None = None,
     points: int = 32,
     decades: float = 4.0,
-    ways: int = 12,
+    unloadings: int = 12,
     accuracy: Accuracy | None = None,
     progress: Progress | None = None,
 ) -> LoadDisplacementCurve:
-    r"""Force and areas of a contact over its approach, with what plasticity does to the way out.
+    r"""Force and areas of a contact over its approach, with unloading curves if it is plastic.
 
     Parameters
     ----------
     scene : ContactScene
-        Bodies, window and effects: how they yield and, if they are to be plastic, a
-        `HardnessLimit`. Observers are not run. What it imposes is the end of the tables, unless
-        `loads` or `approaches` are given.
+        Bodies, window and effects: the compliance and, for plasticity, a `HardnessLimit`.
+        Observers are not run. Its loading is the end of the tables, unless `loads` or `approaches`
+        are given.
     loads : sequence of float, optional
         Forces on the window at which to solve [N], ascending.
     approaches : sequence of float, optional
-        Approaches from first touch at which to solve [m], ascending, in the place of loads.
+        Approaches from first touch at which to solve [m], ascending, instead of loads.
     points : int
         Number of loads if none are given, in a geometric series.
     decades : float
-        Over how many powers of ten of the force they reach down; of an approach two thirds of it.
-    ways : int
-        At most so many ways out are solved.
+        Decades of force that they span; of an imposed approach two thirds as many.
+    unloadings : int
+        Number of unloading curves at most.
     accuracy : Accuracy, optional
         Grid and tolerance of each contact.
     progress : callable, optional
-        Called with the share that is done.
+        Called with the completed fraction.
 
     Returns
     -------
@@ -92,24 +93,24 @@ def load_displacement(
     Raises
     ------
     PlanError
-        If the scene has a film or a friction that acts back, which know no such curve.
+        If the scene has a film or a friction that acts back on the contact.
     InfeasibleError
-        If the hardness cannot carry a load, or grows so much with it that dents shrink; or if a
-        periodic window is in full contact, from where on it has no more approach.
+        If the hardness cannot carry a load, or grows so much with it that plastic spots shrink; or
+        if a periodic window is in full contact, where the approach no longer grows.
     DescriptionError
         If a number is impossible.
 
     Notes
     -----
-    The approach counts from the first touch of the undeformed surfaces: in a free window that of
-    points far away, in a periodic one that of the mean planes of the deformed surfaces, so that
-    the bodies behind it have to be added as a spring in series.
+    The approach counts from first touch of the undeformed surfaces: of points far away in an
+    isolated contact, of the mean planes of the deformed surfaces in a periodic window, so that the
+    bodies behind it have to be added as a spring in series.
 
-    On the way out no pixel meets the hardness again, as pressures fall with the approach; so the
-    way is elastic, and pressing again leads back along it and then on along the first curve. For
-    a constant hardness the work lost is the hardness times the plastic volume. A hardness that
-    depends on the load is taken as it was at the largest approach. Left out: pile-up around a
-    plastic spot, the elastic stress locked in, hardening, and time.
+    During unloading no pixel reaches the hardness again, as pressures fall with the approach; so
+    unloading is elastic, and reloading leads back along the same curve and then on along the
+    loading curve. For a constant hardness the dissipated work is the hardness times the plastic
+    volume. A hardness that depends on the load is that at the maximum approach. Left out: pile-up
+    around a plastic spot, residual stress, hardening, and time.
 
     Examples
     --------
@@ -129,31 +130,32 @@ def load_displacement(
     >>> f"{curve.at(50e-9).force:.4f} N, Hertz {4 / 3 * 2.3077e11 * 1e-3**0.5 * 50e-9**1.5:.4f} N"
     '0.1088 N, Hertz 0.1088 N'
     """
-    scene = _plain(scene)
-    key, values = _ladder(scene, loads, approaches, points, decades)
-    n_ways = _count("ways", ways, 1)
-    first = evolve(scene, loading=_loading(key, values[-1]))
-    plan = plan_contact(first, accuracy)  # refuses the largest load before any work
-    tell = progress or (lambda share: None)
+    scene = _without_observers(scene)
+    key, values = _series(scene, loads, approaches, points, decades)
+    n_unloadings = _count("unloadings", unloadings, 1)
+    last = evolve(scene, loading=_loading(key, values[-1]))
+    plan = plan_contact(last, accuracy)  # refuses the maximum load before any solve
+    report = progress or (lambda fraction: None)
     nodes: list[_Node] = []
     before: list[ContactResult] = []
-    # Where pixels are capped, nested grids are a better start than the loads before.
-    is_capped = scene.effect(PressureBound) is not None
+    # With a pressure bound, nested grids are a better start than the loads before.
+    is_bounded = plan.hardness is not None
     for i, value in enumerate(values):
         result = solve(plan.with_loading(_loading(key, value)), start=before or None)
-        before = [] if is_capped else [result, *before][:_MOST_BEFORE]
+        before = [] if is_bounded else [result, *before][:_MAX_BEFORE]
         if result.load > 0.0:
             nodes.append(_node(result, nodes))
-        tell(0.5 * (i + 1) / len(values))
+        report(0.5 * (i + 1) / len(values))
     if len(nodes) < 2:
         raise InfeasibleError(
-            f"only {len(nodes)} of {len(values)} points touch; ask for larger loads or approaches"
+            f"only {len(nodes)} of {len(values)} points touch; impose larger loads or approaches"
         )
-    return _tables(plan, nodes, n_ways, result, tell)
+    computed = _unloadings(plan, nodes, n_unloadings, report)
+    return _tables(plan, nodes, computed, result.approach_datum)
 
 
-def _plain(scene: ContactScene) -> ContactScene:
-    """Leave out what only looks at a contact; refuse what acts back on it."""
+def _without_observers(scene: ContactScene) -> ContactScene:
+    """Leave out effects that observe a contact; refuse those that act back on it."""
     kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureBound))
     acting = [e for e in scene.effects if isinstance(e, DisplacementTerm | LoadTerm)]
     if acting:
@@ -172,14 +174,14 @@ def _count(name: str, value: int, least: int) -> int:
     return value
 
 
-def _ladder(
+def _series(
     scene: ContactScene,
     loads: Sequence[float] | None,
     approaches: Sequence[float] | None,
     points: int,
     decades: float,
 ) -> tuple[str, list[float]]:
-    """What is imposed, and its values."""
+    """Name of the imposed quantity, and its values."""
     if loads is not None and approaches is not None:
         raise DescriptionError("load_displacement", "both", "be given loads [N] or approaches [m]")
     given = loads if loads is not None else approaches
@@ -194,16 +196,16 @@ def _ladder(
     _count("points", points, 4)
     if not (math.isfinite(decades) and decades > 0.0):
         raise DescriptionError("load_displacement(decades)", decades, "be positive and finite")
-    key, most = _imposed(scene.loading)
-    if most <= 0.0:
+    key, last = _imposed(scene.loading)
+    if last <= 0.0:
         where = f"{type(scene.loading).__name__}.{key}"
-        raise DescriptionError(where, most, "be positive for a load-displacement curve")
+        raise DescriptionError(where, last, "be positive for a load-displacement curve")
     reach = decades / HERTZ if key == "approach" else decades
-    return key, [float(x) for x in np.geomspace(most * 10.0**-reach, most, points)]
+    return key, [float(x) for x in np.geomspace(last * 10.0**-reach, last, points)]
 
 
 def _imposed(loading: ContactLoading) -> tuple[str, float]:
-    """Name and value of what is imposed."""
+    """Name and value of the imposed quantity."""
     given = asdict(loading)
     return next((name, value) for name, value in given.items() if value is not None)
 
@@ -223,71 +225,76 @@ def _node(result: ContactResult, nodes: list[_Node]) -> _Node:
     area, overlap = 0.0, None
     if result.has(HardnessLimit) and result.plastic_area > 0.0:
         area, overlap = result.plastic_area, result.of(HardnessLimit).overlap
-    dented = nodes[-1].overlap if nodes else None
-    if dented is not None and (overlap is None or overlap.sum() < 0.999 * dented.sum()):
+    earlier = nodes[-1].overlap if nodes else None
+    if earlier is not None and (overlap is None or overlap.sum() < 0.999 * earlier.sum()):
         raise InfeasibleError(
             f"at {result.load:.6g} N the plastic spots are smaller than at {nodes[-1].force:.6g} "
-            "N: the hardness grows with the load, and the dents of smaller loads are forgotten; "
-            "use HardnessLimit(rule='material') or rule='constant', or end the loads below that"
+            "N: the hardness grows with the load, and residual indentations of smaller loads are "
+            "lost; use HardnessLimit(rule='material') or rule='constant', or end the loads below "
+            "that"
         )
     return _Node(result.approach, result.load, result.contact_area, area, result.pressure, overlap)
 
 
+def _unloadings(
+    plan: ContactPlan, nodes: list[_Node], count: int, report: Progress
+) -> tuple[Unloading, ...]:
+    """Unloading curves from at most `count` of the plastic points."""
+    plastic = [node for node in nodes if node.overlap is not None]
+    if not plastic:
+        return ()
+    begins = nodes.index(plastic[0])
+    chosen = np.unique(np.linspace(begins, len(nodes) - 1, count).round().astype(int))
+    found = []
+    for i, at in enumerate(chosen):
+        if nodes[at].overlap is not None:
+            found.append(_unloading(plan, nodes[at]))
+        report(0.5 + 0.5 * (i + 1) / len(chosen))
+    return tuple(found)
+
+
 def _tables(
-    plan: ContactPlan,
-    nodes: list[_Node],
-    n_ways: int,
-    last: ContactResult,
-    tell: Progress,
+    plan: ContactPlan, nodes: list[_Node], unloadings: tuple[Unloading, ...], datum: str
 ) -> LoadDisplacementCurve:
-    plastic = [i for i, node in enumerate(nodes) if node.overlap is not None]
-    begins = plastic[0] if plastic else len(nodes)
-    limit = nodes[begins - 1].approach if begins else 0.0
-    chosen = np.unique(np.linspace(begins, len(nodes) - 1, n_ways).round().astype(int))
-    picked = [nodes[i] for i in chosen] if plastic else []
-    out = []
-    for i, node in enumerate(picked):
-        if node.overlap is not None:
-            out.append(_way_out(plan, node))
-        tell(0.5 + 0.5 * (i + 1) / len(picked))
+    begins = next((i for i, node in enumerate(nodes) if node.overlap is not None), len(nodes))
     approach, force = [node.approach for node in nodes], [node.force for node in nodes]
     return LoadDisplacementCurve(
         approach=tuple(approach),
         force=tuple(force),
-        # Counted in pixels, areas may fall by rounding of a contact condition.
+        # As pixel counts, areas may decrease by round-off of a contact condition.
         contact_area=tuple(np.maximum.accumulate([node.contact_area for node in nodes])),
         plastic_area=tuple(np.maximum.accumulate([node.plastic_area for node in nodes])),
-        unloading=tuple(out),
-        elastic_limit=limit,
+        unloading=unloadings,
+        elastic_limit=nodes[begins - 1].approach if begins else 0.0,
         nominal_area=plan.grid.area,
-        datum=last.approach_datum,
+        datum=datum,
         error=_error(approach, force),
     )
 
 
 def _error(approach: list[float], force: list[float]) -> float:
-    """Largest relative difference from the table that every other point makes."""
+    """Largest relative difference from the table of every other point."""
     if len(approach) < 5:
-        return 1.0  # nothing to tell it by
+        return 1.0  # too few points for an estimate
     last = (len(approach) - 1) % 2  # the table of every other point must reach to the end
     coarse = power_curve(approach[last::2], force[last::2], HERTZ)
     pairs = zip(approach[last:], force[last:], strict=True)
     return max(abs(coarse(d)[0] / f - 1.0) for d, f in pairs)
 
 
-def _way_out(plan: ContactPlan, node: _Node) -> Unloading:
-    """Solve the elastic contact of the surface that a largest approach leaves."""
+def _unloading(plan: ContactPlan, node: _Node) -> Unloading:
+    """Solve the elastic contact of the surface deformed plastically up to a point."""
     assert node.overlap is not None
     accuracy, heights = plan.accuracy, plan.heights
-    left = heights - node.overlap
-    touch = float(left.max())
+    deformed = heights - node.overlap
+    touch = float(deformed.max())
     residual = float(heights.max()) - touch
     length, pixel = node.approach - residual, plan.grid.pixel_area
     start, found = node.pressure, [(1.0, 1.0, 1.0)]
-    for way in reversed(_WAYS):
+    for fraction in reversed(_FRACTIONS):
         solution = plan.prepared.solver.solve(
-            left,
-            rigid_approach=way * length - touch,
+            deformed,
+            rigid_approach=fraction * length - touch,
             rtol=accuracy.rtol,
             start=start,
             max_iterations=accuracy.max_iterations,
@@ -295,8 +302,8 @@ def _way_out(plan: ContactPlan, node: _Node) -> Unloading:
         )
         if not solution.converged:
             raise ConvergenceError(
-                f"the way out from {node.approach:.6g} m is not solved: contact conditions are "
-                f"violated by {solution.kkt:.2g} of the rms height; raise "
+                f"the unloading curve from {node.approach:.6g} m is not solved: contact conditions "
+                f"are violated by {solution.kkt:.2g} of the rms height; raise "
                 "Accuracy.max_iterations or rtol",
                 solution,
             )
@@ -304,13 +311,13 @@ def _way_out(plan: ContactPlan, node: _Node) -> Unloading:
         force = float(start.sum()) * pixel / node.force
         area = float((start > 0.0).sum()) * pixel / node.contact_area
         if not 0.0 < force <= found[-1][1]:
-            break  # nothing touches to the tolerance any more: below it is the power law
-        found.append((way, force, min(area, found[-1][2])))
+            break  # no contact to the tolerance: below, the power law holds
+        found.append((fraction, force, min(area, found[-1][2])))
     if len(found) == 1:
         raise ConvergenceError(
-            f"the way out from {node.approach:.6g} m is shorter than the tolerance of the solver; "
-            "lower Accuracy.rtol, or begin with larger loads"
+            f"the unloading curve from {node.approach:.6g} m is shorter than the tolerance of the "
+            "solver; lower Accuracy.rtol, or begin with larger loads"
         )
-    shares, forces, areas = zip(*reversed(found), strict=True)
+    fractions, forces, areas = zip(*reversed(found), strict=True)
     volume = float(node.overlap.sum()) * pixel
-    return Unloading(node.approach, residual, shares, forces, areas, volume)
+    return Unloading(node.approach, residual, fractions, forces, areas, volume)

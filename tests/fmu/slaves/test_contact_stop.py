@@ -14,7 +14,7 @@ import pytest
 
 import contactkit as ck
 from contactkit import cli
-from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, StopBranch
+from contactkit.analyses.load_displacement.curve import Branch, LoadDisplacementCurve
 from contactkit.analyses.load_displacement.impact import in_series
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.contents.end_stop import STOP_AREA, bake, default_curve
@@ -40,7 +40,7 @@ def curve():
         loading=ck.Pressing(pressure=80e6),
         effects=(ck.HalfSpace(), ck.HardnessLimit(rule="material")),
     )
-    found = ck.load_displacement(scene, points=24, ways=8, accuracy=ck.Accuracy(grid=64))
+    found = ck.load_displacement(scene, points=24, unloadings=8, accuracy=ck.Accuracy(grid=64))
     return found.scaled(10e-6 / found.nominal_area)
 
 
@@ -75,13 +75,13 @@ def test_it_is_valid_carries_no_numpy_and_says_what_follows(stop_fmu):
 
 def test_it_gives_what_the_curve_gives(host, curve):
     host.start()
-    assert host.get("state") == StopBranch.FREE
+    assert host.get("state") == Branch.FREE
     largest = 0.0
     for share in (-1.0, 0.0, 1e-6, 0.3, 0.7, 0.5, 0.2, 0.6, 0.9, 1.0, 0.95, 0.4, -0.1):
-        depth = share * curve.most
+        depth = share * curve.max_approach
         assert press(host, depth) == OK
         depth = host.get("d")  # after the rounding of h
-        assert depth == pytest.approx(share * curve.most, abs=1e-20)
+        assert depth == pytest.approx(share * curve.max_approach, abs=1e-20)
         point = curve.at(depth, largest)
         largest = max(largest, depth)
         for name, value in zip(("F", "k", "contact_area", "plastic_area"), point, strict=False):
@@ -89,21 +89,21 @@ def test_it_gives_what_the_curve_gives(host, curve):
         assert host.get("state") == point.branch
         assert host.get("d_max") == largest
         assert host.get("d_res") == curve.residual(largest)
-        assert host.get("W") == pytest.approx(curve.lost(largest), rel=1e-9)
+        assert host.get("W") == pytest.approx(curve.dissipated_work(largest), rel=1e-9)
     assert host.get("n_beyond") == 0
 
 
 def test_a_loop_loses_what_it_says(host, curve):
     """By the work that a host sees at its interface."""
     host.start()
-    depths = 0.95 * curve.most * np.sin(np.linspace(0.0, math.pi, 1200))
+    depths = 0.95 * curve.max_approach * np.sin(np.linspace(0.0, math.pi, 1200))
     forces = []
     for depth in depths:
         press(host, depth)
         forces.append(host.get("F"))
     work = np.trapezoid(forces, depths)
     assert work == pytest.approx(host.get("W"), rel=0.01)
-    assert work > 0.1 * curve.work(0.95 * curve.most)
+    assert work > 0.1 * curve.work(0.95 * curve.max_approach)
     again = []
     for depth in depths:  # to the same depth once more: along the way out and back
         press(host, depth)
@@ -115,7 +115,7 @@ def test_a_loop_loses_what_it_says(host, curve):
 def test_a_little_beyond_yield_the_loss_is_that_of_the_forces_it_gives(host, curve):
     """Deeper each time, where the ways out are cut off at the first curve."""
     host.start()
-    limit, one = curve.elastic_limit, curve.unloading[1].largest_approach
+    limit, one = curve.elastic_limit, curve.unloading[1].max_approach
     work = 0.0
     for reach in (0.2, 0.6, 0.8):
         largest = limit + reach * (one - limit)
@@ -131,43 +131,43 @@ def test_a_little_beyond_yield_the_loss_is_that_of_the_forces_it_gives(host, cur
 
 def test_what_is_only_looked_at_is_not_remembered(host, curve):
     host.start()
-    host.set(h=TOUCH + 0.8 * curve.most)
+    host.set(h=TOUCH + 0.8 * curve.max_approach)
     deep = host.get("F")
-    host.set(h=TOUCH + 0.4 * curve.most)
-    assert host.get("F") == pytest.approx(curve.at(0.4 * curve.most).force)
+    host.set(h=TOUCH + 0.4 * curve.max_approach)
+    assert host.get("F") == pytest.approx(curve.at(0.4 * curve.max_approach).force)
     assert host.get("d_max") == 0.0
-    host.set(h=TOUCH + 0.8 * curve.most)
+    host.set(h=TOUCH + 0.8 * curve.max_approach)
     assert host.get("F") == deep
 
 
 def test_a_press_is_taken_back_with_the_state(host, curve):
     host.start()
-    press(host, 0.3 * curve.most)
+    press(host, 0.3 * curve.max_approach)
     state = host.slave.getFMUState()
     data = host.slave.serializeFMUState(state)
-    press(host, 0.9 * curve.most)
-    press(host, 0.25 * curve.most)
+    press(host, 0.9 * curve.max_approach)
+    press(host, 0.25 * curve.max_approach)
     plastic = host.outputs()
-    assert plastic["state"] == StopBranch.UNLOADING or plastic["F"] == 0.0
+    assert plastic["state"] == Branch.UNLOADING or plastic["F"] == 0.0
     host.slave.setFMUState(state)
     host.time = STEP
-    assert host.get("d_max") == pytest.approx(0.3 * curve.most)
-    press(host, 0.9 * curve.most)
-    press(host, 0.25 * curve.most)
+    assert host.get("d_max") == pytest.approx(0.3 * curve.max_approach)
+    press(host, 0.9 * curve.max_approach)
+    press(host, 0.25 * curve.max_approach)
     assert host.outputs() == plastic
     host.slave.setFMUState(host.slave.deSerializeFMUstate(data))
-    assert host.get("W") == pytest.approx(curve.lost(0.3 * curve.most), rel=0.02)
+    assert host.get("W") == pytest.approx(curve.dissipated_work(0.3 * curve.max_approach), rel=0.02)
     host.slave.freeFMUState(state)
-    host.reset().start(d_max0=0.9 * curve.most)
+    host.reset().start(d_max0=0.9 * curve.max_approach)
     assert host.get("W") == 0.0
-    press(host, 0.25 * curve.most)
+    press(host, 0.25 * curve.max_approach)
     assert host.get("F") == pytest.approx(plastic["F"], rel=1e-12)
 
 
 @pytest.mark.parametrize(("side", "sign"), [(1, 1.0), (2, -1.0)])
 def test_it_pushes_out_from_either_side_and_damps(host, curve, side, sign):
     host.start(side=side, d_stop=2.0)
-    depth = 0.5 * curve.most
+    depth = 0.5 * curve.max_approach
     host.set(h=TOUCH + sign * depth, v=sign * 0.1)
     static = curve.at(depth).force
     assert host.get("F") == pytest.approx(1.2 * static)
@@ -182,7 +182,7 @@ def test_it_pushes_out_from_either_side_and_damps(host, curve, side, sign):
 
 def test_bodies_behind_it_are_a_spring_in_series_and_damping_is_counted(host, curve):
     host.start(k_body=1e8, d_stop=1.0)
-    depth, speed = 0.7 * curve.most, 0.05
+    depth, speed = 0.7 * curve.max_approach, 0.05
     for i in range(1, 201):
         press(host, depth * i / 200, speed)
     point, faces = in_series(curve, depth, faces_before := host.get("d"), 1e8)
@@ -195,17 +195,19 @@ def test_bodies_behind_it_are_a_spring_in_series_and_damping_is_counted(host, cu
 
 def test_beyond_its_tables_it_goes_on_and_says_so(host, curve):
     host.start()
-    assert press(host, 1.5 * curve.most) == OK
-    assert host.get("state") == StopBranch.BEYOND
-    assert host.get("F") == pytest.approx(curve.at(1.5 * curve.most, beyond=True).force)
-    assert press(host, 2.0 * curve.most) == OK
+    assert press(host, 1.5 * curve.max_approach) == OK
+    assert host.get("state") == Branch.BEYOND
+    assert host.get("F") == pytest.approx(curve.at(1.5 * curve.max_approach, beyond=True).force)
+    assert press(host, 2.0 * curve.max_approach) == OK
     said = [e.message for e in host.log if "beyond" in e.message]
     assert len(said) == 1
     assert "larger loads" in said[0]
     assert host.get("n_beyond") == 2
-    press(host, 0.99 * curve.most)
-    assert host.get("state") == StopBranch.UNLOADING
-    assert host.get("F") == pytest.approx(curve.at(0.99 * curve.most, curve.most).force)
+    press(host, 0.99 * curve.max_approach)
+    assert host.get("state") == Branch.UNLOADING
+    assert host.get("F") == pytest.approx(
+        curve.at(0.99 * curve.max_approach, curve.max_approach).force
+    )
     assert press(host, 1e300) == DISCARD or math.isfinite(host.get("F"))
 
 
@@ -219,14 +221,14 @@ def test_beyond_its_tables_it_goes_on_and_says_so(host, curve):
 )
 def test_inputs_that_are_no_numbers_are_refused(host, curve, set_it, said):
     host.start()
-    press(host, 0.5 * curve.most)
+    press(host, 0.5 * curve.max_approach)
     before = host.outputs()
     host.set(**set_it)
     assert host.step(STEP) == DISCARD
     assert said in host.errors[0]
     assert host.outputs() == before
     host.reset().start()
-    assert press(host, 0.5 * curve.most) == OK
+    assert press(host, 0.5 * curve.max_approach) == OK
 
 
 @pytest.mark.parametrize(
@@ -268,7 +270,7 @@ def test_the_default_is_the_stop_of_the_injector():
     curve = LoadDisplacementCurve.from_data(data["curve"])
     assert curve == default_curve()
     assert start["scale"] * curve.force[-1] == pytest.approx(100e6 * STOP_AREA)
-    assert 0.0 < curve.elastic_limit < curve.most
+    assert 0.0 < curve.elastic_limit < curve.max_approach
     assert curve.error < 0.05
     assert bake("valve-drive", {}) == {}
     for wrong in (3.0, {"approach": []}):

@@ -96,7 +96,7 @@ def test_a_blow_loses_the_area_of_its_loop(curve, dry, speed):
     first = energy(made, state, 1e-15)
     _, off = until_off(made, stop, speed, 1e-15)
     # Going on to a hop's top and back changes nothing: only spring and site act.
-    assert off.landing_loss == pytest.approx(curve.lost(off.largest), rel=1e-9)
+    assert off.landing_loss == pytest.approx(curve.dissipated_work(off.largest), rel=1e-9)
     assert first - energy(made, off, root.height) == pytest.approx(off.landing_loss, rel=2e-4)
     assert off.depth == off.dent == curve.residual(off.largest)
     assert off.peak == pytest.approx(curve.at(off.largest).force, rel=1e-5)
@@ -155,13 +155,13 @@ def test_a_stiff_dead_site_is_the_rigid_one(dry):
 
 def dead_curve(factor):
     one = hertz(factor)
-    dead = tuple(u._replace(residual_approach=0.999 * u.largest_approach) for u in one.unloading)
+    dead = tuple(u._replace(residual_approach=0.999 * u.max_approach) for u in one.unloading)
     low = 1e-5 * one.approach[0]  # yields from the start
     return evolve(
         one,
         unloading=(
             dead[0]._replace(
-                largest_approach=one.approach[0], residual_approach=0.999 * one.approach[0]
+                max_approach=one.approach[0], residual_approach=0.999 * one.approach[0]
             ),
             *dead,
         ),
@@ -215,7 +215,7 @@ def test_beyond_its_curve_it_is_refused(dry):
 
 def test_what_springs_back_is_what_the_curve_says(curve):
     deep = 2e-9
-    assert sprung_back(curve, deep, deep) == pytest.approx(curve.recoverable(deep), rel=0.02)
+    assert sprung_back(curve, deep, deep) == pytest.approx(curve.elastic_work(deep), rel=0.02)
     assert sprung_back(curve, 0.2 * deep, deep) == 0.0
 
 

@@ -45,7 +45,7 @@ def end_stop_impacts(scene: InjectorScene, run: InjectorRun) -> EndStopImpacts |
     approach = in_series(curve, depth, 0.0, stop.stiffness, beyond=True)[1]
     # Magnet and spring push as much out as in: the gap is the same.
     lost = 0.5 * (scene.loading.mass or 0.0) * (came * came - left * left)
-    taken = curve.lost(min(approach, curve.most))
+    taken = curve.dissipated_work(min(approach, curve.max_approach))
     peak = float(run.coupled["F_stop"].max())
     return EndStopImpacts(peak, depth, approach, lost, abs(left / came), taken)
 
@@ -63,7 +63,7 @@ def end_stop_numbers(
         if found is None:
             lines.append(f"stop, {run.label}: never met")
             continue
-        beyond = " BEYOND THE TABLES" if found.approach > curve.most else ""
+        beyond = " BEYOND THE TABLES" if found.approach > curve.max_approach else ""
         lines.append(
             f"stop, {run.label}: at most {found.peak:.1f} N, {found.depth * 1e6:.3f} um deep, of "
             f"which the faces {found.approach * 1e9:.1f} nm{beyond}; the first impact dissipates "
