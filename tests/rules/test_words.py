@@ -77,7 +77,6 @@ NOT_YET = (
     "tests/*",
     "fmu/*",
     "models/*",
-    "contactkit/analyses/load_displacement/*",
     "contactkit/app/*",
     "contactkit/contact/*",
     "contactkit/numerics/*",
