@@ -184,9 +184,9 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
             label="limit of the liquid acts",
         )
     ax.set(xlabel=label_axis(COLUMNS["gap"], "um"), ylabel="force [N]", xscale="log")
-    held = [result[one.name] for one in drawn if one.name != "newtonian_force"]
-    top = max([0.0, *(float(curve.max()) for curve in (*held, *(result[p.name] for p in pull)))])
-    bottom = min([0.0, *(float(curve.min()) for curve in held)])
+    shown = [result[one.name] for one in drawn if one.name != "newtonian_force"]
+    top = max([0.0, *(float(curve.max()) for curve in (*shown, *(result[p.name] for p in pull)))])
+    bottom = min([0.0, *(float(curve.min()) for curve in shown)])
     if top > bottom:  # otherwise there is no force
         ax.set_ylim(1.1 * bottom, 1.15 * top)
     plain_log(ax.xaxis)

@@ -45,12 +45,12 @@ def _sources_of_materials() -> Mapping[str, str]:
 
 def material_table() -> str:
     """Materials of the library, with the sources in its comments."""
-    told, rows = _sources_of_materials(), []
+    found, rows = _sources_of_materials(), []
     for name in tomllib.loads((DATA / "materials.toml").read_text("utf-8")):
         one = ck.load_material(name)
         hardness = f"{one.hardness / 1e9:g}" if one.hardness else "-"
         modulus = f"{one.young_modulus / 1e9:g}"
-        rows.append((f"`{name}`", modulus, f"{one.poisson_ratio:g}", hardness, told[name]))
+        rows.append((f"`{name}`", modulus, f"{one.poisson_ratio:g}", hardness, found[name]))
     return grid(("material", "E [GPa]", "nu", "H [GPa]", "where it comes from"), rows)
 
 

@@ -28,7 +28,7 @@ from contactkit.capillary.flats import force_law as flat_law
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.python.build import build
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw
-from contactkit.models.injector.monolithic import simulate as whole
+from contactkit.models.injector.monolithic import simulate as simulate_monolithic
 from contactkit.units import celsius
 
 CASES = json.loads(
@@ -152,7 +152,7 @@ def step_cost(fmu: Path) -> str:
     return "\n".join(lines)
 
 
-def _forget() -> None:
+def _clear_caches() -> None:
     """Clear the caches of bridges, so that a plan is made as in a fresh process."""
     for module in (flat_law, flat_family, bridge_limit, bridge_film):
         for made in vars(module).values():
@@ -215,7 +215,7 @@ def _law_row(name: str, scene: ck.SeparationScene, profile: str) -> str:
     one = evolve(scene, effects=(ck.MeniscusForce(profile=profile),))
 
     def make() -> Any:
-        _forget()
+        _clear_caches()
         return ck.plan(one)
 
     made = _cpu_seconds(make)
@@ -256,7 +256,7 @@ def tension_table() -> str:
             swap = (ck.TensionLimit(tension=bar * 1e5),) if math.isfinite(bar) else ()
             others = tuple(e for e in film.effects if not isinstance(e, ck.TensionLimit))
             made = ck.plan(evolve(film, effects=(*others, *swap)))
-            delay = whole(made, injector.valve, 5e-3).cycles[0].release_time
+            delay = simulate_monolithic(made, injector.valve, 5e-3).cycles[0].release_time
             cells.append("never" if math.isnan(delay) else f"{delay * 1e3:.3f}")
         label = f"{bar:g} bar" if math.isfinite(bar) else "none"
         lines.append(f"| {label} | " + " | ".join(cells) + " |")
@@ -264,7 +264,7 @@ def tension_table() -> str:
 
 
 def healing_table() -> str:
-    """Gap left at the end of each cycle if the film never breaks and so heals at once."""
+    """Gap left at the end of each cycle if the film never breaks and re-wets at once."""
     injector = open_scene("fuel-injector").scene
     profile, rest = injector.valve.profile, injector.loading.rest_gap
     ends = [profile.start_delay + (n + 1) * profile.period for n in range(profile.cycles)]
@@ -273,7 +273,9 @@ def healing_table() -> str:
     for temperature in injector.study.temperatures:
         film = injector.separation(temperature)
         kept = tuple(e for e in film.effects if not isinstance(e, ck.Rupture))
-        found = whole(ck.plan(evolve(film, effects=kept)), injector.valve, ends[-1], times=ends)
+        found = simulate_monolithic(
+            ck.plan(evolve(film, effects=kept)), injector.valve, ends[-1], times=ends
+        )
         short = " | ".join(f"{(gap - rest) * 1e6:.2f}" for gap in found.columns["gap"])
         lines.append(f"| {temperature - celsius(0.0):.0f} degC | {short} |")
     return "\n".join(lines)

@@ -34,15 +34,15 @@ P_HERTZ = 2.0 * A0 * MODULUS / (math.pi * RADIUS)
 def stack(layers: Sequence[Sequence[float]], unit: float = E, length: float = A0) -> ck.Stack:
     """Layers of (modulus, thickness) in units of a substrate and a length."""
 
-    def material(share: float) -> ck.Material:
-        return ck.Material(young_modulus=share * unit, poisson_ratio=NU)
+    def material(ratio: float) -> ck.Material:
+        return ck.Material(young_modulus=ratio * unit, poisson_ratio=NU)
 
     made = tuple(ck.Layer(material=material(e), thickness=h * length) for e, h in layers)
     return ck.Stack(layers=made, substrate=material(1.0))
 
 
 def sphere(solid: ck.Stack, width: float, cells: int, *effects: Any) -> ck.ContactResult:
-    """Rigid sphere on a solid, without neighbours."""
+    """Rigid sphere on a solid, an isolated contact."""
     scene = ck.ContactScene(
         interface=ck.Interface(
             lower=ck.Body(solid=solid), upper=ck.Body(surface=ck.Paraboloid(radius=RADIUS))

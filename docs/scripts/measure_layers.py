@@ -39,8 +39,8 @@ class Cost(NamedTuple):
 def stack(layers: tuple[tuple[float, float], ...]) -> ck.Stack:
     """Layers of one Poisson's ratio."""
 
-    def material(share: float) -> ck.Material:
-        return ck.Material(young_modulus=share * MODULUS, poisson_ratio=0.3)
+    def material(ratio: float) -> ck.Material:
+        return ck.Material(young_modulus=ratio * MODULUS, poisson_ratio=0.3)
 
     made = tuple(ck.Layer(material=material(e), thickness=h * WIDTH) for e, h in layers)
     return ck.Stack(layers=made, substrate=material(1.0))

@@ -93,10 +93,10 @@ def descriptions(kind: type) -> dict[str, str]:
         part = re.search(r"^Parameters\n-+\n(.*?)(?=^\w[\w ]*\n-+\n|\Z)", text, re.M | re.S)
         for entry in re.split(r"\n(?=\S)", part[1]) if part else ():
             head, _, body = entry.partition("\n")
-            told = re.sub(r":math:`\\?", "`", " ".join(body.split()).replace("``", "`"))
+            meaning = re.sub(r":math:`\\?", "`", " ".join(body.split()).replace("``", "`"))
             for name in head.partition(" : ")[0].split(", "):
-                if told and not told.startswith("See "):
-                    found.setdefault(name, told)
+                if meaning and not text.startswith("See "):
+                    found.setdefault(name, meaning)
     return found
 
 
@@ -120,10 +120,10 @@ def default(field: attrs.Attribute[Any]) -> str:
 
 def keys(kind: type) -> str:
     """Keys of a table in a file: the fields of a class."""
-    told, rows = descriptions(kind), []
+    texts, rows = descriptions(kind), []
     for field in attrs.fields(kind):
         unit = field.metadata.get("unit", "")
-        text = re.sub(r" \[[^]]{1,10}\]", "", told[field.name])
+        text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
         rows.append((f"`{field.alias}`", unit, default(field), text))
     return grid(("key", "unit", "default", "meaning"), rows)
 
@@ -134,8 +134,8 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
     for name, kind in kinds:
         summary = inspect.cleandoc(kind.__doc__ or "").partition("\n")[0]
         fields = keys(kind) if attrs.fields(kind) else "No keys of its own."
-        told = summary.replace("``", "`")
-        parts.append(f'**`{tag} = "{name}"`**: {told}\n\n{fields}')
+        text = summary.replace("``", "`")
+        parts.append(f'**`{tag} = "{name}"`**: {text}\n\n{fields}')
     return "\n\n".join(parts)
 
 

@@ -15,7 +15,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 
-# What is searched for (names are split at underscores), and the term to use in its place.
+# What is searched for (names are split at underscores), and the term to use in its place. "Arc"
+# is the name of the circular approximation (`arc_bridge`), "drive" that of the valve's actuator.
 TERMS = {
     r"\bways? (out|back|in)\b|\bon (the|its) way (out|back|in)\b": "unloading curve, loading curve",
     r"\bstop curves?\b": "load-displacement curve",
@@ -64,6 +65,20 @@ TERMS = {
     r"\bplain numbers\b": "floats",
     r"\bfront door\b": "entry point",
     r"\beither way out\b|\bboth ways\b": "in both directions",
+    r"\b(way|ways) backs?\b|^(way back|ready ways)$": "unloading curve, unloading branch",
+    r"^recoverable$": "elastic",
+    r"\b(to|below|within|by) rounding\b": "round-off",
+    r"\brigid level\b": "rigid-body approach",
+    r"\b(film|viscous) resistance\b|\bresistance of (the|a) (film|liquid)\b"
+    r"|\bdrag of (the|a) film\b": "damping coefficient, viscous force",
+    r"\bdrives? (a|an|the|its) (FMU|motion|mass|film)\b": "loading, excitation; to step an FMU",
+    r"\bboth sides agree\b|\bthe two sides of\b|\bways? of a? ?master\b|^forget$": "subsystems",
+    r"\bone system\b(?! structure)": "monolithic model",
+    r"\bcounted pixels?\b|\bcorrected at (the|its) edges\b": "pixel count, edge-corrected area",
+    r"\bbears? (any|no|a tension|\d+ bar)\b": "tensile limit of the liquid",
+    r"\bwithout neighbours\b": "isolated contact",
+    r"^told$": "reported, stated",
+    r"^(stop|faces) blows?$|^blows?$": "impact",
 }
 # Where one of them is the right word: pattern of the path, phrase, reason.
 DELIBERATE: list[tuple[str, str, str]] = [
