@@ -1,4 +1,4 @@
-"""Every effect there is: `EFFECTS` is the whole registry, and names in files come from it."""
+"""Registry of all effects, `EFFECTS`, from which files take their names."""
 
 from __future__ import annotations
 

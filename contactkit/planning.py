@@ -1,4 +1,4 @@
-"""`plan`, for any scene."""
+"""Plan of any scene: `plan`."""
 
 from __future__ import annotations
 

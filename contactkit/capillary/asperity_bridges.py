@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ..errors import ConvergenceError
+from ..numerics.quadrature import gauss_legendre
 from .asperities import normal_tail
 from .condensed import max_gap_on_sphere
 from .exact.at_pressure import bridge_at_pressure
@@ -67,7 +68,7 @@ def gaussian_average(
     touching = float(force(np.zeros(()))) * normal_tail(b)
     if high <= low:
         return touching
-    nodes, weights = _NODES
+    nodes, weights = map(np.array, gauss_legendre(64))
     # In the square root of the distance to the maximum gap the force is smooth.
     first, last = math.sqrt((low - a) * spread / reach), math.sqrt((high - a) * spread / reach)
     left = first + (last - first) * nodes
@@ -76,11 +77,3 @@ def gaussian_average(
     gap = separation - spread * t
     step = 2.0 * left * (reach / spread) * (last - first)
     return touching + float((weights * step * density * force(gap)).sum())
-
-
-def _unit_nodes(n: int) -> tuple[Floats, Floats]:
-    x, w = np.polynomial.legendre.leggauss(n)
-    return 0.5 * (x + 1.0), 0.5 * w
-
-
-_NODES = _unit_nodes(64)

@@ -1,13 +1,17 @@
-"""What a user describes: bodies, liquids, interface, loading and scenes.
+"""Scene objects: bodies, liquids, interface, loading and scenes; base classes of plan and result.
 
-asperity_population  The summits of a rough surface as a population of spheres.
-bodies               What is pressed together: two bodies, perhaps a liquid between them, and the wi
-contact_scene        A contact, and which physics it calls for. What is not listed is not run.
-imposed              Motions that are imposed besides a plain opening: sliding at a held gap, and a
-interface            Two bodies, the liquid between them, and what pulls them apart.
-materials            What the bodies are made of: materials, and layers of them bonded to a substrat
-meniscus             The liquid between two bodies: how much of it, or at which pressure, and how it
-scenes               What is there, and which physics it calls for. What is not listed is not run.
-shapes               The surfaces a liquid film lies between.
-topography           Surfaces of bodies in contact: recipes that are made into heights on a grid whe
+materials            Materials, and stacks of layers bonded to a substrate.
+surfaces             Base class of all surfaces; flat, sphere, paraboloid and wave.
+rough_surfaces       Random roughness, height maps, and sums of surfaces.
+asperity_population  Summits of a rough surface as a population of spheres.
+meniscus             Liquid between two bodies: its amount and its contact angles.
+interface            Two bodies and the meniscus between them; the conventions of signs.
+window               Part of the interface that a contact is solved in, and its grid.
+loading              Imposed speed, force or time; pressing or approach; sliding.
+effect               Base class of all effects, and their registry.
+scenes               Contact, separation and sliding: interface, loading and effects.
+plan                 Base class of all plans.
+result               Base class of all results.
+column               Name, unit, label and line of a quantity.
+validity             Numbers that state whether a model is in its range.
 """

@@ -8,7 +8,7 @@ __all__ = ["Column"]
 
 
 class Column(NamedTuple):
-    """How a quantity is called in tables, files, plots and FMUs.
+    """Name, unit and label of a quantity in tables, files, plots and FMUs.
 
     `color` and `style` are those of its line in a figure, as matplotlib takes them; without a
     colour a figure takes the next free one.

@@ -1,4 +1,4 @@
-"""A piece of physics that a scene may list: the base class of all effects, and their registry."""
+"""Base class of all effects, the physics that a scene may list, and their registry."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Effect(abc.ABC):
     @property
     @abc.abstractmethod
     def sources(self) -> tuple[str, ...]:
-        """Where the equations of this choice come from."""
+        """Sources of the equations of this choice."""
 
     def cites(self, scene: Any) -> tuple[str, ...]:
         """Sources of what this choice computes for a scene; all of them, unless it depends."""

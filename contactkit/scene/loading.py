@@ -1,4 +1,4 @@
-"""What is imposed on two bodies: a separation, a contact or a sliding, one class per kind.
+"""Loadings: what is imposed in a separation, a contact or a sliding, one class per kind.
 
 The gap is positive when open; travel and tangential force are positive in the direction of
 sliding. A field that does not belong to a kind cannot be written.
@@ -35,14 +35,14 @@ __all__ = [
 
 @frozen(kw_only=True)
 class Loading(abc.ABC):
-    """What is imposed. Its kind is its name in files."""
+    """A loading of two bodies; its kind is its name in files."""
 
     kind: ClassVar[str]
 
     @property
     @abc.abstractmethod
     def summary(self) -> str:
-        """What is imposed in a few words, for the head of a plan."""
+        """The loading in a few words, for the head of a plan."""
 
 
 def _exactly_one(loading: Loading, **units: str) -> str:
@@ -127,11 +127,11 @@ class Vibration:
         return math.tau * self.frequency * time + self.phase
 
     def offset(self, time: float) -> float:
-        """What the vibration adds to the gap [m] at a time [s]."""
+        """Part of the gap [m] that is due to the vibration, at a time [s]."""
         return self.amplitude * math.sin(self.angle(time))
 
     def speed(self, time: float) -> float:
-        """What the vibration adds to the opening speed [m/s] at a time [s]."""
+        """Part of the opening speed [m/s] that is due to the vibration, at a time [s]."""
         return math.tau * self.frequency * self.amplitude * math.cos(self.angle(time))
 
 
@@ -256,7 +256,7 @@ SEPARATION_LOADINGS: tuple[type[SeparationLoading], ...] = (ImposedSpeed, Impose
 
 @frozen(kw_only=True)
 class ContactLoading(Loading):
-    """How two bodies are brought into contact."""
+    """A loading that brings two bodies into contact."""
 
     @abc.abstractmethod
     def mean_pressure(self, area: float) -> float | None:
@@ -337,7 +337,7 @@ CONTACT_LOADINGS: tuple[type[ContactLoading], ...] = (Pressing, Approach)
 
 @frozen(kw_only=True)
 class Sliding(Loading):
-    """How one body slides past the other, the gap held. One of `speed` and `time` is imposed.
+    """A sliding of one body past the other at a held gap; `speed` or `time` is imposed.
 
     Parameters
     ----------
@@ -368,7 +368,7 @@ class Sliding(Loading):
 
     @property
     def imposed(self) -> Literal["speed", "time"]:
-        """What is imposed."""
+        """Name of the imposed quantity."""
         return "speed" if self.speed is not None else "time"
 
     @property

@@ -1,4 +1,4 @@
-"""What the bodies are made of: materials, and layers of them bonded to a substrate."""
+"""Materials, and stacks of layers bonded to a substrate."""
 
 from __future__ import annotations
 

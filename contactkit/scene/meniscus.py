@@ -123,7 +123,7 @@ class Meniscus:
         contact_angle_lower: float = 0.0,
         contact_angle_upper: float = 0.0,
     ) -> Meniscus:
-        r"""Menisci that cover a share of a face: their `volume` follows from a gap.
+        r"""Menisci that cover a fraction of a face: their `volume` follows from a gap.
 
         .. math:: V = f A h
 
@@ -132,7 +132,7 @@ class Meniscus:
         liquid : Liquid
             What it is.
         coverage : float
-            Share f of the face under the menisci [-], above 0 and up to 1.
+            Fraction f of the face under the menisci [-], above 0 and up to 1.
         area, gap : float
             Area A of the face [m2] and gap h [m] at which it is covered, between flats.
         count, contact_angle_lower, contact_angle_upper

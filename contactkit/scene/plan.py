@@ -1,4 +1,4 @@
-"""What every plan offers: the effects that are on and off, and their sources."""
+"""Base class of all plans: the effects that are on and off, and their sources."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class ScenePlan(abc.ABC):
     @property
     @abc.abstractmethod
     def scene(self) -> _Scene:
-        """What is simulated."""
+        """Scene that is simulated."""
 
     @property
     @abc.abstractmethod
     def accuracy(self) -> Accuracy:
-        """How well it is solved."""
+        """Numerical accuracy of the solution."""
 
     @property
     @abc.abstractmethod

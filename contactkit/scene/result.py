@@ -1,4 +1,4 @@
-"""What every result offers: its plan and sources, its status, numbers and columns, and a file."""
+"""Base class of all results: plan and sources, status, numbers and columns, and a file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Result"]
 
 
 class Result(abc.ABC):
-    """What a plan gives when it is run: curves or maps, numbers, and what each effect did.
+    """Result of a plan: curves or maps, numbers, and the part of each effect.
 
     ``result["gap"]`` is a column by its name, ``result.of(kind)`` what an effect did, and
     ``print(result)`` the status with all numbers.
@@ -29,17 +29,17 @@ class Result(abc.ABC):
     @property
     @abc.abstractmethod
     def plan(self) -> ScenePlan:
-        """What was run."""
+        """Plan that was run."""
 
     @property
     @abc.abstractmethod
     def status(self) -> str:
-        """How the run ended, in a word."""
+        """End of the run, in a word."""
 
     @property
     @abc.abstractmethod
     def message(self) -> str:
-        """How the run ended, in a sentence."""
+        """End of the run, in a sentence."""
 
     @property
     @abc.abstractmethod
@@ -80,7 +80,7 @@ class Result(abc.ABC):
 
     @abc.abstractmethod
     def _refuse(self, name: str) -> None:
-        """Say why a column is not there, where something else would have to be simulated."""
+        """Refuse a column that only another scene has, and name what that would have to list."""
 
     def save(self, path: str | Path) -> Path:
         """Write the result to an npz file without pickle; `load_result` reads it."""

@@ -1,4 +1,4 @@
-"""Scenes: what is there, what is imposed, and which physics they call for. No more is run."""
+"""Scenes: an interface, its loading, and the effects to simulate; no others are run."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _E = TypeVar("_E", bound=Effect)
 
 @frozen(kw_only=True)
 class Scene:
-    """What every scene has: two bodies, what is imposed on them, and the effects to simulate."""
+    """Two bodies, their loading, and the effects to simulate: the base class of all scenes."""
 
     name: str = ""
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))

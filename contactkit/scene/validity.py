@@ -1,4 +1,4 @@
-"""Whether a model stayed inside its range: a number of a result, and the warning it may cause."""
+"""Numbers that state whether a model is in its range, and the warning if one is not."""
 
 from __future__ import annotations
 

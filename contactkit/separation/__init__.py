@@ -1,14 +1,16 @@
-"""Separation of wetted surfaces: plan, simulate, result.
+"""Separation and sliding of wetted surfaces: plan, simulate, result.
 
-columns         The curves of a separation: the one table from which files, plots and results take n
-constant_force  Time that a constant pull takes to open the film of a plan, for a massless body.
-errata          What is wrong with the printed equations a scene takes, at its start, with the right
-film            The forces of a scene made ready to be called: of the film, and of the solids beside
-parts           What single effects did in a separation, as a result gives it by `of`.
-plan            A scene made ready to run: what will be simulated can be read before it is.
-prescribed      Separations of which the motion is given: forces at a speed, the impulse within a ti
-results         What a separation gives: curves, numbers, and how well they can be trusted.
-simulate        Run a plan: the curve of a speed, the impulse of a time, or the motion under a pull.
-validity        Whether each model stayed inside its range: numbers printed with every result.
-vibration       An opening at an imposed speed while the gap vibrates: forces over the cycles, and t
+effects     Forces, limits and ends of the film that a scene may list.
+plan        Plan of a separation: the checked scene, its liquid, and each effect prepared once.
+bodies      Checks of the two bodies: rigid, flats or spheres, with room for the film.
+film        Sum of the prepared forces, and the limits of the liquid.
+simulate    Run of a plan: curve of a speed, impulse of a time, or motion under a pull.
+prescribed  Separations at an imposed speed, or within an imposed time.
+vibration   Separation at an imposed speed with a vibration of the gap.
+motion      Motion of a mass under a pull: state, events, time steps.
+integrator  Implicit integration of a mass on a stiff film.
+results     Result of a separation: curves, numbers, ranges of validity, and cost.
+columns     Curves of the motion and of the state of the film.
+validity    Numbers of validity along a run.
+sliding     One wetted surface sliding past another.
 """

@@ -1,4 +1,4 @@
-"""Checks of the two bodies of a film: rigid, each a flat or a sphere, with room for the film."""
+"""Checks of the two bodies: rigid unless an effect uses solids, flats or spheres, wide enough."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The curves of a separation that belong to no effect: its motion, and the state of its film."""
+"""Curves of a separation that belong to no effect: its motion, and the state of its film."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The forces of a scene made ready to be called: of the film, and of the solids beside it."""
+"""Sum of the prepared forces of film and solids, with the limits of the liquid."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class Film:
     """The forces of a film of one volume, ready to be evaluated at any gap and speed.
 
     Forces of the solids are among the `laws` too: they stay when the film breaks, which it does
-    at `end`. A solid contact lets go at `release`, and is there again once the gap has closed to
-    `rejoin` (all in metres; inf and 0 where there is none).
+    at `end`. A solid contact pulls off at `release`, and is there again once the gap has closed to
+    `recontact` (all in metres; inf and 0 where there is none).
     """
 
     laws: Mapping[type[SeparationForce], ForceLaw]
@@ -33,7 +33,7 @@ class Film:
     full_gap: float
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
-    rejoin: float = field(init=False)
+    recontact: float = field(init=False)
     # The same laws, split once: these are called some ten times per internal step.
     _viscous: ViscousLaw | None = field(init=False, repr=False)
     _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
@@ -49,9 +49,9 @@ class Film:
     def _find_release(self) -> float:
         return min((law.release for law in self.laws.values()), default=math.inf)
 
-    @rejoin.default
-    def _find_rejoin(self) -> float:
-        return max((law.rejoin for law in self.laws.values()), default=0.0)
+    @recontact.default
+    def _find_recontact(self) -> float:
+        return max((law.recontact for law in self.laws.values()), default=0.0)
 
     @_viscous.default
     def _find_viscous(self) -> ViscousLaw | None:
@@ -75,8 +75,8 @@ class Film:
         """Whether a viscous force is among the laws."""
         return self._viscous is not None
 
-    def left(self, *, broken: bool, detached: bool) -> Film | None:
-        """Return what acts once the film is broken, or the solids have let go; None if nothing."""
+    def remaining(self, *, broken: bool, detached: bool) -> Film | None:
+        """Film without the forces that rupture or pull-off ends; None if no force remains."""
         laws = {
             kind: law
             for kind, law in self.laws.items()

@@ -1,4 +1,4 @@
-"""A scene made ready to run: what will be simulated can be read before it is."""
+"""Plan of a separation: the checked scene, its liquid, and each effect prepared once."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ __all__ = ["Film", "FilmState", "Plan", "plan"]
 
 
 class FilmState(NamedTuple):
-    """What of a film and its solids is there.
+    """State of a film and of the contact of its solids.
 
     `volume_fraction` is the volume of the film over that of the scene; the film may be `broken`,
     and the solids `detached`.
@@ -63,20 +63,22 @@ class Plan(ScenePlan):
 
     @property
     def scene(self) -> SeparationScene:
-        """What is simulated."""
+        """Scene that is simulated."""
         return self.prepared.scene
 
     @property
     def accuracy(self) -> Accuracy:
-        """How well it is solved."""
+        """Numerical accuracy of the solution."""
         return self.prepared.accuracy
 
     def film_with(self, volume_fraction: float) -> Film:
         """Return the film of the volume of the scene, or of what re-wets of it."""
         return self._films[volume_fraction]
 
-    def film_left(self, volume_fraction: float, *, broken: bool, detached: bool) -> Film | None:
-        """Return what acts in a state: all, or what a broken film and parted solids leave."""
+    def remaining_film(
+        self, volume_fraction: float, *, broken: bool, detached: bool
+    ) -> Film | None:
+        """Return what acts in a state: all, or what a broken film and detached solids leave."""
         return self._left[FilmState(volume_fraction, broken, detached)]
 
     @property
@@ -169,13 +171,13 @@ def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: Liquid
 
 
 def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]:
-    """What a film that lets go, and an imposed force or time, want besides."""
+    """Needs of a film that ends, and of an imposed force or time."""
     problems: list[str] = []
     loading = scene.loading
     massless = isinstance(loading, ImposedForce) and loading.mass is None
     if massless:
         problems += [
-            f"{type(e).__name__} needs loading.mass [kg]: where the film lets go, nothing else "
+            f"{type(e).__name__} needs loading.mass [kg]: once the film has ended, nothing else "
             f"sets the speed"
             for e in scene.effects
             if isinstance(e, FilmLimit | FilmEnd)
@@ -262,7 +264,7 @@ def _rewetted(prepared: PreparedScene[SeparationScene], film: Film) -> dict[floa
     fraction, volume = meniscus.rewetting, meniscus.volume
     if not 0.0 < fraction < 1.0:
         return {}
-    if volume is None:  # a bath, or the vapour, gives back all of it
+    if volume is None:  # flooded, or in vapour: all of it is there again
         return {fraction: film}
     less = evolve(meniscus, volume=fraction * volume)
     scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
@@ -272,7 +274,7 @@ def _rewetted(prepared: PreparedScene[SeparationScene], film: Film) -> dict[floa
 def _states(films: Mapping[float, Film]) -> dict[FilmState, Film | None]:
     """What acts in each state that a motion may find."""
     return {
-        FilmState(fraction, broken, detached): film.left(broken=broken, detached=detached)
+        FilmState(fraction, broken, detached): film.remaining(broken=broken, detached=detached)
         if broken or detached
         else film
         for fraction, film in films.items()

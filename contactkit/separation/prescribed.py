@@ -1,4 +1,4 @@
-"""Separations of which the motion is given: forces at a speed, the impulse within a time."""
+"""Separations of imposed motion: forces at a speed, or the impulse within a time."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ def frozen(values: object) -> NDArray[np.float64]:
 def _grid(plan: Plan) -> list[float]:
     """Gaps of a curve, closer where the film is thin, up to the end of all forces.
 
-    Where something lets go before, the last gap that it spans is one of them.
+    The gap at which a film or a contact ends before is one of them.
     """
     loading, film = plan.scene.loading, plan.film
     low, high = loading.initial_gap, loading.final_gap
-    if film.left(broken=True, detached=False) is None:  # no force of the solids is left
+    if film.remaining(broken=True, detached=False) is None:  # no force of the solids is left
         high = min(high, film.end)
     # An offset keeps the first step finite where the curve begins at a touching sphere.
     offset = 0.0 if low > 0.0 else 1e-3 * high
@@ -46,15 +46,13 @@ def _grid(plan: Plan) -> list[float]:
 
 
 def acting(plan: Plan, gap: float) -> Film | None:
-    """What acts at a gap [m] of a plan that is opened once."""
+    """Forces that act at a gap [m] of a plan that is opened once."""
     film = plan.film
-    return plan.film_left(1.0, broken=gap > film.end, detached=gap > film.release)
+    return plan.remaining_film(1.0, broken=gap > film.end, detached=gap > film.release)
 
 
-def at_speed(plan: Plan, begun: float) -> SeparationResult:
+def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResult:
     """Forces along the gap at an imposed speed."""
-    loading = plan.scene.loading
-    assert isinstance(loading, ImposedSpeed)
     speed, gaps = loading.speed, _grid(plan)
     rows = [_forces(plan, gap, speed) for gap in gaps]
     columns = {
@@ -141,7 +139,7 @@ def newtonian_impulses(plan: Plan) -> dict[str, float]:
     return {"viscous_impulse": value, "newtonian_impulse": value}
 
 
-def within_time(plan: Plan, begun: float) -> SeparationResult:
+def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationResult:
     """Impulse and mean force of an opening of which only the duration is given."""
     gaps = _grid(plan)
     columns = {"gap": frozen(gaps)}
@@ -153,9 +151,7 @@ def within_time(plan: Plan, begun: float) -> SeparationResult:
         impulses = newtonian_impulses(plan)
         impulse, last = plan.film.newtonian_impulse, plan.film.end
         columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
-    loading = plan.scene.loading
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
-    assert isinstance(loading, ImposedTime)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

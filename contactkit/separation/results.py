@@ -1,4 +1,4 @@
-"""What a separation gives: curves, numbers, and how well they can be trusted."""
+"""Result of a separation: curves, numbers, ranges of validity, and cost."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class _HasPart(Protocol[P_co]):
 
 
 class Work(NamedTuple):
-    """What a run cost."""
+    """Cost of a run."""
 
     n_steps: int
     n_rejected: int

@@ -1,4 +1,4 @@
-"""Run a plan: the curve of a speed, the impulse of a time, or the motion under a pull."""
+"""Run of a plan: the curve of a speed, the impulse of a time, or the motion under a pull."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import time as clock
 from collections.abc import Callable
 from typing import TYPE_CHECKING, overload
 
-from ..errors import ConvergenceError
-from ..scene.loading import ImposedForce, ImposedSpeed
+from ..errors import ConvergenceError, PlanError
+from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..scene.validity import warn
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
@@ -78,10 +78,15 @@ def simulate(
     if isinstance(loading, ImposedForce):
         result = _motion(plan, begun, throw, progress)
     elif isinstance(loading, ImposedSpeed):
-        shaken = loading.vibration is not None
-        result = vibrating(plan, begun) if shaken else at_speed(plan, begun)
+        vibration = loading.vibration
+        if vibration is None:
+            result = at_speed(plan, loading, begun)
+        else:
+            result = vibrating(plan, loading, vibration, begun)
+    elif isinstance(loading, ImposedTime):
+        result = within_time(plan, loading, begun)
     else:
-        result = within_time(plan, begun)
+        raise PlanError(f"no separation of a {type(loading).__name__} is known")
     warn(result.validity)
     return result
 

@@ -1,4 +1,4 @@
-"""Whether each model stayed inside its range along a run: numbers printed with every result."""
+"""Ranges of validity of the models along a run: numbers printed with every result."""
 
 from __future__ import annotations
 

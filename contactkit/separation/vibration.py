@@ -160,7 +160,9 @@ class _Cycle(NamedTuple):
         return float(self.running[name][-1])
 
 
-def vibrating(plan: Plan, begun: float) -> SeparationResult:
+def vibrating(
+    plan: Plan, loading: ImposedSpeed, vibration: Vibration, begun: float
+) -> SeparationResult:
     """Forces of an opening at a speed with a vibration on it, and the means of its cycles.
 
     Raises
@@ -168,10 +170,8 @@ def vibrating(plan: Plan, begun: float) -> SeparationResult:
     InfeasibleError
         If the vibration takes the gap beyond the reach of the film at the start.
     """
-    loading, film = plan.scene.loading, plan.film
-    assert isinstance(loading, ImposedSpeed)
-    assert loading.vibration is not None
-    path = VibrationPath(loading.initial_gap, loading.speed, loading.vibration)
+    film = plan.film
+    path = VibrationPath(loading.initial_gap, loading.speed, vibration)
     end = (loading.final_gap - loading.initial_gap) / loading.speed
     breaks = path.first_above(film.end, end) if math.isfinite(film.end) else math.inf
     if breaks <= 0.0:
@@ -236,7 +236,7 @@ def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
 
 
 def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
-    """Times [s] at which a limit of the liquid sets in or lets go."""
+    """Times [s] at which a limit of the liquid sets in or ceases."""
     film = plan.film
     found: list[float] = []
     if not film.limits:

@@ -156,7 +156,7 @@ def _law(
         float(effect.needs_film),
         law.end,
         law.release,
-        law.rejoin,
+        law.recontact,
         float(len(law.kinks)),
         *law.kinks,
         *table.numbers(),

@@ -268,7 +268,9 @@ class StictionForce(PortSlave):
 
     def _film(self) -> Film | None:
         memory = self.memory
-        return self.plan.film_left(memory.volume_fraction, broken=memory.broken, detached=False)
+        return self.plan.remaining_film(
+            memory.volume_fraction, broken=memory.broken, detached=False
+        )
 
     def _remember(self, film: Film | None, time: float, step: float, done: Travel) -> _Memory:
         values = self.values

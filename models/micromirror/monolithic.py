@@ -130,7 +130,7 @@ class _Integration:
         return [speed / gap, (force - holding) / self.mass]
 
     def _film(self, side: int) -> Film | None:
-        return self.plan.film_left(1.0, broken=self.broken[side], detached=False)
+        return self.plan.remaining_film(1.0, broken=self.broken[side], detached=False)
 
     def _in_si(self, unknowns: _Floats) -> list[float]:
         state: list[float] = unknowns.tolist()

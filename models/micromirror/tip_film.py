@@ -171,7 +171,7 @@ def separation_energy(made: Plan) -> float:
 
     start, end = made.scene.loading.initial_gap, free_gap(made)
     broken = min(made.film.end, end)
-    left = made.film_left(1.0, broken=True, detached=False) if broken < end else None
+    left = made.remaining_film(1.0, broken=True, detached=False) if broken < end else None
 
     def work(force: Callable[[float], float], low: float, high: float) -> float:
         # In the logarithm of the gap, over which the forces change evenly.

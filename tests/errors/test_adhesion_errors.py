@@ -39,7 +39,7 @@ def test_bodies_that_do_not_touch_do_not_adhere(model):
     with pytest.raises(
         ck.InfeasibleError,
         match=says(
-            f"AdhesiveContact ({model}) lets go at a gap of",
+            f"AdhesiveContact ({model}) pulls off at a gap of",
             "loading.initial_gap is 1e-09 m",
             "start closer, or take VanDerWaalsForce()",
         ),

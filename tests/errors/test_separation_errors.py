@@ -294,7 +294,7 @@ def test_a_film_must_end_somewhere():
 def test_a_bath_around_a_sphere_has_no_meniscus():
     bath = ck.Interface(upper=ck.Sphere(radius=1e-3), meniscus=attrs.evolve(FILM, volume=None))
     refuses_plan(
-        "MeniscusForce needs interface.meniscus.volume [m3]: a bath around a sphere",
+        "MeniscusForce needs interface.meniscus.volume [m3]: a flooded sphere has no meniscus",
         effects=(MENISCUS, VISCOUS),
         interface=bath,
     )

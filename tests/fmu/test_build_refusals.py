@@ -87,7 +87,7 @@ def test_a_force_too_rough_for_a_table_is_named():
     from contactkit.separation.effects.registry import MeniscusForce
 
     class Rough:
-        end, release, rejoin, kinks = 1e-4, float("inf"), 0.0, ()
+        end, release, recontact, kinks = 1e-4, float("inf"), 0.0, ()
         known_to = float("inf")
 
     rough = lambda gap: 1.0 + 1e-3 * (hash(gap) % 1000)  # noqa: E731

@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
+from ...numerics.roots import bracketed_root
 from . import flat as arc_flat
 from .contact_circles import Problem, acceptable, circle, equations, follow, iterate, outline
 from .shape import refuse_spreading
@@ -275,8 +276,6 @@ def zero_neck_gap(
     >>> round(zero_neck_gap(927.31633935, np.pi / 3, np.pi / 3, 0.0, 0.01, "parabola"), 6)
     45.204163
     """
-    from scipy.optimize import brentq
-
     _check_profile(profile)
     fixed = (volume, angle_lower, angle_upper, curvature_lower, curvature_upper)
     if curvature_lower == curvature_upper == 0.0:
@@ -301,7 +300,7 @@ def zero_neck_gap(
 
     limit = near
     if neck(near) > 0.0 > neck(far):
-        limit = float(brentq(neck, near, far, xtol=1e-15 * far, rtol=1e-14))
+        limit = bracketed_root(neck, near, far, rtol=1e-14)
     if abs(neck(limit)) > 1e-9 * size:
         raise ConvergenceError(f"no closing neck between gaps of {near!r} and {far!r} m")
     return limit

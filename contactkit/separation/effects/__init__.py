@@ -1,14 +1,16 @@
-"""The physics a separation scene may call for.
+"""Effects of a separation: forces between the bodies, limits of the liquid, ends of the film.
 
-adhesion         Attraction of the solids: across a gap, and of a sphere that has touched (JKR, DMT,
-as_published     As published or consistent: which choices take printed equations that are known to
-asperities       Menisci at the asperities of a rough face: one bridge at each summit within reach.
-base             The roles a piece of physics may play in a separation, read off the equation of mot
-film_shape       How far the film reaches, as the viscous force and its limits see it: with an uprig
-meniscus         The meniscus force: what the curved surface of the liquid makes it pull, or push.
-meniscus_flat    The meniscus force between flats: free at constant volume, or held by the rim of th
-meniscus_sphere  The meniscus force on a sphere, solved once along the gap and read off a curve in t
-registry         The physics a separation scene may call for; those of a contact are in `contact`.
-rupture          Where the film breaks.
-viscous          The viscous force of the film, and the limits of what the film can carry.
+base             Roles of an effect in the equation of motion: force, limit, end of the film.
+registry         Effects that a separation scene may list.
+prepared         Scene with its liquid at temperature and the shape of its film.
+film_shape       Shape of the film with an upright rim: radius and height over the gap.
+viscous          Viscous force of the film, and its limits: tension and shear.
+constant_force   Time to open the film under a constant pull, without inertia.
+meniscus         Meniscus force, and the choice of its profile.
+meniscus_flat    Meniscus force between flats: free, or pinned at the rim.
+meniscus_sphere  Meniscus force on a sphere, as a curve over the gap.
+rupture          Rupture of the film.
+asperities       Menisci at the asperities of a rough flat.
+adhesion         Van der Waals attraction, and adhesive contact of a sphere.
+as_published     Printed and consistent equations, which no result mixes.
 """

@@ -1,4 +1,4 @@
-"""Attraction of the solids: across a gap, and of a sphere that has touched (JKR, DMT, between)."""
+"""Van der Waals attraction across a gap; adhesive contact by JKR, DMT or Maugis-Dugdale."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class VanDerWaalsForce(SeparationForce):
         the work of adhesion is w = A/(12 pi cutoff^2), and a touching sphere pulls with 2 pi R w.
     closure : {"derjaguin", "hamaker"}
         Spheres as near bodies of a curvature, F = A R/(6 D^2); or whole, at any distance. The
-        first is too much by the share D/R on a flat.
+        first is too much by the fraction D/R on a flat.
 
     Notes
     -----
@@ -126,7 +126,7 @@ class VanDerWaalsForce(SeparationForce):
 
 @frozen(kw_only=True)
 class AdhesiveContact(SeparationForce):
-    """Pull of a sphere that has touched a body and sticks to it, from touch until it lets go.
+    """Pull of a sphere that sticks to a body it has touched, until pull-off.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ class AdhesiveContact(SeparationForce):
     The gap of a scene is that of the bodies as if they were rigid, the negative of the approach;
     liquid forces are taken at that gap. The bodies have touched before the scene begins: their
     contact, pulled out to a neck, holds on at gaps up to the release gap (JKR
-    0.909 (pi^2 w^2 R/K^2)^(1/3) with K = 4 E*/3; DMT the reach w/strength) and lets go there at
+    0.909 (pi^2 w^2 R/K^2)^(1/3) with K = 4 E*/3; DMT the reach w/strength) and pulls off there at
     once. A scene that starts beyond has no contact, and is refused. In a motion the contact is
     there again when the gap has closed to its initial value, or to the reach of the attraction if
     that is more. Under a sphere each of `Meniscus.count` menisci has a sphere of its own.
@@ -204,7 +204,7 @@ class AdhesiveContact(SeparationForce):
             missing.append("a Sphere: two flats touch all over; take VanDerWaalsForce()")
         if isinstance(scene.loading, ImposedSpeed) and scene.loading.vibration is not None:
             missing.append(
-                "a loading without vibration: a cycle that lets go and catches is not followed"
+                "a loading without vibration: cycles of pull-off and re-contact are not followed"
             )
         if self.work_of_adhesion != "capillary":
             if scene.effect(VanDerWaalsForce) is not None:
@@ -245,7 +245,7 @@ class AdhesiveContact(SeparationForce):
         return 1.0 / sum(1.0 / s.substrate.plane_strain_modulus for s in interface.stacks)
 
     def numbers(self, prepared: PreparedScene[SeparationScene]) -> AdhesionNumbers:
-        """Return what the contact of one sphere of a scene comes to, without running it."""
+        """Return the numbers of the contact of one sphere of a scene, without running it."""
         work = self._work(prepared)
         interface, strength = prepared.scene.interface, self._strength(prepared, work)
         modulus = self._modulus(interface)
@@ -256,7 +256,7 @@ class AdhesiveContact(SeparationForce):
         found, start = self.numbers(prepared), prepared.scene.loading.initial_gap
         if start >= found.release_gap:
             raise InfeasibleError(
-                f"AdhesiveContact ({self.model}) lets go at a gap of {found.release_gap:.4g} m, "
+                f"AdhesiveContact ({self.model}) pulls off at a gap of {found.release_gap:.4g} m, "
                 f"and loading.initial_gap is {start:g} m: bodies that do not touch do not adhere; "
                 f"start closer, or take VanDerWaalsForce(), which acts across a gap"
             )
@@ -322,16 +322,16 @@ def _wetting(scene: SeparationScene) -> float:
     return math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
 
 
-_NOTHING = 1e-8  # share of the pull-off force: a jump that no result shows
+_NOTHING = 1e-8  # fraction of the pull-off force: a jump that no result shows
 
 
 class AdhesionNumbers(NamedTuple):
-    """What an adhesive contact of one sphere comes to.
+    """Numbers of the adhesive contact of one sphere.
 
     `transition_parameter` is that of Maugis [-] and `tabor_parameter` that of Tabor [-], both
-    None where no stress of attraction is known. `pull_off_force` is the largest pull, at which a
-    dead weight tears the bodies apart [N]; `release_gap` and `release_force` are where they let go
-    of a stiff puller [m, N].
+    None where no stress of attraction is known. `pull_off_force` is the largest pull [N], that of
+    pull-off under load control; `release_gap` [m] and `release_force` [N] are those of pull-off
+    under displacement control.
     """
 
     model: str
@@ -347,13 +347,13 @@ class AdhesionNumbers(NamedTuple):
 
     @property
     def units(self) -> adhesion_scales.AdhesionScales:
-        """Units in which the kernels speak."""
+        """Units of the dimensionless kernels."""
         return adhesion_scales.scales(self.radius, self.work_of_adhesion, self.reduced_modulus)
 
 
 @frozen(eq=False)
 class AdhesionPart(ForcePart):
-    """What the adhesion of the solids did, and the numbers of the contact of one sphere."""
+    """Force and impulse of the adhesion of the solids, and the numbers of one contact."""
 
     numbers: AdhesionNumbers
 
@@ -411,7 +411,7 @@ def law(found: AdhesionNumbers, count: int, start: float) -> ForceLaw:
         return ForceLaw(
             lambda gap, speed: -most * jkr.load(jkr.radius_at_gap(gap / length)),
             release=found.release_gap,
-            rejoin=start,
+            recontact=start,
         )
     transition = found.transition_parameter
     assert transition is not None  # lacks() has asked for a stress
@@ -429,7 +429,7 @@ def law(found: AdhesionNumbers, count: int, start: float) -> ForceLaw:
     if found.release_force < _NOTHING * found.pull_off_force:  # ends without a jump, as with DMT
         end = found.release_gap
         return ForceLaw(lambda gap, v: force(gap, v) if gap < end else 0.0, (*kinks, end))
-    return ForceLaw(force, kinks, release=found.release_gap, rejoin=max(start, reach))
+    return ForceLaw(force, kinks, release=found.release_gap, recontact=max(start, reach))
 
 
 def cohesive_radius(found: AdhesionNumbers, gap: float) -> float:

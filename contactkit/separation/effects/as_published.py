@@ -1,4 +1,4 @@
-"""As published or consistent: a result takes printed equations known to be wrong, or right ones.
+"""Printed and consistent equations: a result has equations as published, or corrected ones.
 
 Each effect whose equation the source prints wrong has a choice that takes it as printed, and says
 by `SeparationEffect.equations` which of the two a scene takes.

@@ -1,4 +1,4 @@
-"""Menisci at the asperities of a rough face: one bridge at each summit within reach."""
+"""Menisci at the asperities of a rough flat: one bridge at each summit within reach."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ __all__ = ["AsperityMenisci", "AsperityPart"]
 
 @frozen(eq=False)
 class AsperityPart(ForcePart):
-    """What the menisci at asperities did, and by which `law`.
+    """Force and impulse of the menisci at asperities, and the `law` they follow.
 
     `n_wet` is their number along the run, `coverage` their contact circles over the face [-], both
     of thin menisci: above 0.9 neighbours overlap, and their forces do not add up any more.
@@ -159,7 +159,7 @@ class AsperityMenisci(SeparationForce):
         return _exact_law(self, prepared)
 
     def sums(self, prepared: PreparedScene[SeparationScene], gap: float) -> AsperitySum:
-        """Force, number and cover of thin menisci at a gap [m], whatever the `profile`."""
+        """Force, number and area coverage of thin menisci at a gap [m], whatever the `profile`."""
         from ...capillary import asperities as laws
 
         population, scene = self.asperities, prepared.scene

@@ -1,4 +1,4 @@
-r"""The roles a piece of physics may play in a separation, read off the equation of motion.
+r"""Roles of an effect in a separation, read off the equation of motion.
 
 .. math:: m \ddot h = F_{ext}(t) - k_s (h - h_0) - \sum F(h, \dot h)
 
@@ -54,7 +54,7 @@ Limiter = Callable[[float, float, float], float]
 
 
 class FilmStatus(IntEnum):
-    """What the film does."""
+    """State of the film."""
 
     CONTACT = 1
     STUCK = 2
@@ -64,7 +64,7 @@ class FilmStatus(IntEnum):
 
 
 class LimitKind(IntEnum):
-    """Which limit of the liquid acts; the C kernel of the native FMUs has the same numbers."""
+    """Limit of the liquid that acts; the C kernel of the native FMUs has the same numbers."""
 
     NONE = 1
     TENSION = 2
@@ -80,21 +80,21 @@ class ForceLaw:
 
     `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
     slope jumps, `end` the gap beyond which it does not exist (inf: none). A contact of solids pulls
-    off where the gap exceeds `release`, and is there again once it has closed to `rejoin`; the law
-    goes on smoothly beyond. It is known up to the gap `known_to`, and constant beyond.
+    off where the gap exceeds `release`, and is there again once that has closed to `recontact`; the
+    law goes on smoothly beyond. It is known up to the gap `known_to`, and constant beyond.
     """
 
     force: Callable[[float, float], float]
     kinks: tuple[float, ...] = ()
     end: float = _INF
     release: float = _INF
-    rejoin: float = 0.0
+    recontact: float = 0.0
     known_to: float = _INF
 
 
 @frozen(eq=False)
 class ForcePart:
-    """What a force did in a run."""
+    """Force of an effect along a run, and its impulse."""
 
     result: SeparationResult = field(repr=False)
     column: Column
@@ -177,7 +177,7 @@ class SeparationEffect(Effect):
         return ()
 
     def part(self, result: Any) -> object:
-        """What `SeparationResult.of` gives."""
+        """Part of a result that `SeparationResult.of` returns."""
         raise NotSimulatedError(f"{type(self).__name__} has no curve of its own; see result.state")
 
     def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
@@ -202,7 +202,7 @@ class SeparationForce(SeparationEffect):
         return (cls.column,)
 
     def proportional_to(self, scene: SeparationScene) -> str:
-        """Property of the liquid that the force is proportional to, and knows no other way.
+        """Property of the liquid that the force is proportional to and depends on in no other way.
 
         A native FMU has that as a parameter. Empty for none.
         """
@@ -222,7 +222,7 @@ class FilmLimit(SeparationEffect):
     """A bound on what the liquid can carry; it lowers the viscous force."""
 
     limit: ClassVar[LimitKind]
-    """What curves and FMUs show where it acts."""
+    """Value of the curve and of the FMU output where it acts."""
 
     @classmethod
     def curves(cls) -> tuple[Column, ...]:

@@ -1,4 +1,4 @@
-"""Time that a constant pull takes to open the film of a scene, for a massless body."""
+"""Time to open the film of a scene under a constant pull, without inertia."""
 
 from __future__ import annotations
 

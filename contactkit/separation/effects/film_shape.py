@@ -1,4 +1,4 @@
-"""How far the film reaches, as the viscous force and its limits see it: with an upright rim."""
+"""Shape of the film with an upright rim: its radius and its height there, over the gap."""
 
 from __future__ import annotations
 

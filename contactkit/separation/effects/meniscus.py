@@ -1,4 +1,4 @@
-"""The meniscus force: what the curved surface of the liquid makes it pull, or push."""
+"""Meniscus force: Laplace pressure and surface tension, by the profile of the meniscus."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class MeniscusForce(SeparationForce):
             return self._lacks_at_pressure(scene)
         missing: tuple[str, ...] = ()
         if not scene.interface.is_flat and meniscus.volume is None:
-            missing += ("interface.meniscus.volume [m3]: a bath around a sphere has no meniscus",)
+            missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
         if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):
             missing += ("the sphere as the upper body: Eq. (3.12) is printed for that",)
         return missing + needs_extent(scene)

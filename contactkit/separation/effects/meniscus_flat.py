@@ -1,4 +1,4 @@
-"""The meniscus force between flats: free at constant volume, or held by the rim of the faces."""
+"""Meniscus force between flats: free at constant volume, or pinned at the rim of the faces."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _Film(NamedTuple):
 
 
 def _nothing(gap: float) -> float:
-    raise AssertionError("a film without this state was asked for it")
+    raise AssertionError("the film has no such state")
 
 
 def exact_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:

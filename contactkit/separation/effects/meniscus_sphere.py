@@ -1,4 +1,4 @@
-"""The meniscus force on a sphere, solved once along the gap and read off a curve in the loop."""
+"""Meniscus force on a sphere: bridges solved along the gap, and a curve through them."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def _arcs(prepared: PreparedScene[SeparationScene], as_published: bool) -> _Brid
     end = float(arc_sphere.zero_neck_gap(film.volume, *fixed, profile=profile))
 
     # The printed force grows without bound as the neck closes; a curve of it would ring. What is
-    # tabulated is the force times the share of the way to the end that is left.
+    # tabulated is the force times 1 - gap/end.
     def left(gap: Any) -> Any:
         return 1.0 - gap / end if as_published else 1.0
 

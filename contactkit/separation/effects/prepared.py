@@ -1,4 +1,4 @@
-"""A scene with the state of its liquid and the shape of its film, from which effects prepare."""
+"""Scene with its liquid at temperature and the shape of its film, given to every effect."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The physics a separation scene may call for; those of a contact are in `contact`."""
+"""Effects that a separation scene may list; those of a contact are in `contact`."""
 
 from __future__ import annotations
 

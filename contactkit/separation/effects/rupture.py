@@ -1,4 +1,4 @@
-"""Where the film breaks."""
+"""Rupture of the film: at a given gap, or where the bridge loses stability."""
 
 from __future__ import annotations
 

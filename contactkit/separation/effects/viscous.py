@@ -1,4 +1,4 @@
-"""The viscous force of the film, and the limits of what the film can carry."""
+"""Viscous force of the film, and its limits: tension and shear."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class ViscousLaw(ForceLaw):
 
 @frozen(eq=False)
 class ViscousPart(ForcePart):
-    """What the viscous force did. Four different things keep four names.
+    """Force and impulse of the viscous force, with and without limits.
 
     `force` is the instantaneous force [N] along the run, after the limits; `newtonian_force` what
     it would be without them; `impulse` the time integral of the force over the whole opening
@@ -134,7 +134,7 @@ class ViscousForce(SeparationForce):
     ----------
     closure : {"volume-conserving", "flooded", "as-published"}
         Whether the film draws in as the gap opens, so that its volume stays (a film without a
-        given volume stands in a bath and stays full to the rim); or keeps the radius it has at
+        given volume is flooded and stays full to the rim); or keeps the radius it has at
         the start. ``"as-published"``: Eqs. (3.19) and (3.34) between flats, which keep the
         radius though the volume is given, and Eq. (3.26) under a sphere; for reproduction only,
         with what is wrong in ``result.errata``.
@@ -318,7 +318,7 @@ class TensionLimit(FilmLimit):
     Parameters
     ----------
     tension : float or "vapour"
-        Largest drop below ambient pressure that the liquid bears [Pa]; ``"vapour"``: down to
+        Tensile strength of the liquid, as a drop below ambient pressure [Pa]; ``"vapour"``: down to
         (nearly) vacuum, that is `ambient_pressure`. Oils are known to hold 1 to 10 bar for
         milliseconds.
     ambient_pressure : float
@@ -478,7 +478,7 @@ def _erratum(plan: Plan) -> PublishedValue:
         shape = {"sphere_radius": film.sphere_radius, "film_height": film.height(start)}
         made = published("3.26", **shape, **given).times(count)
     if is_flat and math.isinf(film.volume):
-        by = "as printed, right for a film that stands in a bath"
+        by = "as printed, right for a flooded film"
         made = made._replace(corrected=made.value, corrected_by=by)
     name = f"{ViscousForce.name}, {made.name}, times the separation time"
     return made._replace(name=name, unit="N.s")

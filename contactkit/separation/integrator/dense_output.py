@@ -1,4 +1,4 @@
-"""What can be read off a step once it is taken: its highest force and the work along its path."""
+"""Dense output of a step: its highest force, and the work along its path."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ _E1, _E2, _E3 = (-13.0 - 7.0 * _R6) / 3.0, (-13.0 + 7.0 * _R6) / 3.0, -1.0 / 3.0
 _MOST_ITERATIONS = 12
 _LINEAR = 1e-4  # relative change over which the slopes at the start are good enough
 _FAR = 0.5  # change of the coordinate beyond which they give no useful guess
-_AT_ROUNDING = 1e-6  # change of the rates below which an iteration that stalls has converged
+_ROUND_OFF = 1e-6  # change of the rates below which an iteration that stalls has converged
 
 
 class Point(NamedTuple):
@@ -68,7 +68,7 @@ class Point(NamedTuple):
 
 
 class Forces(NamedTuple):
-    """What resists opening at a gap and a speed: forces [N] and their slopes [N/m], [N.s/m].
+    """Forces that resist opening at a gap and a speed [N], and their slopes [N/m], [N.s/m].
 
     `static` does not depend on the speed. The viscous force is proportional to the speed where
     `limit` is None; otherwise `limit` names the law that bounds it, by any object.
@@ -83,7 +83,7 @@ class Forces(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """What one step solves, from where, and the sizes its errors are measured against."""
+    """Equation of motion of one step, its initial point, and the scales of its errors."""
 
     mass: float  # [kg]
     pull: Callable[[float], float]  # [N] at a time [s]
@@ -199,7 +199,7 @@ def step(problem: Problem, dt: float, s: float | None = None) -> Step | None:
                 contraction *= 10.0 * contraction
         left, momentum = _largest(residual), _momentum(mass, dt, scale, lines)
         is_met = contraction * size <= 0.03 * rtol and contraction * left <= rtol * momentum
-        is_stalled = iteration > 1 and previous <= size < _AT_ROUNDING
+        is_stalled = iteration > 1 and previous <= size < _ROUND_OFF
         if is_met or (is_stalled and left <= 1e-7 * momentum):
             return _finished(problem, dt, s, rates, (stages, found), 3 * iteration + 3)
         if iteration > 5 and size > previous:
@@ -404,7 +404,7 @@ def relative_error(problem: Problem, taken: Step, length: float, missed: float =
 
 
 def against_halves(problem: Problem, taken: Step, length: float) -> tuple[float, float] | None:
-    """How far a step is from the same in two halves: logarithm of the gap [-], speed [m/s].
+    """Difference of a step from the same in two halves: logarithm of the gap [-], speed [m/s].
 
     For a step in which a limit sets in or ceases: no estimate sees where the slope of the force
     jumps. None if a half cannot be solved.

@@ -35,7 +35,7 @@ __all__ = ["advance", "internal_step"]
 _CONTROL = StepSize(order=4)  # of the estimate
 _NO_GAP = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
 _NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
-_AT_REST = 1e-30  # fraction of the gap over which the film stops a mass that is as good as at rest
+_AT_REST = 1e-30  # fraction of the gap over which the film stops a mass at rest
 _EVENT = 1e-13  # relative distance of a gap from an event that is met
 _TOO_LONG = 16.0  # error of a step that is to be cut in half
 _VISCOUS = ViscousForce.column.impulse.name
@@ -53,7 +53,7 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
     pull : callable
         Pull [N] at a time [s], such as a `Pull`; smooth within the step.
     dt : float
-        Length of the step [s]. The internal steps are chosen by their error, so that the result
+        Length of the step [s]. Internal steps are adaptive (error control), so that the result
         does not depend on how a span of time is divided, to the tolerance of the plan.
 
     Raises

@@ -31,7 +31,7 @@ def next_event(plan: Plan, film: Film | None, state: MotionState, gap: float) ->
         if state.broken:
             events += (loading.initial_gap,)
         if state.detached:
-            events += (plan.film.rejoin,)
+            events += (plan.film.recontact,)
         if not state.armed:
             events += (_closed_gap(plan),)
     return first_crossing(events, state.gap, gap, SAME)
@@ -56,7 +56,7 @@ def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -
         return state
     if gap <= _closed_gap(plan):
         state = state._replace(armed=True)
-    if gap <= plan.film.rejoin:
+    if gap <= plan.film.recontact:
         state = state._replace(detached=False)
     if gap > loading.initial_gap:
         return state

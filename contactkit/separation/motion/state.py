@@ -1,4 +1,4 @@
-"""The state of the motion, and the forces that belong to it: plain numbers, ready to be saved."""
+"""State of a motion, as floats that can be saved, and the forces that act in it."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def start(plan: Plan) -> MotionState:
 def acting_film(plan: Plan, state: MotionState) -> Film | None:
     """Film and solids that act in a state; None if nothing does."""
     fraction, broken, detached = state.volume_fraction, state.broken, state.detached
-    return plan.film_left(fraction, broken=broken, detached=detached)
+    return plan.remaining_film(fraction, broken=broken, detached=detached)
 
 
 def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:

@@ -1,7 +1,7 @@
-"""One wetted surface sliding past another.
+"""Sliding of one wetted surface past another.
 
-effects  The physics of a sliding: the drag of the film, and contact lines that stick.
-plan     A sliding scene made ready to run: what will be simulated can be read before it is.
-result   What a sliding gives: forces over the travel, numbers, and how well they can be trusted.
-run      Sliding of which the motion is given: forces at a speed, the impulse within a time.
+effects  Viscous drag, and force of pinned contact lines.
+plan     Plan of a sliding: the checked scene and its prepared forces.
+run      Forces at an imposed speed, or impulse within an imposed time.
+result   Result of a sliding: forces over the travel, numbers, ranges of validity.
 """

@@ -1,4 +1,4 @@
-"""The physics of a sliding: the drag of the film, and contact lines that stick."""
+"""Effects of a sliding: viscous drag, and pinned contact lines."""
 
 from __future__ import annotations
 
@@ -91,13 +91,13 @@ class SlidingForce(SeparationEffect):
         return ()
 
     def part(self, result: SlidingResult) -> SlidingPart:
-        """What `SlidingResult.of` gives."""
+        """Part of a result that `SlidingResult.of` returns."""
         return SlidingPart(result, self.column)
 
 
 @frozen(eq=False)
 class SlidingPart:
-    """What a force along the bodies did."""
+    """Force of an effect along the travel, and its impulse."""
 
     result: SlidingResult = field(repr=False)
     column: Column
@@ -115,7 +115,7 @@ class SlidingPart:
 
 @frozen(eq=False)
 class CouettePart(SlidingPart):
-    """What the drag of the film did: its force, its impulse and its mean."""
+    """Viscous drag: its force, its impulse and its mean."""
 
     def mean_force(self, time: float | None = None) -> float:
         """Time average [N] of the force over a slide that takes `time` [s]: impulse/time.
@@ -133,7 +133,7 @@ class CouettePart(SlidingPart):
 
 @frozen(eq=False)
 class HysteresisPart(SlidingPart):
-    """What contact lines that stick did: their force along the travel, and its work."""
+    """Force of pinned contact lines along the travel, and its work."""
 
     @property
     def work(self) -> float:
@@ -163,7 +163,7 @@ class CouetteForce(SlidingForce):
     """
 
     name: ClassVar[str] = "couette-force"
-    summary: ClassVar[str] = "viscous drag of the film on sliding bodies"
+    summary: ClassVar[str] = "viscous drag on sliding bodies"
     column: ClassVar[Column] = Column("couette_force", "N", "viscous drag", "#c1440e")
     published_choice: ClassVar[str] = "closure"
 

@@ -1,4 +1,4 @@
-"""A sliding scene made ready to run: what will be simulated can be read before it is."""
+"""Plan of a sliding: the checked scene and its prepared forces."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class SlidingPlan(ScenePlan):
 
     @property
     def scene(self) -> SlidingScene:
-        """What is simulated."""
+        """Scene that is simulated."""
         return self.prepared.scene
 
     @property
     def accuracy(self) -> Accuracy:
-        """How well it is solved."""
+        """Numerical accuracy of the solution."""
         return self.prepared.accuracy
 
     @property
@@ -167,7 +167,7 @@ def _check_gap(scene: SlidingScene) -> None:
         )
     if drag is not None and drag.closure != "as-published":
         raise InfeasibleError(
-            "loading.gap is 0 m: the drag of a film under a touching sphere is infinite, it grows "
+            "loading.gap is 0 m: the viscous drag under a touching sphere is infinite, it grows "
             "as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
         )
 

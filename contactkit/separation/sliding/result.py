@@ -1,4 +1,4 @@
-"""What a sliding gives: forces over the travel, numbers, and how well they can be trusted."""
+"""Result of a sliding: forces over the travel, numbers, and ranges of validity."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sliding of which the motion is given: forces at a speed, the impulse within a time."""
+"""Run of a sliding: forces at an imposed speed, or impulse within an imposed time."""
 
 from __future__ import annotations
 

@@ -187,15 +187,15 @@ def test_solids_hold_on_after_the_film_broke(native, open_fmu):
     film = plan(moving(SCENES["tip that sticks"], None), FINE).film
     host = open_fmu(native("tip that sticks")).start(exchange=int(Exchange.IMPULSE))
     gap = SCENES["tip that sticks"].loading.initial_gap
-    alone = film.left(broken=True, detached=False)
+    alone = film.remaining(broken=True, detached=False)
     move(host, 1e-6, 1.5 * max(film.end, film.release))
     assert (host.get("n_break"), host.get("state"), host.get("F")) == (1, FilmStatus.BROKEN, 0.0)
     share = (film.end - gap) / (1.5 * max(film.end, film.release) - gap)
     assert host.get("t_break") == pytest.approx(share * 1e-6, rel=1e-6)
-    assert host.get("h_below") == pytest.approx(max(gap, film.rejoin))
-    if alone is not None and film.rejoin > gap:
-        move(host, 1e-6, 0.5 * (gap + film.rejoin))
-        there = alone.static_force(0.5 * (gap + film.rejoin))
+    assert host.get("h_below") == pytest.approx(max(gap, film.recontact))
+    if alone is not None and film.recontact > gap:
+        move(host, 1e-6, 0.5 * (gap + film.recontact))
+        there = alone.static_force(0.5 * (gap + film.recontact))
         assert host.get("F_m") == pytest.approx(there, rel=1e-8)
     move(host, 1e-6, gap)
     assert host.get("F_m") == pytest.approx(film.static_force(gap), rel=1e-8)
