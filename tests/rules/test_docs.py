@@ -93,8 +93,8 @@ def test_the_commands_of_the_readme_are_those_there_are():
 
 def test_every_target_of_make_that_is_named_exists():
     makefile = (ROOT / "Makefile").read_text("utf-8")
-    targets = set(re.findall(r"^([a-z]+):", makefile, re.M))
-    named = {name for page in PAGES for name in re.findall(r"`make ([a-z]+)`", page.read_text())}
+    targets = set(re.findall(r"^([a-z-]+):", makefile, re.M))
+    named = {name for page in PAGES for name in re.findall(r"`make ([a-z-]+)`", page.read_text())}
     assert named <= targets
     assert {"demo", "test"} <= named
 
