@@ -1,13 +1,15 @@
 """Contact of rough layered surfaces: plan, solve, result.
 
-press          Entry point for a height map in an array.
+press          Contact of a height map given as an array.
 grid           Heights of surfaces on a grid, and the grid of a scene.
-prepared       What a plan prepares once: heights, compliance and solver of an interface.
+prepared       Preparation of a plan, done once: heights, compliance and solver.
 plan           Plan of a contact: checked and prepared.
 solve          Solve a planned contact, and run the effects that observe it.
 friction_loop  Displacement caused by friction, until it agrees with the pressure.
 hardness_loop  Hardness that depends on the displacement, until they agree.
-film_loop      Load that includes the pull of a film: equilibria.
+film_loop      Load that includes the force of a film: equilibria.
+effects        The physics a contact scene may list.
+solver         Contact solver: active set on nested grids.
 work           Counts and seconds of a solve.
-result         Maps, numbers, and how well they were solved.
+result         Maps, numbers, parts of the effects, residual.
 """

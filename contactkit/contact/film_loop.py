@@ -15,8 +15,8 @@ from .work import WorkCounter
 
 __all__ = ["Pulled", "pulled_together"]
 
-_MOST_ITERATIONS = 60
-_MOST_IMBALANCE = 0.05  # of the load, at a step of the force
+_MAX_ITERATIONS = 60
+_MAX_IMBALANCE = 0.05  # of the load, at a step of the force
 
 
 Part = TypeVar("Part")
@@ -81,7 +81,7 @@ def pulled_together(
     relative = force / imposed if imposed > 0.0 else math.inf
     part = term.balanced(found.part, Balance(force, relative, (found.load, *others), gap))
     solved = found.solved
-    if gap > _MOST_IMBALANCE and is_settled and not solved.problem:
+    if gap > _MAX_IMBALANCE and is_settled and not solved.problem:
         solved = solved._replace(problem=_step(found, gap))
     elif not is_settled and not solved.problem:
         solved = solved._replace(problem=_unsettled(gap))
@@ -99,7 +99,7 @@ def _step(found: _Trial[Part], gap: float) -> str:
 def _unsettled(gap: float) -> str:
     return (
         f"the load and the force of the film still differ by {gap:.2g} of the load after "
-        f"{_MOST_ITERATIONS} iterations; use a larger Accuracy.rtol, or FilmMeniscus without "
+        f"{_MAX_ITERATIONS} iterations; use a larger Accuracy.rtol, or FilmMeniscus without "
         "self_consistent"
     )
 
@@ -117,7 +117,7 @@ def _smallest(
         )
     low, high, top = first, None, largest
     before = None
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         best = low if high is None or abs(low.excess) < abs(high.excess) else high
         if abs(best.excess) <= tolerance * best.load or top - low.load <= tolerance * top:
             return best, True

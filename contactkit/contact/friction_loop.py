@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Friction", "Frictional", "Target", "solve_bounded"]
 
-_MOST_ITERATIONS = 60
+_MAX_ITERATIONS = 60
 
 
 class Target(NamedTuple):
@@ -78,7 +78,7 @@ def _coupled(
     """Repeat the contact with the displacement of its own traction until it no longer changes."""
     without = solution.pressure
     displacement: Map = np.zeros(plan.grid.shape)
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         caused = caused_by(solution.pressure)
         scale = max(float(np.ptp(solution.displacement)), np.finfo(float).tiny)
         change = float(np.abs(caused - displacement).max()) / scale
@@ -89,7 +89,7 @@ def _coupled(
         solution = _once(plan, again, bound, plan.heights - displacement, counter)
     problem = (
         f"the friction coupling still changes by {change:.2g} of the displacement after "
-        f"{_MOST_ITERATIONS} iterations, tolerance {plan.accuracy.outer_rtol:g}; lower "
+        f"{_MAX_ITERATIONS} iterations, tolerance {plan.accuracy.outer_rtol:g}; lower "
         "FrictionTraction.coefficient or leave FrictionCoupling out"
     )
     return Frictional(solution, Friction(displacement, without, problem))

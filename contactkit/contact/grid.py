@@ -110,7 +110,7 @@ def _read(surface: Measured, changed: int) -> Heights:
 
 
 def combined_heights(scene: ContactScene, grid: Grid) -> Map:
-    """Sum of the heights of both bodies [m], (ny, nx): what a flat body would have to meet."""
+    """Sum of the heights of both bodies [m], (ny, nx)."""
     lower, upper = scene.interface.lower.surface, scene.interface.upper.surface
     return realise(lower, grid) + realise(upper, grid)
 
@@ -172,7 +172,7 @@ def _round(surface: Paraboloid | Sphere, grid: Grid) -> Map:
             surface.radius,
             f"exceed half the diagonal of the window, {reach:g} m",
             unit="m",
-            hint="look at a smaller window, or use Paraboloid",
+            hint="use a smaller window, or Paraboloid",
         )
     return roughness.sphere(grid.shape, grid.pixel_size, surface.radius)
 

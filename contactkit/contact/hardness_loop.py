@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Solved", "contact_of", "solve_with_hardness"]
 
-_MOST_ITERATIONS = 60
+_MAX_ITERATIONS = 60
 
 
 class Solved(NamedTuple):
@@ -117,7 +117,7 @@ def _bracketed(
     is_low_tried = False
     guess = target.hardness
     trial = guess if guess is not None and low < guess < high else high
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         solved = _solved(plan, target, trial, counter)
         found = _at_largest_displacement(plan, solved.solution, law)
         if abs(found - trial) <= tolerance * trial or solved.problem:
@@ -134,7 +134,7 @@ def _bracketed(
         is_inside = low < found < high or (found == low and not is_low_tried)
         trial = found if is_inside else 0.5 * (low + high)
     return solved._replace(
-        problem=f"the hardness is known to {high / low - 1.0:.2g} only after {_MOST_ITERATIONS} "
+        problem=f"the hardness is known to {high / low - 1.0:.2g} only after {_MAX_ITERATIONS} "
         "iterations; use a larger Accuracy.rtol"
     )
 
@@ -159,7 +159,7 @@ def _local(plan: ContactPlan, target: Target, counter: WorkCounter, law: Varying
     """A hardness for each pixel: fixed-point iterations, damped where they do not contract."""
     hardness: Map = np.full(plan.grid.shape, law.highest)
     damping, last, least = 1.0, np.inf, np.inf
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         solved = _solved(plan, target, hardness, counter)
         solution = solved.solution
         bodies = plan.prepared.displacements(solution.pressure, solution.displacement)
@@ -176,6 +176,6 @@ def _local(plan: ContactPlan, target: Target, counter: WorkCounter, law: Varying
         hardness = hardness + damping * (found - hardness)
         target = target._replace(start=np.minimum(solution.pressure, hardness))
     return best._replace(
-        problem=f"the local hardness still changes by {least:.2g} after {_MOST_ITERATIONS} "
+        problem=f"the local hardness still changes by {least:.2g} after {_MAX_ITERATIONS} "
         "iterations; use HardnessLimit(displacement='largest')"
     )

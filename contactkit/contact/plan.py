@@ -160,7 +160,7 @@ class ContactPlan(ScenePlan):
         return made
 
     def without_preparation(self) -> ContactPlan:
-        """Return the plan without what it holds in memory; it prepares again if it is solved."""
+        """Return the plan without its preparation, which is repeated if it is solved."""
         return ContactPlan(self.scene, self.accuracy, self.grid, self.hardness)
 
 
@@ -214,8 +214,8 @@ def _check_bodies(scene: ContactScene) -> None:
         surface = getattr(interface, name).surface
         if isinstance(surface, Flat) and surface.radius is not None:
             problems.append(
-                f"interface.{name}.surface.radius = {surface.radius:g} m has no effect: a contact "
-                "knows no rim of a face; leave it out, or give the face as Heights"
+                f"interface.{name}.surface.radius = {surface.radius:g} m has no effect: the window "
+                "of a contact has no rim; leave it out, or give the face as Heights"
             )
     if problems:
         raise PlanError("; ".join(problems))

@@ -1,4 +1,4 @@
-"""The front door for people who come with a height map in an array."""
+"""Contact of a height map given as an array: `press`."""
 
 from __future__ import annotations
 
@@ -46,11 +46,11 @@ def press(
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx).
     stack : Stack or Material
-        What the flat is made of: layers on a substrate, or a half-space.
+        Solid of the flat: layers on a substrate, or a half-space.
     mean_pressure : float
         Mean pressure over the map [Pa].
     hardness : float or array (ny, nx), optional
-        Largest pressure the flat bears [Pa]; None: elastic.
+        Upper bound of the pressure [Pa]; None: elastic.
     periodic : bool
         Whether the map repeats beyond its edges; if not, an isolated contact.
     rtol : float
@@ -82,7 +82,9 @@ def press(
     ('converged', 0.23)
     """
     if stack is None:
-        raise DescriptionError("press(stack)", None, "be a Stack or a Material: what the flat is")
+        raise DescriptionError(
+            "press(stack)", None, "be a Stack or a Material: the solid of the flat"
+        )
     effects: list[ContactEffect[Any]] = [
         LayeredHalfSpace() if isinstance(stack, Stack) and stack.layers else HalfSpace()
     ]

@@ -1,4 +1,4 @@
-"""What a contact solve cost: counts on the finest grid, and seconds by stage."""
+"""Cost of a contact solve: counts on the finest grid, and seconds by stage."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["ContactWork", "WorkCounter"]
 
 
 class ContactWork(NamedTuple):
-    """What a contact cost: counts on the full grid, and seconds [s] by stage."""
+    """Cost of a contact: counts on the full grid, and seconds [s] by stage."""
 
     n_solves: int
     n_operator_applications: int
@@ -27,7 +27,7 @@ class ContactWork(NamedTuple):
 
 
 class WorkCounter:
-    """Adds up the solves of one result."""
+    """Sums over the solves of one result."""
 
     def __init__(self) -> None:
         self._begun = time.perf_counter()

@@ -269,7 +269,7 @@ def test_coarse_blocks_solve_their_own_equations():
     blocks.weigh(count, True)
     total = count * ANY.standard_normal(16)
     total -= count * total.sum() / count.sum()
-    y = blocks.solve(total, reduction=1e-5, most=100)
+    y = blocks.solve(total, reduction=1e-5, max_iterations=100)
     w = np.sqrt(count).astype(np.float32)
     back = np.empty_like(w)
     blocks.apply((w * y).astype(np.float32), back)

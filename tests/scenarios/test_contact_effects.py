@@ -306,7 +306,7 @@ def test_every_solver_finds_the_same_contact(method, periodic):
 def test_outer_iterations_that_run_out_say_so_and_hand_over_what_they_reached(
     loop, effects, problem, monkeypatch
 ):
-    monkeypatch.setattr(f"contactkit.contact.{loop}._MOST_ITERATIONS", 1)
+    monkeypatch.setattr(f"contactkit.contact.{loop}._MAX_ITERATIONS", 1)
     plan = made(*effects, grid=32, loading=ck.Pressing(pressure=3e8))
     with pytest.raises(ck.ConvergenceError, match=problem) as caught:
         ck.solve(plan)

@@ -27,8 +27,8 @@ class HalfSpace(Compliance):
     """Homogeneous elastic half-spaces, one or two.
 
     In a periodic window the transformed compliance is ``2 (1 - nu^2)/(E alpha)``; of an isolated
-    contact it is that of uniform pressure on each pixel (Love). Slopes are taken small: what
-    is left out is of the order of the squared slope.
+    contact it is that of uniform pressure on each pixel (Love). Slopes are taken small: the
+    error is of the order of the squared slope.
     """
 
     name: ClassVar[str] = "half-space"

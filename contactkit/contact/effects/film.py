@@ -28,8 +28,8 @@ class FilmPart(NamedTuple):
     `force` pulls the bodies together. `relative_force` is force over imposed load [-], infinite
     without a load. `equilibria` are the loads [N] on the contact at which load, film and elastic
     bodies are in balance: one where the force does not act back on the contact or does so mildly;
-    with more, the bodies snap in beyond the second. `imbalance` is what a step of the force, which
-    is a sum of pixels, leaves of load and force out of balance, over the load [-].
+    with more, the bodies snap in beyond the second. `imbalance` is the imbalance over the load [-]
+    that remains at a step of the force, which is a sum over pixels.
     """
 
     force: float

@@ -33,7 +33,7 @@ class FrictionPart(NamedTuple):
 
 
 class CouplingPart(NamedTuple):
-    """Normal displacement that friction causes (ny, nx) [m], and what it changed.
+    """Normal displacement that friction causes (ny, nx) [m], and the changes of the contact.
 
     `pressure_change` is the largest change of the pressure over its maximum [-], `area_change`
     the change of the contact area over that without coupling [-].
@@ -91,9 +91,9 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
     """The normal displacement that friction causes, fed back into the contact.
 
     Traction presses the surface in ahead of a contact and lifts it behind; the effect vanishes for
-    incompressible bodies and for two equal ones. With it the problem has no energy any more: it
-    is solved by repeating the contact with the displacement of the last traction, which contracts
-    by about mu (1 - 2 nu)/(2 (1 - nu)).
+    incompressible bodies and for two equal ones. The coupled problem is no minimisation: it is
+    solved by fixed-point iterations on the displacement of the last traction, which contract by
+    about mu (1 - 2 nu)/(2 (1 - nu)).
     """
 
     name: ClassVar[str] = "friction-coupling"

@@ -1,22 +1,22 @@
-r"""Hardness of a layered solid as an indenter feels it, from the hardness of its materials.
+r"""Effective hardness of a layered solid, from the hardness of its materials.
 
 The pressure of a contact cannot exceed the hardness H. That of a layered solid falls or rises with
-the depth of indentation, for which the displacement u of the surface stands: u >= 0 into the solid.
+the depth of indentation, represented by the displacement u of the surface, u >= 0 into the solid.
 Materials are listed from the top, the substrate last; layer j ends at the depth
 :math:`D_j = h_1 + \dots + h_j`.
 
 ======= ================================================ =====
 symbol  is                                               unit
 ======= ================================================ =====
-u       displacement of the surface, depth of a dent     m
+u       displacement of the surface, indentation depth   m
 h, D    thickness of a layer, depth of its lower face    m
 E, H    Young's modulus, hardness of a material          Pa
 m, n, p fitted exponents                                 -
 ======= ================================================ =====
 
-The exponents were fitted to conical dents in one layer on a substrate: (1.1, -0.5, 0.1) for a hard
-layer on a soft one, (1.8, -0.9, 1) for a soft layer on a hard one. "Hard on soft" is read as
-:math:`H_k > H_{k+1}`.
+The exponents were fitted to conical indentations of one layer on a substrate: (1.1, -0.5, 0.1) for
+a hard layer on a soft one, (1.8, -0.9, 1) for a soft layer on a hard one. "Hard on soft" is read
+as :math:`H_k > H_{k+1}`.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Values = Sequence[float] | Array
 
 _HARD_ON_SOFT = (1.1, -0.5, 0.1)
 _SOFT_ON_HARD = (1.8, -0.9, 1.0)
-_PLATEAU = 0.3  # share of a thickness up to which the source does not look below
+_PLATEAU = 0.3  # fraction of a thickness up to which the source takes the layer alone
 
 
 def layer_on_substrate(
@@ -46,7 +46,7 @@ def layer_on_substrate(
     hardness_below: float,
     thickness: float,
 ) -> Array:
-    r"""Hardness [Pa] of one layer on something else, from depth zero on.
+    r"""Hardness [Pa] of one layer on another material, from depth zero on.
 
     .. math:: \frac{H_e}{H_2} = 1 + \left(\frac{H_1}{H_2} - 1\right) \exp\left[
               -\left(\frac{u}{h}\right)^m \left(\frac{E_1}{E_2}\right)^n
@@ -55,9 +55,9 @@ def layer_on_substrate(
     Parameters
     ----------
     displacement : array_like (...)
-        Displacement u [m]; above the surface it counts as none.
+        Displacement u [m]; above the surface it counts as zero.
     young_modulus, young_modulus_below : float
-        Young's moduli of the layer and of what lies below [Pa].
+        Young's moduli of the layer and of the material below [Pa].
     hardness, hardness_below : float
         Their hardness [Pa].
     thickness : float
@@ -72,10 +72,10 @@ def layer_on_substrate(
     >>> round(float(layer_on_substrate(1e-9, 1e11, 1e11, 2e9, 1e9, 1e-9)) / 1e9, 9)
     1.342400744
     """
-    share = _share_of_layer(
+    weight = _weight_of_layer(
         displacement, 0.0, thickness, young_modulus / young_modulus_below, hardness / hardness_below
     )
-    return np.asarray(hardness * share + hardness_below * (1.0 - share))
+    return np.asarray(hardness * weight + hardness_below * (1.0 - weight))
 
 
 def effective_hardness(
@@ -85,7 +85,7 @@ def effective_hardness(
     thickness: Values,
     shift: float = 0.3,
 ) -> Array:
-    r"""Hardness [Pa] of any number of layers: continuous, between the least and the greatest.
+    r"""Hardness [Pa] of any number of layers: continuous, between the minimum and the maximum.
 
     .. math:: H_e(u) &= H_s + \sum_j (H_j - H_{j+1}) W_j, \\
               W_j &= \max(w_1, \dots, w_j), \qquad
@@ -99,13 +99,13 @@ def effective_hardness(
     Parameters
     ----------
     displacement : array_like (...)
-        Displacement u [m]; above the surface it counts as none.
+        Displacement u [m]; above the surface it counts as zero.
     young_modulus, hardness : sequence (n_layers + 1)
         Young's moduli and hardness of the materials, substrate last [Pa].
     thickness : sequence (n_layers)
         Thicknesses of the layers [m].
     shift : float
-        Share s of the depth of an interface up to which it is not felt [-]: 0.3 is the rule of
+        Fraction s of the depth of an interface up to which it has no effect [-]: 0.3 is the rule of
         thumb of the source, 0 is its fit.
 
     Notes
@@ -130,13 +130,13 @@ def effective_hardness(
         depth += thick
         if hardness[j] == hardness[j + 1]:
             continue
-        share = _share_of_layer(
+        weight = _weight_of_layer(
             u, shift, depth, young_modulus[j] / young_modulus[j + 1], hardness[j] / hardness[j + 1]
         )
-        # Summed as shares of each material, none of them negative: bounded by the hardnesses.
-        share = np.maximum(share, above)
-        total += hardness[j] * (share - above)
-        above = share
+        # Summed over non-negative fractions of each material: bounded by the hardnesses.
+        weight = np.maximum(weight, above)
+        total += hardness[j] * (weight - above)
+        above = weight
     return np.asarray(total + hardness[-1] * (1.0 - above))
 
 
@@ -161,13 +161,14 @@ def effective_hardness_literal(
     Raises
     ------
     DescriptionError
-        For more than two layers, of which the source says nothing.
+        For more than two layers, which the source does not treat.
 
     Notes
     -----
     For reproducing the source's figures; otherwise take `effective_hardness`. One layer twice or
     half as hard as the substrate jumps by -12 % or +6 % at :math:`u = 0.3 h`. For two layers with
-    :math:`h_1 \ge h_2` the second criterion never holds, and the top layer is forgotten at once.
+    :math:`h_1 \ge h_2` the second criterion never holds, and the top layer has no effect
+    beyond the first.
 
     References
     ----------
@@ -200,11 +201,11 @@ def effective_hardness_literal(
     return np.asarray(found)
 
 
-def _share_of_layer(
+def _weight_of_layer(
     u: ArrayLike, shift: float, depth: float, moduli: float, hardnesses: float
 ) -> Array:
-    """Weight of what lies above an interface: 1 at the surface, 0 far below."""
+    """Weight of the material above an interface: 1 at the surface, 0 far below."""
     m, n, p = _HARD_ON_SOFT if hardnesses > 1.0 else _SOFT_ON_HARD
     beyond = np.maximum(np.asarray(u, dtype=np.float64) / depth - shift, 0.0)
-    with np.errstate(over="ignore", under="ignore"):  # far below, the share is 0
+    with np.errstate(over="ignore", under="ignore"):  # far below, the weight is 0
         return np.asarray(np.exp(-(beyond**m) * moduli**n * hardnesses**p))

@@ -30,9 +30,9 @@ __all__ = ["IslandBridges", "IslandPart", "bridges_of"]
 
 
 class IslandPart(NamedTuple):
-    """Meniscus force [N] of bridges on islands, and what it is made of; arrays by island, (n,).
+    """Meniscus force [N] of bridges on islands, and its contributions; arrays by island, (n,).
 
-    `law` names what was used. `area` is that of the islands without contact [m2], `n_dry` the
+    `law` names the models used. `area` is that of the islands without contact [m2], `n_dry` the
     number of islands that no bridge of this liquid spans, which are in no array. `coverage` is the
     sum of the contact circles over the window [-], `n_overlapping` the number of bridges whose
     circles overlap with a neighbour's, so that their forces are no longer independent.
@@ -92,8 +92,8 @@ class IslandBridges(Observer[IslandPart]):
 
     Notes
     -----
-    A wide island that is no summit, and a bridge around a flattened contact, are taken for round
-    ones under a sphere all the same. With ``"island"`` and thin bridges the sum is that of Eq.
+    A wide island that is no summit, and a bridge around a flattened contact, are approximated by
+    round ones under a sphere. With ``"island"`` and thin bridges the sum is that of Eq.
     (2.43) on the same islands; it differs by the pull of the rims, the curvature around the axis
     and the volume.
     """

@@ -131,7 +131,7 @@ class SubsurfaceStress(Observer[StressPart]):
         return ()
 
     def planes_of(self, scene: ContactScene, grid: Grid) -> tuple[tuple[float, str], ...]:
-        """Depth [m] and side of each plane: those asked for, and both faces of interfaces."""
+        """Depth [m] and side of each plane: those requested, and both faces of interfaces."""
         stack = scene.interface.lower.stack
         assert stack is not None
         wanted = self.depths

@@ -23,11 +23,11 @@ from .reduced_system import ReducedSystem
 
 __all__ = ["Outcome", "improve"]
 
-MOST_ITERATIONS = 80
+MAX_ITERATIONS = 80
 SINGLE = 1e-2  # relative violation down to which displacements in single precision are used
 SINGLE_LIMIT = 1e-5  # violation that displacements in single precision cannot measure
 CAUTIOUS_AFTER = 1  # iterations without progress after which few pixels leave a bound at a time
-WORST = 0.8  # violation of those few, of the largest
+WORST = 0.8  # violation of those few, over the maximum
 CYCLE = 5  # iterations without progress after which pixels that stop at a bound stay there
 REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
     (0.05, 0.2),
@@ -38,11 +38,11 @@ PATIENCE = 15  # iterations within which the residual must have halved
 
 
 class Outcome(NamedTuple):
-    """Where the iterations ended; pressure and reduced gap are in the maps of the grid.
+    """End of the iterations; pressure and reduced gap are in the maps of the grid.
 
     approach : rigid-body approach; relative : largest violation over the height scale
     certificate : bound of the energy error over load times height scale
-    steps : number of iterations; history : (applications so far, relative) of each
+    steps : number of iterations; history : (applications, relative) after each
     is_stalled : whether round-off ended the iterations of the plain method that finished
     """
 
@@ -65,9 +65,9 @@ class _State:
         self.load = problem.load or 0.0
         self.bounded = bool(np.isfinite(self.upper).any())
         self.missing = self.load - float(self.p.sum()) if self.load_fixed else 0.0
-        self.clipped, self.added, self.scale = 0, 0, 0.0
+        self.stopped, self.added, self.scale = 0, 0, 0.0
         rms = float(np.std(self.h))
-        self.same_rms = np.array([rms, -rms])  # two heights for the scale, instead of all again
+        self.same_rms = np.array([rms, -rms])  # two heights of the same rms, for the scale
         self.relative, self.stuck, self.cautious = np.inf, False, False
         self.at = np.zeros(0, np.intp)
 
@@ -106,7 +106,7 @@ class _State:
     def correct(self) -> None:
         """Correct the free pixels; if there are none, take a projected gradient step."""
         loops = self.grid.loops
-        if self.clipped == 0:
+        if self.stopped == 0:
             self._choose_free()
         if self.at.size <= (self.load_fixed and not self.missing):
             self._descend()
@@ -116,11 +116,11 @@ class _State:
             r -= r.mean()
         system = ReducedSystem(self.grid, self.at, self.load_fixed)
         x = system.solve(r, self._reduction(), self.missing)
-        self.clipped = loops.add_and_clip(self.p, self.at, x, self.upper)
+        self.stopped = loops.add_and_clip(self.p, self.at, x, self.upper)
         self._balance()
-        if self.clipped and self.stuck:
+        if self.stopped and self.stuck:
             self.at, self.added = self.at[self._between(self.at)], 0
-        elif self.clipped:
+        elif self.stopped:
             self._predict_free()
 
     def _between(self, at: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -131,24 +131,24 @@ class _State:
         """How far to reduce the linear residual: little as long as the active set changes."""
         if self.stuck:
             return 0.03
-        changed = (self.clipped + self.added) / self.at.size
+        changed = (self.stopped + self.added) / self.at.size
         for fraction, reduction in REDUCTIONS:
             if changed > fraction:
                 return reduction
         return min(0.03, max(0.4 * self.rtol / self.relative, 1e-5))
 
     def _balance(self) -> None:
-        """Restore the load by scaling; where a bound is in the way, by the next correction."""
+        """Restore the load by scaling; where a bound prevents that, by the next correction."""
         self.missing = 0.0
-        if self.load_fixed and not (self.bounded and self.clipped):
+        if self.load_fixed and not (self.bounded and self.stopped):
             self.grid.loops.scale_to_load(self.p, self.at, self.upper, self.load)
         elif self.load_fixed:
             self.missing = self.load - float(self.p.sum())
 
     def _predict_free(self) -> None:
-        """Choose the next free pixels by the gap under the correction before it was clipped.
+        """Choose the next free pixels by the gap under the correction before the bounds.
 
-        Clipping changes the gap around a pixel, which would be taken for penetration.
+        A pixel that stops at its bound changes the gap around it, which is not penetration.
         """
         self.g += self.grid.change
         if self.load_fixed:
@@ -170,7 +170,7 @@ class _State:
         """Projected gradient step."""
         gradient = self.g - (self.problem.approach or 0.0)
         self.p[...] = project(self.p - gradient / self.grid.steepest, self.problem)
-        self.clipped, self.missing = 0, 0.0
+        self.stopped, self.missing = 0, 0.0
 
 
 def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
@@ -193,7 +193,7 @@ def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
     state = _State(grid, problem, rtol)
     history: list[tuple[int, float]] = []
     best, best_step = np.inf, 0
-    for step in range(MOST_ITERATIONS):
+    for step in range(MAX_ITERATIONS):
         relative = state.evaluate()
         history.append((grid.applications(), relative))
         if state.done():
@@ -206,7 +206,7 @@ def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
         state.stuck = step - best_step >= CYCLE
         if step - best_step >= PATIENCE:
             break
-        if step < MOST_ITERATIONS - 1:
+        if step < MAX_ITERATIONS - 1:
             state.correct()
     relative = state.relative if state.done() else max(state.relative, 2.0 * rtol)
     return Outcome(state.approach, relative, state.certificate, len(history), tuple(history))

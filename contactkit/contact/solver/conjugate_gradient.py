@@ -1,7 +1,7 @@
 """Preconditioned conjugate gradients, in place: the iterative linear solver of the active set.
 
-The preconditioner may differ from step to step (flexible conjugate gradients, Polak-Ribiere), as
-one does that solves a coarse problem by iteration itself.
+The preconditioner may vary from step to step (flexible conjugate gradients, Polak-Ribiere), as one
+that solves a coarse problem by iterations does.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class LinearSystem(Protocol):
 
 
 def conjugate_gradient(
-    system: LinearSystem, x: Vector, r: Vector, reduction: float, most: int
+    system: LinearSystem, x: Vector, r: Vector, reduction: float, max_iterations: int
 ) -> None:
     """Reduce the norm of a residual by a factor.
 
@@ -48,16 +48,16 @@ def conjugate_gradient(
     system : LinearSystem
         Operator and preconditioner.
     x, r : ndarray (n,)
-        First guess and its residual; overwritten by the last ones.
+        Initial guess and its residual; overwritten by the last ones.
     reduction : float
         Of the norm of the residual [-].
-    most : int
-        Iterations at most.
+    max_iterations : int
+        Maximum number of iterations.
     """
     d, q = np.zeros_like(r), np.zeros_like(r)
     stop = reduction**2 * float(np.dot(r, r))
     length, rz = 0.0, 0.0
-    for _ in range(most if stop > 0.0 else 0):
+    for _ in range(max_iterations if stop > 0.0 else 0):
         z = system.precondition(r)
         rz = system.loops.next_direction(d, z, r, q, length, rz, system.load_fixed)
         system.apply(d, q)

@@ -29,7 +29,7 @@ from .warm_start import Start, initial_pressure
 __all__ = ["ContactSolver", "Solution"]
 
 Floats = NDArray[np.float64]
-PLAIN: dict[str, Callable[..., Iterate]] = {  # what finishes, or does, the work of a method
+REFERENCE: dict[str, Callable[..., Iterate]] = {  # the fallback, or the method itself
     "active-set": conjugate_gradient,
     "conjugate-gradient": conjugate_gradient,
     "quasi-newton": quasi_newton,
@@ -41,8 +41,8 @@ MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution i
 class ContactSolver:
     """Contact solver of one grid and solid, for any heights, load and pressure bound.
 
-    Keep it for load curves and outer iterations: only `solve` is paid again, and `start` takes the
-    previous pressures.
+    Reuse it for load curves and outer iterations: only `solve` is repeated, from the previous
+    pressures as `start`.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class ContactSolver:
     threads : int
         Threads of the transforms and of the compiled loops.
     fast : bool, optional
-        Insist on numba and ducc0, or do without; None takes what is installed.
+        Whether numba and ducc0 are required or refused; None uses them if installed.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class ContactSolver:
     Raises
     ------
     DescriptionError
-        For a shape, pixel or symbol that describes no map of a compliant solid.
+        For an impossible shape, pixel or symbol.
 
     Notes
     -----
@@ -87,7 +87,7 @@ class ContactSolver:
 
     Examples
     --------
-    A wave of height 1 nm and length 64 nm, pressed by half of what flattens it (Westergaard):
+    A wave of height 1 nm and length 64 nm under half the pressure that flattens it (Westergaard):
 
     >>> def half_space(shape, pixel_size):
     ...     qy = 2 * np.pi * np.fft.fftfreq(shape[0], pixel_size[0])[:, None]
@@ -177,26 +177,26 @@ class ContactSolver:
             and pressures of earlier solutions, newest first, to be extrapolated. Not used where
             much of the contact is at its bound: the nested grids are the better start there.
         max_iterations : int
-            Iterations of the fallback, or of a plain method, at most.
+            Maximum number of iterations of the fallback, or of a reference method.
         method : {"active-set", "conjugate-gradient", "quasi-newton"}
-            The last two are plain and slow: a check of the first.
+            The last two are slow reference methods.
 
         Returns
         -------
         Solution
-            Look at `converged`: it is the caller who raises.
+            With `converged` false where the tolerance is not reached.
 
         Raises
         ------
         DescriptionError
-            For heights, loads, bounds or starts that describe nothing.
+            For impossible heights, loads, bounds or starts.
         InfeasibleError
             If the bound cannot carry the load, or no load brings a periodic map to the approach.
         """
         if np.shape(heights) != self.shape:
             raise DescriptionError("heights", np.shape(heights), f"have the shape {self.shape}")
-        if method not in PLAIN:
-            raise DescriptionError("method", method, f"be one of {', '.join(PLAIN)}")
+        if method not in REFERENCE:
+            raise DescriptionError("method", method, f"be one of {', '.join(REFERENCE)}")
         if not (np.isfinite(rtol) and rtol > 0.0):
             raise DescriptionError("rtol", rtol, "be positive and finite")
         problem = pose(heights, self.self_influence, mean_pressure, rigid_approach, bound)
@@ -215,7 +215,9 @@ class ContactSolver:
             else:
                 outcome, fallback = Outcome(0.0, np.inf, 0.0, 0, ()), False
             if fallback or method != "active-set":
-                outcome = self._plainly(PLAIN[method], problem, outcome, rtol, max_iterations)
+                outcome = self._by_reference(
+                    REFERENCE[method], problem, outcome, rtol, max_iterations
+                )
             return self._solution(problem, outcome, rtol, fallback, begun)
 
     def _refuse_closed_gap(self, problem: Problem) -> None:
@@ -259,15 +261,15 @@ class ContactSolver:
                 improve(grid, coarse, COARSE_RTOL)
                 p = grid.pressure
 
-    def _plainly(
+    def _by_reference(
         self,
-        plain: Callable[..., Iterate],
+        method: Callable[..., Iterate],
         problem: Problem,
         outcome: Outcome,
         rtol: float,
-        most: int,
+        max_iterations: int,
     ) -> Outcome:
-        """Finish, or do all the work, by a plain method."""
+        """Finish, or solve entirely, by a reference method."""
         fine = self.grids[0]
 
         def apply(p: Floats) -> Floats:
@@ -276,7 +278,7 @@ class ContactSolver:
             return fine.gap.ravel().copy()
 
         first = fine.pressure.ravel().copy()
-        done = plain(apply, problem, first, fine.steepest, rtol, most)
+        done = method(apply, problem, first, fine.steepest, rtol, max_iterations)
         fine.pressure[...] = done.pressure.reshape(self.shape)
         fine.gap[...] = done.displacement.reshape(self.shape) - problem.heights
         load = float(done.pressure.sum())

@@ -1,7 +1,7 @@
 """Displacement under a pressure map by fast Fourier transforms, on a map or on a patch of it.
 
-Under a ball the free pixels of an isolated contact fill a small part of the map. Between them the
-operator is that of a map as small as they are, whose padded transforms cost accordingly less.
+The free pixels of an isolated contact often fill a small part of the map. Between them the operator
+is that of a map as small, whose padded transforms cost less.
 
 Sign convention: pressure and displacement are positive into the solid.
 
@@ -38,9 +38,9 @@ __all__ = [
 
 Floats = NDArray[np.float64]
 Shape = tuple[int, int]
-WORTH = 0.6  # fraction of the map up to which a patch pays, with the whole map once at the end
+WORTH = 0.6  # fraction of the map up to which a patch is faster, with one final whole map
 LEAST = 8  # pixels along the sides of a patch
-ROOMY = 1.3  # pixels, over those asked for, up to which the patch before is kept
+ROOMY = 1.3  # pixels over those required, up to which the previous patch is kept
 SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Floats]
 
 
@@ -150,7 +150,7 @@ class Convolution:
     Notes
     -----
     `source` must hold the pressure; ``run()`` fills `target`. `count` is the number of runs, each
-    of them two transforms; `nbytes` the memory held.
+    of them two transforms; `nbytes` its memory.
 
     Examples
     --------
@@ -189,7 +189,7 @@ class Convolution:
         )
 
     def run(self) -> NDArray[Any]:
-        """Convolve `source` into `target` and give back `target`, which the next run overwrites."""
+        """Convolve `source` into `target` and return it; the next run overwrites it."""
         self.count += 1
         self._transform(self.source, self.target)
         return self.target
@@ -216,7 +216,7 @@ def patch_symbol(K: Floats, shape: Shape) -> Floats:
     array([5.5, 2.5, 1.5])
     """
     ny, nx = shape
-    corner = np.zeros((ny + 1, nx + 1))  # what no two pixels are apart does not matter
+    corner = np.zeros((ny + 1, nx + 1))  # distances that no two pixels have do not matter
     there = K[: ny + 1, : nx + 1]
     corner[: there.shape[0], : there.shape[1]] = there
     half = scipy.fft.dctn(corner, type=1)

@@ -191,19 +191,19 @@ def add_scaled(change: Array, displacement: Array, length: float) -> None:
 
 
 def add_and_clip(p: Array, at: Array, x: Array, upper: Array) -> int:
-    """Add a correction to the free pixels and clip to the bounds; number of clipped pixels."""
+    """Add a correction to the free pixels within the bounds; number of pixels that reach one."""
     many = 0 if upper.size == 1 else 1
-    clipped = 0
+    stopped = 0
     for a in prange(at.size):
         value, bound = p[at[a]] + x[a], upper[at[a] * many]
         if value <= 0.0:
             value = 0.0
-            clipped += 1
+            stopped += 1
         elif value >= bound:
             value = bound
-            clipped += 1
+            stopped += 1
         p[at[a]] = value
-    return clipped
+    return stopped
 
 
 def scale_to_load(p: Array, at: Array, upper: Array, load: float) -> None:

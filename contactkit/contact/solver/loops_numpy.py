@@ -170,12 +170,12 @@ def add_scaled(change: Array, displacement: Array, length: float) -> None:
 
 
 def add_and_clip(p: Array, at: Index, x: Array, upper: Array) -> int:
-    """Add a correction to the free pixels and clip to the bounds; number of clipped pixels."""
+    """Add a correction to the free pixels within the bounds; number of pixels that reach one."""
     value = p[at] + x
     bound = np.broadcast_to(upper, p.shape)[at]
-    clipped = int(np.count_nonzero((value <= 0.0) | (value >= bound)))
+    stopped = int(np.count_nonzero((value <= 0.0) | (value >= bound)))
     p[at] = np.clip(value, 0.0, bound)
-    return clipped
+    return stopped
 
 
 def scale_to_load(p: Array, at: Index, upper: Array, load: float) -> None:
@@ -187,7 +187,7 @@ def scale_to_load(p: Array, at: Index, upper: Array, load: float) -> None:
         p[at] = np.minimum(free * (rest / carried), np.broadcast_to(upper, p.shape)[at])
 
 
-PART = 2**14  # rows at a time, to bound what the neighbours of all pixels would hold
+PART = 2**14  # rows at a time, to bound the memory of the neighbours
 
 
 class Ordering(NamedTuple):

@@ -1,4 +1,4 @@
-"""Nested grids of the contact solver: operators and preconditioners that no height changes.
+"""Nested grids of the contact solver: operators and preconditioners, independent of the heights.
 
 Sign convention: pressure and displacement positive into the solid.
 """
@@ -23,17 +23,17 @@ __all__ = ["Grid", "NestedGrids", "bytes_of", "compiled_loops", "prepare"]
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Shape = tuple[int, int]
-LEAST_THREADED = 200  # pixels along the shorter side from which threads pay
+LEAST_THREADED = 200  # pixels along the shorter side from which threads are faster
 LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are treated by blocks
 STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
-PLATE = 8.0  # decay from which no stencil and no block will do, as under a stiff plate
+PLATE = 8.0  # decay from which stencil and blocks fail, as under a stiff plate
 PIXEL_DECAY = 0.84  # decay of a half-space under uniform pressure on each pixel: not periodic
 FEW = 4000  # free pixels up to which the better preconditioner is also the cheaper one
 FEW_STEEP = 0.15  # the same as a fraction of all pixels if the symbol is steep: the other is poor
 
 
 def compiled_loops(fast: bool | None, threads: int) -> Any:
-    """Loops over the pixels: compiled if numba is there and wanted, else those on numpy.
+    """Loops over the pixels: compiled by numba if installed and not refused, else in numpy.
 
     Raises
     ------
@@ -97,7 +97,7 @@ class Grid(NamedTuple):
         return self.quick.count + exact + (self.patch.count if self.patch is not None else 0)
 
     def preconditioner(self, n_free: int) -> SparseInverse | TwoLevel:
-        """The preconditioner that is best for its price."""
+        """The cheaper preconditioner for a number of free pixels."""
         if self.two_level is None or n_free <= self.few:
             return self.inverse
         return self.two_level
@@ -226,7 +226,7 @@ def prepare(
     threads : int
         Threads of transforms and loops; small grids take one.
     fast : bool or None
-        Compiled loops and ducc0: insist, refuse, or take what is installed.
+        Compiled loops and ducc0: required, refused, or used if installed (None).
     """
     symbols = _Symbols(shape, pixel_size, make_symbol, periodic)
     transforms = fast_transforms_installed() if fast is None else fast

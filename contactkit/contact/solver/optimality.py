@@ -49,7 +49,7 @@ def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> fl
     heights, displacement : ndarray (ny, nx)
         [m]
     flat : float
-        Least length for flat heights [m]: what the mean pressure does to a single pixel.
+        Minimum length for flat heights [m]: displacement of a single pixel under the mean pressure.
 
     Examples
     --------
@@ -57,9 +57,9 @@ def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> fl
     1.0
     """
     rms = float(np.std(heights))
-    most = float(max(displacement.max(), -displacement.min()))
+    largest = float(max(displacement.max(), -displacement.min()))
     is_flat = rms <= 1e-9 * float(np.abs(heights).max(initial=0.0))
-    return max(most, flat) if is_flat else max(min(rms, most), 1e-4 * rms)
+    return max(largest, flat) if is_flat else max(min(rms, largest), 1e-4 * rms)
 
 
 def free_approach(pressure: Floats, reduced_gap: Floats, bound: float | Floats) -> float:

@@ -2,7 +2,7 @@
 
 Minimise ``p'Gp/2 - h'p`` over ``0 <= p <= upper`` with either the sum of the pressures or the
 rigid-body approach prescribed. Lengths are divided by the rms height and pressures by the pressure
-that sinks one pixel by it, so that metres and nanometres take the same steps.
+that displaces one pixel by it, so that metres and nanometres take the same steps.
 
 Sign convention: pressure, heights and displacement positive into the solid; ``u - h - approach``
 is the gap.
@@ -45,7 +45,7 @@ class Solution(NamedTuple):
         Rigid-body approach of the zero plane of the heights [m]; the gap is
         ``displacement - heights - rigid_approach``.
     converged : bool
-        Whether `kkt` is at most the tolerance asked for.
+        Whether `kkt` is at most the tolerance.
     kkt : float
         Largest violation of a contact condition over the map, relative to `height_scale`.
     certificate : float
@@ -56,7 +56,7 @@ class Solution(NamedTuple):
         Applications of the operator on the full grid; transforms on it; applications on all
         coarser grids; active-set iterations on the full grid.
     history : tuple of (int, float)
-        Applications so far and `kkt`, once per active-set iteration on the full grid.
+        Number of applications and `kkt`, once per active-set iteration on the full grid.
     seconds : float
         Wall time.
     fallback : bool
@@ -119,11 +119,11 @@ def _check_load(mean_pressure: float, upper: Floats) -> None:
         raise DescriptionError(
             "mean_pressure", mean_pressure, "be zero or positive, and finite", unit="Pa"
         )
-    most = float(upper.mean())
-    if mean_pressure > most * (1.0 + 1e-12):
+    highest = float(upper.mean())
+    if mean_pressure > highest * (1.0 + 1e-12):
         raise InfeasibleError(
             f"a mean pressure of {mean_pressure:.6g} Pa exceeds what the bound can carry, "
-            f"{most:.6g} Pa over the whole map"
+            f"{highest:.6g} Pa over the whole map"
         )
 
 
@@ -199,7 +199,7 @@ def pose(
 
 
 def clip_to_load(trial: Floats, upper: Floats, load: float) -> Floats:
-    """Project pressures on the feasible set: shift all alike, then clip to 0 and `upper`.
+    """Project pressures on the feasible set: shift all alike, then clip to the bounds.
 
     The shift is found by Newton's method on the piecewise linear sum, kept inside a bracket.
 
@@ -222,14 +222,14 @@ def clip_to_load(trial: Floats, upper: Floats, load: float) -> Floats:
     high, shift = peak, float(trial.sum() - load) / trial.size
     for _ in range(200):
         shift = shift if low < shift < high else 0.5 * (low + high)
-        clipped = np.clip(trial - shift, 0.0, upper)
-        excess = float(clipped.sum()) - load
+        p = np.clip(trial - shift, 0.0, upper)
+        excess = float(p.sum()) - load
         if abs(excess) <= 1e-15 * load or high - low <= 1e-15 * max(abs(low), abs(high)):
             break
         low, high = (shift, high) if excess > 0.0 else (low, shift)
-        slope = np.count_nonzero((clipped > 0.0) & (clipped < upper))
+        slope = np.count_nonzero((p > 0.0) & (p < upper))
         shift += excess / slope if slope else np.inf
-    return clipped
+    return p
 
 
 def project(trial: Floats, problem: Problem) -> Floats:

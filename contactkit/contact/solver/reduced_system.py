@@ -2,7 +2,7 @@
 
 Few unknowns are solved for by a Cholesky factor of the influence matrix, many by preconditioned
 conjugate gradients on vectors of the free pixels alone, in single precision: the residual they
-start from is exact, and what they leave is corrected next time.
+start from is exact, and the rest is corrected in the next active-set iteration.
 
 Sign convention: pressure, heights and displacement positive into the solid.
 
@@ -30,7 +30,7 @@ __all__ = ["ReducedSystem", "few_enough", "influence_matrix", "solve_directly"]
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
-MOST_ITERATIONS = 40
+MAX_ITERATIONS = 40
 
 
 def few_enough(n_free: int, pixels: int) -> bool:
@@ -112,7 +112,7 @@ class ReducedSystem:
     Parameters
     ----------
     grid : Grid
-        The grid; its `change` gets what the solution adds to the displacement.
+        The grid; the change of the displacement goes to its `change`.
     at : ndarray (m,)
         Flat indices of the free pixels, sorted.
     load_fixed : bool
@@ -158,7 +158,7 @@ class ReducedSystem:
             self.apply(x, q)
             self.take_step(1.0)
             r -= q - q.mean(dtype=np.float64)
-        conjugate_gradient(self, x, r, reduction, MOST_ITERATIONS)
+        conjugate_gradient(self, x, r, reduction, MAX_ITERATIONS)
         self.operator.source.ravel()[self.place] = 0.0
         self.preconditioner.clean()
         if self.patch is not None:

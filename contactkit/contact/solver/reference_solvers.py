@@ -1,4 +1,4 @@
-"""Two plain contact solvers, to check the fast one by and to fall back on.
+"""Two reference solvers: projected conjugate gradients, also the fallback, and L-BFGS-B.
 
 Both take the operator as a function and the dimensionless problem.
 
@@ -29,16 +29,16 @@ __all__ = ["Iterate", "conjugate_gradient", "quasi_newton"]
 Floats = NDArray[np.float64]
 Progress = Callable[[int, float], None] | None
 GRADIENT_EVERY = 25  # a projected gradient step this often makes the convergence a theorem
-MOST_SWEEPS = 100  # multipliers of the load that are tried
+MAX_SWEEPS = 100  # multipliers of the load
 PATIENCE = 6  # sweeps within which the residual must have halved
 
 
 class Iterate(NamedTuple):
-    """Dimensionless pressures (flat) and displacement with how good they are.
+    """Dimensionless pressures (flat) and displacement, with their optimality.
 
     optimality : approach, residual and energy bound; relative : residual over the height scale
     scale : the height scale; history : (step, relative)
-    is_stalled : whether round-off ended the steps: more of them would gain nothing
+    is_stalled : whether round-off ended the steps
     """
 
     pressure: Floats
@@ -66,8 +66,8 @@ def _violation(one: Iterate) -> float:
     return one.relative
 
 
-def _movable(p: Floats, g: Floats, approach: float, upper: Floats) -> NDArray[np.bool_]:
-    """Pixels between the bounds, and those at a bound that want to leave it."""
+def _free(p: Floats, g: Floats, approach: float, upper: Floats) -> NDArray[np.bool_]:
+    """Free pixels: between the bounds, or at a bound with a gradient away from it."""
     return ((p > 0.0) | (g < approach)) & ((p < upper) | (g > approach)) & (upper > 0.0)
 
 
@@ -80,12 +80,12 @@ def conjugate_gradient(
     max_iterations: int = 5000,
     progress: Progress = None,
 ) -> Iterate:
-    """Conjugate gradients on the contact, clipped to the bounds, that cannot fail to converge.
+    """Projected conjugate gradients with guaranteed convergence.
 
     A step that would raise the energy is replaced by a projected gradient step of length
     ``1 / steepest``, and so is every 25th: the energy then falls at every step, and at those steps
-    by at least a fixed part of what the optimality conditions leave. Where not even such a step
-    lowers the energy, the pressures are right to round-off.
+    by at least a fixed part of the violation of the optimality conditions. Where not even such a
+    step lowers the energy, the pressures are exact to round-off.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def conjugate_gradient(
     problem : Problem
         Dimensionless problem.
     start : ndarray (n,)
-        First pressures; made admissible first.
+        Initial pressures, projected on the feasible set.
     steepest : float
         Largest eigenvalue of ``G`` or a bound of it.
     rtol : float
@@ -124,7 +124,7 @@ def conjugate_gradient(
     is_stalled = False
 
     def rise(q: Floats, v: Floats) -> float:
-        """Energy of q above that of p, from their difference: the round-off of each is larger."""
+        """Energy of q minus that of p, from their difference: each has a larger round-off."""
         return float((q - p) @ (0.5 * (u + v) - h - approach))
 
     for step in range(max_iterations + 1):
@@ -136,14 +136,14 @@ def conjugate_gradient(
         if found.relative <= rtol or is_stalled or step == max_iterations:
             break
         g, approach = u - h, found.optimality.approach
-        moving = _movable(p, g, approach, upper)
-        r = np.where(moving, approach - g, 0.0)
+        free = _free(p, g, approach, upper)
+        r = np.where(free, approach - g, 0.0)
         if problem.load is not None:
-            r[moving] -= r[moving].mean()
+            r[free] -= r[free].mean()
         rr = float(r @ r)
-        same = np.array_equal(moving, before) and strength > 0.0
+        same = np.array_equal(free, before) and strength > 0.0
         d = r + (rr / strength) * d if same else r
-        before, strength = moving, rr
+        before, strength = free, rr
         curvature = float(d @ apply(d))
         trial = fit(p + (float(r @ d) / curvature) * d, problem) if curvature > 0.0 else p
         moved = apply(trial)
@@ -167,16 +167,16 @@ def _minimised(
 ) -> tuple[Floats, int]:
     """Pressures that L-BFGS-B finds from `p`, whose gradient is `g`, and the steps it took.
 
-    The unknown is the change of the pressures, and the energy what is gained by it. The energy
-    itself is known to 1e-16 of its size only, and with it the pressures to 1e-8 of theirs.
+    The unknown is the change of the pressures, and the objective the change of the energy. The
+    energy itself is exact to 1e-16 of its size only, and with it the pressures to 1e-8 of theirs.
     """
 
     def gain(d: Floats) -> tuple[float, Floats]:
         q = apply(d) + weight * float(d.sum())
         return float(d @ (g + 0.5 * q)), g + q
 
-    least: Any = scipy.optimize.minimize  # its stubs know no bounded method with a gradient
-    answer = least(
+    minimize: Any = scipy.optimize.minimize  # its stubs lack bounds with a gradient
+    answer = minimize(
         gain,
         np.zeros_like(p),
         jac=True,
@@ -205,8 +205,8 @@ def quasi_newton(
     """L-BFGS-B of scipy; a prescribed load enters by an augmented Lagrangian.
 
     Parameters and return value are those of `conjugate_gradient`, except that `progress` is called
-    with the number of the sweep, one minimisation under one multiplier and penalty. Slower, but of
-    quite another make, which is what a check needs.
+    with the number of the sweep, one minimisation under one multiplier and penalty. It is slower,
+    but an independent check.
 
     References
     ----------
@@ -227,7 +227,7 @@ def quasi_newton(
     best = _graded(p, apply(p), problem)
     history: list[tuple[int, float]] = []
     excess, steps, halved, is_stalled = np.inf, 0, 0, False
-    for sweep in range(MOST_SWEEPS):
+    for sweep in range(MAX_SWEEPS):
         missing = float(p.sum()) - load if load is not None else 0.0
         g = apply(p) - h - approach + weight * missing
         gtol = 0.1 * rtol * best.scale

@@ -34,9 +34,9 @@ __all__ = ["SparseInverse", "lattice_strides", "pattern_rows"]
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Shape = tuple[int, int]
-NEAR = 2  # squared distance of the neighbours looked at, in strides: the eight around
+NEAR = 2  # squared distance of the neighbours, in strides: the eight nearest
 WIDE = 5  # the same where the compliance falls steeply: all up to a knight's move
-MOST_PATTERNS = 200_000  # kept at most; beyond, all are dropped before the next active set
+MAX_PATTERNS = 200_000  # beyond, all are dropped before the next active set
 
 
 def lattice_strides(shape: Shape, pixel_size: tuple[float, float]) -> NDArray[np.int32]:
@@ -225,7 +225,7 @@ class SparseInverse:
 
     def _rows_of(self, keys: NDArray[np.int64]) -> NDArray[np.int32]:
         """Rows of the table that belong to the patterns; new ones are solved first."""
-        if self.keys.size > MOST_PATTERNS:
+        if self.keys.size > MAX_PATTERNS:
             self._drop_patterns()
         at, there = self._look_up(keys)
         if not there.all():

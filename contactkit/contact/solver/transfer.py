@@ -101,7 +101,7 @@ def restrict(fine: Floats, shape: Shape) -> Floats:
 
 
 def prolong(coarse: Floats, shape: Shape) -> Floats:
-    """Spread a map over a finer grid, each fine pixel taking what covers it.
+    """Spread a map over a finer grid, each fine pixel with the value of the coarse one.
 
     Examples
     --------

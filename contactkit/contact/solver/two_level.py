@@ -183,11 +183,11 @@ class CoarseBlocks:
     def take_step(self, length: float) -> None:
         """See `LinearSystem.take_step`."""
 
-    def solve(self, total: Floats, reduction: float = 0.2, most: int = 25) -> Floats:
+    def solve(self, total: Floats, reduction: float = 0.2, max_iterations: int = 25) -> Floats:
         """Block values that balance the sums of the residual over the blocks, both flat."""
         r = self._without_mean(total.astype(np.float32) * self._over_w)
         x = np.zeros_like(r)
-        conjugate_gradient(self, x, r, reduction, most)
+        conjugate_gradient(self, x, r, reduction, max_iterations)
         return np.asarray(x * self._over_w, dtype=np.float64)
 
 

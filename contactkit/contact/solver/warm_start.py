@@ -16,7 +16,7 @@ __all__ = ["Start", "initial_pressure"]
 
 Floats = NDArray[np.float64]
 Start = Floats | Sequence[tuple[float, Floats]]
-MOST = 3  # solutions used, a parabola: more gain nothing where pixels enter or leave contact
+MAX_SOLUTIONS = 3  # a parabola: more do not help where pixels enter or leave contact
 
 
 def initial_pressure(start: Start, mean_pressure: float | None, shape: tuple[int, int]) -> Floats:
@@ -25,7 +25,7 @@ def initial_pressure(start: Start, mean_pressure: float | None, shape: tuple[int
     .. math:: p(\bar p) = \sum_i p_i \prod_{j \ne i}
         \frac{\ln \bar p - \ln \bar p_j}{\ln \bar p_i - \ln \bar p_j}
 
-    on the pixels in contact under the newest load; what falls below zero is set to zero.
+    on the pixels in contact under the newest load; negative values are set to zero.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def initial_pressure(start: Start, mean_pressure: float | None, shape: tuple[int
     mean_pressure : float or None
         Load to extrapolate to [Pa]; without it the newest pressures are taken.
     shape : tuple of int
-        Shape to insist on.
+        Required shape.
 
     Raises
     ------
@@ -48,7 +48,7 @@ def initial_pressure(start: Start, mean_pressure: float | None, shape: tuple[int
     >>> initial_pressure(pair, 16.0, (1, 1))
     array([[5.]])
     """
-    pairs = [(np.nan, start)] if isinstance(start, np.ndarray) else list(start)[:MOST]
+    pairs = [(np.nan, start)] if isinstance(start, np.ndarray) else list(start)[:MAX_SOLUTIONS]
     maps = [np.asarray(p, dtype=np.float64) for _, p in pairs]
     for p in maps or [np.zeros(0)]:
         if p.shape != shape or not np.all(np.isfinite(p)):
