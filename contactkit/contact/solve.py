@@ -67,7 +67,7 @@ def solve(
 
     Examples
     --------
-    Hertz: a sphere of 1 mm on steel, 100 N/m2 over a window without neighbours.
+    Hertz: a sphere of 1 mm on steel, a load of 0.2 N, an isolated contact.
 
     >>> import contactkit as ck
     >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)

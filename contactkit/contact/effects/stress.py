@@ -92,7 +92,7 @@ class SubsurfaceStress(Observer[StressPart]):
     keep : {"section", "planes"}
         Whether to keep one section and the maxima, or all planes: six arrays for each depth.
     window : float
-        Without neighbours: distance of the repetitions that the transforms leave over the size of
+        Isolated contacts: distance of the repetitions that the transforms leave over the size of
         the window [-]; stiff layers need a hundred contact radii for four digits.
     """
 
@@ -174,7 +174,7 @@ def scan(
     keep_planes : bool
         Whether to keep the planes themselves.
     window : float
-        Padding of a window without neighbours [-].
+        Padding of an isolated contact [-].
     """
     stack = contact.scene.interface.lower.stack
     assert stack is not None
