@@ -30,7 +30,7 @@ def grid(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def errata_table() -> str:
     """Errata of the printed equations."""
     return grid(
-        ("equation", "what is wrong"),
+        ("equation", "error"),
         [(n if " " in n else f"({n})", text) for n, text in published.ERRATA.items()],
     )
 

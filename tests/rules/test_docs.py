@@ -111,6 +111,17 @@ def test_links_lead_somewhere():
     assert dead == []
 
 
+def test_files_that_are_named_exist():
+    pattern = r"\b(?:tests|contactkit|fmu|models|docs)/[\w/.-]+\.(?:py|c|toml|md)\b"
+    named = {
+        path
+        for page in PAGES
+        for path in re.findall(pattern, page.read_text("utf-8"))
+        if page.name != "CONTRIBUTING.md"  # where files of an example are not there
+    }
+    assert sorted(path for path in named if not (ROOT / path).exists()) == []
+
+
 def test_no_path_of_a_machine():
     pattern = r"/(work|tmp|root|home)/"
     assert [page.name for page in PAGES if re.search(pattern, page.read_text("utf-8"))] == []
