@@ -18,9 +18,10 @@ from ..contact.result import ContactResult
 from ..errors import ContactkitError, DescriptionError
 from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
+from ..separation.curve_result import Work
 from ..separation.motion.state import MotionState
 from ..separation.plan import plan
-from ..separation.results import SeparationResult, Work
+from ..separation.results import SeparationResult
 from ..separation.sliding.plan import plan_sliding
 from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.loading import ImposedSpeed, ImposedTime
+from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .film import Film
 from .plan import Plan
-from .results import SeparationResult, Work
+from .results import SeparationResult
 from .validity import check
 
 __all__ = ["at_speed", "frozen", "newtonian_impulses", "simulated", "within_time"]

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Protocol, TypeVar
 
 from attrs import field, frozen
 
-from ..errors import NotSimulatedError
-from ..scene.result import Result
 from ..scene.validity import ValidityNumber
+from .curve_result import CurveResult, Work
 from .motion.state import MotionState
 from .plan import Plan
 
@@ -30,17 +29,8 @@ class _HasPart(Protocol[P_co]):
     def part(self, result: SeparationResult) -> P_co: ...
 
 
-class Work(NamedTuple):
-    """Cost of a run."""
-
-    n_steps: int
-    n_rejected: int
-    n_evaluations: int
-    seconds: float
-
-
 @frozen(eq=False)
-class SeparationResult(Result):
+class SeparationResult(CurveResult):
     """Curves and numbers of one separation.
 
     Attributes
@@ -63,6 +53,8 @@ class SeparationResult(Result):
         What it cost.
     """
 
+    cure: ClassVar[str] = "impose a speed or a force to get it"
+
     plan: Plan = field(repr=False)
     status: str
     message: str
@@ -73,19 +65,9 @@ class SeparationResult(Result):
     work: Work
 
     @property
-    def time(self) -> Curve:
-        """Time [s]."""
-        return self["time"]
-
-    @property
     def gap(self) -> Curve:
         """Gap [m]."""
         return self["gap"]
-
-    @property
-    def speed(self) -> Curve:
-        """Opening speed [m/s]."""
-        return self["speed"]
 
     @property
     def pull(self) -> Curve:
@@ -102,24 +84,6 @@ class SeparationResult(Result):
         """
         part: P_co = self.plan.listed(kind).part(self)
         return part
-
-    def _refuse(self, name: str) -> None:
-        owners = [k for k in self.plan.known_effects if name in {c.name for c in k.curves()}]
-        if owners and not any(map(self.plan.has, owners)):
-            if len(owners) == 1:
-                self.plan.listed(owners[0])
-            named = " or ".join(f"{kind.__name__}(...)" for kind in owners)
-            raise NotSimulatedError(
-                f"the scene does not call for {owners[0].name}: add {named} to its effects"
-            )
-        if name in self.plan.columns:
-            raise self._undetermined(self.plan.columns[name].label)
-
-    def _undetermined(self, what: str) -> NotSimulatedError:
-        return NotSimulatedError(
-            f"no {what}: with {self.plan.scene.loading.imposed} imposed it is not determined; "
-            "impose a speed or a force to get it"
-        )
 
     @property
     def errata(self) -> tuple[PublishedValue, ...]:

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, overload
 from ..errors import ConvergenceError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..scene.validity import warn
+from .curve_result import Work
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
 from .plan import Plan
 from .prescribed import at_speed, frozen, newtonian_impulses, simulated, within_time
-from .results import SeparationResult, Work
+from .results import SeparationResult
 from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
 from .sliding.run import slide
@@ -94,7 +95,7 @@ def simulate(
 def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) -> SeparationResult:
     """Motion of a mass under a pull, one internal step at a time, to its release."""
     loading = plan.scene.imposed_force
-    pull = drive(plan)
+    pull = pull_law(plan)
     states = [start(plan)]
     problem = None
     while states[-1].n_releases == 0 and states[-1].time < loading.time_limit:
@@ -118,7 +119,7 @@ def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) ->
     return result
 
 
-def drive(plan: Plan) -> Callable[[float], float]:
+def pull_law(plan: Plan) -> Callable[[float], float]:
     """Pull [N] of the scene at a time [s]."""
     force, rise = plan.scene.imposed_force.force, plan.scene.imposed_force.rise_time
     if rise == 0.0:

@@ -22,11 +22,12 @@ from ..errors import InfeasibleError
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.roots import bracketed_root, first_true
 from ..scene.loading import ImposedSpeed, Vibration
+from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .plan import Plan
 from .prescribed import frozen, simulated
-from .results import SeparationResult, Work
+from .results import SeparationResult
 from .validity import check
 
 if TYPE_CHECKING:

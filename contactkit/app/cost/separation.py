@@ -41,11 +41,11 @@ def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecisio
             "cost needs a scene with loading.force [N] and loading.mass [kg]: a curve at an "
             "imposed speed or time is closed form and costs microseconds"
         )
-    from ...separation.simulate import drive
+    from ...separation.simulate import pull_law
 
     made = plan(scene)
     end = 1.001 * _release(scene, 1e-8).value
-    pull = drive(made)
+    pull = pull_law(made)
     exact, near = (monolithic_release(scene, pull, end, rtol) for rtol in (1e-11, 1e-9))
     settings = [
         Setting("contactkit motion", f"rtol {rtol:.0e}", partial(_release, scene, rtol))
@@ -81,7 +81,7 @@ def _release(scene: SeparationScene, rtol: float) -> Outcome:
 
 
 def monolithic_release(film: SeparationScene, pulled_by: Drive, end: float, rtol: float) -> Outcome:
-    """First release of film and drive, solved monolithically."""
+    """First release of film and pull_law, solved monolithically."""
     from ...models.injector.monolithic import simulate
 
     found = simulate(plan(film), pulled_by, end, rtol=rtol)

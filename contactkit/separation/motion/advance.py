@@ -28,7 +28,7 @@ from ..integrator.radau import (
 )
 from ..plan import Film, Plan
 from .events import SAME, apply_event, next_event
-from .state import Drive, MotionState, Pull, acting_film
+from .state import MotionState, Pull, PullLaw, acting_film
 
 __all__ = ["advance", "internal_step"]
 
@@ -41,7 +41,7 @@ _TOO_LONG = 16.0  # error of a step that is to be cut in half
 _VISCOUS = ViscousForce.column.impulse.name
 
 
-def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionState:
+def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionState:
     """Advance the motion by `dt` [s] under a pull, however stiff the film.
 
     Parameters
@@ -86,7 +86,7 @@ def advance(plan: Plan, state: MotionState, pull: Drive, dt: float) -> MotionSta
     )
 
 
-def internal_step(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     """Take one internal step towards the time `end` [s], cut at the first event inside it."""
     rest_gap = plan.scene.imposed_force.rest_gap
     if state.in_contact:
@@ -104,7 +104,7 @@ def internal_step(plan: Plan, state: MotionState, pull: Drive, end: float) -> Mo
     return _stepped(plan, film, state, problem, end)
 
 
-def _rest(plan: Plan, state: MotionState, pull: Drive, end: float) -> MotionState:
+def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     """Rest on the asperities until the pull exceeds what holds the bodies together."""
     loading, film = plan.scene.imposed_force, acting_film(plan, state)
     forces = film.static_forces(state.gap) if film is not None else {}
@@ -128,7 +128,7 @@ def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[
     return {**impulses, **{name: impulses.get(name, 0.0) + more[name] for name in more}}
 
 
-def _problem(plan: Plan, film: Film | None, state: MotionState, pull: Drive) -> Problem:
+def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -> Problem:
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
     loading, mass = plan.scene.imposed_force, _mass(plan)
     gap, speed = state.gap, state.speed

@@ -12,7 +12,7 @@ from ..effects.base import FilmStatus, LimitKind
 from ..plan import Film, Plan
 
 __all__ = [
-    "Drive",
+    "PullLaw",
     "MotionState",
     "Outputs",
     "Pull",
@@ -21,7 +21,7 @@ __all__ = [
     "start",
 ]
 
-Drive = Callable[[float], float]
+PullLaw = Callable[[float], float]
 """Pull [N] at a time [s]; a `Pull`, or any function that is smooth within a step."""
 
 

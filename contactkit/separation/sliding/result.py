@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
 from attrs import field, frozen
 
 from ...errors import NotSimulatedError
 from ...scene.column import Column
-from ...scene.result import Result
 from ...scene.validity import ValidityNumber
-from ..results import Work
+from ..curve_result import CurveResult, Work
 from .effects import SlidingForce
 from .plan import SlidingPlan
 
@@ -33,7 +32,7 @@ class _HasPart(Protocol[P_co]):
 
 
 @frozen(eq=False)
-class SlidingResult(Result):
+class SlidingResult(CurveResult):
     """Curves and numbers of one sliding.
 
     Attributes
@@ -55,6 +54,8 @@ class SlidingResult(Result):
         What it cost.
     """
 
+    cure: ClassVar[str] = "impose loading.speed to get it"
+
     plan: SlidingPlan = field(repr=False)
     status: str
     message: str
@@ -64,19 +65,9 @@ class SlidingResult(Result):
     work: Work
 
     @property
-    def time(self) -> Curve:
-        """Time [s]."""
-        return self["time"]
-
-    @property
     def travel(self) -> Curve:
         """Travel [m]."""
         return self["travel"]
-
-    @property
-    def speed(self) -> Curve:
-        """Sliding speed [m/s]."""
-        return self["speed"]
 
     def of(self, kind: type[_HasPart[P_co]]) -> P_co:
         """Return what a force did: its curve, its impulse, its work.
@@ -97,21 +88,8 @@ class SlidingResult(Result):
     def total(self, column: Column) -> float:
         """Return a total; one that the run does not determine is refused."""
         if column.name not in self.totals:
-            raise self._undetermined(column)
+            raise self._undetermined(column.label)
         return self.totals[column.name]
-
-    def _refuse(self, name: str) -> None:
-        for kind in self.plan.known_effects:
-            if name in {column.name for column in kind.curves()}:
-                self.plan.listed(kind)
-        if name in self.plan.columns:
-            raise self._undetermined(self.plan.columns[name])
-
-    def _undetermined(self, column: Column) -> NotSimulatedError:
-        return NotSimulatedError(
-            f"no {column.label}: with {self.plan.scene.loading.imposed} imposed it is not "
-            "determined; impose loading.speed to get it"
-        )
 
     @property
     def errata(self) -> tuple[PublishedValue, ...]:

@@ -13,7 +13,7 @@ from ...lubrication.couette_flat import lens_area
 from ...numerics.quadrature import gauss_legendre
 from ...scene.validity import ValidityNumber
 from ...units import nm
-from ..results import Work
+from ..curve_result import Work
 from .effects import SlideLaw
 from .plan import SlidingPlan
 from .result import SlidingResult

@@ -1,0 +1,64 @@
+"""Base class of the results of a separation and of a sliding: curves along the run, and cost."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+from ..errors import NotSimulatedError
+from ..scene.result import Result
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Curve = NDArray[np.float64]
+
+__all__ = ["CurveResult", "Work"]
+
+
+class Work(NamedTuple):
+    """Cost of a run."""
+
+    n_steps: int
+    n_rejected: int
+    n_evaluations: int
+    seconds: float
+
+
+class CurveResult(Result):
+    """Curves of the motion and of the effects that a scene lists, along a run."""
+
+    __slots__ = ()
+
+    cure: ClassVar[str]
+    """What to impose for a curve that the imposed quantity does not determine."""
+
+    @property
+    def time(self) -> Curve:
+        """Time [s]."""
+        return self["time"]
+
+    @property
+    def speed(self) -> Curve:
+        """Speed of opening or of sliding [m/s]."""
+        return self["speed"]
+
+    def _refuse(self, name: str) -> None:
+        plan: Any = self.plan
+        owners = [k for k in plan.known_effects if name in {c.name for c in k.curves()}]
+        if owners and not any(map(plan.has, owners)):
+            if len(owners) == 1:
+                plan.listed(owners[0])
+            named = " or ".join(f"{kind.__name__}(...)" for kind in owners)
+            raise NotSimulatedError(
+                f"the scene does not call for {owners[0].name}: add {named} to its effects"
+            )
+        if name in plan.columns:
+            raise self._undetermined(plan.columns[name].label)
+
+    def _undetermined(self, label: str) -> NotSimulatedError:
+        plan: Any = self.plan
+        return NotSimulatedError(
+            f"no {label}: with {plan.scene.loading.imposed} imposed it is not determined; "
+            f"{self.cure}"
+        )
