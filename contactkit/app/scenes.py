@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from attrs import field, frozen
 
@@ -26,6 +26,7 @@ from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .report import Report
 
 __all__ = [
+    "FmuStart",
     "OpenedBridges",
     "OpenedContact",
     "OpenedInjector",
@@ -37,6 +38,13 @@ __all__ = [
 ]
 
 Progress = Callable[[float], None]
+
+
+class FmuStart(NamedTuple):
+    """Name of the FMU that holds a scene, and the start values to bake in."""
+
+    name: str
+    values: Mapping[str, Any]
 
 
 class OpenedScene(Protocol):
@@ -55,7 +63,7 @@ class OpenedScene(Protocol):
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """Show what accuracy costs in time."""
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """Name of the FMU that holds this scene, and the start values to bake in."""
 
 
@@ -129,11 +137,11 @@ class OpenedSeparation:
 
         return cost_report(separation_sweep(self.scene, progress), out, error, self.name)
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
         from ..fmu.slaves.stiction_mass import mass_values
 
-        return "stiction-mass", mass_values(self.scene)
+        return FmuStart("stiction-mass", mass_values(self.scene))
 
 
 @frozen
@@ -170,12 +178,13 @@ class OpenedContact:
 
         return contact_cost(self.scene, self.accuracy, out, progress, error)
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
         from ..analyses.load_displacement.solve import load_displacement
 
         try:
-            return "contact-stop", {"curve": load_displacement(self.scene, accuracy=self.accuracy)}
+            curve = load_displacement(self.scene, accuracy=self.accuracy)
+            return FmuStart("contact-stop", {"curve": curve})
         except PlanError as error:
             raise PlanError(
                 "of a contact scene the FMU contact-stop is built, whose tables are its "
@@ -210,7 +219,7 @@ class OpenedSliding:
         """See `OpenedScene.cost`."""
         raise PlanError("cost has nothing to weigh: a sliding is closed form or one quadrature")
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
         raise PlanError("no FMU holds a sliding scene; an FMU needs a scene with an opening")
 
@@ -245,7 +254,7 @@ class OpenedBridges:
 
         return bridge_cost(self.scene, out, error, progress)
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
         raise PlanError("bridges are compared, not moved: they have no FMU; a separation has one")
 
@@ -279,11 +288,11 @@ class OpenedInjector:
 
         return injector_cost(self.scene, out, progress, error)
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
         from ..fmu.slaves.stiction_mass import mass_values
 
-        return "stiction-mass", mass_values(self.scene.separation(self.scene.temperature))
+        return FmuStart("stiction-mass", mass_values(self.scene.separation(self.scene.temperature)))
 
 
 @frozen
@@ -316,8 +325,8 @@ class OpenedMicromirror:
 
         return cost_report(mirror_sweep(self.scene, progress), out, error, self.name)
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
         from .run.micromirror.cosimulation import tip_start
 
-        return "tip-contact", tip_start(self.scene, self.scene.study.humidity)
+        return FmuStart("tip-contact", tip_start(self.scene, self.scene.study.humidity))

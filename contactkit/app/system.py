@@ -26,6 +26,7 @@ from ..fmu.slaves.stiction_mass import mass_values
 from ..models.injector.scene import InjectorScene
 from ..units import parse_quantity
 from .run.injector.cosimulation import drive_start
+from .scenes import FmuStart
 
 __all__ = ["write_system"]
 
@@ -44,9 +45,9 @@ class _Film:
 
     values: Mapping[str, Any]
 
-    def fmu_start(self) -> tuple[str, Mapping[str, Any]]:
+    def fmu_start(self) -> FmuStart:
         """See `OpenedScene.fmu_start`."""
-        return "stiction-mass", self.values
+        return FmuStart("stiction-mass", self.values)
 
 
 def write_system(

@@ -12,7 +12,7 @@ import re
 import sys
 from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
@@ -28,6 +28,13 @@ Value = float | int | bool
 _LARGEST = {"real": sys.float_info.max, "integer": 2**31 - 1}  # the range of FMI's own types
 _SMALLEST = {"real": -sys.float_info.max, "integer": -(2**31)}
 _TYPES: dict[str, type[float | int | bool]] = {"real": float, "boolean": bool}
+
+
+class Limits(NamedTuple):
+    """Smallest and largest number that a variable accepts, both included."""
+
+    low: float
+    high: float
 
 
 @frozen
@@ -128,19 +135,19 @@ class Port:
         return self.name if self.unit == "-" else f"{self.name} [{self.unit}]"
 
     @property
-    def limits(self) -> tuple[float, float]:
+    def limits(self) -> Limits:
         """Smallest and largest number the slave accepts, both included."""
         if self.kind == "boolean":
-            return False, True
+            return Limits(False, True)
         if self.enumeration is not None:
-            return min(self.enumeration), max(self.enumeration)
+            return Limits(min(self.enumeration), max(self.enumeration))
         low = _SMALLEST[self.kind] if self.minimum is None else self.minimum
         high = _LARGEST[self.kind] if self.maximum is None else self.maximum
         if self.exclusive and self.minimum is not None:
             low = low + 1 if self.kind == "integer" else math.nextafter(low, math.inf)
         if self.exclusive and self.maximum is not None:
             high = high - 1 if self.kind == "integer" else math.nextafter(high, -math.inf)
-        return low, high
+        return Limits(low, high)
 
     @property
     def expectation(self) -> str:
@@ -183,7 +190,14 @@ class Port:
         raise DescriptionError(self.name, given, self.expectation, unit=unit)
 
 
-def display_conversion(unit: str, display_unit: str) -> tuple[float, float]:
+class Conversion(NamedTuple):
+    """Factor and offset from a unit to the unit that is shown."""
+
+    factor: float
+    offset: float
+
+
+def display_conversion(unit: str, display_unit: str) -> Conversion:
     """Factor and offset from a unit to the unit that is shown.
 
     Raises
@@ -194,16 +208,17 @@ def display_conversion(unit: str, display_unit: str) -> tuple[float, float]:
     Examples
     --------
     >>> display_conversion("Pa.s", "mPa.s")
-    (1000.0, 0.0)
-    >>> display_conversion("K", "degC")
-    (1.0, -273.15)
+    Conversion(factor=1000.0, offset=0.0)
+    >>> display_conversion("K", "degC").offset
+    -273.15
     """
     if (unit, display_unit) == ("K", "degC"):
-        return 1.0, -273.15
+        return Conversion(1.0, -273.15)
     own, shown = parse_unit(unit), parse_unit(display_unit)
     if own.dimension != shown.dimension:
         raise DescriptionError("display unit", display_unit, f"measure the same as {unit}")
-    return float(f"{own.factor / shown.factor:.15g}"), 0.0  # without the dust of the division
+    # without the round-off of the division
+    return Conversion(float(f"{own.factor / shown.factor:.15g}"), 0.0)
 
 
 def find_port(ports: Sequence[Port], name: str) -> Port:

@@ -205,7 +205,7 @@ class Walk:
         gap, speed = found.gap if mark is None else mark, found.speed
         if self.film.has_limits:
             since = 0.0
-            for until, *motion in found.way:
+            for until, *motion in found.between:
                 self.film.move(point.time + since, until - since, *motion)
                 since = until
             return gap, speed, self.film.move(point.time + since, length - since, gap, speed)

@@ -13,7 +13,7 @@ import math
 
 from ...separation.integrator.radau import WEIGHTS, Forces, Problem, against_halves, step
 from ...separation.integrator.radau import Point as Motion
-from .impulse_step import Body, Doubled, Point, given
+from .impulse_step import Body, Doubled, Passing, Point, given
 from .sides import FilmSide, Force, Pull, Pulling
 
 __all__ = ["forced"]
@@ -103,10 +103,10 @@ def forced(
         )
         pull.restore(mark)
         missed = abs(seen - _given_in_halves(pull, point, length, end))
-        way = tuple((s.time - point.time, s.gap, s.speed) for s in (one, two))
+        between = tuple(Passing(s.time - point.time, s.gap, s.speed) for s in (one, two))
         total = body.mass * end.speed + impulse
         return Doubled(
-            end.gap, end.speed, total, there.damping, way, gap_error, missed, speed_error
+            end.gap, end.speed, total, there.damping, between, gap_error, missed, speed_error
         )
     finally:
         pull.restore(mark)

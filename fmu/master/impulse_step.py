@@ -24,7 +24,7 @@ from typing import NamedTuple
 
 from ...numerics.quadrature import gauss_legendre
 from .sides import FilmSide, Pull, Pulling, Reaction
-from .stage_root import Known, root
+from .stage_root import Enough, Known, root
 
 __all__ = ["Body", "Doubled", "Point", "doubled", "given", "single"]
 
@@ -61,6 +61,14 @@ class _Stage(NamedTuple):
     damping: float
 
 
+class Passing(NamedTuple):
+    """Time since the start of a step [s], with gap [m] and speed [m/s]."""
+
+    since: float
+    gap: float
+    speed: float
+
+
 class Doubled(NamedTuple):
     """A step, and the same in two halves, put together."""
 
@@ -68,7 +76,7 @@ class Doubled(NamedTuple):
     speed: float
     total: float
     damping: float
-    way: tuple[tuple[float, float, float], ...]  # times since the start, gaps, speeds between
+    between: tuple[Passing, ...]
     gap_error: float
     total_error: float
     speed_error: float
@@ -214,7 +222,8 @@ def _stages(
     part = _GAMMA * length
     # As good as the step has to be, but never better than the sums can be.
     size = abs(impulse) + abs(point.film.static) * length
-    enough = _SOLVED * rtol, _SOLVED * rtol * size + 1e-15 * abs(point.film.impulse)
+    momentum = _SOLVED * rtol * size + 1e-15 * abs(point.film.impulse)
+    enough = Enough(_SOLVED * rtol, momentum)
     known = point.momentum + early
     problem = _Problem(film, mark, body, point, part, part, point.gap, known, may_fly)
     held = point.film.static + body.stiffness * (point.gap - body.rest)

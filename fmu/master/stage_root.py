@@ -35,6 +35,13 @@ class Known(NamedTuple):
     power: float = 3.0  # with which the damping falls
 
 
+class Enough(NamedTuple):
+    """Errors of ln h [-] and of the momentum [N.s] at which a root is found."""
+
+    log_gap: float
+    momentum: float
+
+
 class Stage(Protocol):
     """The equation of one stage; see `master_step`."""
 
@@ -82,7 +89,7 @@ class _Law(NamedTuple):
         )
 
 
-def root(stage: Stage, start: Known, guess: float, enough: tuple[float, float]) -> Known | None:
+def root(stage: Stage, start: Known, guess: float, enough: Enough) -> Known | None:
     """Solve a stage; nothing if no root is found.
 
     Parameters
@@ -93,8 +100,8 @@ def root(stage: Stage, start: Known, guess: float, enough: tuple[float, float]) 
         The film at the start of the step.
     guess : float
         Gap to begin with [m], if the film has no damping.
-    enough : tuple of float
-        What may be left of ln h, and of the momentum [N.s].
+    enough : Enough
+        Errors that are small enough.
     """
     before, gap = start, min(max(guess, start.gap / _REACH), start.gap * _REACH)
     if start.damping > 0.0:
@@ -113,9 +120,9 @@ def root(stage: Stage, start: Known, guess: float, enough: tuple[float, float]) 
         move = abs(math.log(following / gap))
         unsure = doubt * move * move
         bent = 2.0 * stage.part * abs(law.slope) * gap * move * (move + abs(_way(before, here)))
-        if unsure <= enough[0] and unsure * here.damping * gap + bent <= enough[1]:
+        if unsure <= enough.log_gap and unsure * here.damping * gap + bent <= enough.momentum:
             return law.at(following)
-        if (abs(miss) <= enough[1] and move <= enough[0]) or high <= low * (1.0 + 4e-16):
+        if (abs(miss) <= enough.momentum and move <= enough.log_gap) or high <= low * (1.0 + 4e-16):
             return here
         slow, last, before = abs(miss) > 0.5 * last, abs(miss), here
         if low > 0.0 and math.isfinite(high) and (slow or not low < following < high):

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from attrs import evolve
 
@@ -40,6 +40,7 @@ from .page import native_page
 from .ports import MODELS, Model, check_free, check_start, native_ports
 
 __all__ = [
+    "NativeScene",
     "build_native",
     "chosen_platforms",
     "native_scene",
@@ -191,7 +192,14 @@ def write_native(
     return write_archive(files, place)
 
 
-def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene, dict[str, Value]]:
+class NativeScene(NamedTuple):
+    """Scene whose tables a native FMU holds, and start values of its variables."""
+
+    scene: SeparationScene
+    start: Mapping[str, Value | str]
+
+
+def native_scene(what: Any, model: Model | None = None) -> NativeScene:
     """Scene and start values of what the command line was given.
 
     Parameters
@@ -208,7 +216,7 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
     """
     scene = getattr(what, "scene", None)
     if isinstance(scene, SeparationScene):
-        return scene, {}
+        return NativeScene(scene, {})
     if isinstance(scene, ContactScene):  # said before hours go into its curve
         raise PlanError(
             "a contact scene makes a contact-stop, which has no native form in this version; "
@@ -234,7 +242,8 @@ def native_scene(what: Any, model: Model | None = None) -> tuple[SeparationScene
         values |= rest | {"m": values["m_ref"]}
     scene = scene_of(values)
     kept = {port.name for port in native_ports(scene, 0.0, model or own)}
-    return scene, {key: value for key, value in values.items() if key in kept and key in given}
+    start = {key: value for key, value in values.items() if key in kept and key in given}
+    return NativeScene(scene, start)
 
 
 def chosen_platforms(given: Sequence[str] | None) -> list[str]:

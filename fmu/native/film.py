@@ -62,7 +62,14 @@ def moving(scene: SeparationScene, mass: float | None) -> SeparationScene:
     return evolve(scene, loading=loading)
 
 
-def free_liquid(scene: SeparationScene) -> tuple[float, float]:
+class FreeLiquid(NamedTuple):
+    """Properties of the liquid that are parameters of a native FMU; 0 where they are not."""
+
+    viscosity: float  # [Pa.s]
+    surface_tension: float  # [N/m]
+
+
+def free_liquid(scene: SeparationScene) -> FreeLiquid:
     """Viscosity [Pa.s] and surface tension [N/m] that may be set in the FMU; 0 where they may not.
 
     A property of the liquid may be set where each effect that reads it is proportional to it.
@@ -77,7 +84,7 @@ def free_liquid(scene: SeparationScene) -> tuple[float, float]:
         (state.given(name) or 0.0) if name in scaled else 0.0
         for name in ("viscosity", "surface_tension")
     )
-    return viscosity, tension
+    return FreeLiquid(viscosity, tension)
 
 
 def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbers:

@@ -309,10 +309,10 @@ class ValveDrive(PortSlave):
         """See `PortSlave.refresh`: spring, stop and current answer to gap and speed at once."""
         self._follow_gap(self.values["h"], self.values["v"])
 
-    def _stop(self, gap: float, speed: float) -> tuple[float, float]:
-        """Force of the stop [N], and the approach of its faces [m] if it has any."""
+    def _stop(self, gap: float, speed: float) -> law.StopForce:
+        """Force of the stop, and the approach of its faces if it has any."""
         if self.faces is None:
-            return law.stop_force(self.valve.stop, gap, speed), 0.0
+            return law.StopForce(law.stop_force(self.valve.stop, gap, speed), 0.0)
         return law.rough_stop_force(self.valve.stop, self.faces, self.largest, gap, speed)
 
     def _follow_gap(self, gap: float, speed: float) -> None:
@@ -320,7 +320,7 @@ class ValveDrive(PortSlave):
         flux = values["flux"]
         values["i"] = law.current(valve.coil, flux, gap)
         values["F_spring"] = law.spring_force(valve.spring, gap)
-        values["F_stop"] = self._stop(gap, speed)[0]
+        values["F_stop"] = self._stop(gap, speed).force
         values["F_ext"] = law.pull(valve, flux, gap, speed, values["F_stop"])
 
     def advance(self, time: float, step: float) -> None:

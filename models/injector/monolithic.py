@@ -512,7 +512,7 @@ class _Run:
         self.pressing = not self.pressing
         if self.valve is not None and self.faces is not None:
             gap, before = float(self.state[0]), self.mode.largest
-            _, depth = law.rough_stop_force(self.valve.stop, self.faces, before, gap, 0.0)
+            depth = law.rough_stop_force(self.valve.stop, self.faces, before, gap, 0.0).approach
             self.mode = self.mode._replace(largest=max(before, min(depth, self.faces.max_approach)))
 
     def _block(self) -> None:

@@ -13,7 +13,7 @@ of the oil that flows through the valve. Plain floats only: this also runs insid
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from attrs import Attribute, field, frozen
 
@@ -39,6 +39,7 @@ __all__ = [
     "inductance",
     "magnet_force",
     "pull",
+    "StopForce",
     "rough_stop_force",
     "spring_force",
     "stop_force",
@@ -222,9 +223,16 @@ def stop_force(stop: Stop, gap: float, speed: float) -> float:
     return stop.stiffness * depth * max(1.0 + stop.damping * speed, 0.0) if depth > 0.0 else 0.0
 
 
+class StopForce(NamedTuple):
+    """Force of an end stop [N], positive closes, and approach of its rough faces [m]."""
+
+    force: float
+    approach: float
+
+
 def rough_stop_force(
     stop: Stop, faces: LoadDisplacementCurve, largest: float, gap: float, speed: float
-) -> tuple[float, float]:
+) -> StopForce:
     """Force [N] of a stop whose rough faces lie in series with its stiffness; positive closes.
 
     Parameters
@@ -240,11 +248,11 @@ def rough_stop_force(
 
     Returns
     -------
-    force, approach : float
-        Force [N] and approach of the faces [m]. Beyond their tables both go on along the tangent.
+    StopForce
+        Beyond the tables of the faces it follows their tangent.
     """
     point, approach = in_series(faces, gap - stop.gap, largest, stop.stiffness, beyond=True)
-    return point.force * max(1.0 + stop.damping * speed, 0.0), approach
+    return StopForce(point.force * max(1.0 + stop.damping * speed, 0.0), approach)
 
 
 def stopping(
@@ -253,7 +261,7 @@ def stopping(
     """Force [N] of a stop with or without rough faces; positive closes."""
     if faces is None:
         return stop_force(stop, gap, speed)
-    return rough_stop_force(stop, faces, largest, gap, speed)[0]
+    return rough_stop_force(stop, faces, largest, gap, speed).force
 
 
 def pull(

@@ -23,7 +23,15 @@ from attrs import frozen
 from ...errors import DescriptionError, InfeasibleError
 from ...separation.plan import Plan
 from .flight import Root
-from .mirror import Mirror, acceleration, electrode_volts, root_height, switching_times
+from .mirror import (
+    Attitude,
+    Mirror,
+    Volts,
+    acceleration,
+    electrode_volts,
+    root_height,
+    switching_times,
+)
 from .tip import TipState, TipStop, advance_tip, film_force, tip_force
 
 if TYPE_CHECKING:
@@ -102,7 +110,7 @@ class LocalTip:
         """See `Tip.read`."""
         state = self.state
         force = self.count * tip_force(self.plan, self.damping, state, height, speed)
-        return state.gap, force, film_force(self.plan, state)[0], state_of(state)
+        return state.gap, force, film_force(self.plan, state), state_of(state)
 
 
 class FmuTip:
@@ -158,7 +166,7 @@ def mirror_step(
     mirror: Mirror,
     tilt: float,
     rate: float,
-    volts: tuple[float, float],
+    volts: Volts,
     force: float,
     slope: float,
     dt: float,
@@ -189,7 +197,7 @@ def couple(
     mirror: Mirror,
     tips: tuple[Tip, Tip],
     tip_stiffness: float,
-    start: tuple[float, float],
+    start: Attitude,
     stop_time: float,
     step: float,
     *,

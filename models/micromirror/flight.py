@@ -34,6 +34,13 @@ class Root(NamedTuple):
         return self.height + since * (self.speed + 0.5 * self.acceleration * since)
 
 
+class Bend(NamedTuple):
+    """Bend of a tip [m] and its rate [m/s]."""
+
+    bend: float
+    rate: float
+
+
 class Flight(NamedTuple):
     """A free tip about its root: where it hangs [m], decay [1/s], frequency [rad/s], swing [m]."""
 
@@ -43,13 +50,13 @@ class Flight(NamedTuple):
     cosine: float
     sine: float
 
-    def at(self, time: float) -> tuple[float, float]:
+    def at(self, time: float) -> Bend:
         """Bend [m] and its rate [m/s] after a time [s]."""
         d, w = self.decay, self.frequency
         c, s, fade = math.cos(w * time), math.sin(w * time), math.exp(-d * time)
         swing = fade * (self.cosine * c + self.sine * s)
         rate = fade * w * (self.sine * c - self.cosine * s) - d * swing
-        return self.rest + swing, rate
+        return Bend(self.rest + swing, rate)
 
 
 def landing_time(flight: Flight, root: Root, left: float) -> float | None:

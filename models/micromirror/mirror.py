@@ -21,7 +21,7 @@ runs inside an FMU.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from attrs import Attribute, field, frozen
 
@@ -39,6 +39,8 @@ __all__ = [
     "Waveform",
     "acceleration",
     "drive_torque",
+    "Attitude",
+    "Volts",
     "electrode_volts",
     "landed_tilt",
     "root_height",
@@ -193,7 +195,21 @@ def root_height(tips: SpringTips, tilt: float, side: float) -> float:
     return tips.arm * (math.sin(tips.landing_tilt) - side * math.sin(tilt))
 
 
-def electrode_volts(waveform: Waveform, time: float) -> tuple[float, float]:
+class Volts(NamedTuple):
+    """Voltage of the mirror over the electrodes of the sides + and - [V]."""
+
+    plus: float
+    minus: float
+
+
+class Attitude(NamedTuple):
+    """Tilt [rad] and rate [rad/s] of the mirror."""
+
+    tilt: float
+    rate: float
+
+
+def electrode_volts(waveform: Waveform, time: float) -> Volts:
     """Voltage of the mirror over the electrodes of the sides + and - [V], at a time [s].
 
     At a switching time that after it, but for rounding.
@@ -202,13 +218,13 @@ def electrode_volts(waveform: Waveform, time: float) -> tuple[float, float]:
     --------
     >>> wave = Waveform(bias_voltage=-20.0, address_voltage=5.0, reset_voltage=-30.0,
     ...                 reset_time=1e-6, release_time=4e-6, period=100e-6, start_delay=2e-6)
-    >>> [electrode_volts(wave, t * 1e-6) for t in (1, 2.5, 4, 50)]
+    >>> [tuple(electrode_volts(wave, t * 1e-6)) for t in (1, 2.5, 4, 50)]
     [(-25.0, -20.0), (-30.0, -35.0), (0.0, -5.0), (-20.0, -25.0)]
     """
     since = time - waveform.start_delay
     flip = min(math.floor(since / waveform.period), waveform.flips - 1)
     if flip < 0:  # before the first flip: as addressed to the side +
-        return waveform.bias_voltage - waveform.address_voltage, waveform.bias_voltage
+        return Volts(waveform.bias_voltage - waveform.address_voltage, waveform.bias_voltage)
     since -= flip * waveform.period
     mirror = waveform.bias_voltage
     if since < waveform.reset_time:
@@ -216,7 +232,7 @@ def electrode_volts(waveform: Waveform, time: float) -> tuple[float, float]:
     elif since < waveform.reset_time + waveform.release_time:
         mirror = 0.0
     addressed = mirror - waveform.address_voltage
-    return (mirror, addressed) if flip % 2 == 0 else (addressed, mirror)
+    return Volts(mirror, addressed) if flip % 2 == 0 else Volts(addressed, mirror)
 
 
 def switching_times(waveform: Waveform, start: float, end: float) -> list[float]:
@@ -229,23 +245,21 @@ def switching_times(waveform: Waveform, start: float, end: float) -> list[float]
     return sorted(time for time in found if start < time < end)
 
 
-def drive_torque(mirror: Mirror, tilt: float, volts: tuple[float, float]) -> float:
+def drive_torque(mirror: Mirror, tilt: float, volts: Volts) -> float:
     """Torque [N.m] of both electrodes, positive towards the side +."""
     plus, minus = volts
     down = torque(mirror.electrode, tilt, plus) if plus else 0.0
     return down - (torque(mirror.electrode, -tilt, minus) if minus else 0.0)
 
 
-def acceleration(
-    mirror: Mirror, tilt: float, rate: float, volts: tuple[float, float], tip_force: float
-) -> float:
+def acceleration(mirror: Mirror, tilt: float, rate: float, volts: Volts, tip_force: float) -> float:
     """Angular acceleration [rad/s2]; `tip_force` is that of side + less that of side - [N]."""
     hinge = mirror.hinge
     turning = drive_torque(mirror, tilt, volts) + mirror.tips.arm * math.cos(tilt) * tip_force
     return (turning - hinge.stiffness * tilt - hinge.damping * rate) / hinge.inertia
 
 
-def landed_tilt(mirror: Mirror, tip_stiffness: float, volts: tuple[float, float]) -> float:
+def landed_tilt(mirror: Mirror, tip_stiffness: float, volts: Volts) -> float:
     """Tilt [rad] at which the mirror rests on the tips of the side +, bent by the voltages.
 
     Parameters
@@ -253,8 +267,8 @@ def landed_tilt(mirror: Mirror, tip_stiffness: float, volts: tuple[float, float]
     mirror : Mirror
     tip_stiffness : float
         Stiffness of one tip [N/m].
-    volts : (float, float)
-        Voltage of the mirror over the electrodes of the sides + and - [V].
+    volts : Volts
+        Voltages of the electrodes.
 
     Raises
     ------

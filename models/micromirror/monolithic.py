@@ -32,7 +32,7 @@ from ...separation.plan import Film, Plan
 from ..ode_events import watch
 from .coupling import FREE, HELD, LANDED
 from .flight import Root
-from .mirror import Mirror, acceleration, electrode_volts, root_height, switching_times
+from .mirror import Attitude, Mirror, acceleration, electrode_volts, root_height, switching_times
 from .tip import TipStop, free_gap
 from .tip_impact import Contact, rest_depth, sprung_back
 
@@ -73,7 +73,7 @@ class MonolithicMotion(NamedTuple):
 class _Integration:
     """Integration by events; `state` is tilt, rate, gap +, speed +, gap -, speed - in SI."""
 
-    def __init__(self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float) -> None:
+    def __init__(self, mirror: Mirror, plan: Plan, start: Attitude, rtol: float) -> None:
         loading = plan.scene.imposed_force
         self.mirror, self.plan, self.rtol = mirror, plan, rtol
         self.origin, self.stiffness = loading.initial_gap, loading.stiffness
@@ -256,7 +256,7 @@ class _IntegrationWithImpacts(_Integration):
     """The same with impacts on rough sites; gaps count from the residual indentation, see `tip`."""
 
     def __init__(
-        self, mirror: Mirror, plan: Plan, start: tuple[float, float], rtol: float, stop: TipStop
+        self, mirror: Mirror, plan: Plan, start: Attitude, rtol: float, stop: TipStop
     ) -> None:
         super().__init__(mirror, plan, start, rtol)
         self.stop = stop
@@ -407,7 +407,7 @@ def _at(
 def simulate_monolithic(
     mirror: Mirror,
     plan: Plan,
-    start: tuple[float, float],
+    start: Attitude,
     stop_time: float,
     *,
     rtol: float = 1e-9,

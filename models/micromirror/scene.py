@@ -18,7 +18,7 @@ from ...units import celsius, si
 from ...validators import as_tuple, fraction, part, positive
 from .coupling import LocalTip
 from .flight import Root
-from .mirror import Mirror, electrode_volts, landed_tilt, root_height
+from .mirror import Attitude, Mirror, electrode_volts, landed_tilt, root_height
 from .tip import TipStop, contact_of, free_start, landed_start
 from .tip_film import tip_law
 from .tip_impact import rest_depth
@@ -112,18 +112,18 @@ class MicromirrorScene:
         )
 
     @property
-    def start(self) -> tuple[float, float]:
+    def start(self) -> Attitude:
         """Tilt [rad] and rate [rad/s] of the mirror that rests under its bias."""
         volts = electrode_volts(self.mirror.waveform, -1.0)
         tilt, stop = landed_tilt(self.mirror, self.loading.stiffness, volts), self.stop
         if stop is None:
-            return tilt, 0.0
+            return Attitude(tilt, 0.0)
         for _ in range(_ROUNDS):
             # A site that gives makes the spring of a tip softer by what the apex sinks in.
             height, depth = self._sunk(stop, tilt)
             softer = self.loading.stiffness * (1.0 + depth / height)
             tilt = landed_tilt(self.mirror, softer, volts)
-        return tilt, 0.0
+        return Attitude(tilt, 0.0)
 
     def _sunk(self, stop: TipStop, tilt: float) -> tuple[float, float]:
         """Height [m] of the root of a landed tip, and its approach [m] at the humidity of runs."""

@@ -117,14 +117,13 @@ def tip_force(plan: Plan, damping: float, state: TipState, height: float, speed:
     return force + damping * (speed - motion.speed) if state.free else force
 
 
-def film_force(plan: Plan, state: TipState) -> tuple[float, float]:
-    """Force on a tip from its site [N], and its viscous part; positive holds the tip down."""
+def film_force(plan: Plan, state: TipState) -> float:
+    """Force on a tip from its site [N]; positive holds the tip down."""
     if state.free:
-        return 0.0, 0.0
+        return 0.0
     if state.touching:
-        return attraction(plan, state), 0.0
-    found = outputs(plan, state.motion, 0.0)
-    return found.film, found.viscous
+        return attraction(plan, state)
+    return outputs(plan, state.motion, 0.0).film
 
 
 def attraction(plan: Plan, state: TipState) -> float:

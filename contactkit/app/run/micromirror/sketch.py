@@ -27,6 +27,7 @@ def sketch(scene: MicromirrorScene, made: Plan, out: Path) -> Path:
 
 
 def _mirror(ax: Any, scene: MicromirrorScene) -> None:
+    """Draw the mirror, landed under its bias, over its electrodes and sites."""
     mirror, um = scene.mirror, 1e6
     tips, pad = mirror.tips, mirror.electrode
     tilt, _ = scene.start
@@ -49,18 +50,7 @@ def _mirror(ax: Any, scene: MicromirrorScene) -> None:
             lw=5.0 if style == "-" else 1.5,
             solid_capstyle="butt",
         )
-    for side in (1.0, -1.0):
-        start, end = side * pad.outer * um, side * tips.arm * um
-        height = -end * math.sin(tilt)
-        apex = max(height, site)  # a landed tip is bent
-        places = np.linspace(0.0, 1.0, 20)
-        run = start + (end - start) * places
-        ax.plot(
-            run * math.cos(tilt),
-            -run * math.sin(tilt) + (apex - height) * places**2,
-            color=plot.COLORS["meniscus"],
-            lw=2.2,
-        )
+    _tips(ax, scene, tilt, site)
     ax.plot(0.0, 0.0, "o", color="k", ms=7)
     ax.annotate("hinge", (0.0, 0.0), xytext=(0, 12), textcoords="offset points", ha="center")
     ax.annotate(
@@ -92,6 +82,23 @@ def _mirror(ax: Any, scene: MicromirrorScene) -> None:
     plot.title(
         ax, f"landed under its bias at {math.degrees(tilt):.2f} deg, tips bent {bend:.0f} nm"
     )
+
+
+def _tips(ax: Any, scene: MicromirrorScene, tilt: float, site: float) -> None:
+    """Draw the spring tips of both sides; a landed one is bent by its site [um]."""
+    tips, pad, um = scene.mirror.tips, scene.mirror.electrode, 1e6
+    for side in (1.0, -1.0):
+        start, end = side * pad.outer * um, side * tips.arm * um
+        height = -end * math.sin(tilt)
+        apex = max(height, site)
+        places = np.linspace(0.0, 1.0, 20)
+        run = start + (end - start) * places
+        ax.plot(
+            run * math.cos(tilt),
+            -run * math.sin(tilt) + (apex - height) * places**2,
+            color=plot.COLORS["meniscus"],
+            lw=2.2,
+        )
 
 
 def _tip(ax: Any, scene: MicromirrorScene, made: Plan) -> None:
