@@ -1,4 +1,4 @@
-"""Events of scipy's solvers, and slopes by differences, for what is solved as one system."""
+"""Events of scipy's solvers, and slopes by differences, for monolithic models."""
 
 from __future__ import annotations
 

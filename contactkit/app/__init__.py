@@ -1,9 +1,9 @@
-"""What the command line runs: opens a scene, runs it, measures its cost, writes files and figures.
+"""Runs of the command line: a scene opened, simulated and measured, with files and figures.
 
 scenes      Opening a scene by file or by name, and what the command line does with each kind.
-report      Numbers with units, text and files that a command leaves.
-run         Running a scene: report, files and figures.
-cost        Work and precision of a scene: error against time.
-system      A valve and its film as one system structure (SSP 1.0).
+report      Report of a run.
+run         Running a scene from the command line: its numbers, files and figures.
+cost        Work and precision of every kind of scene: error against time.
+system      Valve and film as a system structure (SSP 1.0), for masters that read those.
 crosscheck  Reference files beside native FMUs, in the format of the FMI cross-check.
 """

@@ -1,4 +1,4 @@
-"""What a run leaves behind."""
+"""Report of a run."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ __all__ = ["Report"]
 
 
 class Report(NamedTuple):
-    """What a run leaves: numbers with their units, text to read, files written."""
+    """Report of a run: numbers with their units, text to read, files written."""
 
     scalars: Mapping[str, tuple[Any, str]]
     text: str

@@ -48,7 +48,7 @@ class FmuStart(NamedTuple):
 
 
 class OpenedScene(Protocol):
-    """What the command line does with a scene."""
+    """A scene with what the command line does with it."""
 
     @property
     def name(self) -> str:

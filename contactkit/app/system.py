@@ -1,4 +1,4 @@
-"""The valve and its film as one system structure (SSP 1.0), for masters that read those.
+"""Valve and film as a system structure (SSP 1.0), for masters that read those.
 
 A ``valve-drive`` pulls a ``stiction-mass``; gap and speed go back, as in `cosimulate`. The
 communication step of the archive is that of the scene: as in `cosimulate` one too long for the

@@ -49,7 +49,7 @@ _NOTES: dict[str, tuple[str, ...]] = {
         "Set h and v at the start of a step; within it the gap runs on at that speed. F_ext at the "
         "start of the step and dF_ext after it are what a stiction-mass takes, which steps last.",
         f"The stop is stiff: the step must stay below {_STEP} of the mass and k_stop, and a tenth "
-        "of that is good. Beyond it a blow on the stop feeds on itself.",
+        "of that is good. Beyond it an impact on the stop is unstable.",
     ),
     "stiction-force": (
         "The mass is outside. Set h and v at the end of the step to come. A film is a damper c of "
@@ -128,7 +128,7 @@ _WRONG = (
 
 @frozen(kw_only=True)
 class Page:
-    """What the page of an FMU is made from.
+    """Contents of the page of an FMU.
 
     Attributes
     ----------
@@ -237,10 +237,10 @@ def _scene(scene: SeparationScene) -> Iterator[str]:
     yield _list(f"{e.name}: {source}" for e in scene.effects for source in e.cites(scene))
 
 
-def _rows(noun: Any, place: str = "") -> Iterator[tuple[str, str, str]]:
-    """Name, value and unit of every field of a noun and of the nouns in it."""
-    for one in fields(type(noun)):
-        value, name = getattr(noun, one.name), f"{place}{one.name}"
+def _rows(part: Any, place: str = "") -> Iterator[tuple[str, str, str]]:
+    """Name, value and unit of every field of a scene object and of those in it."""
+    for one in fields(type(part)):
+        value, name = getattr(part, one.name), f"{place}{one.name}"
         if value is None or value == "":
             continue
         if has(type(value)):

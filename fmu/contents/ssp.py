@@ -38,7 +38,7 @@ class Connection:
 
 @frozen(kw_only=True)
 class Experiment:
-    """How long to simulate [s], and the communication step [s] a master is told."""
+    """Time to simulate and communication step [s] that a master finds in the structure."""
 
     stop_time: float
     step: float
@@ -131,7 +131,7 @@ def structure_xml(
 
 
 class _Variable(NamedTuple):
-    """A variable of an FMU as a structure tells of it; a unit or a start may be an empty text."""
+    """A variable of an FMU as a structure describes it; a unit or a start may be an empty text."""
 
     name: str
     causality: str

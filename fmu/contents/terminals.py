@@ -1,4 +1,4 @@
-"""What an FMU holds for tools that draw and connect: its flange as a terminal, and its icon.
+"""Terminals and icon of an FMU, for tools that draw and connect.
 
 A terminal says which variables belong together, so that a tool draws one line where there are
 four connections. FMI 3.0 knows terminals; FMI 2.0 does not forbid the file, and some tools that

@@ -41,7 +41,7 @@ _TAGS = {
 
 @frozen(kw_only=True)
 class Description:
-    """What a model description says besides its ports."""
+    """Model description: its ports, and what it states besides them."""
 
     identifier: str
     guid: str

@@ -24,7 +24,7 @@ def _as_tuple(paths: str | tuple[str, ...]) -> tuple[str, ...]:
 
 @frozen
 class Place:
-    """Where a parameter stands in a scene, or in another object made of attrs classes.
+    """Field of a scene, or of another object made of attrs classes, that a parameter stands for.
 
     Parameters
     ----------

@@ -59,7 +59,7 @@ class Port:
         Value before anything was set or calculated: if not given zero, ``False`` or the first
         member of the enumeration.
     minimum, maximum : float, optional
-        Allowed range. An infinite value is allowed only if a bound says so (``math.inf``).
+        Allowed range. An infinite value is allowed only if a bound is infinite.
     exclusive : bool
         The bounds themselves are refused. XML can only say "from 0", the slave says "above 0".
     nominal : float, optional
@@ -151,7 +151,7 @@ class Port:
 
     @property
     def expectation(self) -> str:
-        """What a value must be, in words that follow "must"."""
+        """Condition on a value, in words that follow "must"."""
         if self.kind == "boolean":
             return "be true or false"
         if self.enumeration is not None:

@@ -28,7 +28,7 @@ from .state import Phase, Snapshot, check_state, from_bytes, plain, to_bytes
 __all__ = ["PortSlave"]
 
 _STEPPING = Phase.STEPPING  # looked up once
-_ROUNDING = 1e-12  # share of the time by which two clocks may differ after rounding
+_ROUNDING = 1e-12  # fraction of the time by which two clocks may differ by round-off
 
 
 class PortSlave(PortAccess):
@@ -94,7 +94,7 @@ class PortSlave(PortAccess):
         return {}
 
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
-        """Take back what `hidden_state` gave; `values` and `prepare` are done already."""
+        """Restore what `hidden_state` gave; `values` and `prepare` are done already."""
 
     # life cycle ------------------------------------------------------------------------------
 

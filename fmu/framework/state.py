@@ -32,7 +32,7 @@ _CURE = "take the state from this FMU, and keep its bytes unchanged"
 
 
 class Phase(StrEnum):
-    """Where an FMU is in its life."""
+    """Phase in the life cycle of an FMU."""
 
     INSTANTIATED = "instantiated"
     INITIALIZATION = "initialization"
@@ -41,7 +41,7 @@ class Phase(StrEnum):
 
 
 class Snapshot(dict[str, Any]):
-    """A state taken in this process by this code, which needs no checking on its way back."""
+    """A state taken in this process by this code, which needs no checking when restored."""
 
 
 def plain(value: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The way of the master: steps chosen by their error, cut at events, to the gap or time asked."""
+"""Adaptive communication steps of a coupled run, cut at events, up to a gap or a time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Goal", "Walk"]
 
 _SAME = 1e-9  # gaps closer than this, relatively, are one
 _MOST_REJECTED = 60
-_REST = 0.02  # share of the whole time that is rested at once
+_REST = 0.02  # fraction of the final time of a step at rest
 
 
 class Goal(NamedTuple):
@@ -124,7 +124,7 @@ class Walk:
             self._add(Point(time, point.gap, 0.0, 0.0, point.given, there), pulling, end)
         else:
             self.pull.restore(start)
-        self.pull.forget(start)
+        self.pull.free(start)
 
     def _add(self, point: Point, pulling: Pulling, end: float) -> None:
         if abs(point.time - end) <= 1e-13 * end:
@@ -219,5 +219,5 @@ class Walk:
             gap, speed = gap + change, speed + change / length
             self.film.restore(start)
             there = self.film.move(point.time, length, gap, speed)
-        self.film.forget(start)
+        self.film.free(start)
         return gap, speed, there

@@ -2,8 +2,8 @@
 
 A film is so stiff that its force, carried from one step into the next, needs steps below m/c:
 1e-7 s at 5 um, 1e-12 s at 10 nm. Longer ones do not fail, they give a smooth and wrong answer. So
-impulses are exchanged here instead, with the FMU taken back until both sides agree; the steps are
-chosen by their error, and cut at kinks, rupture and release. Forces are exchanged only where that
+impulses are exchanged here instead, with the FMU rolled back until both sides agree; the steps are
+adaptive, and cut at kinks, rupture and release. Forces are exchanged only where that
 is stable, and refused where it is not.
 """
 
@@ -64,7 +64,7 @@ class Mass:
 
 @frozen(eq=False)
 class Coupled:
-    """What a coupled run gives.
+    """Result of a coupled run.
 
     Attributes
     ----------
@@ -78,11 +78,11 @@ class Coupled:
     break_time : float
         Time of the latest rupture [s]; -1 if the film did not break.
     log : tuple of str
-        What the FMUs said.
+        Messages of the FMUs.
     n_steps, n_rejected, n_calls : int
-        Steps, tries that were taken again, and how often the film was asked.
+        Steps, rejected tries, and calls of the film.
     seconds : float
-        Time spent in the steps [s].
+        Wall time of the steps [s].
     """
 
     time: NDArray[np.float64]

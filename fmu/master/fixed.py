@@ -77,7 +77,7 @@ class FixedWalk:
             gap, speed = self.body.floor, 0.0
             there = self.film.move(point.time, length, gap, speed)
             self._late = there.force
-        self.film.forget(start)
+        self.film.free(start)
         time = len(self.points) * length
         if len(self.points) == 1:
             self.pulls[0] = pulling(point.time)
@@ -134,7 +134,7 @@ class FixedWalk:
                     return gap, speed, there
                 before, gap = gap, max(gap + change, 0.1 * gap)
         finally:
-            self.film.forget(mark)
+            self.film.free(mark)
         raise self._lost(point)
 
     def _lost(self, point: Point) -> ConvergenceError:

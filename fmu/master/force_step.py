@@ -110,11 +110,11 @@ def forced(
         )
     finally:
         pull.restore(mark)
-        pull.forget(mark)
+        pull.free(mark)
 
 
 def _given_in_halves(pull: Pull, point: Point, length: float, end: Motion) -> float:
-    """Impulse of the pull over a step [N.s], with what pulls told of the motion half way."""
+    """Impulse of the pull over a step [N.s], the source of which gets the motion half way."""
     half = 0.5 * length
     gap = 0.5 * (point.gap + end.gap) + 0.125 * length * (point.speed - end.speed)
     speed = 1.5 * (end.gap - point.gap) / length - 0.25 * (point.speed + end.speed)

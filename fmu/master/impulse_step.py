@@ -1,7 +1,7 @@
 r"""One step of the master: the mass on one side, the impulse of the film on the other.
 
-The viscous impulse is a potential, :math:`\Phi'(h) = c(h)`, and what acts beside it is tame. So
-the step is taken of the gap and of the momentum of mass and film together,
+The viscous impulse is a potential, :math:`\Phi'(h) = c(h)`, and what acts beside it is non-stiff.
+So the step is taken of the gap and of the momentum of mass and film together,
 
 .. math:: \dot h = v, \qquad \frac{d}{dt}\left[m v + J(h)\right] = F_{ext} - F_m(h) - k (h - h_0)
 
@@ -29,7 +29,7 @@ from .stage_root import Enough, Known, root
 __all__ = ["Body", "Doubled", "Point", "doubled", "given", "single"]
 
 _GAMMA = 1.0 - math.sqrt(0.5)
-_SOLVED = 1e-4  # share of the tolerance that a stage may miss its root by
+_SOLVED = 1e-4  # error of the root of a stage over the tolerance
 
 
 class Body(NamedTuple):
@@ -42,7 +42,7 @@ class Body(NamedTuple):
 
 
 class Point(NamedTuple):
-    """Where the master stands; `momentum` is that of the mass [N.s], `given` all that was."""
+    """Point of a coupled run; `momentum` is that of the mass [N.s], `given` all that was."""
 
     time: float
     gap: float
@@ -118,15 +118,15 @@ def doubled(
         middle = Point(point.time + half, first.gap, first.speed, left, point.given, there)
         mark = film.save()
         second = _base(film, pull, body, middle, half, rtol, mark)
-        film.forget(mark)
+        film.free(mark)
         if second is None:
             return None
         delivered = second.total + there.impulse - point.film.impulse
         return _together(whole, second._replace(total=delivered))
     finally:
         _restore(film, pull, marks)
-        film.forget(marks[0])
-        pull.forget(marks[1])
+        film.free(marks[0])
+        pull.free(marks[1])
 
 
 def _restore(film: FilmSide, pull: Pull, marks: tuple[object, object]) -> None:
@@ -194,7 +194,7 @@ def single(
         )
     finally:
         film.restore(mark)
-        film.forget(mark)
+        film.free(mark)
 
 
 def _base(

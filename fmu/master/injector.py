@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 __all__ = ["CoSimulation", "DriveSide", "Fmu", "MassSide", "Steps", "cosimulate", "coupling_error"]
 
 # What a step may miss, over the tolerance: of the pull, by its bend and by the jump at its end that
-# a blow on the stop brings about, and of the gap that the drive went on with. Measured.
+# an impact on the stop brings about, and of the gap that the drive went on with. Measured.
 _BEND, _JUMP, _DRIFT = 100.0, 600.0, 150.0
-_MOST = 0.05  # share of the pull that it may jump by at any tolerance
+_MOST = 0.05  # jump over the pull that is allowed at any tolerance
 _CONTROL = StepSize(order=2, safety=0.85, grow=4.0)
-_STABLE = 0.8  # share of the longest stable step
-_FIRST = 1e-4  # share of the whole time that is tried first
+_STABLE = 0.8  # fraction of the longest stable step
+_FIRST = 1e-4  # fraction of the final time that is tried first
 _MOST_REJECTED = 60
 
 
@@ -49,12 +49,12 @@ class DriveSide(Restorable):
         self._motion, self._pull = self.references("h", "v"), self.references("F_ext")
         self._rate = self.references("dF_ext")
 
-    def tell(self, gap: float, speed: float) -> float:
+    def set_motion(self, gap: float, speed: float) -> float:
         """Pull [N] at a gap [m] and a speed [m/s], which a step goes on from."""
         self.set(self._motion, (gap, speed))
         return self.get(self._pull)[0]
 
-    def go(self, time: float, length: float) -> float:
+    def do_step(self, time: float, length: float) -> float:
         """Take a step; the slope of the pull in it [N/s]."""
         self.step(time, length)
         return self.get(self._rate)[0]
@@ -90,7 +90,7 @@ class MassSide(Restorable):
         gap, speed = self.get(self._motion)
         return gap, speed
 
-    def go(self, time: float, length: float, pull: float, slope: float) -> None:
+    def do_step(self, time: float, length: float, pull: float, slope: float) -> None:
         """Take a step under a pull [N] that changes by `slope` [N/s]."""
         self.set(self._given, (pull, slope))
         self.step(time, length)
@@ -104,7 +104,7 @@ class Steps:
     time : float
         Where it is [s].
     n_rejected : int
-        Steps that were taken back.
+        Steps that were rolled back.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class Steps:
         self._length = _FIRST * stop_time
         self._size = 0.0  # largest pull since the mass last rested [N]
         self._slope = self._before = 0.0  # of the last step: slope of the pull [N/s], and length
-        self._pull = drive.tell(*mass.motion())
+        self._pull = drive.set_motion(*mass.motion())
         self._switches = drive.switches()
         self._stop_gap = drive.known("h_stop", math.inf)
         self.motion = mass.motion()
@@ -142,14 +142,14 @@ class Steps:
             self.n_rejected += 1
             self.drive.restore(marks[0])
             self.mass.restore(marks[1])
-            self.drive.tell(gap, speed)
+            self.drive.set_motion(gap, speed)
             length = _CONTROL.shorter(length, error)
         else:
             raise ConvergenceError(
                 f"no communication step from {self.time:g} s meets the tolerance; loosen it"
             )
-        self.drive.forget(marks[0])
-        self.mass.forget(marks[1])
+        self.drive.free(marks[0])
+        self.mass.free(marks[1])
         is_cut = length < self._length and rejected == self.n_rejected  # by an event
         self._length = _CONTROL.following(length, error, self._length if is_cut else 0.0)
         self._size = abs(after) if motion == (gap, 0.0) else max(self._size, abs(after))
@@ -161,11 +161,11 @@ class Steps:
 
     def _try(self, length: float) -> tuple[float, float, float, tuple[float, float]]:
         """Error over what is allowed, the pull after the step [N], its slope [N/s], and motion."""
-        slope = self.drive.go(self.time, length)
-        self.mass.go(self.time, length, self._pull, slope)
+        slope = self.drive.do_step(self.time, length)
+        self.mass.do_step(self.time, length, self._pull, slope)
         begin, guess = self.motion[0], self.motion[0] + self.motion[1] * length
         gap, speed = self.mass.motion()
-        after = self.drive.tell(gap, speed)
+        after = self.drive.set_motion(gap, speed)
         jump = after - (self._pull + slope * length)
         bend = 0.0
         if self._before > 0.0:  # how the slope changes from the middle of the last step to here
@@ -181,7 +181,7 @@ Progress = Callable[[float], None]
 
 @frozen(eq=False)
 class CoSimulation:
-    """What a co-simulation gives.
+    """Result of a co-simulation.
 
     Attributes
     ----------
@@ -192,11 +192,11 @@ class CoSimulation:
     ports : mapping of str to Port
         What each column is, with its unit.
     log : tuple of str
-        What the FMUs said.
+        Messages of the FMUs.
     n_steps, n_rejected : int
         Communication steps, and those that were taken again, shorter.
     seconds : float
-        Time spent in the steps [s].
+        Wall time of the steps [s].
     """
 
     time: NDArray[np.float64]
@@ -233,14 +233,14 @@ def cosimulate(
     step : float, optional
         Communication step [s]; shortened so that a whole number of them fits.
     tolerance : float, optional
-        In place of a step: choose the steps by their error, so that a release is met to about
-        this, relative to its delay. Both FMUs are taken back where a step was too long. The mass
+        In place of a step: adaptive steps, so that a release is met to about this, relative to
+        its delay. Both FMUs are rolled back where a step was too long. The mass
         integrates its film to a hundredth of that, unless its start values say otherwise.
     linear : bool
         Give the mass the pull as a straight line over the step, by its input ``dF_ext``; else
         hold the value at the start of the step, as a host without that input does.
     progress : callable, optional
-        Called with the share that is done.
+        Called with the fraction of the time that is done.
 
     Raises
     ------
@@ -262,15 +262,15 @@ def cosimulate(
         one.start(left.start, stop_time)
         inner = {"rtol": 1e-2 * tolerance} if tolerance and "rtol" in other.variables else {}
         other.start({**inner, **right.start}, stop_time)
-        told = progress or _nothing
+        report = progress or _nothing
         begun = clock.perf_counter()
         if tolerance is None:
             assert step is not None  # checked above
             length = stop_time / max(1, math.ceil(stop_time / step - 1e-9))
             _check_step(one, other, length)
-            times, rows, rejected = *_fixed(one, other, stop_time, length, linear, told), 0
+            times, rows, rejected = *_fixed(one, other, stop_time, length, linear, report), 0
         else:
-            times, rows, rejected = _chosen(one, other, stop_time, tolerance, told)
+            times, rows, rejected = _chosen(one, other, stop_time, tolerance, report)
         seconds = clock.perf_counter() - begun
         if abs(times[-1] - stop_time) > 1e-9 * stop_time:
             raise ConvergenceError(
@@ -284,7 +284,7 @@ def cosimulate(
 
 
 def _nothing(share: float) -> None:
-    """Tell nobody."""
+    """Report to nobody."""
 
 
 def _check(stop_time: float, step: float | None, tolerance: float | None) -> None:
@@ -309,9 +309,9 @@ def _fixed(
     n = round(stop_time / length)
     times, rows = [0.0], [drive.outputs() + mass.outputs()]
     for i in range(n):
-        pull = drive.tell(*mass.motion())
-        slope = drive.go(times[-1], length)
-        mass.go(times[-1], length, pull, slope if linear else 0.0)
+        pull = drive.set_motion(*mass.motion())
+        slope = drive.do_step(times[-1], length)
+        mass.do_step(times[-1], length, pull, slope if linear else 0.0)
         times.append((i + 1) * length)
         rows.append(drive.outputs() + mass.outputs())
         if i % 200 == 0:
@@ -322,7 +322,7 @@ def _fixed(
 def _chosen(
     drive: DriveSide, mass: MassSide, stop_time: float, tolerance: float, progress: Progress
 ) -> tuple[list[float], list[list[float]], int]:
-    """Times and outputs at steps chosen by their error, and how often one was taken back."""
+    """Times and outputs of adaptive steps, and how often one was rolled back."""
     steps = Steps(drive, mass, stop_time, tolerance, _longest(drive, mass))
     times, rows = [0.0], [drive.outputs() + mass.outputs()]
     while steps.time < stop_time:
@@ -371,7 +371,7 @@ def _longest(drive: DriveSide, mass: MassSide) -> float:
 
 
 def _check_step(drive: DriveSide, mass: MassSide, length: float) -> None:
-    """Refuse a step at which a blow on the stop would feed on itself, and look like an answer."""
+    """Refuse a step at which an impact on the stop would be unstable, and look like an answer."""
     longest = _longest(drive, mass)
     if length > longest:
         raise InfeasibleError(

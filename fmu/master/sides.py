@@ -1,6 +1,6 @@
-"""The two sides of the master's interface: a film that can be tried, and what pulls the mass.
+"""The coupled subsystems of a run: a film that can be tried, and the source of the pull.
 
-Both can be taken back to an earlier point, so that a step can be tried with another length or
+Both can be rolled back to an earlier point, so that a step can be tried with another length or
 another end. A film is the FMU ``stiction-force``; a pull is a function of time, or an FMU such as
 ``valve-drive`` that answers to the motion.
 """
@@ -48,7 +48,7 @@ class Fmu(NamedTuple):
 
 
 class Reaction(NamedTuple):
-    """What a film answers at the end of a step."""
+    """Outputs of a film at the end of a step."""
 
     impulse: float  # viscous, since the start [N.s]
     static: float  # force that does not depend on speed [N]
@@ -60,7 +60,7 @@ class Reaction(NamedTuple):
 
 
 class Force(NamedTuple):
-    """What a film answers to a gap and a speed, without a step."""
+    """Forces of a film at a gap and a speed, without a step."""
 
     force: float  # all of it [N]
     static: float  # what does not depend on speed [N]
@@ -79,19 +79,19 @@ _OWN = {
 
 
 class Restorable(Instance):
-    """An FMU that can be taken back."""
+    """An FMU that can be rolled back."""
 
     _now: Any = None  # the state in which it is, if it has not moved since
 
     def save(self) -> Any:
-        """State of the FMU, to be given to `restore`, and at last to `forget`."""
+        """State of the FMU, to be given to `restore`, and at last to `free`."""
         mark = ctypes.c_void_p()
         self._do("fmi2GetFMUstate", ctypes.byref(mark))
         self._now = mark, len(self.log)
         return self._now
 
     def restore(self, state: Any) -> None:
-        """Go back to a state; what was said since then did not happen."""
+        """Roll back to a state; messages since then are dropped."""
         if self._now is not state:
             self._do("fmi2SetFMUstate", state[0])
             del self.log[state[1] :]
@@ -102,7 +102,7 @@ class Restorable(Instance):
         self._now = None
         super().step(time, length)
 
-    def forget(self, state: Any) -> None:
+    def free(self, state: Any) -> None:
         """Free a state."""
         self._do("fmi2FreeFMUstate", ctypes.byref(state[0]))
 
@@ -152,7 +152,7 @@ class FilmSide(Restorable):
         return Force(*self.get(self._forces))
 
     def limit(self) -> int:
-        """Which limit acts at what was felt last."""
+        """Limit that acts at the gap and speed set last."""
         return self.get_integers(self._limit)[0]
 
     def move(self, time: float, length: float, gap: float, speed: float) -> Reaction:
@@ -164,7 +164,7 @@ class FilmSide(Restorable):
 
 
 class Pull(Protocol):
-    """What pulls the mass, and can be taken back."""
+    """Source of the pull on the mass that can be rolled back."""
 
     def over(self, time: float, length: float, gap: float, speed: float) -> Pulling:
         """Go over a step that begins at `time` [s]; gap [m] and speed [m/s] are those there."""
@@ -175,7 +175,7 @@ class Pull(Protocol):
     def restore(self, state: Any) -> None:
         """Go back to it."""
 
-    def forget(self, state: Any) -> None:
+    def free(self, state: Any) -> None:
         """Free it."""
 
 
@@ -205,8 +205,8 @@ class GivenPull:
     def restore(self, state: None) -> None:
         """See `Pull.restore`."""
 
-    def forget(self, state: None) -> None:
-        """See `Pull.forget`."""
+    def free(self, state: None) -> None:
+        """See `Pull.free`."""
 
 
 class DrivePull(Restorable):

@@ -22,7 +22,7 @@ _POWERS = (0.0, 9.0)  # between which a film may stiffen
 
 
 class Known(NamedTuple):
-    """What a film answered at a gap [m].
+    """Answer of a film at a gap [m].
 
     Viscous impulse since the start of the step [N.s], damping [N.s/m], and the force that holds
     beside it [N].
@@ -109,7 +109,7 @@ def root(stage: Stage, start: Known, guess: float, enough: Enough) -> Known | No
         gap = _solved(stage, _Law(start, start.power, 0.0), reach)
         flies = gap > 0.999 * reach[1]
         if flies and not stage.may_fly and start.damping * stage.part > stage.mass:
-            return None  # it would let go and fly: there is no use in asking
+            return None  # it would fly off: there is no root to look for
     low, high, last = 0.0, math.inf, math.inf
     for _ in range(80):
         here = stage.at(gap)

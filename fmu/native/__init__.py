@@ -1,12 +1,15 @@
 """Native FMUs: one C kernel for all models, and the tables of one scene.
 
-build        Writing a native FMU of a film, or of a mass with its film.
-drive        Writing a native ``valve-drive``.
-film         The film of a scene as the numbers that the kernel reads.
-tables       Forces as tables that the kernel interpolates.
-ports        The variables of a native FMU.
-data         The file of variables and tables, ``resources/film.bin``.
-description  Model descriptions of FMI 2.0 and 3.0.
-page         The documentation of a native FMU.
-kernel       The sources in C.
+build        Writing native FMUs: one C kernel for all models, and the tables of one scene.
+drive        Writing a native ``valve-drive``: the C kernel, its variables, and rough end-stop
+             faces.
+film         The film of a scene as the numbers that the C kernel of a native FMU reads.
+tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.
+ports        The variables of a native FMU: those of the Python FMU of that name that a table
+             leaves free.
+data         The file ``resources/film.bin`` of a native FMU: variables and tables, for the C
+             kernel.
+description  Model descriptions and build descriptions of native FMUs, in both versions of FMI.
+page         The page of documentation in a native FMU.
+kernel       The C kernel of native FMUs.
 """

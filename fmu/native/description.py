@@ -1,4 +1,4 @@
-"""What native FMUs say about themselves, in both versions of FMI."""
+"""Model descriptions and build descriptions of native FMUs, in both versions of FMI."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writing a native ``valve-drive``: the C kernel, its variables, and the faces of its stop."""
+"""Writing a native ``valve-drive``: the C kernel, its variables, and rough end-stop faces."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .description import CATEGORIES
 __all__ = ["build_native_drive", "face_numbers"]
 
 _NAME = "valve-drive"
-_MOST_WAYS = 64  # CK_WAYS of native/drive.h
+_MOST_UNLOADING_CURVES = 64  # CK_UNLOADING_CURVES of native/drive.h
 
 
 def build_native_drive(
@@ -100,10 +100,10 @@ def face_numbers(curve: LoadDisplacementCurve | None) -> list[float]:
     if curve is None:
         return [0.0]
     out = curve.unloading
-    if len(out) > _MOST_WAYS:
+    if len(out) > _MOST_UNLOADING_CURVES:
         raise PlanError(
-            f"a native valve-drive holds {_MOST_WAYS} unloading curves of its faces, this curve "
-            f"has {len(out)}; make it with fewer, or leave out --native"
+            f"a native valve-drive holds {_MOST_UNLOADING_CURVES} unloading curves of its "
+            f"faces, this one has {len(out)}; make it with fewer, or leave out --native"
         )
     numbers = [1.0, curve.elastic_limit, float(len(out))]
     numbers += _in_logarithms(power_curve(curve.approach, curve.force, HERTZ), curve.approach)

@@ -32,7 +32,7 @@ _INF = math.inf
 
 
 class FilmNumbers(NamedTuple):
-    """What the kernel reads about a scene, and the lowest gap its tables know [m]."""
+    """Numbers that the kernel reads about a scene, and the lowest gap of its tables [m]."""
 
     numbers: list[float]
     lowest: float

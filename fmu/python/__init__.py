@@ -1,6 +1,6 @@
 """FMUs that run in Python: build, carried modules, integrity.
 
 build      Writing FMU files: `build` makes one, `validate` lets fmpy check it.
-integrity  That an FMU runs the code it was built from, and no other.
-vendor     Which source files an FMU has to carry: the modules its slave imports, and what they impo
+integrity  Integrity of an FMU: it runs the code it was built from, and no other.
+vendor     Source files that an FMU carries: the modules its slave imports, and those they import.
 """

@@ -1,4 +1,4 @@
-"""That an FMU runs the code it was built from, and no other.
+"""Integrity of an FMU: it runs the code it was built from, and no other.
 
 All FMUs in one process share Python's table of modules. Their packages therefore carry a hash in
 their name; this module makes the hash, and checks it when an FMU is instantiated, which is the

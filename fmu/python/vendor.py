@@ -1,4 +1,4 @@
-"""Which source files an FMU has to carry: the modules its slave imports, and what they import.
+"""Source files that an FMU carries: the modules its slave imports, and those they import.
 
 Inside contactkit all imports are relative, so copies of the modules work under another package
 name. A package's own ``__init__`` is carried only if something is imported from it; otherwise an

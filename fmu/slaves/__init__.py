@@ -1,9 +1,11 @@
 """The FMUs: stiction-mass, stiction-force, valve-drive, contact-stop, tip-contact.
 
 contact_stop    The FMU ``contact-stop``: rough faces that meet at an end stop; gap in, force out.
-film_travel     What a film gives while it is drawn from one gap to another: impulses, and when it b
+film_travel     Impulses of a film over a change of its gap, and the time of its rupture.
 stiction_force  The FMU ``stiction-force``: a liquid film for a tool that owns the mass; motion in,
+                force out.
 stiction_mass   The FMU ``stiction-mass``: a mass held by a liquid film; a force in, motion out.
-tip_contact     The FMU ``tip-contact``: spring tips on a landing site; motion of their root in, for
+tip_contact     The FMU ``tip-contact``: spring tips on a landing site; motion of their root in,
+                force out.
 valve_drive     The FMU ``valve-drive``: coil, return spring and opposite stop of a spool valve.
 """

@@ -2,8 +2,8 @@
 
 The contact was solved when the FMU was built (`contactkit.load_displacement`); what it carries are
 tables. Force and areas follow the gap at once; the one thing remembered is the largest approach,
-which decides the way out of a plastic contact. It is remembered when a step is accepted, so
-a host that goes back to an earlier state takes back what was pressed since.
+which decides the unloading curve of a plastic contact. It is remembered when a step is accepted, so
+a host that goes back to an earlier state undoes what was pressed since.
 
 The force is never negative: it pushes the body out of the stop, so at a stop that is met on the
 way up (``side = ABOVE``) it closes, as ``F_stop`` of ``valve-drive``, and at one that is met on
@@ -79,9 +79,9 @@ PORTS = (
         display_unit="um",
         nominal=1e-7,
     ),
-    _output("d_res", "m", "approach at which they let go after it", (), display_unit="um"),
-    _output("W", "J", "work lost to plasticity since the start", (), nominal=1e-6),
-    _output("W_d", "J", "work lost to damping since the start", (), nominal=1e-6),
+    _output("d_res", "m", "approach at which they detach after it", (), display_unit="um"),
+    _output("W", "J", "work dissipated by plasticity since the start", (), nominal=1e-6),
+    _output("W_d", "J", "work dissipated by damping since the start", (), nominal=1e-6),
     _output(
         "state",
         "-",

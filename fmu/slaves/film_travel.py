@@ -1,4 +1,4 @@
-"""What a film gives while it is drawn from one gap to another: impulses, and when it breaks.
+"""Impulses of a film over a change of its gap, and the time of its rupture.
 
 The viscous impulse of a film without limits does not depend on the way, so it is exact between
 any two gaps, however long the step. For the static force, and where a limit of the liquid acts,
@@ -35,7 +35,7 @@ _EDGE = LOBATTO_5[1][0]
 
 
 class Travel(NamedTuple):
-    """Viscous and other impulse [N.s], and the share of the step after which the film is broken.
+    """Viscous and other impulse [N.s], and the fraction of the step after which the film is broken.
 
     `broken` is 1 if it is not; `last` is the static force at the end [N].
     """
@@ -98,7 +98,7 @@ def _stops(film: Film, begin: float, end: float, widest: float) -> Iterator[floa
     kinks = film.kinks if rising else film.kinks[::-1]
     gap = begin
     while gap != end:
-        # Half the distance to the rupture at most, on the way to it and on the way back.
+        # Half the distance to the rupture at most, on opening and on closing.
         room = max((0.5 if rising else 1.0) * (film.end - gap), _NEAR * film.end)
         if rising:
             near = min(gap * factor, gap + room, end)
@@ -128,7 +128,7 @@ def _viscous(film: Film, begin: float, end: float, length: float) -> float:
 def _pieces(
     film: Film, begin: float, end: float, speed: float
 ) -> Iterator[tuple[float, float, bool]]:
-    """Parts of the way in which one limit acts, or none, and whether one does."""
+    """Parts of the path with one limit that acts, or none, and whether one does."""
 
     def acts(gap: float) -> LimitKind:
         return film.viscous_force(gap, speed)[1]

@@ -26,7 +26,7 @@ __all__ = ["Exchange", "StictionForce"]
 
 
 class Exchange(IntEnum):
-    """What the tool exchanges with the film: forces step by step, or impulses."""
+    """Quantity that the tool exchanges with the film: forces step by step, or impulses."""
 
     FORCE = 1
     IMPULSE = 2

@@ -41,7 +41,7 @@ __all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
 
 
 class MeniscusLaw(IntEnum):
-    """Which meniscus force acts."""
+    """Law of the meniscus force."""
 
     NONE = 1
     EXACT = 2
@@ -122,7 +122,7 @@ PORTS = (
     _size("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
     _size("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
     _size("h_break", "m", "gap at which the film breaks; 0: where the bridge does", 0.0, "um"),
-    _size("rewet", "-", "share of V that is there when the bodies return", 1.0, maximum=1.0),
+    _size("rewet", "-", "fraction of V that is there when the bodies return", 1.0, maximum=1.0),
     _size("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
     _size("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
     _size("gamma", "N/m", "surface tension; 0: no meniscus force", 0.03, "mN/m"),
@@ -147,7 +147,7 @@ PORTS = (
         enumeration=MeniscusLaw,
         start=MeniscusLaw.EXACT,
     ),
-    _size("dp_cav", "Pa", "tension the liquid bears; 0: no limit", 0.0, "bar"),
+    _size("dp_cav", "Pa", "tensile strength of the liquid; 0: no limit", 0.0, "bar"),
     _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     _size("rtol", "-", "tolerance of an internal step", 1e-8, exclusive=True, maximum=0.1),
 )

@@ -60,7 +60,7 @@ __all__ = ["TipContact", "TipLaw", "TipStatus"]
 
 
 class TipStatus(IntEnum):
-    """What a tip does."""
+    """State of a tip."""
 
     LANDED = 1
     HELD = 2
@@ -153,7 +153,7 @@ PORTS = (
     _output(
         "d",
         "m",
-        "approach of apex and site, or the dent they left; 0 if rigid",
+        "approach of apex and site, or their residual indentation; 0 if rigid",
         _START,
         display_unit="nm",
         nominal=1e-9,

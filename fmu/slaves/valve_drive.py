@@ -4,7 +4,7 @@ It takes the motion of the spool and gives the pull on it; mass and film are in 
 ``stiction-mass``. The coil is integrated inside, with the voltage switched where it switches and
 the gap running on at the speed it has, so a step may be as long as that is a fair guess. What is
 left is the error of the coupling: spring and stop answer to a gap that is one step old, which is
-stable for steps below ``2 sqrt(m/k_stop)`` and good to some per cent of a blow on the stop at a
+stable for steps below ``2 sqrt(m/k_stop)`` and good to some per cent of an impact on the stop at a
 tenth of that.
 
 The stop is a spring, or, where the build was given a ``curve``, the rough faces of that curve
@@ -333,9 +333,9 @@ class ValveDrive(PortSlave):
         known, self.largest = self.largest, max(self.largest, faces)
         if self.faces is not None and known <= self.faces.max_approach < faces:
             self.log(
-                f"the faces of the stop are pressed by {faces:.6g} m at t = {time:.9g} s, beyond "
-                f"{self.faces.max_approach:.6g} m where their tables end: the force goes on along "
-                "its tangent; give the stop a larger area, or faces solved to larger loads",
+                f"the rough end-stop faces are pressed by {faces:.6g} m at t = {time:.9g} s, "
+                f"beyond {self.faces.max_approach:.6g} m where their tables end: the force goes on "
+                "along its tangent; give the stop a larger area, or faces solved to larger loads",
                 Fmi2Status.warning,
                 "logStatusWarning",
             )

@@ -1,5 +1,5 @@
 """Rough faces of an end stop.
 
-faces  The faces of a stop, as the file of a device names them; solved by `stop_solve`.
-solve  Curve of the faces of a stop that a device file names: the contact is solved once, then kept.
+faces  Rough end-stop faces, as the file of a device names them; solved by `end_stop.solve`.
+solve  Load-displacement curve of the faces of an end stop: the contact is solved once, then kept.
 """

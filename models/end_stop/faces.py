@@ -1,4 +1,4 @@
-"""The faces of a stop, as the file of a device names them; solved by `stop_solve`."""
+"""Rough end-stop faces, as the file of a device names them; solved by `end_stop.solve`."""
 
 from __future__ import annotations
 

@@ -80,7 +80,7 @@ def _pole(coil: Coil) -> float:
 
 
 def _crowding(coil: Coil, flux: float) -> float:
-    """Additional resistance of the saturated iron, as a share of that of the iron [-]."""
+    """Additional resistance of the saturated iron, over that of the iron [-]."""
     if coil.saturation is None:
         return 0.0
     return (flux / (coil.turns * coil.pole_area * coil.saturation)) ** _KNEE

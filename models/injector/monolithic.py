@@ -72,14 +72,14 @@ COLUMNS: Mapping[str, str] = MappingProxyType(
 
 
 class Mode(NamedTuple):
-    """What holds throughout a piece."""
+    """Constants of a piece."""
 
     in_contact: bool  # at rest on the end cap
     broken: bool = False
     volume_fraction: float = 1.0  # volume of the film over that of the scene
     blocked: bool = False  # the diode keeps the current at zero
     heading: int = 0  # which way a gap that lies on a mark goes; 0: as the forces say
-    largest: float = 0.0  # largest approach that rough faces of the stop have had [m]
+    largest: float = 0.0  # maximum approach of the rough end-stop faces so far [m]
 
 
 class Piece(NamedTuple):
@@ -508,7 +508,7 @@ class _Run:
         return float(self.state[0]) - self.valve.stop.gap if self.valve is not None else 0.0
 
     def _turn(self) -> None:
-        """Remember the deepest point of rough faces, which decides their way out."""
+        """Remember the deepest point of rough faces, which decides their unloading curve."""
         self.pressing = not self.pressing
         if self.valve is not None and self.faces is not None:
             gap, before = float(self.state[0]), self.mode.largest

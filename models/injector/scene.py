@@ -18,7 +18,7 @@ from .valve import Valve
 if TYPE_CHECKING:
     from ...analyses.load_displacement.curve import LoadDisplacementCurve
 
-__all__ = ["InjectorScene", "Study", "end_stop_curve"]
+__all__ = ["InjectorScene", "Study", "end_stop_faces"]
 
 
 def _all_positive(study: object, attribute: Any, values: tuple[float, ...]) -> None:
@@ -36,7 +36,7 @@ def _temperatures(study: object, attribute: Any, values: tuple[float, ...]) -> N
 
 @frozen(kw_only=True)
 class Study:
-    """What the injector is run at.
+    """Settings of the runs of the injector.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ class InjectorScene:
         return profile.start_delay + profile.cycles * profile.period
 
 
-def end_stop_curve(valve: Valve) -> LoadDisplacementCurve | None:
+def end_stop_faces(valve: Valve) -> LoadDisplacementCurve | None:
     """Load-displacement curve of the rough faces of the end stop, if it has any."""
     if valve.stop.faces is None:
         return None

@@ -76,7 +76,7 @@ class Stop:
     stiffness : float
         Stiffness of stop and spool together [N/m].
     damping : float
-        Share of the elastic force that is added per speed of approach [s/m]; 0: none.
+        Fraction of the elastic force that is added per speed of approach [s/m]; 0: none.
     faces : StopFaces, optional
         Rough faces that meet in front of the stiffness; without them the stop is a spring.
     """

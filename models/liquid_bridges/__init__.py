@@ -1,4 +1,4 @@
 """Liquid bridges whose closures are compared.
 
-scene  The file of a comparison of closures of liquid bridges.
+scene  The file of a comparison of closures of liquid bridges: contact angles, and the filling.
 """

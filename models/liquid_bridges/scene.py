@@ -78,7 +78,7 @@ class Bridges:
     gaps : int
         Points of the force curve that is timed.
     reach : float
-        How far the curve goes, as a share of the exact limit [-].
+        End of the curve over the exact limit [-].
     """
 
     name: str = "liquid bridges"

@@ -72,7 +72,7 @@ class Tip(Protocol):
 
 
 class FmuInstance(Protocol):
-    """What `FmuTip` asks of an instance, such as `contactkit.fmu.framework.instance.Instance`."""
+    """FMU instance as `FmuTip` uses it, such as `contactkit.fmu.framework.instance.Instance`."""
 
     def references(self, *names: str) -> list[int]:
         """Value references of variables."""
@@ -220,7 +220,7 @@ def couple(
     until : callable, optional
         Called with time and tilt after each step; ends the run when true.
     progress : callable, optional
-        Called with the share that is done.
+        Called with the fraction of the time that is done.
 
     Raises
     ------

@@ -88,7 +88,7 @@ class Electrode:
 
 
 class PullIn(NamedTuple):
-    """Where the torque of a voltage outgrows a torsional spring."""
+    """Tilt and voltage at which the torque outgrows a torsional spring."""
 
     tilt: float
     """Tilt beyond which no voltage is stable [rad]."""

@@ -1,11 +1,11 @@
-r"""How hard a spring tip lands on its site, and whether its apex bounces.
+r"""Landing of a spring tip on its site: force, dissipated work and rebound.
 
 `contactkit.models.micromirror.tip` lets a tip land without a bounce of its apex, on a site that
 is rigid. Here the site deforms by its `LoadDisplacementCurve`; the energy of one impact decides,
 
 .. math:: \tfrac12 m v^2 + w = W(d_m), \qquad e^2 = 1 - \text{lost} / \tfrac12 m v^2
 
-with w the work of the attraction that pulls it in and holds it again on the way out. The apex
+with w the work of the attraction that pulls it in and holds it again on unloading. The apex
 stays if the plastic work takes the whole kinetic energy. Left out: what runs away in the tip as a
 wave, vapour that condenses while it touches, and that approaches of less than a nanometre are
 those of a few atoms, to which hardness and elasticity are strangers.
@@ -119,7 +119,7 @@ def land(
         expected = "be zero or positive, and finite"
         raise DescriptionError("land(attraction)", attraction, expected, unit="J")
     kinetic = 0.5 * mass * speed * speed
-    # The attraction brings its work with it: the found is that of a faster tip.
+    # The attraction brings its work with it: the impact is that of a faster tip.
     found = impact(faces, mass, math.sqrt(speed * speed + 2.0 * attraction / mass))
     left = max(kinetic - found.dissipated_work, 0.0)
     return TipLanding(found.approach, found.force, found.dissipated_work, math.sqrt(left / kinetic))

@@ -12,7 +12,7 @@ unbent tip has the gap z over its landing site, less the gap that roughness keep
 :math:`\theta_l` is the tilt at which they touch. F is the force of all tips of a side on the
 mirror, positive where it pulls that side down: adhesion is positive, a bent tip negative.
 
-The tips have no place in the equation but their force: who owns a tip and its film is said in
+The tips have no place in the equation but their force: who owns a tip and its film is stated in
 `contactkit.models.micromirror.tip`. Left out: bending of hinge and mirror (they are stiff against
 torsion), heating, and the gas but for the damping of the hinge. Plain floats only: this also
 runs inside an FMU.
@@ -96,7 +96,7 @@ class SpringTips:
     faces : StopFaces, optional
         What the apex of one tip meets on its site; without it the site is rigid, and keeps it.
     landing_damping : float
-        Share of the force of the faces that is added per speed of approach [s/m].
+        Fraction of the force of the faces that is added per speed of approach [s/m].
     """
 
     arm: float = field(validator=positive, metadata=si("m"))
@@ -122,7 +122,7 @@ class Waveform:
     """Voltages of mirror and electrodes, in each of a number of flips from side to side.
 
     The mirror rests on the side ``+`` under the bias. At each flip the address changes to the
-    other side; then come the reset pulse, no voltage while the mirror lets go, and the bias.
+    other side; then come the reset pulse, no voltage while the mirror releases, and the bias.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ from .coupling import FREE, HELD, LANDED
 from .flight import Root
 from .mirror import Attitude, Mirror, acceleration, electrode_volts, root_height, switching_times
 from .tip import TipStop, free_gap
-from .tip_impact import Contact, rest_depth, sprung_back
+from .tip_impact import Contact, rebound_work, rest_depth
 
 __all__ = ["SIDES", "Event", "MonolithicMotion", "simulate_monolithic"]
 
@@ -54,7 +54,7 @@ class Event(NamedTuple):
 
 
 class MonolithicMotion(NamedTuple):
-    """What a monolithic run gives: tilt [rad] and rate [rad/s] and gaps [m] at times, and events.
+    """Result of a monolithic run: tilt [rad] and rate [rad/s] and gaps [m] at times, and events.
 
     `unknowns` has the rows tilt, rate, gap and speed of the tip of side +, and of side -.
     """
@@ -349,7 +349,7 @@ class _IntegrationWithImpacts(_Integration):
         self._indent(side, self._depth(side, self.state))
 
     def _sink(self, side: int) -> None:
-        """A tip on its way out is pressed back before it is out."""
+        """A rebounding tip is pressed back before it is off the site."""
         self.sinking[side] = True
 
     def _indent(self, side: int, depth: float) -> None:
@@ -378,7 +378,7 @@ class _IntegrationWithImpacts(_Integration):
         self._indent(side, depth)
         out = self.indentations[side]
         self.state[2 + 2 * side : 4 + 2 * side] = self.origin + out - depth, 0.0
-        back = sprung_back(self.stop.curve, depth, self.largest[side])
+        back = rebound_work(self.stop.curve, depth, self.largest[side])
         pressed = contact.attraction - self.stiffness * (contact.root.height + 0.5 * (depth + out))
         if back <= pressed * (depth - out):
             self._settle(side)

@@ -1,4 +1,4 @@
-"""Whether a micromirror lets go: by the spring alone, or by the smallest reset pulse."""
+"""Release of a micromirror: by the spring alone, or by the smallest reset pulse."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ __all__ = ["Landing", "Release", "landing", "release", "release_curve", "smalles
 
 _COARSE = 2.0  # [V] between the pulses tried first
 _FINE = 0.05  # [V]
-_AWAY = 0.5  # [-] share of the landing tilt below which a mirror has left
+_AWAY = 0.5  # [-] over the landing tilt, below which a mirror has left
 
 
 class Release(NamedTuple):
-    """What holds a mirror at a humidity, and what makes it let go."""
+    """Adhesion of a mirror at a humidity, and the voltage and time of its release."""
 
     adhesion: Adhesion
     """Of one tip."""

@@ -1,4 +1,4 @@
-"""What the file of a micromirror says: one tip and its film, the mirror, what it is run at."""
+"""Scene of a micromirror: one tip and its film, the mirror, settings of its runs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .tip_impact import rest_depth
 
 __all__ = ["MicromirrorScene", "MirrorStudy"]
 
-_ROUNDS = 8  # each brings the tilt at rest nearer by the ratio of tip and site, some 1 %
+_ITERATIONS = 8  # each brings the tilt at rest nearer by the ratio of tip and site, some 1 %
 
 
 def _humidities(study: object, attribute: Any, values: tuple[float, ...]) -> None:
@@ -46,7 +46,7 @@ def _humidity(study: object, attribute: Any, value: float) -> None:
 
 @frozen(kw_only=True)
 class MirrorStudy:
-    """What the micromirror is run at.
+    """Settings of the runs of the micromirror.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class MirrorStudy:
     largest_reset : float
         Largest reset voltage that is tried [V].
     patience : float
-        How long without a voltage a mirror may take to let go [s], where release is looked for.
+        Longest time without a voltage [s] in which release is looked for.
     communication_step : float
         Communication step of the co-simulation [s].
     """
@@ -118,8 +118,8 @@ class MicromirrorScene:
         tilt, stop = landed_tilt(self.mirror, self.loading.stiffness, volts), self.stop
         if stop is None:
             return Attitude(tilt, 0.0)
-        for _ in range(_ROUNDS):
-            # A site that gives makes the spring of a tip softer by what the apex sinks in.
+        for _ in range(_ITERATIONS):
+            # An elastic site makes the spring of a tip softer by the approach of the apex.
             height, depth = self._sunk(stop, tilt)
             softer = self.loading.stiffness * (1.0 + depth / height)
             tilt = landed_tilt(self.mirror, softer, volts)
@@ -136,7 +136,7 @@ class MicromirrorScene:
 
     @property
     def stop(self) -> TipStop | None:
-        """What the apex of a tip meets; None on a rigid site."""
+        """Faces of apex and site; None on a rigid site."""
         faces = self.mirror.tips.faces
         if faces is None:
             return None
@@ -155,7 +155,7 @@ class MicromirrorScene:
         )
 
     def first_flip(self, reset_voltage: float | None) -> Mirror:
-        """Mirror that is let go at time 0, by a reset voltage [V]; None: by the spring alone."""
+        """Mirror that is released at time 0, by a reset voltage [V]; None: by the spring alone."""
         wave = self.mirror.waveform
         reset = {"reset_voltage": 0.0, "reset_time": 0.0}
         if reset_voltage is not None:

@@ -13,9 +13,9 @@ step; F is what the tip pulls it down with. The tip has four states of motion in
   damped oscillator under a steady acceleration, in closed form;
 * landing again at :math:`h_0`: inelastic, and the film is there again, as it condenses.
 
-With a `TipStop` the site gives: the apex sinks in, leaves a dent and bounces, as
-`contactkit.models.micromirror.tip_impact` says. The gap then counts from the dent, and a tip
-in contact is at the gap :math:`h_0` less what it has sunk below that.
+With a `TipStop` the site deforms: the apex leaves a residual indentation and bounces, as
+`contactkit.models.micromirror.tip_impact` says. The gap then counts from the residual
+indentation, and a tip in contact is at the gap :math:`h_0` less what it has sunk below that.
 
 So a tip may have any mass, a film any stiffness, and a step any length: the internal steps follow
 their own error. Left out: attraction of a free tip before it lands, without a `TipStop` a bounce of
@@ -33,7 +33,7 @@ from ...separation.motion.advance import internal_step
 from ...separation.motion.state import MotionState, acting_film, outputs
 from ...separation.plan import Plan
 from .flight import Flight, Root, landing_time
-from .tip_impact import Blow, BlowEnd, Contact, TipStop, blow, rest_depth
+from .tip_impact import Contact, Impact, ImpactEnd, TipStop, follow_impact, rest_depth
 
 __all__ = [
     "TipState",
@@ -53,8 +53,8 @@ __all__ = [
 class TipState(NamedTuple):
     """Everything a tip remembers; its impulse on the root [N.s], its losses [J], its events.
 
-    The rest is that of a site that gives, see `TipStop`: whether a blow goes on, the approach of
-    the faces, or the dent that is left while they are apart, and the largest approach so far [m],
+    The rest is that of a compliant site, see `TipStop`: whether an impact goes on, the approach of
+    the faces, or the residual indentation while they are apart, and the maximum approach [m],
     the largest force of the site [N].
     """
 
@@ -67,7 +67,7 @@ class TipState(NamedTuple):
     free_time: float = -1.0
     touching: bool = False
     depth: float = 0.0
-    dent: float = 0.0
+    residual: float = 0.0
     largest: float = 0.0
     peak: float = 0.0
 
@@ -79,7 +79,7 @@ class TipState(NamedTuple):
     @property
     def gap(self) -> float:
         """Gap under the tip [m]."""
-        return self.motion.gap - (self.depth - self.dent)
+        return self.motion.gap - (self.depth - self.residual)
 
     @property
     def on_site(self) -> bool:
@@ -141,11 +141,11 @@ def contact_of(plan: Plan, stop: TipStop, state: TipState, root: Root) -> Contac
 
 
 def pressed(stop: TipStop, state: TipState, depth: float, largest: float) -> TipState:
-    """Remember how deep the faces were pressed, and the dent that it leaves."""
+    """Remember how deep the faces were pressed, and the residual indentation."""
     largest = max(largest, state.largest)
     peak = max(state.peak, stop.curve.force_at(depth, largest)[0] if depth > 0.0 else 0.0)
-    dent = stop.curve.residual(largest)
-    return state._replace(depth=depth, dent=dent, largest=largest, peak=peak)
+    residual = stop.curve.residual(largest)
+    return state._replace(depth=depth, residual=residual, largest=largest, peak=peak)
 
 
 _MOST_PIECES = 100_000
@@ -193,7 +193,7 @@ def advance_tip(
         left = end - state.time
         if left <= 1e-13 * max(abs(end), dt):
             return state._replace(motion=state.motion._replace(time=end))
-        over = root._replace(height=root.height + state.dent)  # over the dent that is left
+        over = root._replace(height=root.height + state.residual)  # over the residual indentation
         if stop is not None and state.touching:
             state = _strike(plan, stop, state, root, end)
         elif stop is not None and state.motion.in_contact:
@@ -294,7 +294,7 @@ def _fly(
 
 
 def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
-    """Land after a flight: the tip stops, or strikes a site that gives; its film is there again."""
+    """Land after a flight: the tip stops, or strikes a compliant site; its film is there again."""
     loading, motion = plan.scene.imposed_force, state.motion
     fraction = plan.scene.meniscus.rewetting
     wets = fraction > 0.0
@@ -312,21 +312,21 @@ def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
 
 
 def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) -> TipState:
-    """Follow a blow until it is over, or the step."""
+    """Follow an impact until it is over, or the step."""
     motion = state.motion
-    begin = Blow(motion.time, state.depth, -motion.speed, state.largest, peak=state.peak)
+    begin = Impact(motion.time, state.depth, -motion.speed, state.largest, peak=state.peak)
     rtol = plan.accuracy.time_rtol
-    found = blow(contact_of(plan, stop, state, root), begin, end, rtol)
+    found = follow_impact(contact_of(plan, stop, state, root), begin, end, rtol)
     moved = motion._replace(
-        time=found.time, speed=-found.speed, in_contact=found.end is BlowEnd.REST, step=0.0
+        time=found.time, speed=-found.speed, in_contact=found.end is ImpactEnd.REST, step=0.0
     )
     return state._replace(
         motion=moved,
-        touching=found.end is BlowEnd.TIME,
+        touching=found.end is ImpactEnd.TIME,
         impulse=state.impulse + found.impulse,
         landing_loss=state.landing_loss + found.lost,
         depth=found.depth,
-        dent=stop.curve.residual(found.largest),
+        residual=stop.curve.residual(found.largest),
         largest=found.largest,
         peak=found.peak,
     )
@@ -344,6 +344,6 @@ def _rest(plan: Plan, stop: TipStop, before: TipState, root: Root, after: TipSta
         forces.append(contact.stiffness * (root.height_at(time) + depth))
     mean = (forces[0] + 4.0 * forces[1] + forces[2]) / 6.0
     impulse = before.impulse + (after.time - before.time) * mean
-    if not after.motion.in_contact:  # it leaves the dent
-        state = state._replace(depth=state.dent)
+    if not after.motion.in_contact:  # it leaves the residual indentation
+        state = state._replace(depth=state.residual)
     return state._replace(impulse=impulse)

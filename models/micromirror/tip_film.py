@@ -1,4 +1,4 @@
-r"""What holds a spring tip: the liquid that condenses under it, and the law of its separation.
+r"""Adhesion of a spring tip: the liquid that condenses under it, and the law of its separation.
 
 While a tip rests on its site for a tenth of a millisecond, vapour condenses until the pressure of
 the liquid is that of Kelvin, :math:`p = (R T/v) \ln H`. The tip then leaves within some ten
@@ -45,7 +45,7 @@ __all__ = [
 
 
 class Adhesion(NamedTuple):
-    """What holds one tip at a humidity; forces [N] while landed, positive where they hold."""
+    """Adhesion of one tip at a humidity; forces [N] while landed, positive where they hold."""
 
     humidity: float
     kelvin_radius: float
@@ -143,7 +143,7 @@ def tip_law(scene: SeparationScene, humidity: float, rtol: float = 1e-7) -> Plan
 
 @lru_cache(maxsize=64)
 def adhesion(scene: SeparationScene, humidity: float) -> Adhesion:
-    """What holds one tip at a humidity, while landed and until it is free."""
+    """Adhesion of one tip at a humidity, while landed and until it is free."""
     made = tip_law(scene, humidity)
     gap, volume = scene.loading.initial_gap, made.scene.meniscus.volume
     law = made.film.laws.get(MeniscusForce)

@@ -27,11 +27,19 @@ from ...numerics.roots import bracketed_root
 from ...numerics.step_size import StepSize
 from .flight import Root
 
-__all__ = ["Blow", "BlowEnd", "Contact", "TipStop", "blow", "rest_depth", "sprung_back"]
+__all__ = [
+    "Impact",
+    "ImpactEnd",
+    "Contact",
+    "TipStop",
+    "follow_impact",
+    "rest_depth",
+    "rebound_work",
+]
 
 _MOST_STEPS = 20_000
 _CONTROL = StepSize(order=5, grow=5.0, unsolved=0.1)
-_OUT_PIECES = 30  # halvings of a way out, in which its work is summed
+_OUT_PIECES = 30  # halvings of an unloading curve, in which its work is summed
 
 # Dormand and Prince, order 5 with an error of order 4.
 _NODES = (0.2, 0.3, 0.8, 8.0 / 9.0, 1.0)
@@ -58,14 +66,14 @@ _Rates = Callable[[float, _Four], _Four]
 
 
 class TipStop(NamedTuple):
-    """What the apex of one tip meets: curve of the faces, and damping over force [s/m]."""
+    """Site of one tip: curve of the faces, and damping over force [s/m]."""
 
     curve: LoadDisplacementCurve
     damping: float = 0.0
 
 
 class Contact(NamedTuple):
-    """What a tip is while it touches: attraction [N], spring [N/m], mass [kg], and its root."""
+    """A tip in contact: attraction [N], spring [N/m], mass [kg], and its root."""
 
     stop: TipStop
     attraction: float
@@ -74,16 +82,16 @@ class Contact(NamedTuple):
     root: Root
 
 
-class BlowEnd(IntEnum):
-    """How a blow ended: by the end of the time, off the site, or at rest on it."""
+class ImpactEnd(IntEnum):
+    """End of an impact: by the end of the time, off the site, or at rest on it."""
 
     TIME = 1
     OUT = 2
     REST = 3
 
 
-class Blow(NamedTuple):
-    """Where a blow has got to."""
+class Impact(NamedTuple):
+    """State of an impact."""
 
     time: float
     depth: float
@@ -92,7 +100,7 @@ class Blow(NamedTuple):
     """Of approach [m/s]."""
     largest: float
     """Largest approach the faces have had, at a turning point [m]."""
-    end: BlowEnd = BlowEnd.TIME
+    end: ImpactEnd = ImpactEnd.TIME
     impulse: float = 0.0
     """Of the spring [N.s]."""
     lost: float = 0.0
@@ -101,8 +109,8 @@ class Blow(NamedTuple):
     """Largest force of the site [N]."""
 
 
-def blow(contact: Contact, begin: Blow, end: float, rtol: float) -> Blow:
-    """Follow a blow from where it is until it is over, or to a time [s].
+def follow_impact(contact: Contact, begin: Impact, end: float, rtol: float) -> Impact:
+    """Follow an impact from a state until it is over, or to a time [s].
 
     Raises
     ------
@@ -111,10 +119,10 @@ def blow(contact: Contact, begin: Blow, end: float, rtol: float) -> Blow:
     ConvergenceError
         If no step meets the tolerance.
     """
-    here, length = begin._replace(end=BlowEnd.TIME), _first_length(contact, begin)
+    here, length = begin._replace(end=ImpactEnd.TIME), _first_length(contact, begin)
     for _ in range(_MOST_STEPS):
         left = end - here.time
-        if left <= 1e-15 * abs(end) or here.end is not BlowEnd.TIME:
+        if left <= 1e-15 * abs(end) or here.end is not ImpactEnd.TIME:
             return here
         rates = _rates_of(contact, here.largest)
         start = (here.depth, here.speed, 0.0, 0.0)
@@ -122,7 +130,7 @@ def blow(contact: Contact, begin: Blow, end: float, rtol: float) -> Blow:
         length, reached = _shortened(contact, rates, here, length, reached)
         here, length = _moved(contact, here, length, reached), following
     raise ConvergenceError(
-        f"{_MOST_STEPS} steps did not end a blow of a tip at {here.time:g} s; loosen "
+        f"{_MOST_STEPS} steps did not end an impact of a tip at {here.time:g} s; loosen "
         "Accuracy.time_rtol",
         here,
     )
@@ -142,8 +150,8 @@ def rest_depth(contact: Contact, largest: float, time: float, near: float = 0.0)
     return _known(curve, max(faces, curve.residual(largest)), time)
 
 
-def sprung_back(curve: LoadDisplacementCurve, depth: float, largest: float) -> float:
-    """Work [J] that comes back from an approach on the way out from the largest."""
+def rebound_work(curve: LoadDisplacementCurve, depth: float, largest: float) -> float:
+    """Elastic work [J] of unloading from an approach, after the maximum."""
     begin = curve.residual(largest)
     length = depth - begin
     if length <= 0.0:
@@ -179,7 +187,7 @@ def _rates_of(contact: Contact, largest: float) -> _Rates:
     return rates
 
 
-def _first_length(contact: Contact, begin: Blow) -> float:
+def _first_length(contact: Contact, begin: Impact) -> float:
     curve = contact.stop.curve
     slope = curve.force_at(begin.depth, begin.largest)[1] if begin.depth > 0.0 else 0.0
     swing = math.sqrt(contact.mass / (slope + contact.stiffness))
@@ -219,13 +227,13 @@ def _accepted(
         if share <= 1.0:
             return length, end, _CONTROL.following(length, share)
         length = _CONTROL.shorter(length, share)
-    raise ConvergenceError(f"no step of a blow of a tip meets {rtol:g} at {time:g} s", state)
+    raise ConvergenceError(f"no step of an impact of a tip meets {rtol:g} at {time:g} s", state)
 
 
 def _shortened(
-    contact: Contact, rates: _Rates, here: Blow, length: float, reached: _Four
+    contact: Contact, rates: _Rates, here: Impact, length: float, reached: _Four
 ) -> tuple[float, _Four]:
-    """End a step where the tip is deepest, or where the faces let go of each other."""
+    """End a step where the tip is deepest, or where the faces detach."""
     start = (here.depth, here.speed, 0.0, 0.0)
     out = contact.stop.curve.residual(here.largest)
     if here.speed > 0.0 >= reached[1]:
@@ -244,8 +252,8 @@ def _shortened(
     return length, (found[0], found[1], found[2], found[3])
 
 
-def _moved(contact: Contact, here: Blow, length: float, reached: _Four) -> Blow:
-    """Where a step has led, and whether the blow is over."""
+def _moved(contact: Contact, here: Impact, length: float, reached: _Four) -> Impact:
+    """State at the end of a step, and whether the impact is over."""
     curve, (depth, speed, impulse, damped) = contact.stop.curve, reached
     time = here.time + length
     force = curve.force_at(depth, here.largest)[0] if depth > 0.0 else 0.0
@@ -262,11 +270,11 @@ def _moved(contact: Contact, here: Blow, length: float, reached: _Four) -> Blow:
         return _turned(contact, now)
     # A tip that came and was drawn off before it pressed has nothing to turn at.
     if speed < 0.0 and depth <= curve.residual(here.largest):
-        return now._replace(depth=curve.residual(here.largest), end=BlowEnd.OUT)
+        return now._replace(depth=curve.residual(here.largest), end=ImpactEnd.OUT)
     return now
 
 
-def _turned(contact: Contact, now: Blow) -> Blow:
+def _turned(contact: Contact, now: Impact) -> Impact:
     """At the deepest point: remember it, and rest if there is not the energy to come out."""
     curve, depth = contact.stop.curve, now.depth
     largest = max(now.largest, depth)
@@ -275,12 +283,12 @@ def _turned(contact: Contact, now: Blow) -> Blow:
     out = curve.residual(largest)
 
     def stored(at: float) -> float:
-        """Energy at an approach, over that where the faces let go [J]."""
+        """Energy at an approach, over that where the faces detach [J]."""
         spring = contact.stiffness * (contact.root.height_at(now.time) + 0.5 * (at + out))
-        return sprung_back(curve, at, largest) - (contact.attraction - spring) * (at - out)
+        return rebound_work(curve, at, largest) - (contact.attraction - spring) * (at - out)
 
     if stored(depth) > 0.0:
         return now
     rest = rest_depth(contact, largest, now.time, depth)
     ringing = max(stored(depth) - stored(rest), 0.0)
-    return now._replace(depth=rest, speed=0.0, lost=now.lost + ringing, end=BlowEnd.REST)
+    return now._replace(depth=rest, speed=0.0, lost=now.lost + ringing, end=ImpactEnd.REST)

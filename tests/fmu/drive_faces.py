@@ -6,7 +6,7 @@ from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, U
 
 
 def rough(most=1e-6, limit=0.25, count=5):
-    """Faces that yield, made up; all is reversible up to a share of the tables."""
+    """Made-up elastic-plastic faces; elastic up to a fraction of the tables."""
     depths = [most * 2.0 ** (-i / 2.0) for i in range(16, -1, -1)]
     ends = [most * (limit + (1.0 - limit) * (k + 1) / count) for k in range(count)]
     shares = (0.1, 0.3, 0.6, 1.0)

@@ -282,7 +282,7 @@ static void misuse(void) {
     int i;
     expect(InstantiateModelExchange("x", token, folder, 0, 1, NULL, hear) == NULL, 1, "ME");
     expect(InstantiateScheduledExecution("x", token, folder, 0, 1, NULL, hear, NULL, NULL, NULL) == NULL, 1, "SE");
-    expect(messages, 2, "both were told why");
+    expect(messages, 2, "both got the reason");
     expect(InstantiateCoSimulation(NULL, token, folder, 0, 1, 0, 0, NULL, 0, NULL, hear, NULL) == NULL, 1, "name");
     expect(InstantiateCoSimulation("x", "other", folder, 0, 1, 0, 0, NULL, 0, NULL, hear, NULL) == NULL, 1, "token");
     expect(InstantiateCoSimulation("x", NULL, folder, 0, 1, 0, 0, NULL, 0, NULL, NULL, NULL) == NULL, 1, "no token");

@@ -39,12 +39,12 @@ class Shelf:
         return done
 
     def __call__(self, build, *what, **given):
-        """FMU of ``build(*what, path, **given)``; the arguments are told apart by their `repr`."""
+        """FMU of ``build(*what, path, **given)``; identified by the `repr` of the arguments."""
         asked = repr((build.__module__, build.__name__, what, sorted(given.items())))
         name = hashlib.sha256(asked.encode()).hexdigest()[:16]
         return self.folder(name, lambda place: build(*what, place / "x.fmu", **given)) / "x.fmu"
 
     def unpacked(self, path):
-        """Folder with the files of an FMU, told apart by its bytes."""
+        """Folder with the files of an FMU, distinguished by its bytes."""
         name = "unpacked " + hashlib.sha256(path.read_bytes()).hexdigest()[:16]
         return self.folder(name, lambda place: fmpy.extract(str(path), str(place)))

@@ -1,4 +1,4 @@
-"""What each closure of a liquid bridge costs, and what it gets wrong: exact, arc, as published.
+"""Work-precision of the closures of a liquid bridge: exact, arc, as published.
 
 The reference is another method than those judged: Legendre's integrals for the force, and the
 largest gap along them for the rupture.

@@ -1,4 +1,4 @@
-"""What accuracy costs in a contact: over tolerance and grid, by solver, and by effect."""
+"""Work-precision of a contact over tolerance and grid, by solver and by effect."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ _COUNTS = (3, 10, 30, 100, 300, 1000)
 _INSIDE = (1, 3, 10, 30, 100, 300)
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 _QUICK = 0.2  # seconds below which a run is timed once more
-_BEYOND = 1.2  # share of the release time up to which a fixed step goes on
+_BEYOND = 1.2  # times the release time, up to which a fixed step goes on
 _JUST_BEYOND = 1.002  # where a mass inside gets a steady pull, which leaves no doubt
 
 
@@ -97,7 +97,7 @@ class Case:
     viscosity : float
         Of the film [Pa.s].
     volume : float
-        Of the film [m3]; 0: a bath.
+        Of the film [m3]; 0: flooded.
     rise_time : float
         With which the pull rises [s]; 0: it is there at once.
     """
@@ -136,7 +136,7 @@ class Case:
 MASS, _SPRING, _END = 0.02, 5e3, 1e-4  # [kg], [N/m], [m]
 _DISC = math.pi * 3.175e-3**2
 CASES = (
-    Case(name="20 um, warm, in a bath", gap=20e-6, radius=3.175e-3, viscosity=0.01, volume=0.0),
+    Case(name="20 um, warm, flooded", gap=20e-6, radius=3.175e-3, viscosity=0.01, volume=0.0),
     Case(
         name="5 um, cold",
         gap=5e-6,

@@ -1,4 +1,4 @@
-"""What each effect of a contact adds to its cost."""
+"""Cost of each effect of a contact."""
 
 from __future__ import annotations
 

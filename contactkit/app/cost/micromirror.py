@@ -1,4 +1,4 @@
-"""What accuracy costs in time, for the lift-off of a micromirror."""
+"""Work-precision of the lift-off of a micromirror."""
 
 from __future__ import annotations
 

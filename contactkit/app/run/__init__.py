@@ -1,9 +1,9 @@
 """Running a scene from the command line: its numbers, files and figures.
 
-separation   A separation scene.
-contact      A contact scene, and the studies of its file.
-sliding      A sliding scene.
-bridges      Errors of the closures of liquid bridges on the way to rupture.
-injector     The fuel injector, co-simulated over its firing cycles.
-micromirror  The digital micromirror, co-simulated over its flips.
+separation   Running a separation scene from the command line: its numbers, files and figures.
+contact      Running a contact scene from the command line: its numbers, files and figures.
+sliding      Running a sliding scene from the command line: its report, files and figure.
+bridges      Errors of the arc and the published forces against the exact bridge, up to its rupture.
+injector     Running the fuel injector from the command line.
+micromirror  Running the digital micromirror from the command line.
 """

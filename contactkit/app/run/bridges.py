@@ -1,4 +1,4 @@
-"""How far the arc and the printed forces are off the exact bridge, on the way to rupture."""
+"""Errors of the arc and the published forces against the exact bridge, up to its rupture."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _SMALL = 0.3  # a force smaller than this times gamma V^(1/3) is judged against 
 
 
 class BandError(NamedTuple):
-    """Largest relative errors [-] in a band of shares of the exact limit, by closure."""
+    """Largest relative errors [-] in a band of distances over the exact limit, by closure."""
 
     low: float
     high: float
@@ -155,7 +155,7 @@ def run_bridges(scene: Bridges, out: Path | None, progress: Progress) -> Report:
 def _write(rows: Sequence[tuple[str, float, float, str, float]], out: Path) -> Path:
     from ...files.scenes import write_whole
 
-    head = "bridge,from [share of the limit],to [share of the limit],closure,largest error [-]"
+    head = "bridge,from [of the limit],to [of the limit],closure,largest error [-]"
     text = [f'"{label}",{low!r},{high!r},"{name}",{e!r}' for label, low, high, name, e in rows]
     path = out / "errors.csv"
     with write_whole(path) as temporary:

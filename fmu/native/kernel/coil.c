@@ -19,7 +19,7 @@ static double reluctance(const ck_coil *coil, double gap) {
     return 2.0 * at_least_zero(coil->air_gap - gap) + coil->iron_gap;
 }
 
-/* Additional resistance of the saturated iron, as a share of that of the iron. */
+/* Additional resistance of the saturated iron, over that of the iron. */
 static double crowding(const ck_coil *coil, double flux) {
     return pow(flux / coil->knee, KNEE);
 }

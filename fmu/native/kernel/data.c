@@ -67,7 +67,7 @@ static const double *column(stream *s, int count, int ascends) {
     return first;
 }
 
-/* Powers of the share t of the way from one node to the next; b, c slope and curvature times
+/* Powers of the fraction t of the distance from one node to the next; b, c slope and curvature times
    width and its square. */
 static void fill(ck_cell *cell, double x0, double x1, const double y[2], const double slope[2],
                  const double curve[2]) {
@@ -121,7 +121,7 @@ static void read_film(stream *s, ck_film *film) {
         law->needs_film = whole(s, 0, 1);
         law->end = positive(s);
         law->release = positive(s);
-        law->rejoin = number(s);
+        law->recontact = number(s);
         law->kink_count = whole(s, 0, CK_KINKS);
         for (k = 0; s->fine && k < law->kink_count; k++) law->kinks[k] = positive(s);
         read_table(s, &law->table);
@@ -163,12 +163,12 @@ static void read_faces(stream *s, ck_faces *faces) {
     faces->is_there = whole(s, 0, 1);
     if (!faces->is_there) return;
     faces->limit = number(s);
-    faces->count = whole(s, 0, CK_WAYS);
+    faces->count = whole(s, 0, CK_UNLOADING_CURVES);
     read_curve(s, &faces->first, 1);
     if (faces->count) read_curve(s, &faces->residual, 0);
     for (i = 0; s->fine && i < faces->count; i++) {
         faces->ends[i] = positive(s);
-        read_curve(s, &faces->ways[i], 1);
+        read_curve(s, &faces->unloading[i], 1);
     }
 }
 

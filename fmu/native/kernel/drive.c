@@ -10,7 +10,7 @@
 
 #define MU0 (4e-7 * 3.141592653589793)
 #define MOST_STEPS 10000000 /* of the flux, in one step of the host */
-#define CLOSE 1e-12         /* share of a step before which no pause is made */
+#define CLOSE 1e-12         /* fraction of a step before which no pause is made */
 
 enum { SWITCHES = 1 };
 
@@ -172,7 +172,7 @@ static void warn_beyond(ck_model *model, double known, double time) {
     char message[400];
     if (!(known <= end && end < now)) return;
     snprintf(message, sizeof message,
-             "the faces of the stop are pressed by %.6g m at t = %.9g s, beyond %.6g m where their "
+             "the rough end-stop faces are pressed by %.6g m at t = %.9g s, beyond %.6g m where their "
              "tables end: the force goes on along its tangent; give the stop a larger area, or "
              "faces solved to larger loads",
              now, time, end);

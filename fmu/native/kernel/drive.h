@@ -6,7 +6,7 @@
 #ifndef CK_DRIVE_H
 #define CK_DRIVE_H
 
-#define CK_WAYS 64 /* most ways out of rough faces */
+#define CK_UNLOADING_CURVES 64 /* most unloading curves of rough faces */
 
 /* An electromagnet with two poles: `pole` is inductance times length of air [H.m], `knee` the flux
    linkage [Wb] at which the iron resists twice as much. */
@@ -26,14 +26,14 @@ typedef struct {
     double begin, end, low, high; /* the first and the last point, without logarithms */
 } ck_curve;
 
-/* Force of rough faces over their approach, and the ways out from some largest approaches `ends`.
+/* Force of rough faces over their approach, and the unloading curves from maximum approaches `ends`.
    Curves of forces are in logarithms. */
 typedef struct {
     int is_there, count;
     double limit; /* approach up to which all is reversible */
     ck_curve first, residual;
-    double ends[CK_WAYS];
-    ck_curve ways[CK_WAYS];
+    double ends[CK_UNLOADING_CURVES];
+    ck_curve unloading[CK_UNLOADING_CURVES];
 } ck_faces;
 
 typedef struct {

@@ -59,14 +59,14 @@ static double power(const ck_curve *curve, double x, double *by_x) {
     return value;
 }
 
-/* Share of the force over a share of a way out; the one before all others goes back to where the
-   elastic limit is, along the first curve. */
-static double way(const ck_faces *faces, int i, double share, double *by_share) {
+/* Force of an unloading curve over that at its maximum approach, at a fraction of the length of the
+   curve; before all others comes the loading curve up to the elastic limit. */
+static double unloading_curve(const ck_faces *faces, int i, double fraction, double *by_fraction) {
     double value, whole, unused;
-    if (i >= 0) return power(&faces->ways[i], share, by_share);
-    value = power(&faces->first, share * faces->limit, by_share);
+    if (i >= 0) return power(&faces->unloading[i], fraction, by_fraction);
+    value = power(&faces->first, fraction * faces->limit, by_fraction);
     whole = power(&faces->first, faces->limit, &unused);
-    *by_share *= faces->limit / whole;
+    *by_fraction *= faces->limit / whole;
     return value / whole;
 }
 
@@ -74,21 +74,21 @@ static double end_of(const ck_faces *faces, int i) {
     return i >= 0 ? faces->ends[i] : faces->limit;
 }
 
-/* Force on the way out from a largest approach: those that were solved on both sides, mixed. */
-static double way_out(const ck_faces *faces, double approach, double largest, double *by_approach) {
+/* Force on unloading from a maximum approach: the solved curves on both sides of it, mixed. */
+static double unloading_force(const ck_faces *faces, double approach, double largest, double *by_approach) {
     int lowest = faces->limit > 0.0 ? -1 : 0, high = lowest;
     double unused, residual = plain(&faces->residual, largest, &unused);
-    double length = largest - residual, share = (approach - residual) / length;
+    double length = largest - residual, fraction = (approach - residual) / length;
     double whole = power(&faces->first, largest, &unused), force, slope, other, by_other, t;
     *by_approach = 0.0;
-    if (share <= 0.0) return 0.0;
+    if (fraction <= 0.0) return 0.0;
     while (high < faces->count && end_of(faces, high) <= largest) high++;
     if (high == lowest || high == faces->count) {
-        force = way(faces, high == lowest ? lowest : high - 1, share, &slope);
+        force = unloading_curve(faces, high == lowest ? lowest : high - 1, fraction, &slope);
     } else {
         double low = end_of(faces, high - 1);
         t = log(largest / low) / log(end_of(faces, high) / low);
-        force = way(faces, high - 1, share, &slope), other = way(faces, high, share, &by_other);
+        force = unloading_curve(faces, high - 1, fraction, &slope), other = unloading_curve(faces, high, fraction, &by_other);
         force = (1.0 - t) * force + t * other, slope = (1.0 - t) * slope + t * by_other;
     }
     *by_approach = slope * whole / length;
@@ -100,13 +100,13 @@ static double force_at(const ck_faces *faces, double approach, double largest, d
     if (largest > most) largest = most;
     first = power(&faces->first, approach, slope);
     if (!faces->count || approach >= largest || largest <= faces->limit) return first;
-    force = way_out(faces, approach, largest, &by_approach);
+    force = unloading_force(faces, approach, largest, &by_approach);
     if (force > first) return first; /* mixed a little too high: no way gives more than it took */
     *slope = by_approach;
     return force;
 }
 
-/* Approach of the faces: what they and the spring share rises with it, so Newton, bracketed. */
+/* Approach of the faces: what they and the spring fraction rises with it, so Newton, bracketed. */
 static double shared(const ck_faces *faces, double approach, double largest, double stiffness) {
     double low = 0.0, high = approach, close = CLOSE * approach, slope;
     double near = faces->first.end, found = near < approach ? near : 0.5 * approach;

@@ -180,7 +180,7 @@ static int add(travel *w, double gap, double time, int limit, ck_impulse *sum) {
     return f.limit == limit;
 }
 
-/* One panel; a limit sets in or lets go inside if it differs between the ends and the nodes. */
+/* One panel; a limit begins or ends to act inside if it differs between the ends and the nodes. */
 static void panel(travel *w, double begin, double end, int depth) {
     double middle = 0.5 * (begin + end), half = 0.5 * (end - begin), time = half * w->pace;
     int six = fabs(half) > 0.5 * NARROW * middle, i, is_smooth = 1, limit = 0;

@@ -14,7 +14,7 @@
 #define CK_PIECES 12 /* most pieces of one table */
 #define CK_FILMS 2   /* the film of the scene, and what is left of it after a rupture */
 
-/* Between two nodes: where the first is, one over the width, and powers of the share of it. */
+/* Between two nodes: where the first is, one over the width, and powers of the fraction of it. */
 typedef struct {
     double x, per_width, c[6];
 } ck_cell;
@@ -36,7 +36,7 @@ enum { CK_FIXED = 0, CK_TENSION_SURFACE = 1, CK_VISCOSITY = 2 };
 
 typedef struct {
     int scale, needs_film, kink_count;
-    double end, release, rejoin;
+    double end, release, recontact;
     double kinks[CK_KINKS];
     ck_table table;
 } ck_law;

@@ -488,7 +488,7 @@ LACKS_STATES(NominalsOfContinuousStates)
 LACKS_COUNT(EventIndicators)
 LACKS_COUNT(ContinuousStates)
 
-/* Nobody can be told through an instance that there is none. */
+/* There is no instance yet to log through. */
 static fmi3Instance no_instance(fmi3LogMessageCallback logger, fmi3InstanceEnvironment environment) {
     if (logger) logger(environment, fmi3Error, "logStatusError", CO_SIMULATION);
     return NULL;

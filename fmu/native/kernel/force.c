@@ -87,7 +87,7 @@ static void marks(const ck_model *model, const ck_acting *acting, int broken, do
     if (broken && model->scene.rewetting > 0.0 && model->scene.initial_gap < gap &&
         *below < model->scene.initial_gap)
         *below = model->scene.initial_gap;
-    if (model->state.memory.detached) consider(model->scene.rejoin, gap, above, below);
+    if (model->state.memory.detached) consider(model->scene.recontact, gap, above, below);
 }
 
 static int show(ck_model *model) {
@@ -138,7 +138,7 @@ static void apply_event(ck_model *model, double gap, int rising, double time) {
     }
     if (!model->scene.pauses) settle(model, time);
     if (acting.any && gap >= acting.release * (1.0 - SAME)) memory->detached = 1;
-    else if (!rising && gap <= model->scene.rejoin * (1.0 + SAME)) memory->detached = 0;
+    else if (!rising && gap <= model->scene.recontact * (1.0 + SAME)) memory->detached = 0;
 }
 
 /* Go the way of the step from kink to kink. */

@@ -43,12 +43,12 @@ static void untouched(double force, ck_left *left) {
 
 /* `by_shape` of a disc is by its area. */
 void ck_disc_tension(double force, double area, double tension, ck_left *left) {
-    double cap = area * tension, share = 0.5 * cap / force;
+    double cap = area * tension, fraction = 0.5 * cap / force;
     untouched(force, left);
     if (2.0 * force <= cap) return;
-    left->value = cap - 0.5 * cap * share;
-    left->by_force = share * share;
-    left->by_shape = (1.0 - share) * tension;
+    left->value = cap - 0.5 * cap * fraction;
+    left->by_force = fraction * fraction;
+    left->by_shape = (1.0 - fraction) * tension;
 }
 
 static double stieber(double rho, const double *s) {
@@ -90,11 +90,11 @@ void ck_disc_shear(double force, double shape, double gap, double strength, ck_l
 
 void ck_sphere_tension(double force, double radius, double gap, double shape, double tension,
                        ck_left *left) {
-    double height = gap + shape, share = shape / height, k, per_height, cut, rest;
+    double height = gap + shape, fraction = shape / height, k, per_height, cut, rest;
     double by_k, by_height, whole = 2.0 * CK_PI * radius;
     untouched(force, left);
-    if (force <= 0.0 || share <= 0.0) return;
-    k = force * gap / (whole * share * share);
+    if (force <= 0.0 || fraction <= 0.0) return;
+    k = force * gap / (whole * fraction * fraction);
     per_height = 1.0 / height;
     if (k * (1.0 / gap - per_height) * (1.0 / gap + per_height) <= tension) return;
     cut = 1.0 / sqrt(tension / k + per_height * per_height);
@@ -118,10 +118,10 @@ static double shear_slope(double r, const double *given) {
     return given[0] - 2.0 * given[3] * r * height / given[1];
 }
 
-static double share_within(double r, double thin) { return r * r / (r * r + thin); }
+static double fraction_within(double r, double thin) { return r * r / (r * r + thin); }
 
 static double newtonian_between(double k, double radius, double gap, double inner, double outer) {
-    double thin = 2.0 * radius * gap, a = share_within(outer, thin), b = share_within(inner, thin);
+    double thin = 2.0 * radius * gap, a = fraction_within(outer, thin), b = fraction_within(inner, thin);
     return 2.0 * CK_PI * k * radius * radius / gap * (a - b) * (a + b);
 }
 
@@ -134,7 +134,7 @@ static double plastic_between(double strength, double radius, double gap, double
 
 /* Slope of both by the gap between fixed radii. */
 static double newtonian_by_gap(double k, double radius, double gap, double inner, double outer) {
-    double thin = 2.0 * radius * gap, a = share_within(outer, thin), b = share_within(inner, thin);
+    double thin = 2.0 * radius * gap, a = fraction_within(outer, thin), b = fraction_within(inner, thin);
     double rate = a * a / (outer * outer + thin) - b * b / (inner * inner + thin);
     return -newtonian_between(k, radius, gap, inner, outer) / gap -
            8.0 * CK_PI * k * radius * radius * radius / gap * rate;
@@ -163,11 +163,11 @@ static int yields(const double given[4], double rim, double *inner, double *oute
 
 void ck_sphere_shear(double force, double radius, double gap, double shape, double strength,
                      ck_left *left) {
-    double height = gap + shape, share = shape / height, k, rim, inner, outer, value, by_rim;
+    double height = gap + shape, fraction = shape / height, k, rim, inner, outer, value, by_rim;
     double given[4], thin = 2.0 * radius * gap, newtonian, by_k, by_gap, sign = copysign(1.0, force);
     untouched(force, left);
-    if (force == 0.0 || share <= 0.0) return;
-    k = fabs(force) * gap / (2.0 * CK_PI * radius * radius * share * share);
+    if (force == 0.0 || fraction <= 0.0) return;
+    k = fabs(force) * gap / (2.0 * CK_PI * radius * radius * fraction * fraction);
     rim = sqrt(2.0 * radius * shape);
     given[0] = k, given[1] = radius, given[2] = gap, given[3] = strength;
     if (!yields(given, rim, &inner, &outer)) return;
@@ -179,9 +179,9 @@ void ck_sphere_shear(double force, double radius, double gap, double shape, doub
     by_gap = newtonian_by_gap(k, radius, gap, 0.0, inner) +
              plastic_by_gap(strength, radius, gap, inner, outer) +
              newtonian_by_gap(k, radius, gap, outer, rim);
-    by_rim = outer < rim ? 8.0 * CK_PI * k * radius * radius / gap * share_within(rim, thin) * rim *
+    by_rim = outer < rim ? 8.0 * CK_PI * k * radius * radius / gap * fraction_within(rim, thin) * rim *
                                thin / ((rim * rim + thin) * (rim * rim + thin))
-                         : 4.0 * CK_PI * strength * radius * share_within(rim, thin);
+                         : 4.0 * CK_PI * strength * radius * fraction_within(rim, thin);
     left->value = sign * value;
     left->by_force = by_k * k / fabs(force);
     left->by_gap = sign * (by_gap + by_k * k * (1.0 / gap + 2.0 / height));

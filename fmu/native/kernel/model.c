@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROUNDING 1e-12 /* share of the time by which two clocks may differ after rounding */
+#define ROUNDING 1e-12 /* fraction of the time by which two clocks may differ by round-off */
 
 static const char *const NAMES[CK_VARIABLES] = {
     "F_ext", "dF_ext",
@@ -169,12 +169,12 @@ const char *ck_common_parameters(ck_model *model) {
     }
     if (scene->ends[0] <= v[CK_H0])
         return "no meniscus spans h0: lower it, or build the FMU from a scene with more liquid";
-    scene->rejoin = 0.0;
+    scene->recontact = 0.0;
     for (i = 0; i < scene->films[0].count; i++) {
         const ck_law *law = &scene->films[0].laws[i];
         if (law->release < HUGE_VAL && law->release <= v[CK_H0])
-            return "h0 must be below the gap at which the solids let go of each other";
-        if (law->rejoin > scene->rejoin) scene->rejoin = law->rejoin;
+            return "h0 must be below the gap at which the solids detach";
+        if (law->recontact > scene->recontact) scene->recontact = law->recontact;
     }
     return NULL;
 }

@@ -1,4 +1,4 @@
-/* Internal steps, chosen by their error, and what happens at the gaps they meet. */
+/* Motion of a mass held by a film: adaptive internal steps, cut at events. */
 
 #include "motion.h"
 
@@ -133,7 +133,7 @@ static double judge(const ck_scene *scene, const ck_motion *state, const ck_pull
     if (end->gap < rest * (1.0 - SAME) && state->gap <= rest * (1.0 + SAME))
         return 16.0; /* a hop that begins and ends at the rest gap: there is no crossing to cut */
     if (!p->acting->limited || !p->acting->any) return error;
-    /* Where a limit sets in or lets go, the slope of the force jumps: compare with two halves. */
+    /* Where a limit begins or ends to act, the slope of the force jumps: compare with two halves. */
     if (taken->forces[0].limit == limit && taken->forces[1].limit == limit &&
         taken->forces[2].limit == limit)
         return error;
@@ -184,7 +184,7 @@ static double next_event(const ck_scene *scene, const ck_acting *acting, const c
     } else {
         consider(&m, scene->rest_gap);
         if (state->broken) consider(&m, scene->initial_gap);
-        if (state->detached) consider(&m, scene->rejoin);
+        if (state->detached) consider(&m, scene->recontact);
         if (!state->armed) consider(&m, closed_gap(scene));
     }
     return m.found;
@@ -347,7 +347,7 @@ static void apply_event(const ck_scene *scene, const ck_acting *acting, ck_motio
     if (rising && acting->any && event == acting->release) state->detached = 1;
     if (rising) return;
     if (event <= closed_gap(scene)) state->armed = 1;
-    if (event <= scene->rejoin) state->detached = 0;
+    if (event <= scene->recontact) state->detached = 0;
     if (event > scene->initial_gap) return;
     if (state->broken && scene->rewetting > 0.0 && scene->ends[next] > event)
         state->pending = CK_REWETTING;

@@ -14,7 +14,7 @@ typedef struct {
     double sphere_radius, menisci, rewetting;
     ck_film films[CK_FILMS];
     double ends[CK_FILMS];
-    double rejoin; /* gap at which solids that let go are joined again */
+    double recontact; /* gap of re-contact of detached solids */
     double mass, initial_gap, initial_speed, stiffness, release_gap, rest_gap, rtol;
     double viscosity, surface_tension, tension, strength;
 } ck_scene;

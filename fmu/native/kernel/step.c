@@ -260,7 +260,7 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
         }
         known = 1;
         met = sure * size <= 0.03 * p->rtol && is_small(p, dt, at, residual, p->rtol / sure);
-        stalled = iteration > 1 && size < 1e-6 && size >= previous; /* at rounding */
+        stalled = iteration > 1 && size < 1e-6 && size >= previous; /* at round-off */
         if (met || (stalled && is_small(p, dt, at, residual, 1e-7))) {
             taken->iterations = iteration + 1;
             return finish(p, dt, s, rates, at, taken);

@@ -108,7 +108,7 @@ print("found", json.dumps(found))
 
 
 def simulate(path, *outputs, interval=1e-5, **options):
-    """Columns of a run, and what was said."""
+    """Columns of a run, and its messages."""
     options |= {"output": outputs, "output_interval": interval}
     done = run(_RUN, str(path), json.dumps(options))
     assert "found" in done.stdout, done.stdout + done.stderr

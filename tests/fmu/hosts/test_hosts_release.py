@@ -136,8 +136,8 @@ def test_libcosim_with_forces_exchanged(fmu, cosim, step, error):
 
 
 @pytest.mark.slow
-def test_libcosim_is_told_that_its_answer_is_none(fmu, cosim):
-    """Case B far beyond the stable step: a smooth wrong release, and a flag that says so."""
+def test_libcosim_gets_the_flag_of_doubt(fmu, cosim):
+    """Case B far beyond the stable step: a smooth wrong release, and a flag of doubt."""
     fmus = {"body": fmu("helper", "Body", "B"), "film": fmu("python", "stiction-force", "B")}
     host = cosim(fmus, 1e-5).connect(*WIRES).run(1e-3)
     assert host.get("body", "t_release") < 0.1 * reference("B")

@@ -94,7 +94,7 @@ def test_bad_times_are_refused(pair, name, value):
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
-def test_steps_chosen_by_their_error_meet_the_tolerance(pair, first_release, tolerance):
+def test_adaptive_steps_meet_the_tolerance(pair, first_release, tolerance):
     found = cosimulate(*pair, 2e-3, tolerance=tolerance)
     assert found["t_release"][-1] == pytest.approx(first_release, rel=tolerance)
     assert found.time[-1] == 2e-3
@@ -127,7 +127,7 @@ def test_nothing_is_left_behind(pair, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_progress_is_told(pair):
+def test_progress_is_reported(pair):
     shares = []
     cosimulate(*pair, 5e-3, 1e-5, progress=shares.append)
     assert shares == sorted(shares)

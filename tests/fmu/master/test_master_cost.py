@@ -1,4 +1,4 @@
-"""What the ways of coupling cost: the explicit ones are wrong and fast, impulses are right."""
+"""Cost of the coupling schemes: the explicit ones are wrong and fast, impulses are right."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def settings(tmp_path_factory):
     return {(setting.method, setting.label): setting.run for setting in found}
 
 
-def test_every_way_of_coupling_is_there(settings):
+def test_every_coupling_scheme_is_there(settings):
     assert {method for method, _ in settings} == {
         "film by force, Jacobi",
         "film by force, Gauss-Seidel",

@@ -186,7 +186,7 @@ def test_a_start_value_that_is_refused_says_why(fmu, start, said):
         host.start(start, 1.0)
 
 
-def test_a_rate_of_the_pull_is_taken_both_ways(fmu):
+def test_a_rate_of_the_pull_is_that_of_the_python_fmu(fmu):
     """By the variable dF_ext, and by the call of FMI for derivatives of inputs."""
     found = []
     for by_call in (False, True):

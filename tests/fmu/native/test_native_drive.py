@@ -332,7 +332,7 @@ def test_states_lead_back_here_and_elsewhere(fmu, open_fmu):
     host.slave.freeFMUState(state)
 
 
-# The faces of the stop ----------------------------------------------------------------------------
+# Rough end-stop faces ---------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -529,7 +529,7 @@ def test_the_master_takes_the_same_steps_with_either_drive(fmu, python_fmu, film
     assert found[0]["t_release"][-1] - 1e-3 == pytest.approx(RELEASE - 1e-3, rel=1e-4)
 
 
-def test_a_blow_on_rough_faces_is_that_of_the_python_fmu(film, folder):
+def test_an_impact_on_rough_faces_is_that_of_the_python_fmu(film, folder):
     """The stop is met, left and met again; what remembers is inside the drives."""
     start = {"curve": rough(most=4e-6), "k_stop": 3e8}
     native = build_native_drive(folder / "rough.fmu", start=start, **ONE)

@@ -306,7 +306,7 @@ def film(tmp_path_factory):
     return folder
 
 
-def test_a_film_alone_gives_its_slopes_both_ways(film):
+def test_a_film_alone_gives_directional_and_adjoint_derivatives(film):
     """Directional and adjoint derivatives are one matrix, that of c and k."""
     slave = Slave(film)
     r = slave.references

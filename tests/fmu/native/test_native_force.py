@@ -111,7 +111,7 @@ FILMS = {
 
 @pytest.mark.parametrize("film", FILMS.values(), ids=FILMS)
 def test_it_answers_as_the_python_fmu_step_by_step(film, pair, open_fmu):
-    """There and back in short and long steps: every output, and what is said."""
+    """There and back in short and long steps: every output and message."""
     hosts = [open_fmu(path) for path in pair(**film)]
     gap = film.get("h0", 5e-6)
     hosts[0].start(**film, h=gap)
@@ -248,7 +248,7 @@ def test_a_state_brings_back_film_and_doubts(native, open_fmu):
         assert host.outputs() == after
 
 
-def test_a_broken_film_is_there_again_with_its_share(native, open_fmu):
+def test_a_broken_film_rewets_with_its_fraction(native, open_fmu):
     host = open_fmu(native("rewetting")).start(exchange=int(Exchange.IMPULSE))
     gap = SCENES["rewetting"].loading.initial_gap
     half = plan(moving(SCENES["rewetting"], None), FINE).film_with(0.5)
@@ -258,7 +258,7 @@ def test_a_broken_film_is_there_again_with_its_share(native, open_fmu):
     assert host.get("F") == pytest.approx(half.force(0.9 * gap, 0.0), rel=1e-9)
 
 
-def test_what_is_refused_can_be_taken_back(native, open_fmu):
+def test_what_is_refused_can_be_rolled_back(native, open_fmu):
     host = open_fmu(native("drop")).start()
     saved = host.slave.getFMUState()
     with pytest.raises(Exception, match="fmi2SetReal"):

@@ -1,4 +1,4 @@
-"""The FMU ``contact-stop``: what its tables say, with a memory that a host can take back."""
+"""The FMU ``contact-stop``: the numbers of its tables, and a memory that a host can roll back."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_a_loop_loses_what_it_says(host, curve):
     assert work == pytest.approx(host.get("W"), rel=0.01)
     assert work > 0.1 * curve.work(0.95 * curve.max_approach)
     again = []
-    for depth in depths:  # to the same depth once more: along the way out and back
+    for depth in depths:  # to the same depth once more: along the unloading curve and back
         press(host, depth)
         again.append(host.get("F"))
     assert abs(np.trapezoid(again, depths)) < 1e-9 * work
@@ -113,7 +113,7 @@ def test_a_loop_loses_what_it_says(host, curve):
 
 
 def test_a_little_beyond_yield_the_loss_is_that_of_the_forces_it_gives(host, curve):
-    """Deeper each time, where the ways out are cut off at the first curve."""
+    """Deeper each time, where the unloading curves end at the first curve."""
     host.start()
     limit, one = curve.elastic_limit, curve.unloading[1].max_approach
     work = 0.0
@@ -140,7 +140,7 @@ def test_what_is_only_looked_at_is_not_remembered(host, curve):
     assert host.get("F") == deep
 
 
-def test_a_press_is_taken_back_with_the_state(host, curve):
+def test_a_press_is_rolled_back_with_the_state(host, curve):
     host.start()
     press(host, 0.3 * curve.max_approach)
     state = host.slave.getFMUState()
@@ -193,7 +193,7 @@ def test_bodies_behind_it_are_a_spring_in_series_and_damping_is_counted(host, cu
     assert host.get("W_d") == pytest.approx(speed * stored, rel=1e-3)
 
 
-def test_beyond_its_tables_it_goes_on_and_says_so(host, curve):
+def test_beyond_its_tables_it_goes_on_with_a_warning(host, curve):
     host.start()
     assert press(host, 1.5 * curve.max_approach) == OK
     assert host.get("state") == Branch.BEYOND
@@ -314,7 +314,7 @@ def test_the_command_builds_one_from_a_contact_scene(tmp_path, capsys):
     assert result["W"][-1] == 0.0
 
 
-def test_a_contact_scene_that_has_no_stop_curve_says_what_is_built_of_it(tmp_path, capsys):
+def test_a_contact_scene_without_a_load_displacement_curve_is_refused(tmp_path, capsys):
     out = tmp_path / "head.fmu"
     assert cli.main(["fmu", "build", "head-disk", "--out", str(out)]) == 2
     said = capsys.readouterr().err
@@ -353,7 +353,7 @@ def test_rough_faces_soften_the_stop_of_the_valve_and_take_energy(valve, curve):
 
 
 def test_beside_the_drive_it_does_what_it_does_inside(valve, stop_fmu):
-    """One blow, by three FMUs and by two."""
+    """One impact, by three FMUs and by two."""
     step, n = 5e-6, 340
     inside = cosimulate(valve["rough"], valve["mass"], n * step, step)
     with (

@@ -183,7 +183,7 @@ def test_a_film_that_stands_still_gives_no_viscous_impulse():
 
 @pytest.mark.parametrize(("begin", "end"), [(5e-324, 1e-5), (1e-5, 1e-323), (1e-5, 1e300)])
 def test_a_way_through_all_numbers_has_an_end(begin, end):
-    """A share of the smallest numbers is the number itself: panels by ratio would never arrive."""
+    """The smallest numbers have no fraction: panels by ratio would never arrive."""
     forces = []
 
     class Counted:
@@ -285,7 +285,7 @@ def test_a_state_saved_before_rupture_gives_the_same_again(host):
         assert host.outputs() == after
 
 
-def test_a_gap_of_zero_is_refused_and_can_be_taken_back(host):
+def test_a_gap_of_zero_is_refused_and_can_be_rolled_back(host):
     host.start()
     saved = host.slave.getFMUState()
     host.set(h=0.0)
@@ -316,7 +316,7 @@ def test_a_step_beyond_the_stable_one_raises_the_flag_and_warns_once(host):
     assert host.errors == []
 
 
-def test_a_film_that_lets_go_in_one_step_is_in_doubt(host):
+def test_a_film_that_breaks_in_one_step_is_in_doubt(host):
     """Soft at both ends: only the force on the way gives it away."""
     host.start(h0=5e-5, h=5e-5)
     assert host.get("H_stable") > 4e-5
@@ -348,7 +348,7 @@ def test_who_exchanges_impulses_is_left_in_peace(host):
     assert in_category(host, "logCoupling") == []
 
 
-def test_the_limit_that_acts_is_told(host):
+def test_the_limit_that_acts_is_reported(host):
     host.start(dp_cav=1e5, meniscus_law=int(MeniscusLaw.NONE))
     host.set(v=1e-3)
     assert host.get("limit") == LimitKind.TENSION

@@ -45,7 +45,7 @@ def lift(host, n, speed=0.2, height=-5e-8):
         assert host.step(STEP, i * STEP) == OK
 
 
-def test_it_is_valid_and_tells_what_follows_at_once(tip_fmu):
+def test_it_is_valid_and_states_its_direct_feedthrough(tip_fmu):
     assert building.validate(tip_fmu) == []
     description = fmpy.read_model_description(str(tip_fmu))
     follows = {u.variable.name: [v.name for v in u.dependencies] for u in description.outputs}

@@ -1,4 +1,4 @@
-"""A micromirror's landing on a site that gives: energy, limits, FMUs against one system."""
+"""A micromirror's landing on a compliant site: energy, limits, FMUs against a monolithic model."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from contactkit.models.micromirror.flight import Root
 from contactkit.models.micromirror.monolithic import simulate_monolithic
 from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
 from contactkit.models.micromirror.tip_film import tip_law
-from contactkit.models.micromirror.tip_impact import TipStop, sprung_back
+from contactkit.models.micromirror.tip_impact import TipStop, rebound_work
 
 MASS, STIFFNESS = 4e-16, 1.0
 
 
 def hertz(factor=1.0, most=4e-9, yields=True):
-    """A ball of aluminium on its like, with ways out a fifth short, as one that yields has."""
+    """A ball of aluminium on its like; unloading curves are a fifth short, as after yielding."""
     k = factor * 4.0 / 3.0 * 39.3e9 * math.sqrt(1e-7)
     depths = [most * 2.0 ** (-i / 2.0) for i in range(16, -1, -1)]
     force = [k * d**1.5 for d in depths]
@@ -88,8 +88,8 @@ def energy(made, state, height):
 
 
 @pytest.mark.parametrize("speed", [0.05, 0.5, 2.0])
-def test_a_blow_loses_the_area_of_its_loop(curve, dry, speed):
-    """Before and after a blow, both at touch: what is missing is the loop, but for the dent."""
+def test_an_impact_dissipates_the_area_of_its_loop(curve, dry, speed):
+    """Before and after an impact, both at touch: the loop is missing, but for the indentation."""
     stop, made = TipStop(curve), evolve_without_attraction(dry)
     state = free_start(made, 1e-15, -speed)
     root = Root(1e-15)
@@ -98,7 +98,7 @@ def test_a_blow_loses_the_area_of_its_loop(curve, dry, speed):
     # Going on to a hop's top and back changes nothing: only spring and site act.
     assert off.landing_loss == pytest.approx(curve.dissipated_work(off.largest), rel=1e-9)
     assert first - energy(made, off, root.height) == pytest.approx(off.landing_loss, rel=2e-4)
-    assert off.depth == off.dent == curve.residual(off.largest)
+    assert off.depth == off.residual == curve.residual(off.largest)
     assert off.peak == pytest.approx(curve.at(off.largest).force, rel=1e-5)
 
 
@@ -118,13 +118,13 @@ def test_an_elastic_site_gives_all_back(dry):
     _, off = until_off(made, stop, 0.5, 1e-15)
     assert off.landing_loss == 0.0
     assert energy(made, off, 1e-15) == pytest.approx(0.5 * MASS * 0.25, rel=1e-5)
-    assert off.dent == 0.0
+    assert off.residual == 0.0
     # Hertz: d_max = (5 m v^2/(4 k))^(2/5), but for the spring
     k = 4.0 / 3.0 * 39.3e9 * math.sqrt(1e-7)
     assert off.largest == pytest.approx((5 * MASS * 0.25 / (4 * k)) ** 0.4, rel=2e-3)
 
 
-def test_damping_takes_its_share(dry):
+def test_damping_dissipates_its_part(dry):
     """Hunt and Crossley: the speeds solve an equation of their own, whatever the curve."""
     made, damping, came = evolve_without_attraction(dry), 1.0, 0.5
     _, off = until_off(made, TipStop(hertz(yields=False), damping), came, 1e-15)
@@ -169,7 +169,7 @@ def dead_curve(factor):
     )
 
 
-def test_a_stiff_elastic_site_lets_go_as_the_rigid_one(dry):
+def test_a_stiff_elastic_site_releases_as_the_rigid_one(dry):
     """From rest, to the first order of its compliance."""
     root, errors = Root(-5e-8, 0.2), []
     rigid = advance_tip(dry, 0.0, landed_start(dry), root, 6e-7).free_time
@@ -190,7 +190,7 @@ def test_a_resting_tip_sinks_in_by_what_presses(curve, dry):
         spring = tip_force(dry, 0.0, state, height, 0.0)
         pressed = dry.film.static_force(4e-10) - spring
         assert curve.at(state.depth, state.largest).force == pytest.approx(pressed, rel=1e-9)
-        assert state.gap == pytest.approx(4e-10 - (state.depth - state.dent), rel=1e-12)
+        assert state.gap == pytest.approx(4e-10 - (state.depth - state.residual), rel=1e-12)
         later = advance_tip(dry, 0.0, state, Root(height), 1e-7, stop)
         assert later.impulse == pytest.approx(1e-7 * spring, rel=1e-9)
         assert later.motion.in_contact
@@ -213,10 +213,10 @@ def test_beyond_its_curve_it_is_refused(dry):
         until_off(dry, stop, 20.0)
 
 
-def test_what_springs_back_is_what_the_curve_says(curve):
+def test_rebound_work_is_that_of_the_curve(curve):
     deep = 2e-9
-    assert sprung_back(curve, deep, deep) == pytest.approx(curve.elastic_work(deep), rel=0.02)
-    assert sprung_back(curve, 0.2 * deep, deep) == 0.0
+    assert rebound_work(curve, deep, deep) == pytest.approx(curve.elastic_work(deep), rel=0.02)
+    assert rebound_work(curve, 0.2 * deep, deep) == 0.0
 
 
 # Mirror -------------------------------------------------------------------------------------
@@ -224,7 +224,7 @@ def test_what_springs_back_is_what_the_curve_says(curve):
 
 @pytest.fixture(scope="module")
 def soft(scene, curve, tmp_path_factory):
-    """One flip onto sites that give, dry; the curve is that of the test, not solved again."""
+    """One flip onto compliant sites, dry; the curve is that of the test, not solved again."""
     curve_of_scene.cache_clear()
     wave = evolve(scene.mirror.waveform, start_delay=0.0, flips=1, period=4.5e-6)
     tips = evolve(scene.mirror.tips, faces=StopFaces(contact=hertz_scene()), landing_damping=1.0)
@@ -249,7 +249,7 @@ def hertz_scene():
 
 
 @pytest.mark.slow
-def test_a_pair_of_fmus_bounces_as_one_system_does(soft, tmp_path):
+def test_a_pair_of_fmus_bounces_as_the_monolithic_model(soft, tmp_path):
     end = 3.72e-6
     plan = tip_law(soft.tip, 0.0, 1e-7)
     whole = simulate_monolithic(soft.mirror, plan, soft.start, end, rtol=1e-7, stop=soft.stop)
@@ -279,7 +279,7 @@ def test_it_starts_at_rest(soft):
     assert abs(motion["tilt"] - soft.start[0]).max() < 1e-9
 
 
-def test_the_fmu_restores_a_blow_and_says_what_it_had(soft, open_fmu, tmp_path):
+def test_the_fmu_restores_an_impact(soft, open_fmu, tmp_path):
     path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_start(soft, 0.0))
     assert building.validate(path) == []
     host = open_fmu(path)
@@ -328,7 +328,7 @@ def test_a_scene_names_its_faces(soft):
     assert solved(twice).force[-1] == pytest.approx(2.0 * soft.stop.curve.force[-1])
 
 
-def test_mistakes_in_faces_are_told(soft):
+def test_mistakes_in_faces_are_reported(soft):
     tips = soft.mirror.tips
     with pytest.raises(DescriptionError, match=r"SpringTips.landing_damping must be 0 on a rigid"):
         evolve(tips, faces=None)

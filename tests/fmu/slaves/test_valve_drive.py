@@ -53,7 +53,7 @@ def test_its_parameters_are_those_of_the_fuel_injector():
     assert ValveDrive.start_values()["h"] == pytest.approx(5e-6)
 
 
-def test_the_fmu_is_valid_and_tells_what_follows_at_once(drive_fmu):
+def test_the_fmu_is_valid_and_states_its_direct_feedthrough(drive_fmu):
     assert building.validate(drive_fmu) == []
     description = fmpy.read_model_description(str(drive_fmu))
     follows = {

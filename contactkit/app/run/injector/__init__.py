@@ -1,8 +1,9 @@
 """Running the fuel injector from the command line.
 
-cosimulation  Co-simulation by two FMUs, each run beside its monolithic solution.
-cycles        Firing cycles: release delays, impulses and forces of each.
-end_stop      Impacts of the spool on rough faces of its end stop.
-report        Table, signals in files, figures.
-figures       Gaps, forces and release delays.
+cosimulation  Co-simulation of the fuel injector by two FMUs, each run beside its monolithic
+              solution.
+cycles        Firing cycles of the fuel injector: release delays, impulses and forces of each.
+end_stop      Impacts of the spool on rough faces of its end stop: numbers of a run for the report.
+report        Report of the fuel injector's co-simulations: table, signals in files, figures.
+figures       Figures of the fuel injector: gaps in um, times in ms, forces in N.
 """

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ....errors import PlanError
 from ....fmu.slaves.stiction_mass import mass_values
 from ....fmu.slaves.valve_drive import drive_values
-from ....models.injector.scene import InjectorScene, end_stop_curve
+from ....models.injector.scene import InjectorScene, end_stop_faces
 from ....models.injector.valve import Valve
 from ....separation.effects.registry import TensionLimit
 from ....separation.plan import Plan, plan
@@ -91,7 +91,7 @@ def build_fmus(scene: InjectorScene, folder: Path) -> InjectorFmus:
 
 def drive_start(valve: Valve) -> dict[str, Any]:
     """Start values of the FMU ``valve-drive``, with the curve of rough end-stop faces."""
-    curve = end_stop_curve(valve)
+    curve = end_stop_faces(valve)
     return drive_values(valve) | ({} if curve is None else {"curve": curve})
 
 
@@ -116,7 +116,7 @@ def _cosimulate(
     )
     seconds = perf_counter() - begun
     made = plan(film)
-    check = simulate(made, scene.valve, scene.stop_time, faces=end_stop_curve(scene.valve))
+    check = simulate(made, scene.valve, scene.stop_time, faces=end_stop_faces(scene.valve))
     return InjectorRun(temperature, limited, made, coupled, check, seconds)
 
 

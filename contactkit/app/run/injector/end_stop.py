@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from ....analyses.load_displacement.impact import in_series
-from ....models.injector.scene import InjectorScene, end_stop_curve
+from ....models.injector.scene import InjectorScene, end_stop_faces
 from .cosimulation import InjectorRun
 
 __all__ = ["EndStopImpacts", "end_stop_impacts", "end_stop_numbers"]
@@ -33,7 +33,7 @@ class EndStopImpacts(NamedTuple):
 
 def end_stop_impacts(scene: InjectorScene, run: InjectorRun) -> EndStopImpacts | None:
     """Impacts of a run; None if the end stop is a spring, or was not met and left."""
-    curve, stop = end_stop_curve(scene.valve), scene.valve.stop
+    curve, stop = end_stop_faces(scene.valve), scene.valve.stop
     events = {
         what: [e for e in run.monolithic.events if e.what == f"{what} the stop"]
         for what in ("meets", "leaves")
@@ -55,7 +55,7 @@ def end_stop_numbers(
 ) -> Numbers:
     """Lines and scalars of all runs; none if the end stop is a spring."""
     lines, scalars = list[str](), dict[str, tuple[Any, str]]()
-    curve = end_stop_curve(scene.valve)
+    curve = end_stop_faces(scene.valve)
     if curve is None:
         return lines, scalars
     for run, key in zip(runs, keys, strict=True):

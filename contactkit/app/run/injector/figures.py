@@ -96,7 +96,7 @@ def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
     for ax in (gap, force):
         _shade(ax, run, time, label="tension limit acts" if ax is force else None)
     plot.shared_legend(made, force)
-    plot.title(force, "forces: up opens, down holds (blows on the stop are cut off)")
+    plot.title(force, "forces: up opens, down holds (impacts on the stop are cut off)")
     force.set_xlabel("time [ms]")
     return plot.save(made, out / f"force-balance_{stem(run.temperature)}")
 
@@ -142,11 +142,11 @@ def _delays(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: f
     made, ax = plot.figure(size=(9.0, 5.0))
     pulse = scene.valve.profile.on_time * 1e3
     curves: list[tuple[str, bool, float | None]] = [
-        (f"oil bears {t / bar:g} bar", True, t) for t in scene.study.tension_limits
+        (f"tensile strength {t / bar:g} bar", True, t) for t in scene.study.tension_limits
     ]
     if not curves and any(run.limited for run in runs):
         curves = [("with the tension limit", True, None)]
-    curves.append(("oil bears any tension", False, None))
+    curves.append(("no tension limit", False, None))
     sizes = range(4 * len(curves) + 2, 2, -4)
     for (label, limited, tension), color, size in zip(curves, cycle(_OIL), sizes, strict=False):
         temperatures, delays = delays_over_temperature(scene, limited=limited, tension=tension)

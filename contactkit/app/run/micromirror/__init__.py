@@ -1,8 +1,9 @@
 """Running the digital micromirror from the command line.
 
-cosimulation   Co-simulation with an FMU of the spring tips on each side.
-landing_sites  Impacts of spring tips on rough landing sites.
-report         Adhesion, release and flips; signals in files, figures.
-figures        Side view, flips, lift-off, release and force law.
-sketch         Side view of the mirror to scale, and of one tip with its meniscus.
+cosimulation   Co-simulation of the micromirror with an FMU of its spring tips on each side.
+landing_sites  Impacts of spring tips on rough landing sites: numbers of a run for the report.
+report         Report of a run of the micromirror: adhesion, release, flips; signals and figures.
+figures        The micromirror's figures: its side view, the flips, the lift-off, release and force
+               law.
+sketch         Side view of a micromirror: the whole to scale, and one tip with its meniscus.
 """

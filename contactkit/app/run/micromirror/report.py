@@ -60,7 +60,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
     free, error = run_errors(scene, run)
     told, numbers = landing_numbers(scene, run)
     lines = [
-        f"{scene.name}: does it let go?",
+        f"{scene.name}: does it release?",
         *_landed_text(scene, landed),
         "",
         *_table(scene, found),

@@ -140,7 +140,7 @@ def _meniscus(ax: Any, made: Plan) -> float:
     r = low + round_ * math.sin(angle) - round_ * np.sqrt(1.0 - lift**2)
     solid = np.sqrt(np.maximum(1.0 / curvature**2 - (1.0 / curvature - (z - gap)) ** 2, 0.0))
     inner = np.where(z > gap, solid, 0.0)
-    # Drawn as an arc, which no eye tells from the exact meridian.
+    # Drawn as an arc, which looks the same as the exact meridian.
     for side in (1.0, -1.0):
         ax.fill_betweenx(z * 1e9, side * inner * 1e9, side * r * 1e9, color=_WATER, lw=0)
     at = 0.5 * height
