@@ -374,7 +374,7 @@ class TipContact(PortSlave):
         self.values.update(
             h=state.gap,
             v=motion.speed,
-            F_film=film_force(self.plan, state)[0],
+            F_film=film_force(self.plan, state),
             J=n * state.impulse,
             W_visc=n * motion.dissipated_work,
             W_land=n * state.landing_loss,
