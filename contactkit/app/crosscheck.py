@@ -6,7 +6,7 @@ For a model M there are ``M_in.csv``, its inputs, ``M_ref.csv``, what must come 
 ======== ==================================================================================
 release_A warm and thick: 20 um, flooded, 10 mPa.s, a pull that is there at once
 release_B cold: 5 um, 0.1 Pa.s, volume conserved, a pull that rises with 0.2 ms
-release_E as B, with a liquid that bears a tension of 10 bar only
+release_E as B, with a tensile limit of the liquid of 10 bar
 ======== ==================================================================================
 
 The references are no runs of the FMU: `models.monolithic` solves the same laws with the exact

@@ -145,9 +145,9 @@ def _law(before: Known, here: Known) -> tuple[_Law, float]:
         return _Law(here, 0.0, slope), 0.0 if before.damping == here.damping else math.inf
     power = -math.log(here.damping / before.damping) / way
     law = _Law(here, min(max(power, _POWERS[0]), _POWERS[1]), slope)
-    told = law.at(before.gap).taken
+    expected = law.at(before.gap).taken
     size = here.damping * here.gap
-    return law, abs(told - before.taken) / (size * way * way)
+    return law, abs(expected - before.taken) / (size * way * way)
 
 
 def _solved(stage: Stage, law: _Law, within: tuple[float, float]) -> float:

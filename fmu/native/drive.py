@@ -36,7 +36,7 @@ def build_native_drive(
     """Write a ``valve-drive`` that runs without Python (co-simulation).
 
     It has the variables of the Python FMU of that name, under the same value references, and its
-    numbers to rounding.
+    numbers to round-off.
 
     Parameters
     ----------

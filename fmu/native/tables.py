@@ -25,7 +25,7 @@ __all__ = ["Piece", "Table", "tabulate"]
 
 _DEGREE = 14
 _NARROW = 0.05  # a stretch of x that is not divided further: what is left is noise of rounding
-_CLOSE = 1e-5  # x below which a way to an end is not told from the end itself
+_CLOSE = 1e-5  # x below which a distance to an end counts as none
 _FAIR = 1e-12  # error of a narrow stretch that is not divided in spite of it
 _ROUNDING = 3e-15  # of a stretch, in values that are sums of few terms
 _NOISE = 1e-7  # largest that is taken for noise

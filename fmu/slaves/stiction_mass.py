@@ -301,7 +301,7 @@ class StictionMass(PortSlave):
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`."""
         before, values = self.state, self.values
-        if before.time != time:  # by rounding, or as a host that starts late
+        if before.time != time:  # by round-off, or as a host that starts late
             before = before._replace(time=time)
         pull = self._pull
         if pull.force != values["F_ext"] or pull.rate or values["dF_ext"]:

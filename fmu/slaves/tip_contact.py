@@ -353,7 +353,7 @@ class TipContact(PortSlave):
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`."""
         values, before = self.values, self.state
-        if before.motion.time != time:  # by rounding, or as a host that starts late
+        if before.motion.time != time:  # by round-off, or as a host that starts late
             before = before._replace(motion=before.motion._replace(time=time))
         root = Root(values["z"], values["vz"], values["az"], time)
         self.state = advance_tip(self.plan, values["c"], before, root, step, self.stop)

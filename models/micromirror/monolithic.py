@@ -32,7 +32,15 @@ from ...separation.plan import Film, Plan
 from ..ode_events import watch
 from .coupling import FREE, HELD, LANDED
 from .flight import Root
-from .mirror import Attitude, Mirror, acceleration, electrode_volts, root_height, switching_times
+from .mirror import (
+    Attitude,
+    Mirror,
+    Volts,
+    acceleration,
+    electrode_volts,
+    root_height,
+    switching_times,
+)
 from .tip import TipStop, free_gap
 from .tip_impact import Contact, rebound_work, rest_depth
 
@@ -81,7 +89,7 @@ class _Integration:
         far = self.origin + root_height(mirror.tips, start[0], -1.0)
         self.state = np.array([*start, self.origin, 0.0, far, 0.0])
         self.modes, self.broken = [LANDED, FREE], [False, True]
-        self.volts = (0.0, 0.0)
+        self.volts = Volts(0.0, 0.0)
         self.time = 0.0
         self.pieces: list[tuple[_Floats, Callable[[_Floats], _Floats]]] = []
         self.events: list[Event] = []

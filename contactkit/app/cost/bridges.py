@@ -80,7 +80,7 @@ def _force(case: BridgeCase, closure: str, gaps: Array) -> Array:
 
 def _run_forces(curve: _Curve, closure: str, is_first: bool) -> Outcome:
     if is_first:
-        _forget()
+        _clear_caches()
     found = _force(curve.case, closure, curve.gaps)
     errors = relative_errors(found[curve.judged], curve.forces)
     return Outcome(float(found[0]), {"gaps": found.size}, float(errors.max()))
@@ -97,7 +97,7 @@ def _run_rupture(curve: _Curve, closure: str) -> Outcome:
     case = curve.case
     shape = (case.contact_angle_lower, case.contact_angle_upper, 0.0, case.curvature)
     if closure == "exact":
-        _forget()
+        _clear_caches()
         gap = float(bridge_limit.stability_limit(1.0, *shape).gap)
     else:
         profile = "sphere" if closure == "arc" else "parabola"
@@ -105,7 +105,7 @@ def _run_rupture(curve: _Curve, closure: str) -> Outcome:
     return Outcome(gap, {"gaps": 1}, abs(gap / curve.limit - 1.0))
 
 
-def _forget() -> None:
+def _clear_caches() -> None:
     """Drop the curves of bridges that the exact kernel remembers, so that a first run is timed."""
     bridge_limit.branch.cache_clear()
 

@@ -39,8 +39,8 @@ _TOLERANCES: dict[Method, tuple[float, ...]] = {
 _PIXELS = (256, 384, 512)  # of the comparison of solvers: the slow ones take minutes beyond
 _MOST_SECONDS = 10.0  # of one run, after which a solver is not asked for more
 _AREAS = {
-    "counted pixels": "contact_area",
-    "corrected at the edges": "corrected_contact_area",
+    "pixel count": "contact_area",
+    "edge-corrected area": "corrected_contact_area",
 }
 _SHARES = (0.25, 0.375, 0.5, 0.7, 0.85, 1.0, 1.4)  # of the grid asked for
 
@@ -192,7 +192,7 @@ def _counts(result: ContactResult) -> dict[str, int]:
 def grid_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> WorkPrecision | None:
     """Error of the real area of contact over the grid, against a grid of twice the pixels.
 
-    The reference is the area corrected at its edges on that grid; what it changes from the grid
+    The reference is the edge-corrected area on that grid; what it changes from the grid
     of the scene to that one is taken for its own error.
 
     None if the surfaces come with a grid of their own.

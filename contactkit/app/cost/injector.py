@@ -73,7 +73,7 @@ def injector_sweep(scene: InjectorScene, progress: Progress) -> WorkPrecision:
 
 
 def _injector_settings(
-    scene: InjectorScene, film: SeparationScene, pair: tuple[Path, Path]
+    scene: InjectorScene, film: SeparationScene, pair: InjectorFmus
 ) -> list[Setting]:
     """Monolithic model over tolerances, FMU pairs over steps, published closures as models."""
     monolithic: list[tuple[str, SeparationScene, tuple[float, ...], bool]] = [

@@ -50,7 +50,7 @@ def test_forces_are_wrong_where_impulses_are_right(settings):
 
 
 def test_a_drive_fmu_may_pull(tmp_path):
-    """The injector of the bundled scene, force coupled, against one system."""
+    """The injector of the bundled scene, force coupled, against the monolithic model."""
     scene = open_scene("fuel-injector").scene
     own = scene.separation(scene.temperature)
     values, profile = mass_values(own), scene.valve.profile

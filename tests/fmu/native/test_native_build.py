@@ -156,7 +156,7 @@ def test_variables_are_those_of_the_python_fmu(fmu):
 
 
 def test_viscosity_and_surface_tension_are_free(fmu, tmp_path):
-    """The FMU of one liquid, told another, is that of the other."""
+    """The FMU of one liquid, set to another, is that of the other."""
     liquid = ck.Liquid(name="other", viscosity=0.02, surface_tension=0.05)
     other = SCENES["drop"]
     meniscus = attrs.evolve(other.interface.meniscus, liquid=liquid)

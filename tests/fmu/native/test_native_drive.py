@@ -1,4 +1,4 @@
-"""The native ``valve-drive``: as the Python FMU to rounding, in FMI 3.0, and with its film."""
+"""The native ``valve-drive``: as the Python FMU to round-off, in FMI 3.0, and with its film."""
 
 from __future__ import annotations
 
@@ -357,9 +357,9 @@ def test_a_rough_stop_remembers_as_the_python_fmu_does(curve, tmp_path, open_fmu
     assert python.largest > most
     assert seen == {True, False}
     warned = [one for one in host.log if "beyond" in str(one)]
-    told = [one.msg for one in python.log_queue if "beyond" in one.msg]
-    assert len(warned) == len(told) == 1  # once, though it is there three times
-    assert told[0] in str(warned[0])
+    expected = [one.msg for one in python.log_queue if "beyond" in one.msg]
+    assert len(warned) == len(expected) == 1  # once, though it is there three times
+    assert expected[0] in str(warned[0])
 
 
 def test_faces_without_yield_are_one_curve(tmp_path, open_fmu):

@@ -167,7 +167,7 @@ def run_host(command, library, where, guid, words, **environment):
     return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
 
 
-def told(fmus, fmu, fmi):
+def resources_of(fmus, fmu, fmi):
     """Folder of resources and GUID."""
     found = fmpy.read_model_description(str(fmus / f"{fmu}-{fmi}"))
     return fmus / f"{fmu}-{fmi}" / "resources", found.guid or found.instantiationToken
@@ -184,7 +184,7 @@ def rows_here(fmus, tmp_path_factory):
     for fmi in (2, 3):
         program = host_program(folder, "linux-x86_64", fmi)
         for case, words in RUNS.items():
-            resources, guid = told(fmus, f"mass-{case}", fmi)
+            resources, guid = resources_of(fmus, f"mass-{case}", fmi)
             library = library_of(fmus, "linux-x86_64", fmi)
             where = location(resources, fmi)
             found[case, fmi] = run_host([program], library, where, guid, words)
@@ -215,7 +215,7 @@ def test_linux_on_arm_finds_the_same(fmus, rows_here, tmp_path, fmi):
     name = "linux-aarch64"
     command = [ARM, "-L", ARM_LIBRARIES, host_program(tmp_path, name, fmi)]
     for case, words in RUNS.items():
-        resources, guid = told(fmus, f"mass-{case}", fmi)
+        resources, guid = resources_of(fmus, f"mass-{case}", fmi)
         where = location(resources, fmi)
         rows = run_host(command, library_of(fmus, name, fmi), where, guid, words)
         check_rows(rows, rows_here[case, fmi], case)
@@ -254,7 +254,7 @@ def wine(shelf):
 def test_wine_finds_the_same(fmus, rows_here, wine, tmp_path, fmi):
     command = ["wine", host_program(tmp_path, "windows-x86_64", fmi)]
     for case, words in RUNS.items():
-        resources, guid = told(fmus, f"mass-{case}", fmi)
+        resources, guid = resources_of(fmus, f"mass-{case}", fmi)
         where = f"file:///Z:{resources}" if fmi == 2 else f"Z:{resources}/".replace("/", "\\")
         library = f"Z:{library_of(fmus, 'windows-x86_64', fmi)}"
         rows = run_host(command, library, where, guid, words, **wine)
@@ -264,7 +264,7 @@ def test_wine_finds_the_same(fmus, rows_here, wine, tmp_path, fmi):
 @here_is_linux
 def test_wine_opens_whatever_a_host_calls_the_folder(fmus, wine, tmp_path):
     command = ["wine", host_program(tmp_path, "windows-x86_64", 2)]
-    resources, guid = told(fmus, "mass-A", 2)
+    resources, guid = resources_of(fmus, "mass-A", 2)
     folder = tmp_path / "a b ü#"
     shutil.copytree(resources, folder / "resources")
     library = folder / "a name.dll"

@@ -127,8 +127,8 @@ def _zoom(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
             _shade(ax, run, time, label="tension limit acts" if ax is force else None)
             ax.set_xlim(-0.05 * span, span)
             _mark_events(ax, run, start, span)
-        told = "never released" if math.isnan(first) else f"released after {first * 1e3:.3f} ms"
-        plot.title(gap, f"oil at {run.label}: {told}")
+        ending = "never released" if math.isnan(first) else f"released after {first * 1e3:.3f} ms"
+        plot.title(gap, f"oil at {run.label}: {ending}")
         force.set_xlabel("time since energising [ms]")
         if column:
             gap.set_ylabel("")

@@ -116,9 +116,9 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
             f"seconds_{key}": (run.seconds, "s"),
         }
     keys = [f"{stem(run.temperature)}_{_limited(run)}" for run in runs]
-    told, numbers = end_stop_numbers(scene, runs, keys)
+    impacts, numbers = end_stop_numbers(scene, runs, keys)
     scalars |= numbers
-    lines += [*spread, *told, *_validity(runs)]
+    lines += [*spread, *impacts, *_validity(runs)]
     files = _write(scene, runs, out, dry) if out is not None else ()
     return Report(scalars, "\n".join(lines), files)
 
@@ -148,12 +148,12 @@ def _validity(runs: Sequence[InjectorRun]) -> list[str]:
         whole = run.coupled["state"] != FilmStatus.BROKEN
         gaps, speeds = run.coupled["h"][whole], run.coupled["v"][whole]
         found = run.plan.validity(list(zip(gaps.tolist(), speeds.tolist(), strict=True)))
-        told = [
+        numbers = [
             f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
             for n in found
             if n.value is not None
         ]
-        lines.append(f"validity, {run.label}: {', '.join(told)}")
+        lines.append(f"validity, {run.label}: {', '.join(numbers)}")
     return lines
 
 

@@ -75,7 +75,7 @@ def _first_flip(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
         ms=3.5,
         mfc="none",
         color="#e9a23b",
-        label="one system, to the first touch",
+        label="monolithic model, to the first touch",
     )
     plot.legend(tilt)
     volts.set_ylabel("voltage over\nelectrode [V]")
@@ -125,8 +125,8 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
         plot.plain_log(gap.yaxis)
         gap.set_xlim(0.0, (last + 0.2e-6) * 1e6)
         force.set_xlabel(f"time since the {'end of the bias' if reset is None else 'pulse'} [us]")
-        told = "bias off, spring alone" if reset is None else f"reset pulse of {reset:g} V"
-        plot.title(gap, told)
+        ending = "bias off, spring alone" if reset is None else f"reset pulse of {reset:g} V"
+        plot.title(gap, ending)
     axes[0][0].set_ylabel("gap under a tip [nm]")
     axes[1][0].set_ylabel("force of the tips\non the mirror [nN]")
     plot.shared_legend(made, axes[0][0])

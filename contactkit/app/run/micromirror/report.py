@@ -58,7 +58,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
     found = release_curve(scene, progress)
     landed = landing(scene)
     free, error = run_errors(scene, run)
-    told, numbers = landing_numbers(scene, run)
+    landings, numbers = landing_numbers(scene, run)
     lines = [
         f"{scene.name}: does it release?",
         *_landed_text(scene, landed),
@@ -67,7 +67,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
         "",
         *_verdict(scene, found),
         *_flips(scene, run, free, error),
-        *told,
+        *landings,
         *_validity(run, found),
     ]
     scalars: dict[str, tuple[Any, str]] = {
@@ -188,11 +188,11 @@ def _flips(scene: MicromirrorScene, run: MirrorRun, free: float, error: float) -
     wave, coupled = scene.mirror.waveform, run.coupled
     lands = [e for e in run.log if e.startswith("landed")]
     begun = wave.start_delay
-    told = "not released" if math.isnan(free) else f"free {(free - begun) * 1e6:.3f} us after it"
+    ending = "not released" if math.isnan(free) else f"free {(free - begun) * 1e6:.3f} us after it"
     final = math.degrees(float(coupled["tilt"][-1]))
     return [
         f"run at {100 * scene.study.humidity:g} %: {wave.flips} flips, pulse of "
-        f"{abs(wave.reset_voltage):g} V begins at {begun * 1e6:g} us, {told}; {len(lands)} "
+        f"{abs(wave.reset_voltage):g} V begins at {begun * 1e6:g} us, {ending}; {len(lands)} "
         f"landings and bounces of tips; at the end {final:+.2f} deg",
         f"two FMUs tip-contact: {coupled.n_steps} steps of at most "
         f"{scene.study.communication_step * 1e9:g} ns in {run.seconds:.2f} s; tilt off the "
@@ -212,13 +212,13 @@ def _validity(run: MirrorRun, found: Sequence[Release]) -> list[str]:
         law = run.plan.film.laws.get(MeniscusForce)
         spans = held & (gaps < (law.end if law is not None else math.inf))
         pairs = list(zip(gaps[spans].tolist(), speeds[spans].tolist(), strict=True))
-        told = [
+        warnings = [
             f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
             for n in run.plan.validity(pairs)
             if n.value is not None
         ]
-        if told:
-            lines.append("validity, lift-off: " + ", ".join(told))
+        if warnings:
+            lines.append("validity, lift-off: " + ", ".join(warnings))
     radii = [one.adhesion.kelvin_radius for one in found if one.adhesion.volume > 0.0]
     if radii and min(radii) < 1e-9:
         lines.append(
