@@ -56,9 +56,9 @@ _NOTES: dict[str, tuple[str, ...]] = {
         "5e7 to 3e10 N.s/m: forces exchanged once in a step are stable only below H_stable = m/c, "
         "and beyond it they may look like an answer: a release after one step. Watch in_doubt and "
         "coupling_error, and the log category logCoupling.",
-        "Use a master that iterates a step until film and mass agree on the impulse (J, F_mean), such "
-        "as contactkit.fmu.master.couple, or take stiction-mass, which has the mass inside and "
-        "asks for no small step.",
+        "Use a master that iterates a step until film and mass agree on the impulse (J, F_mean), "
+        "such as contactkit.fmu.master.couple, or take stiction-mass, which has the mass inside "
+        "and asks for no small step.",
     ),
     "tip-contact": (
         "Set height, speed and acceleration of the root at the start of a step, and take F_mean, "

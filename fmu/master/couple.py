@@ -2,8 +2,8 @@
 
 A film is so stiff that its force, carried from one step into the next, needs steps below m/c:
 1e-7 s at 5 um, 1e-12 s at 10 nm. Longer ones do not fail, they give a smooth and wrong answer. So
-impulses are exchanged here instead, with the FMU rolled back until mass and film agree; the steps are
-adaptive, and cut at kinks, rupture and release. Forces are exchanged only where that
+impulses are exchanged here instead, with the FMU rolled back until mass and film agree; the
+steps are adaptive, and cut at kinks, rupture and release. Forces are exchanged only where that
 is stable, and refused where it is not.
 """
 

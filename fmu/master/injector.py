@@ -123,7 +123,7 @@ class Steps:
         self.motion = mass.motion()
 
     def step(self) -> None:
-        """Take one step, and leave both FMUs at its end, with the motion of the mass in the drive."""
+        """Take one step, and leave both FMUs at its end; the drive has the motion of the mass."""
         marks = self.drive.save(), self.mass.save()
         later = self.time + 1e-12 * self.stop_time
         end = min([t for t in self._switches if t > later] + [self.stop_time])

@@ -152,7 +152,7 @@ def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tm
     assert errors[1] < 1e-6 < 0.1 > errors[0]
     assert numbers["conjugate-gradient / rtol 1e-06 / error"]["value"] < 1e-3
     assert numbers["quasi-newton / rtol 1e-02 / operator applications"]["value"] > 0
-    assert "corrected at the edges / 48 x 48 / error" in numbers
+    assert "edge-corrected area / 48 x 48 / error" in numbers
     assert "effects up to + film-meniscus / seconds" in numbers
     assert {path.name for path in out.iterdir()} == {"cost.png", "cost.csv"}
 

@@ -24,7 +24,7 @@ __all__ = ["run_contact"]
 
 Progress = Callable[[float], None]
 
-_TOLD = (
+_REPORTED = (
     "max_pressure",
     "contact_fraction",
     "plastic_fraction",
@@ -96,7 +96,7 @@ def _text(result: ContactResult, studies: tuple[tuple[str, Study], ...]) -> str:
         f"{work.seconds:.2f} s"
     )
     for label, made in studies:
-        names = [n for n in _TOLD if n in made.units]
+        names = [n for n in _REPORTED if n in made.units]
         lines += ["", f"load curve, {label}:", made.table(*names)]
     return "\n".join(lines)
 
