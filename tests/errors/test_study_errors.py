@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.contact.plan import ContactPlan
 from contactkit.files import contact_results as contact_archive
 from contactkit.studies import run as study_run
 
@@ -45,7 +46,7 @@ def nothing_solved(monkeypatch):
         raise AssertionError("something was solved")
 
     monkeypatch.setattr(study_run, "solve", solve)
-    monkeypatch.setattr(study_run, "plan_contact", solve)
+    monkeypatch.setattr(ContactPlan, "prepare", solve)
 
 
 PATHS = {
