@@ -40,7 +40,7 @@ def pressed(thickness: float | None, friction: float, pixels: int = 36) -> ck.Co
     return ck.solve(ck.plan(scene, ck.Accuracy(grid=pixels)))
 
 
-def largest(run: ck.ContactResult, layer: int) -> float:
+def maximum(run: ck.ContactResult, layer: int) -> float:
     """Maximum von Mises stress [Pa] on the planes in a layer."""
     part = run.of(ck.SubsurfaceStress)
     return float(part.largest_von_mises[part.layer == layer].max())
@@ -53,7 +53,7 @@ def main(out: Path) -> float:
     for friction, color in ((0.0, plot.COLORS["gap"]), (FRICTION, plot.COLORS["meniscus"])):
         runs = [pressed(h, friction) for h in thicknesses]
         for ax, layer in ((left, 0), (right, 1)):
-            values = [largest(run, layer) / GPa for run in runs]
+            values = [maximum(run, layer) / GPa for run in runs]
             label = f"mu = {friction:g}"
             ax.plot([h / um for h in thicknesses], values, "o-", ms=3.5, color=color, label=label)
         uncoated = pressed(None, friction).of(ck.SubsurfaceStress).maxima["von_mises"].value

@@ -54,4 +54,4 @@ def main(out: Path) -> float:
 
 
 if __name__ == "__main__":
-    sys.stdout.write(f"largest difference: {100 * main(Path('out/examples')):.2g} %\n")
+    sys.stdout.write(f"maximum difference: {100 * main(Path('out/examples')):.2g} %\n")

@@ -65,7 +65,7 @@ def hertz_table() -> str:
             math.sqrt(run.contact_area / math.pi) / exact.contact_radius - 1.0,
         )
         rows.append((f"{n}", *(f"{e:+.1e}" for e in errors)))
-    head = ("pixels to the contact radius", "largest pressure", "approach", "contact radius")
+    head = ("pixels to the contact radius", "maximum pressure", "approach", "contact radius")
     return grid(head, rows)
 
 
@@ -105,7 +105,7 @@ def sphere_table() -> str:
 
 
 def wave_table() -> str:
-    """Waves of one direction: largest errors over the rows of each case."""
+    """Waves of one direction: maximum errors over the rows of each case."""
     cases = [
         {"name": "half-space (Westergaard)", "layers": [], "rows": CASES["waves"]["homogeneous"]}
     ]
@@ -122,7 +122,7 @@ def wave_table() -> str:
     head = (
         "solid",
         "pixels to the wave",
-        "largest pressure",
+        "maximum pressure",
         "mean gap over amplitude",
         "half-width [pixels]",
     )

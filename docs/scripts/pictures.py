@@ -45,11 +45,11 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
 CURVES = ("wet-film-reported-only", "wet-film-pulls-too")
 COLUMNS = {  # of a load curve: heading and factor
     "loading.pressure": ("mean pressure [MPa]", 1e-6),
-    "max_pressure": ("largest pressure [GPa]", 1e-9),
+    "max_pressure": ("maximum pressure [GPa]", 1e-9),
     "hardness": ("effective hardness [GPa]", 1e-9),
     "contact_fraction": ("contact [%]", 100.0),
     "plastic_fraction": ("plastic [%]", 100.0),
-    "max_displacement": ("largest displacement [nm]", 1e9),
+    "max_displacement": ("maximum displacement [nm]", 1e9),
     "relative_meniscus_force": ("meniscus force / load", 1.0),
 }
 COST_PICTURE = (
@@ -58,19 +58,19 @@ COST_PICTURE = (
 )
 NUMBERS = {  # of the run: what it is, factor, unit
     "load": ("load", 1e3, "mN"),
-    "max_pressure": ("largest pressure", 1e-9, "GPa"),
+    "max_pressure": ("maximum pressure", 1e-9, "GPa"),
     "hardness": ("effective hardness", 1e-9, "GPa"),
     "contact_fraction": ("real area of contact", 100.0, "% of the window"),
     "plastic_fraction": ("plastic area", 100.0, "% of the window"),
-    "max_displacement": ("largest displacement, from the mean plane", 1e9, "nm"),
+    "max_displacement": ("maximum displacement, from the mean plane", 1e9, "nm"),
     "approach": ("approach, from the mean plane", 1e9, "nm"),
     "friction_force": ("friction force", 1e3, "mN"),
     "meniscus_force": ("meniscus force", 1e3, "mN"),
     "n_menisci": ("menisci", 1.0, ""),
-    "max_von_mises": ("largest von Mises stress", 1e-9, "GPa"),
-    "max_tension": ("largest tension", 1e-9, "GPa"),
-    "max_tresca": ("largest shear stress (Tresca)", 1e-9, "GPa"),
-    "max_sigma_xz": ("largest sigma_xz", 1e-9, "GPa"),
+    "max_von_mises": ("maximum von Mises stress", 1e-9, "GPa"),
+    "max_tension": ("maximum tension", 1e-9, "GPa"),
+    "max_tresca": ("maximum shear stress (Tresca)", 1e-9, "GPa"),
+    "max_sigma_xz": ("maximum sigma_xz", 1e-9, "GPa"),
 }
 
 

@@ -36,7 +36,7 @@ def errata_table() -> str:
 
 
 def division_table() -> str:
-    """Best and largest number of menisci, and the critical area, of the source's flat films."""
+    """Optimal and maximum number of menisci, and the critical area, of the source's flat films."""
     water = ck.Liquid(name="water", surface_tension=0.072, viscosity=0.89e-3)
     rows = []
     for height in (2, 3, 4, 5, 6):
@@ -65,9 +65,9 @@ def division_table() -> str:
         )
     head = (
         "h0 [nm]",
-        "best N, as printed",
-        "best N, exact",
-        "largest stable N, exact",
+        "optimal N, as printed",
+        "optimal N, exact",
+        "maximum stable N, exact",
         "critical area, as printed [um2]",
         "critical area, exact [um2]",
     )
