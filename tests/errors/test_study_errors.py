@@ -103,8 +103,11 @@ def test_numbers_of_workers_and_scenes_are_checked(nothing_solved):
     vary = {"loading.pressure": [1e9]}
     for workers in (0, -1, 1.5, True):
         refuses(lambda n=workers: ck.study(contact(), vary, workers=n), "workers must be a whole")
+
+
+def test_a_plan_is_no_scene():
     kinds = "be a ContactScene, a SeparationScene or a"
-    refuses(lambda: ck.study(ck.plan(contact(), ACCURACY), vary), kinds)
+    refuses(lambda: ck.study(ck.plan(contact(), ACCURACY), {"loading.pressure": [1e9]}), kinds)
 
 
 def test_effects_that_do_not_fit_are_refused_before_any_solve(nothing_solved):
