@@ -68,8 +68,10 @@ _TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
 ARRAY_FIELDS: dict[tuple[type, str], str] = {
     (Heights, "heights"): "save the array as .npy and use Measured(path=..., pixel_size=..., "
     "unit='m', detrend='none'), in a file shape = 'measured'",
-    (HardnessMap, "values"): "a scene file holds a uniform hardness; a map stays in Python, and "
-    "in the files of save_result",
+    (
+        HardnessMap,
+        "values",
+    ): "a scene file holds a uniform hardness; a map is kept in Python and in result files",
 }
 
 _ARRAY = "scene-array-"  # prefix of the keys of arrays, which no other array of a result has

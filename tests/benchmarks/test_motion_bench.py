@@ -11,7 +11,7 @@ from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.master.injector import cosimulate
-from contactkit.models.injector.monolithic import simulate as one_system
+from contactkit.models.injector.monolithic import simulate as monolithic
 from contactkit.separation.motion.state import start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
@@ -92,10 +92,10 @@ def test_injector_cycle_by_the_fmu_pair(benchmark, pair):
     assert found["n_release"][-1] == 1
 
 
-def test_injector_cycle_as_one_system(benchmark, device):
+def test_injector_cycle_monolithic(benchmark, device):
     """The same by scipy, error 1e-8."""
     made = ck.plan(device.scene.separation(device.scene.temperature))
-    found = benchmark.pedantic(one_system, (made, device.scene.valve, CYCLE), rounds=3)
+    found = benchmark.pedantic(monolithic, (made, device.scene.valve, CYCLE), rounds=3)
     assert found.n_evaluations < 60_000
 
 

@@ -1,4 +1,4 @@
-"""What a doStep of a native FMU costs in a host in C, and what it is spent on.
+"""What a doStep of a native FMU costs in a host in C, and where the time goes.
 
 Counts are asserted, nanoseconds only printed.
 """

@@ -28,10 +28,10 @@ def refuses(call, *parts, error=DescriptionError):
         call()
 
 
-def told(noun, field, value):
+def refused_with(thing, field, value):
     """Return what an object says when it is to be rebuilt with a value: nothing if it takes it."""
     try:
-        attrs.evolve(noun, **{field: value})
+        attrs.evolve(thing, **{field: value})
     except DescriptionError as error:
         return str(error)
     return ""
@@ -44,12 +44,12 @@ def misfits(rows):
     impossible beside those of `NEVER`.
     """
     found = {}
-    for noun, field, unit, expected, values in rows:
-        name, bracket = f"{type(noun).__name__}.{field}", f" [{unit}]" if unit else ""
+    for thing, field, unit, expected, values in rows:
+        name, bracket = f"{type(thing).__name__}.{field}", f" [{unit}]" if unit else ""
         for value in (*values, *NEVER):
             message = f"{name} must {expected}{bracket}, got {value!r}"
-            if message not in told(noun, field, value):
-                found.setdefault(name, []).append((value, told(noun, field, value)))
+            if message not in refused_with(thing, field, value):
+                found.setdefault(name, []).append((value, refused_with(thing, field, value)))
     return found
 
 

@@ -150,7 +150,7 @@ def test_what_does_not_know_solids_refuses_them():
         mass_values(film)
 
 
-def test_the_one_system_reference_refuses_solids():
+def test_the_monolithic_reference_refuses_solids():
     from contactkit.models.injector import monolithic
 
     pulled = ck.ImposedForce(initial_gap=1e-10, final_gap=1e-8, force=1e-6, mass=1e-12)

@@ -16,9 +16,9 @@ from refusals import (
     WHOLE,
     named,
     numbers_of,
+    refused_with,
     refuses,
     says,
-    told,
 )
 
 import contactkit as ck
@@ -58,7 +58,7 @@ def refuses_plan(*parts, effects=(HALF_SPACE,), error=ck.PlanError, accuracy=Non
     refuses(lambda: ck.plan(scene(*effects, **given), accuracy), *parts, error=error)
 
 
-# Numbers of the nouns -----------------------------------------------------------------------
+# Numbers of scene objects -----------------------------------------------------------------------
 
 SEED, TOLERANCE = "be a whole number of at least 0", "lie between 1e-11 and 0.1"
 
@@ -110,12 +110,13 @@ ELSEWHERE = {("Heights", "heights"), ("HardnessMap", "values"), ("SubsurfaceStre
 OF_A_SEPARATION = {"time_rtol", "points", "max_steps"}
 
 
-def misfit(noun, field, unit, expected, value):
+def misfit(thing, field, unit, expected, value):
     """What is wrong with the refusal of a value; a pair may be refused for one of its two."""
-    said = told(attrs.evolve(noun, radius_y=None) if field == "radius" else noun, field, value)
+    other = attrs.evolve(thing, radius_y=None) if field == "radius" else thing
+    said = refused_with(other, field, value)
     wanted = [repr(value), *([f" [{unit}]"] if unit else [])]
     wanted += [expected] if value not in NEVER else []
-    is_right = said.startswith(f"{type(noun).__name__}.{field} must ")
+    is_right = said.startswith(f"{type(thing).__name__}.{field} must ")
     return (
         None if is_right and all(w in said for w in wanted) and (unit or "[" not in said) else said
     )
@@ -132,9 +133,9 @@ def test_an_impossible_number_is_named_with_its_field_and_unit():
 
 
 def test_the_list_above_is_complete():
-    """A new number in a noun or an effect of a contact needs its line there."""
-    nouns = {type(row[0]) for row in FIELDS} | {*CONTACT_EFFECTS, ck.HardnessMap, ck.Stack}
-    found = {(kind, name) for kind, name in numbers_of(nouns) if name not in OF_A_SEPARATION}
+    """A new number in a scene object or an effect of a contact needs its line there."""
+    kinds = {type(row[0]) for row in FIELDS} | {*CONTACT_EFFECTS, ck.HardnessMap, ck.Stack}
+    found = {(kind, name) for kind, name in numbers_of(kinds) if name not in OF_A_SEPARATION}
     assert found == named(FIELDS) | ELSEWHERE
 
 
@@ -271,10 +272,10 @@ def test_a_rim_that_no_contact_knows_is_refused():
     )
 
 
-def test_a_noun_cannot_be_changed_in_place():
-    for noun, field in ((STEEL, "young_modulus"), (WINDOW, "width"), (FRICTION, "coefficient")):
+def test_a_scene_object_cannot_be_changed_in_place():
+    for thing, field in ((STEEL, "young_modulus"), (WINDOW, "width"), (FRICTION, "coefficient")):
         with pytest.raises(attrs.exceptions.FrozenInstanceError):
-            setattr(noun, field, 1.0)
+            setattr(thing, field, 1.0)
     with pytest.raises(ValueError, match="read-only"):
         MAP.heights[0, 0] = 1.0
 
@@ -370,7 +371,7 @@ def test_what_an_effect_lacks_is_named_with_its_unit_and_cure(effects, given, pa
     refuses_plan(*parts, effects=effects, **given)
 
 
-def test_all_that_is_lacking_is_said_at_once():
+def test_all_that_is_lacking_is_reported_at_once():
     refuses_plan(
         "HalfSpace needs",
         "HardnessLimit needs hardness [Pa] of 'bare'",
@@ -563,7 +564,7 @@ def test_a_solve_that_gives_up_says_how_far_it_came_and_hands_it_over():
 
 
 @pytest.mark.parametrize("method", ["active-set", "conjugate-gradient", "quasi-newton"])
-def test_a_tolerance_below_round_off_is_told_from_a_lack_of_steps(method):
+def test_a_tolerance_below_round_off_is_distinguished_from_a_lack_of_steps(method):
     """Ten spikes touch; what they sink by is far below the round-off of their heights.
 
     All of them touch, so that round-off always leaves more than the tolerance.

@@ -204,7 +204,7 @@ def test_a_warning_names_the_caller_and_suspects_degrees_celsius():
         ),
     ],
 )
-def test_where_a_law_has_no_meaning_it_says_so(law, temperature, parts):
+def test_where_a_law_has_no_meaning_it_is_reported(law, temperature, parts):
     refuses(lambda: law(temperature), *parts)
 
 

@@ -1,4 +1,4 @@
-"""Every message of the micromirror's nouns, and of what its file may get wrong."""
+"""Every message of the micromirror's scene objects, and of what its file may get wrong."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def scene():
 
 
 @pytest.mark.parametrize(
-    ("noun", "change", "message"),
+    ("thing", "change", "message"),
     [
         (HINGE, {"inertia": 0.0}, "Hinge.inertia must be positive and finite [kg.m2], got 0.0"),
         (HINGE, {"stiffness": -1.0}, "Hinge.stiffness must be positive and finite [N.m/rad]"),
@@ -54,9 +54,9 @@ def scene():
         ),
     ],
 )
-def test_an_impossible_number_is_refused(noun, change, message):
+def test_an_impossible_number_is_refused(thing, change, message):
     with pytest.raises(DescriptionError, match=re.escape(message)):
-        evolve(noun, **change)
+        evolve(thing, **change)
 
 
 def test_the_stop_must_come_before_the_electrode():

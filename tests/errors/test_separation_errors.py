@@ -43,7 +43,7 @@ def refuses_plan(*parts, error=ck.PlanError, **given):
     refuses(lambda: ck.plan(scene(*effects, **given)), *parts, error=error)
 
 
-# Numbers of the nouns -----------------------------------------------------------------------
+# Numbers of scene objects -----------------------------------------------------------------------
 
 ACCURACY = ck.Accuracy()
 LIMIT, SHEAR, BREAK = ck.TensionLimit(tension=1e6), ck.ShearLimit(strength=1e6), ck.Rupture()
@@ -110,9 +110,9 @@ OF_A_CONTACT = {("Accuracy", name) for name in ("grid", "rtol", "max_iterations"
 
 
 def test_the_list_above_is_complete():
-    """A new number in a noun or an effect needs its line there."""
-    nouns = {type(row[0]) for row in FIELDS} | {*SEPARATION_EFFECTS}
-    assert numbers_of(nouns) - OF_A_CONTACT == named(FIELDS)
+    """A new number in a scene object or an effect needs its line there."""
+    kinds = {type(row[0]) for row in FIELDS} | {*SEPARATION_EFFECTS}
+    assert numbers_of(kinds) - OF_A_CONTACT == named(FIELDS)
 
 
 @pytest.mark.parametrize("value", [60, 60.0, 180.0, 3.2])
@@ -197,7 +197,7 @@ def test_a_part_of_another_kind_is_refused_where_it_is_given(build, field):
     refuses(build, field)
 
 
-def test_a_noun_cannot_be_changed_in_place():
+def test_a_scene_object_cannot_be_changed_in_place():
     with pytest.raises(attrs.exceptions.FrozenInstanceError):
         FILM.volume = 1.0
     with pytest.raises(attrs.exceptions.FrozenInstanceError):
@@ -291,7 +291,7 @@ def test_a_film_must_end_somewhere():
         )
 
 
-def test_a_bath_around_a_sphere_has_no_meniscus():
+def test_a_flooded_sphere_has_no_meniscus():
     bath = ck.Interface(upper=ck.Sphere(radius=1e-3), meniscus=attrs.evolve(FILM, volume=None))
     refuses_plan(
         "MeniscusForce needs interface.meniscus.volume [m3]: a flooded sphere has no meniscus",

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact.plan import ContactPlan
 from contactkit.files import contact_results as contact_archive
 from contactkit.studies import run as study_run
 
@@ -46,7 +45,7 @@ def nothing_solved(monkeypatch):
         raise AssertionError("something was solved")
 
     monkeypatch.setattr(study_run, "solve", solve)
-    monkeypatch.setattr(ContactPlan, "prepare", solve)
+    monkeypatch.setattr(study_run, "unprepared_plan", solve)
 
 
 PATHS = {
@@ -162,7 +161,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.slow
-def test_a_worker_that_dies_is_said_to(tmp_path):
+def test_a_worker_that_dies_is_reported(tmp_path):
     import subprocess
     import sys
     from pathlib import Path
@@ -200,7 +199,7 @@ HEIGHTS = ck.Heights(heights=np.zeros((4, 4)), pixel_size=1e-9)
             contact(
                 ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(np.full((4, 4), 1e9)))
             ),
-            ("HardnessMap.values must not be an array", "save_result"),
+            ("HardnessMap.values must not be an array", "result files"),
         ),
     ],
 )

@@ -20,7 +20,7 @@ SPRING, STOP = Spring(stiffness=2e4, preload=15.0), Stop(gap=25e-6, stiffness=1e
 
 
 @pytest.mark.parametrize(
-    ("noun", "change", "message"),
+    ("thing", "change", "message"),
     [
         (COIL, {"resistance": 0.0}, "Coil.resistance must be positive and finite [ohm], got 0.0"),
         (COIL, {"turns": 2.5}, "Coil.turns must be a whole number of at least 1, got 2.5"),
@@ -49,9 +49,9 @@ SPRING, STOP = Spring(stiffness=2e4, preload=15.0), Stop(gap=25e-6, stiffness=1e
         ),
     ],
 )
-def test_an_impossible_number_is_refused(noun, change, message):
+def test_an_impossible_number_is_refused(thing, change, message):
     with pytest.raises(DescriptionError, match=re.escape(message)):
-        evolve(noun, **change)
+        evolve(thing, **change)
 
 
 def test_the_poles_must_lie_beyond_the_stop():

@@ -1,4 +1,4 @@
-"""Adhesion where numbers get hard, and in motions that break, let go and come back."""
+"""Adhesion where numbers get hard, and in motions with rupture, pull-off and re-contact."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def test_energy_is_the_work_of_each_force(name):
     assert kinetic == approx(2e-6 * travel - taken, 1e-6)
 
 
-def test_a_contact_that_let_go_is_there_again_when_the_gap_has_closed():
+def test_a_contact_that_was_pulled_off_is_there_again_when_the_gap_has_closed():
     """A spring pulls the tip back; JKR catches again where it began, not on the way."""
     jkr_tip = SETS["jkr"][0]
     made = ck.plan(
@@ -188,14 +188,14 @@ def test_a_contact_that_let_go_is_there_again_when_the_gap_has_closed():
     assert not flags[0]
     assert not flags[-1]  # caught again
     falling = np.flatnonzero(flags)
-    assert gaps[falling].min() < release  # on the way back it is not there yet
+    assert gaps[falling].min() < release  # on closing it is not there yet
 
 
 def start(made):
     return ck.MotionState(0.0, made.scene.loading.initial_gap, made.scene.loading.initial_speed)
 
 
-def test_a_weak_pull_is_held_by_the_solids_and_says_so():
+def test_a_weak_pull_is_held_by_the_solids_and_is_reported():
     result = run(ck.MeniscusForce(), SOFT, force=1e-9, mass=1e-12)
     assert result.status == "stuck"
     assert "of the meniscus force and adhesion of the solids at" in result.message

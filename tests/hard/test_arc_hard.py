@@ -145,7 +145,7 @@ def test_branch_with_an_open_neck_is_taken_up_to_its_end():
     assert state.force[0] == pytest.approx(0.0, abs=1e-8)  # goes to zero with the neck
 
 
-def test_nearly_a_cylinder_lets_go_very_late():
+def test_nearly_a_cylinder_breaks_very_late():
     near = arc_flat.zero_neck_gap(arc_flat.shape(RIGHT, RIGHT - 1e-6), 1.0)
     assert 1e3 < near < math.inf
     assert arc_flat.zero_neck_gap(arc_flat.shape(RIGHT, RIGHT), 1.0) == math.inf
@@ -170,7 +170,7 @@ def test_zero_neck_of_a_cap_height():
 
 @pytest.mark.parametrize("module", ["capillary.arc.flat", "as_published.printed.common"])
 def test_kernel_runs_in_a_bare_interpreter(module):
-    """As inside an FMU, where there is no numpy: the package is entered below its door."""
+    """As inside an FMU, where there is no numpy: modules are imported without the package."""
     root = Path(contactkit.__file__).parent
     package, _, name = module.rpartition(".")
     code = f"""

@@ -129,8 +129,8 @@ def test_near_right_angles_the_limit_is_near_that_of_the_cylinder():
     lost = math.pi ** (1.0 / 3.0) - limit
     assert np.all(lost > 0.0)
     assert lost / off ** (2.0 / 3.0) == pytest.approx(lost[1] / off[1] ** (2.0 / 3.0), rel=0.05)
-    twin = stability_limit(1.0, RIGHT + off, RIGHT + off).gap
-    assert twin == pytest.approx(math.pi ** (1.0 / 3.0), rel=1e-4)
+    symmetric = stability_limit(1.0, RIGHT + off, RIGHT + off).gap
+    assert symmetric == pytest.approx(math.pi ** (1.0 / 3.0), rel=1e-4)
 
 
 @pytest.mark.parametrize("upper", [30, 60, 120, 179, 180])

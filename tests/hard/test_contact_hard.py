@@ -233,8 +233,8 @@ def test_nanometres_with_gigapascals_take_the_same_steps_as_metres_with_pascals(
 def test_any_grid_will_do(shape, pixel, periodic):
     run = ck.press(rough_map(shape), pixel, SOLID, 1e7, periodic=periodic)
     check(run)
-    capped = ck.press(rough_map(shape), pixel, SOLID, 1e7, hardness=3e7, periodic=periodic)
-    check(capped, 3e7)
+    bounded = ck.press(rough_map(shape), pixel, SOLID, 1e7, hardness=3e7, periodic=periodic)
+    check(bounded, 3e7)
 
 
 @pytest.mark.parametrize(
@@ -357,7 +357,7 @@ def test_iterations_of_the_hardness_that_run_out_say_so_and_hand_over_what_they_
 
 
 @pytest.mark.parametrize("pressure", np.geomspace(1e5, 2e7, 9))
-def test_where_the_literal_rule_jumps_it_is_said_and_never_cycled_through(pressure):
+def test_where_the_literal_rule_jumps_it_is_reported_and_never_cycled_through(pressure):
     """The source's criteria forget the hard top at once: at some loads no hardness agrees."""
     plan = made(ck.HardnessLimit(rule="literal"), lower=JUMPING, pressure=float(pressure))
     run = ck.solve(plan, throw=False)

@@ -110,7 +110,7 @@ def test_a_hundred_thousand_menisci_share_one_volume(film_scene, count, effect):
     one = squeeze.disc_impulse_conserved(filled(1e-8), 1e-8, 1e-7, 0.1)
     assert result.of(ck.ViscousForce).impulse == approx(one / count, 1e-12)
     # A disc of 1 mm or 1e5 of 3 um, 10 nm high: the Laplace force is that of the wetted area, up
-    # to the rim's share of h/r.
+    # to the rim's part, h/r.
     laplace = 0.06 * filled(1e-8) / 1e-16
     assert result["meniscus_force"][0] == approx(laplace, 0.01)
 

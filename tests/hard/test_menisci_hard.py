@@ -140,7 +140,7 @@ def test_far_away_the_force_has_gone_without_an_end():
     assert forces[-1] == 0.0
 
 
-def test_identical_asperities_let_go_together():
+def test_identical_asperities_are_released_together():
     scene = evolve(
         rough(law="identical"),
         loading=ck.ImposedSpeed(initial_gap=0.5e-9, final_gap=50e-9, speed=1e-6),

@@ -44,13 +44,13 @@ def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, share):
     law = ck.plan(scene).film.laws[ck.MeniscusForce]
     gap = share * law.end
     # The curve is asked for 1e-9 of the largest force; near its end the arc pulls with little,
-    # and the printed force is divided by the share that is left.
+    # and the printed force is divided by the fraction that is left.
     rel = 1e-8 + 1e-10 / (1.0 - share)
     assert law.force(gap, 0.0) == pytest.approx(exact(gap, profile), rel=rel, abs=1e-9 * 2e-3)
 
 
 @pytest.mark.parametrize("lower", quick([180.0, 179.9, 90.0], 1))
-def test_slopes_are_right_up_to_where_a_repelling_sphere_lets_go(film_scene, lower):
+def test_slopes_are_right_up_to_where_a_repelling_sphere_is_detached(film_scene, lower):
     """The force ends as no power there, and a single polynomial scattered long before."""
     angles = (math.radians(lower), math.pi)
     scene = film_scene(

@@ -1,4 +1,4 @@
-"""Hard cases of the micromirror: extreme tips, long and short steps, no film, no way out."""
+"""Hard cases of the micromirror: extreme tips, long and short steps, no film, no release."""
 
 from __future__ import annotations
 

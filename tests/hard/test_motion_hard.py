@@ -47,7 +47,7 @@ def run(scene, accuracy=None):
 
 
 @pytest.mark.parametrize("pull", [100.0, 1.0, 0.0, -5.0])
-def test_a_pull_below_the_meniscus_is_stuck_and_says_so(release_scene, pull):
+def test_a_pull_below_the_meniscus_is_stuck_and_reported(release_scene, pull):
     """10 nm under the full disc: 186 N hold against the pull."""
     result = run(release_scene("B", initial_gap=1e-8, force=pull, rise_time=0.0, time_limit=10.0))
     assert result.status in ("stuck", "time limit")
@@ -239,7 +239,7 @@ def cycle(release_scene, share):
 
 
 @pytest.mark.parametrize("share", [0.5, 1.0])
-def test_a_film_that_wets_again_holds_with_its_share(release_scene, share):
+def test_a_film_that_wets_again_holds_with_its_fraction(release_scene, share):
     made, closed = cycle(release_scene, share)
     assert not closed.broken
     assert closed.volume_fraction == share
@@ -252,7 +252,7 @@ def test_a_film_that_wets_again_holds_with_its_share(release_scene, share):
     assert again.n_releases == 2
 
 
-def test_half_a_film_lets_go_sooner(release_scene):
+def test_half_a_film_is_released_sooner(release_scene):
     times = []
     for share in (0.5, 1.0):
         made, closed = cycle(release_scene, share)
@@ -322,9 +322,9 @@ def test_a_start_with_any_speed_keeps_its_momentum_balance(release_scene, speed)
         "B", effects=FORCES, rise_time=0.0, stiffness=0.0, initial_speed=speed, mass=0.02
     )
     state = run(scene).state
-    given_impulse = 40.0 * state.release_time + 0.02 * speed
+    applied_impulse = 40.0 * state.release_time + 0.02 * speed
     kept = 0.02 * state.release_speed + sum(state.impulses.values())
-    assert kept == approx(given_impulse, 1e-7)
+    assert kept == approx(applied_impulse, 1e-7)
     made = ck.plan(scene)
     potential = made.film.laws[ck.ViscousForce].impulse(5e-6, 1e-4)
     assert state.impulses["viscous_impulse"] == approx(potential, 1e-7)
@@ -365,9 +365,9 @@ def test_a_drive_may_rise_at_once_or_in_seconds(release_scene, rise):
     state = result.state
     assert result.status == "released"
     time = state.release_time
-    given_impulse = 40.0 * (time + rise * math.expm1(-time / rise))
+    applied_impulse = 40.0 * (time + rise * math.expm1(-time / rise))
     kept = 0.02 * state.release_speed + sum(state.impulses.values())
-    assert kept == approx(given_impulse, 1e-6)
+    assert kept == approx(applied_impulse, 1e-6)
 
 
 def test_a_spring_stronger_than_the_pull_keeps_the_gap_below_the_release(release_scene):
@@ -486,7 +486,7 @@ def test_a_thrown_mass_is_caught_by_a_limited_film_in_few_steps(film_scene, limi
     assert is_finite(result.state)
 
 
-def test_a_bath_around_a_sphere_may_be_torn_at_once(film_scene):
+def test_a_flooded_sphere_may_be_torn_at_once(film_scene):
     """Exponent 0, a weak liquid and a strong pull: trial steps reach beyond any float."""
     scene = film_scene(
         VISCOUS,
@@ -507,7 +507,7 @@ def test_a_bath_around_a_sphere_may_be_torn_at_once(film_scene):
     "more", [ck.TensionLimit(tension=1e5), ck.ShearLimit(strength=1e5), ck.Rupture(gap=2e-6)]
 )
 def test_without_a_mass_a_film_must_hold_all_the_way(film_scene, more):
-    """Where a limit or a rupture lets go, nothing is left to set the speed: ask for a mass."""
+    """Where a limit or a rupture ends the film, nothing sets the speed: ask for a mass."""
     scene = film_scene(VISCOUS, more, force=10.0, film={"volume": 3e-12})
     with pytest.raises(ck.PlanError, match=r"mass \[kg\]"):
         ck.plan(scene)
@@ -529,8 +529,8 @@ def test_a_pull_that_starts_from_nothing_moves_the_stiffest_film(film_scene, vol
     )
     state = run(scene).state
     # The gap has hardly moved: what was given, the film has taken.
-    given_impulse = 100.0 * (0.01 + 1e-3 * math.expm1(-10.0))
-    assert state.impulses["viscous_impulse"] == approx(given_impulse, 1e-7)
+    applied_impulse = 100.0 * (0.01 + 1e-3 * math.expm1(-10.0))
+    assert state.impulses["viscous_impulse"] == approx(applied_impulse, 1e-7)
 
 
 def test_a_film_may_break_at_the_very_gap_of_release(film_scene):
@@ -554,7 +554,7 @@ def test_a_pull_may_begin_to_grow_late(film_scene, time, rate):
     assert state.n_steps < 200
 
 
-def test_a_mass_that_coasts_comes_to_rest_for_good(film_scene):
+def test_a_mass_in_free_motion_comes_to_rest_for_good(film_scene):
     """In neither many thousand steps nor the smallest of all numbers."""
     film = {"initial_gap": 1e-6, "final_gap": 1e-5, "force": 1.0, "mass": 1e-6}
     made = ck.plan(film_scene(VISCOUS, film={"volume": None}, **film))

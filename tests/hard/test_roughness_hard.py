@@ -104,7 +104,7 @@ def test_a_fine_surface_shares_its_waves_with_a_coarse_one_through_many_tiles():
 
 
 def test_no_two_waves_share_a_random_number():
-    """A white spectrum has no twins, at the seams between tiles neither."""
+    """A white spectrum repeats nothing, at the seams between tiles neither."""
     heights = roughness.self_affine((300, 300), (1.0, 1.0), 1.0, -1.0, math.inf, 2.05, 1)
     waves = np.fft.rfft2(heights, norm="forward")[:, 1:145].ravel()
     waves = waves[np.abs(waves) > 1e-9]

@@ -103,7 +103,7 @@ def test_wetted_upright_and_repelled_exactly(name):
 
 
 @pytest.mark.parametrize("other", [60, 120, 179])
-def test_a_body_that_repels_lets_go_and_leaves_the_cap(other):
+def test_a_body_that_repels_is_detached_and_leaves_the_cap(other):
     case = BRIDGES[f"detach_180_{other}"]
     limit = stability_limit(1.0, math.pi, other * DEG)
     assert float(limit.gap) == approx(case["D_limit"], 1e-8)

@@ -207,7 +207,7 @@ def test_what_cannot_be_asked_is_refused(solver, ask, field):
     assert error.value.field == field
 
 
-def test_the_fallback_finishes_and_says_so(solver, monkeypatch):
+def test_the_fallback_finishes_and_is_reported(solver, monkeypatch):
     """Stop the fast method after two steps: the safeguarded one must reach the same answer."""
     best = solver.solve(HEIGHTS, mean_pressure=1e9)
 

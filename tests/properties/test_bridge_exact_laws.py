@@ -20,7 +20,7 @@ bends = st.sampled_from([(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.3, 1.0)])
 
 
 def case_of(lower, upper, volume, bend, share):
-    """Arguments of a bridge at a share of its limit."""
+    """Arguments of a bridge at a fraction of its limit."""
     assume(abs(lower - upper) < 2.6)
     fixed = (volume, lower, upper, *bend)
     return share * float(stability_limit(*fixed).gap), fixed

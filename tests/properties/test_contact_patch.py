@@ -1,4 +1,4 @@
-"""The operator on a patch of a lone map, and padded columns taken strip by strip."""
+"""The operator on a patch of an isolated contact, and padded columns taken strip by strip."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def half_space(shape, pixel_size):
 
 
 def influence(shape, pixel_size):
-    """Displacement of every pixel of a lone map under unit pressure on the first."""
+    """Displacement of every pixel of an isolated contact under unit pressure on the first."""
     unit = np.zeros(shape)
     unit[0, 0] = 1.0
     return Convolution(shape, half_space(shape, pixel_size), periodic=False)(unit)

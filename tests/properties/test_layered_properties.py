@@ -173,7 +173,7 @@ def test_default_planes_miss_no_interface_and_repeat_none(stack, deepest, count)
         assert [side for d, side in zip(depths, sides, strict=True) if d == z] == ["-", "+"]
 
 
-def test_a_plane_on_an_interface_up_to_rounding_is_on_it():
+def test_a_plane_on_an_interface_up_to_round_off_is_on_it():
     (above, below) = locate([0.3, 0.3], "-+", [0.1, 0.2])
     assert (above[2], below[2]) == (1, 2)
     assert above[0] == below[0] == 0.1 + 0.2

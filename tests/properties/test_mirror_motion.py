@@ -1,4 +1,4 @@
-"""Mirror and tips: energy, momentum, and the coupling against one system by another method."""
+"""Mirror and tips: energy, momentum, and the coupling against a monolithic model."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def dry(scene):
 
 
 def lossless(scene):
-    """The mirror let go by 0 V, and nothing that damps it."""
+    """The mirror released by 0 V, and nothing that damps it."""
     mirror = scene.first_flip(None)
     wave = evolve(mirror.waveform, address_voltage=0.0)
     hinge, tips = evolve(mirror.hinge, damping=0.0), evolve(mirror.tips, damping=0.0)
@@ -55,7 +55,7 @@ def stored(made, state, height):
 
 
 @pytest.mark.parametrize("law", ["wet", "dry"])
-def test_work_on_the_root_is_stored_or_spent(law, request):
+def test_work_on_the_root_is_stored_or_dissipated(law, request):
     """A root that rises steadily: the impulse times its speed is all the work there is."""
     made, speed, span = request.getfixturevalue(law), 0.2, 6e-7
     state, height = landed_start(made), -1e-8
@@ -63,9 +63,9 @@ def test_work_on_the_root_is_stored_or_spent(law, request):
     state = advance_tip(made, 0.0, state, Root(height, speed), span)
     assert state.free
     left = stored(made, state, height + speed * span)
-    spent = separation_energy(made) + state.motion.dissipated_work
-    assert speed * state.impulse == pytest.approx(left - before + spent, rel=2e-5)
-    assert spent > 1e-3 * left
+    used = separation_energy(made) + state.motion.dissipated_work
+    assert speed * state.impulse == pytest.approx(left - before + used, rel=2e-5)
+    assert used > 1e-3 * left
 
 
 def test_momentum_of_a_flight(wet):
@@ -134,7 +134,7 @@ def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
 
 
 def test_without_losses_energy_stays(scene, wet):
-    """What bent tips and hinge stored is motion, or was spent on the menisci."""
+    """What bent tips and hinge stored is motion, or was dissipated by the menisci."""
     mirror, loading, n = lossless(scene), scene.loading, scene.mirror.tips.per_side
     tips, tilt = scene.tips(wet), scene.start[0]
 
@@ -149,10 +149,10 @@ def test_without_losses_energy_stays(scene, wet):
     found = couple(mirror, tips, loading.stiffness, scene.start, 1.5e-6, 5e-9)
     state = tips[0].state
     assert state.free
-    spent = n * (separation_energy(wet) + state.motion.dissipated_work)
+    used = n * (separation_energy(wet) + state.motion.dissipated_work)
     after = energy(found["tilt"][-1], found["rate"][-1])
-    assert after + spent == pytest.approx(before, rel=1e-7)
-    assert spent > 0.01 * before
+    assert after + used == pytest.approx(before, rel=1e-7)
+    assert used > 0.01 * before
 
 
 def test_with_voltage_and_damping_it_balances_too(scene, dry):
@@ -182,7 +182,7 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
     assert energy(-1) - energy(0) + lost == pytest.approx(work, rel=5e-3)
 
 
-def test_the_coupling_converges_to_one_system(scene, wet):
+def test_the_coupling_converges_to_the_monolithic_model(scene, wet):
     """Third order in the communication step, on the way to one method's answer by another's."""
     mirror = scene.first_flip(PULSE)
     whole = simulate_monolithic(mirror, wet, scene.start, 8.4e-7, rtol=1e-10)

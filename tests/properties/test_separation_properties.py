@@ -263,10 +263,10 @@ def test_momentum_is_conserved_by_every_motion(gap, viscosity, force, rise):
     assume(force > 2.0 * holding)
     state = released(film, *LIMITED, force=force, mass=0.02, rise_time=rise)
     time = state.release_time
-    given_impulse = force * (time + (rise * math.expm1(-time / rise) if rise else 0.0))
+    applied_impulse = force * (time + (rise * math.expm1(-time / rise) if rise else 0.0))
     kept = 0.02 * state.release_speed + sum(state.impulses.values())
     # Some hundred steps of 1e-8, of which those over the onset of a limit are estimated less well.
-    assert kept == approx(given_impulse, 1e-5)
+    assert kept == approx(applied_impulse, 1e-5)
 
 
 # Files --------------------------------------------------------------------------------------

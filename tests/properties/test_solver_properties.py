@@ -149,10 +149,12 @@ def test_area_grows_with_the_load_and_a_bound_makes_it_larger():
     solver = ContactSolver((64, 64), (1.0, 1.0), half_space, True, fast=False)
     loads = (0.005, 0.01, 0.03, 0.1)
     elastic = [np.count_nonzero(solver.solve(h, mean_pressure=p).pressure) for p in loads]
-    capped = [np.count_nonzero(solver.solve(h, mean_pressure=p, bound=0.3).pressure) for p in loads]
+    bounded = [
+        np.count_nonzero(solver.solve(h, mean_pressure=p, bound=0.3).pressure) for p in loads
+    ]
     assert np.all(np.diff(elastic) > 0)
-    assert all(c >= e for c, e in zip(capped, elastic, strict=True))
-    assert capped[-1] > elastic[-1]
+    assert all(c >= e for c, e in zip(bounded, elastic, strict=True))
+    assert bounded[-1] > elastic[-1]
 
 
 def test_the_number_of_applications_does_not_grow_with_the_map():
@@ -170,9 +172,9 @@ def test_the_number_of_applications_does_not_grow_with_the_map():
         assert not s.fallback
         counts.append(s.n_applications)
     assert counts[-1] <= 45
-    capped = solver.solve(h / h.std() * 1e-2, mean_pressure=5e-3, bound=0.5 * s.pressure.max())
-    assert capped.n_applications <= 2 * counts[-1]
-    assert capped.converged
+    bounded = solver.solve(h / h.std() * 1e-2, mean_pressure=5e-3, bound=0.5 * s.pressure.max())
+    assert bounded.n_applications <= 2 * counts[-1]
+    assert bounded.converged
     assert s.memory_arrays <= 12.0
 
 

@@ -40,7 +40,7 @@ ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")
 MOST_LINES_OF_A_FUNCTION = 75  # as the formatter lays them out
 
-NOUNS = [
+SCENE_OBJECTS = [
     ck.Accuracy,
     ck.AsperityPopulation,
     ck.Body,
@@ -72,7 +72,7 @@ NOUNS = [
     ck.Wave,
     ck.Window,
 ]
-DESCRIBED = [*NOUNS, *ck.EFFECTS, *LAWS]
+DESCRIBED = [*SCENE_OBJECTS, *ck.EFFECTS, *LAWS]
 
 
 def python_files():
@@ -105,7 +105,7 @@ def has_number(annotation):
 
 
 def resolved(kind):
-    """Fields of a noun with their types; attrs resolves these once, for the converter too."""
+    """Fields of a class with their types; attrs resolves these once, for the converter too."""
     # What modules import for checkers alone; a map of numbers is an Array, with its unit.
     names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect}
     names["Map"] = typing.Any
@@ -128,13 +128,13 @@ def test_every_number_carries_its_unit():
     assert offenders({kind.__name__: without_unit(kind) for kind in DESCRIBED}) == {}
 
 
-def test_every_noun_is_described():
+def test_every_scene_object_is_described():
     """Every public class with fields is in the list above."""
     public = [getattr(ck, name) for name in ck.__all__]
-    nouns = {kind for kind in public if isinstance(kind, type) and attrs.has(kind)}
+    scene_objects = {kind for kind in public if isinstance(kind, type) and attrs.has(kind)}
     # While running, not described.
     made = {ck.Plan, ck.ContactPlan, ck.SlidingPlan, ck.MotionState, ck.Pull}
-    assert nouns - made <= {*DESCRIBED}
+    assert scene_objects - made <= {*DESCRIBED}
 
 
 def test_every_unit_is_of_the_international_system():
@@ -378,7 +378,7 @@ def room(name):
     return ".".join(name.split(".")[:2])
 
 
-@pytest.mark.filterwarnings("default")  # an example may show a warning, and says so in its text
+@pytest.mark.filterwarnings("default")  # an example may show a warning, and names it in its text
 @pytest.mark.parametrize("place", sorted({room(name) for name in module_names()}))
 def test_the_examples_in_docstrings_hold(place, capsys):
     failed = {}

@@ -118,7 +118,7 @@ def test_an_fmu_is_built_from_a_scene(scene, tmp_path, capsys):
         (["fmu", "build", "stiction-mas", "--out", "x.fmu"], r"stiction-mas"),
     ],
 )
-def test_mistakes_are_told_in_one_line_and_leave_no_file(
+def test_mistakes_are_reported_in_one_line_and_leave_no_file(
     arguments, message, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)

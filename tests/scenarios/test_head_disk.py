@@ -157,7 +157,7 @@ def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tm
     assert {path.name for path in out.iterdir()} == {"cost.png", "cost.csv"}
 
 
-def test_a_wet_contact_has_no_fmu_and_says_so(scene_file, tmp_path, capsys):
+def test_a_wet_contact_has_no_fmu_and_is_refused(scene_file, tmp_path, capsys):
     assert main(["fmu", "build", str(scene_file), "--out", str(tmp_path / "a.fmu")]) == 2
     assert "leave out film-meniscus" in capsys.readouterr().err
     assert not list(tmp_path.glob("*.fmu"))

@@ -1,4 +1,4 @@
-"""The fuel injector: the story the demo tells, in numbers."""
+"""The fuel injector: what the demo reports, in numbers."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_without_it_the_cold_spool_is_not_released_within_the_pulse(short, runs)
 
 
 @pytest.mark.slow
-def test_the_fmu_pair_agrees_with_one_system_solved_by_another_code(short, runs):
+def test_the_fmu_pair_agrees_with_the_monolithic_model(short, runs):
     """At 5 us the coupling is second order and 3e-6 off."""
     for run in runs:
         error = run_error(run, cycles(run, short.scene))

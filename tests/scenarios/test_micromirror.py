@@ -1,4 +1,4 @@
-"""The micromirror: the story its run tells, in numbers."""
+"""The micromirror: what its run reports, in numbers."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_the_condensed_volume_has_the_pressure_of_the_vapour(device, humidity):
     made, held = ck.plan(scene), adhesion(tip, humidity)
     gap = tip.loading.initial_gap
     assert made.film.static_force(gap) == pytest.approx(held.meniscus_force, rel=1e-6)
-    # Kept at its pressure it lets go sooner than with its volume, and with less work.
+    # Kept at its pressure it breaks sooner than with its volume, and with less work.
     assert made.film.end < held.break_gap
     assert made.film.static_force(2.0 * gap) < held.meniscus_force
 
@@ -126,7 +126,7 @@ def test_it_flips_over_and_back(short, run):
 
 
 @pytest.mark.slow
-def test_the_fmus_agree_with_one_system(short, run):
+def test_the_fmus_agree_with_the_monolithic_model(short, run):
     free, error = run_errors(short.scene, run)
     assert 1e-6 < free < 1.6e-6
     assert error < 2e-3
@@ -135,7 +135,7 @@ def test_the_fmus_agree_with_one_system(short, run):
 
 
 @pytest.mark.slow
-def test_the_report_tells_and_draws(short, run, tmp_path):
+def test_the_report_and_its_figures(short, run, tmp_path):
     made = report(short.scene, run, tmp_path, lambda share: None)
     names = {path.name for path in made.files}
     assert names == {

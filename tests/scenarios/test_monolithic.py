@@ -178,7 +178,7 @@ def test_it_is_the_injector_of_the_source(firing):
     assert 0.03 < 18e-6 / result.cycles[0].release_time < 0.05
 
 
-def test_energy_of_the_whole_system_is_conserved():
+def test_energy_of_the_monolithic_model_is_conserved():
     """Spool and film between leaving the end cap and meeting the stop."""
     scene, valve = injector(80.0)
     result = simulate(plan(scene), valve, 1.46e-3, rtol=1e-10)

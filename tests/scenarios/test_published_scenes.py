@@ -105,7 +105,7 @@ def test_on_a_sphere_the_printed_viscous_force_is_the_conserving_one():
     assert found.value == pytest.approx(found.corrected, rel=1e-12)
 
 
-def test_a_film_in_a_bath_keeps_its_radius_rightly():
+def test_a_flooded_film_keeps_its_radius_rightly():
     face = ck.Flat(radius=3e-5)
     (found,) = run(PRINTED, face=face, volume=None, time=1e-3).errata
     assert found.corrected == found.value
@@ -122,7 +122,7 @@ def test_the_closed_neck_stands_beside_the_exact_limit():
     assert found["zero neck"].relative_error > 1.0
 
 
-def test_where_no_bridge_is_stable_it_says_so():
+def test_where_no_bridge_is_stable_it_is_reported():
     """Printed forces go on where every exact bridge has broken."""
     (found,) = run(PUBLISHED, volume=1e-19).errata
     assert found.corrected is None

@@ -49,7 +49,7 @@ def test_python_runs(page, elsewhere, capsys):
             exec(compile(block, f"{page.name}, block {number}", "exec"), names)
 
 
-def test_the_readme_tells_what_its_example_prints(elsewhere, capsys):
+def test_the_readme_shows_what_its_example_prints(elsewhere, capsys):
     block, _ = blocks(ROOT / "README.md", "python")
     assert len([line for line in block.splitlines() if line.strip()]) <= 10
     with warnings.catch_warnings(record=True) as caught:
@@ -58,16 +58,16 @@ def test_the_readme_tells_what_its_example_prints(elsewhere, capsys):
     assert {w.category for w in caught} == {ck.ValidityWarning}
     assert len(caught) == 2  # "two models are outside their range"
     assert any("fingers" in str(w.message) for w in caught)
-    told = re.search(r"`(released after [^`]*)`", (ROOT / "README.md").read_text("utf-8"))[1]
-    assert told in capsys.readouterr().out
+    shown = re.search(r"`(released after [^`]*)`", (ROOT / "README.md").read_text("utf-8"))[1]
+    assert shown in capsys.readouterr().out
 
 
-def test_the_readme_tells_what_pressing_a_map_prints(elsewhere, capsys):
+def test_the_readme_shows_what_pressing_a_map_prints(elsewhere, capsys):
     _, block = blocks(ROOT / "README.md", "python")
     assert len([line for line in block.splitlines() if line.strip()]) <= 8
     exec(block, {})
-    told = re.search(r"`(converged: [^`]*)`", (ROOT / "README.md").read_text("utf-8"))[1]
-    status, _, numbers = told.partition(" ... ")
+    shown = re.search(r"`(converged: [^`]*)`", (ROOT / "README.md").read_text("utf-8"))[1]
+    status, _, numbers = shown.partition(" ... ")
     printed = capsys.readouterr().out
     assert printed.startswith(status)
     assert printed.endswith(f"{numbers}\n")

@@ -147,7 +147,7 @@ def test_it_starts_without_a_kink(ball, rough):
             assert sides[0] == pytest.approx(sides[1], rel=1e-6)
 
 
-def test_beyond_the_tables_it_says_so(ball):
+def test_beyond_the_tables_it_is_refused(ball):
     with pytest.raises(ck.InfeasibleError, match=r"beyond the tables.*larger loads"):
         ball.at(1.01 * ball.max_approach)
     point = ball.at(2.0 * ball.max_approach, beyond=True)
@@ -163,7 +163,7 @@ def test_beyond_the_tables_it_says_so(ball):
 
 
 def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
-    """Solved by approaches where the tables come from pressures, and ways out between theirs.
+    """Solved by approaches, tables by pressures; unloading curves between those of the tables.
 
     The first way lies where the contact is a handful of pixels.
     """
@@ -180,12 +180,12 @@ def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
             assert found == pytest.approx(force, abs=share)
 
 
-def test_the_work_lost_is_the_hardness_times_the_dents(rough):
-    """The tables know only forces over approaches; the dents only depths."""
+def test_the_dissipated_work_is_the_hardness_times_the_plastic_volume(rough):
+    """The tables know only forces over approaches; the plastic volume only depths."""
     for one in rough.unloading[1:]:
         lost = rough.dissipated_work(one.max_approach)
-        dents = HARDNESS * one.plastic_volume
-        assert lost == pytest.approx(dents, rel=0.05, abs=0.01 * rough.work(one.max_approach))
+        plastic = HARDNESS * one.plastic_volume
+        assert lost == pytest.approx(plastic, rel=0.05, abs=0.01 * rough.work(one.max_approach))
     assert rough.dissipated_work(rough.max_approach) > 0.02 * rough.work(rough.max_approach)
 
 
@@ -201,7 +201,7 @@ def test_every_way_rises_and_lies_below_the_first_loading(rough, share, one, oth
 
 
 @pytest.mark.parametrize("share", [0.3, 0.62, 0.9, 1.0])
-def test_a_loop_is_closed_and_its_area_is_the_work_lost(rough, share):
+def test_a_loop_is_closed_and_its_area_is_the_dissipated_work(rough, share):
     largest = share * rough.max_approach
     down = np.linspace(0.0, largest, 4001)
     out = np.array([rough.at(d, largest).force for d in down])
@@ -218,8 +218,8 @@ def test_a_loop_is_closed_and_its_area_is_the_work_lost(rough, share):
 @pytest.mark.parametrize(
     "reach", quick([0.0, 1e-6, 1e-3, 0.03, 0.3, 0.5, 0.7, 0.9, 1.0], 0, 2, 5, 8)
 )
-def test_near_yield_too_the_work_lost_is_the_area_of_the_loop(rough, reach):
-    """There the mixed way out is cut off at the first curve, along much of its length."""
+def test_near_yield_too_the_dissipated_work_is_the_area_of_the_loop(rough, reach):
+    """There the mixed unloading curve is cut off at the first curve, along much of its length."""
     limit, one = rough.elastic_limit, rough.unloading[1].max_approach
     largest = limit + reach * (one - limit)
     ends = {*rough.approach, rough.residual(largest), *np.linspace(0.0, largest, 8001)}
@@ -279,7 +279,7 @@ def test_near_the_hardness_nothing_elastic_is_left_but_the_tables_stand():
         HARDNESS * last.plastic_volume, rel=0.1
     )
     small = curve.at(0.5 * curve.approach[0] * 0.9, 0.5 * curve.approach[0])
-    assert small.branch is Branch.UNLOADING  # the first way out serves all below it
+    assert small.branch is Branch.UNLOADING  # the first unloading curve serves all below it
     with pytest.raises(ck.InfeasibleError, match="hardness"):
         ck.load_displacement(scene(ROUGH, ck.Pressing(pressure=HARDNESS), limit), accuracy=GRID)
 
@@ -290,7 +290,7 @@ def test_faces_without_an_approach_of_their_own_are_refused():
         ck.load_displacement(flat, points=4, accuracy=ck.Accuracy(grid=16))
 
 
-def test_a_hardness_that_grows_with_the_load_and_forgets_its_dents_is_refused():
+def test_a_hardness_that_grows_with_the_load_and_forgets_its_residual_indentations_is_refused():
     soft = ck.Material(name="soft", young_modulus=70e9, poisson_ratio=0.33, hardness=0.9e9)
     hard = ck.Material(name="hard", young_modulus=140e9, poisson_ratio=0.25, hardness=15e9)
     stack = ck.Stack(substrate=hard, layers=(ck.Layer(material=soft, thickness=50e-9),))
@@ -373,10 +373,10 @@ def test_springs_in_series_carry_one_force(rough, stiffness):
 
 
 @pytest.mark.parametrize("stiffness", [0.0, 3e6])
-def test_a_blow_is_what_a_motion_gives(rough, stiffness):
+def test_an_impact_is_what_a_motion_gives(rough, stiffness):
     """Energy, against stepping the equation of motion in and out."""
     mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.max_approach) / 0.5e-6)
-    blow = impact(rough, mass, speed, stiffness=stiffness)
+    struck = impact(rough, mass, speed, stiffness=stiffness)
     position, velocity, largest, dt = 0.0, speed, 0.0, 5e-4 * rough.max_approach / speed
     peak, force = 0.0, 0.0
     while velocity > 0.0 or force > 0.0:
@@ -386,13 +386,13 @@ def test_a_blow_is_what_a_motion_gives(rough, stiffness):
         force, largest = point.force, max(largest, faces)
         velocity -= 0.5 * dt * force / mass
         peak = max(peak, force)
-    assert blow.force == pytest.approx(peak, rel=1e-3)
-    assert blow.approach == pytest.approx(largest, rel=1e-3)
-    assert blow.restitution == pytest.approx(-velocity / speed, abs=2e-4)
-    assert blow.dissipated_work == pytest.approx(rough.dissipated_work(largest), rel=1e-2)
+    assert struck.force == pytest.approx(peak, rel=1e-3)
+    assert struck.approach == pytest.approx(largest, rel=1e-3)
+    assert struck.restitution == pytest.approx(-velocity / speed, abs=2e-4)
+    assert struck.dissipated_work == pytest.approx(rough.dissipated_work(largest), rel=1e-2)
 
 
-def test_a_second_blow_of_the_same_speed_loses_nothing(rough):
+def test_a_second_impact_of_the_same_speed_loses_nothing(rough):
     mass, speed = 1e-6, math.sqrt(0.6 * rough.work(rough.max_approach) / 0.5e-6)
     first = impact(rough, mass, speed)
     again = impact(rough, mass, 0.9 * first.restitution * speed, max_approach=first.approach)
@@ -406,7 +406,7 @@ def test_a_second_blow_of_the_same_speed_loses_nothing(rough):
         impact(rough, mass, 0.0)
 
 
-def test_the_apex_of_a_mirror_tip_gives_back_what_it_did_not_dent():
+def test_the_apex_of_a_mirror_tip_gives_back_what_it_did_not_dissipate():
     tip = open_scene("micromirror").scene.tip
     faces = tip_faces(tip, 2e-9, accuracy=ck.Accuracy(grid=48))
     modulus, radius = 70e9 / (2.0 * (1.0 - 0.33**2)), 1e-7

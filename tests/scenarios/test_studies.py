@@ -192,7 +192,7 @@ def test_a_point_without_an_answer_stops_nothing():
     assert "point 1: load" in study.table()
 
 
-def test_a_solve_that_gives_up_says_so(film_scene):
+def test_a_solve_that_gives_up_is_reported(film_scene):
     scene = film_scene(ck.ViscousForce(), force=1.0, mass=1e-3)
     study = ck.study(scene, {"accuracy.max_steps": [3, 100_000]}, ck.Accuracy.draft)
     assert [p.status for p in study.points] == ["not converged", "released"]
@@ -249,7 +249,7 @@ def test_a_finished_point_is_not_solved_again(tmp_path):
     assert same(again, study, rtol=0.0)
 
 
-def test_the_store_tells_scenes_and_settings_apart(tmp_path):
+def test_the_store_distinguishes_scenes_and_settings(tmp_path):
     vary = {"loading.pressure": PRESSURES[:1]}
     ck.study(contact(), vary, ACCURACY, store=tmp_path)
     finer = ck.study(contact(), vary, ck.Accuracy(grid=32, rtol=1e-8), store=tmp_path)
@@ -270,7 +270,7 @@ def test_the_store_sees_that_a_height_map_has_changed(tmp_path):
     assert ck.study(scene, vary, accuracy, store=store).n_solved == 1
 
 
-def test_arrays_in_hand_are_told_apart_by_their_content(tmp_path):
+def test_arrays_in_hand_are_distinguished_by_their_content(tmp_path):
     heights = 1e-9 * np.random.default_rng(2).standard_normal((16, 16))
     vary, accuracy = {"loading.pressure": [1e8]}, ck.Accuracy(rtol=1e-6)
 

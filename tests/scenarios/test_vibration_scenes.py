@@ -58,7 +58,7 @@ def test_a_newtonian_film_keeps_its_impulse(amplitude, frequency, body):
 
 
 def test_a_cavitating_film_pushes_on_the_mean():
-    """Tension is capped on opening, pressure on closing is not: the vibration is rectified."""
+    """Tension is limited on opening, pressure on closing is not: the vibration is rectified."""
     calm = run(VISCOUS, TENSION).scalars()
     assert calm["viscous_impulse"][0] > 0.0
     means = [
@@ -118,7 +118,7 @@ def test_cycles_left_out_are_bridged():
 
 @pytest.mark.slow
 def test_a_fast_vibration_late_in_a_long_run_is_computed_too():
-    """After 500 s a double tells 1e-13 s apart, of a period of 2.5e-6 s."""
+    """After 500 s a double resolves 1e-13 s, of a period of 2.5e-6 s."""
     loading = {"vibration": shaken(1e-6, 4e5), "accuracy": ck.Accuracy(points=20)}
     slow, slower = (run(VISCOUS, TENSION, speed=s, **loading) for s in (1e-7, 1e-8))
     assert slow.work.n_evaluations == slower.work.n_evaluations
@@ -163,7 +163,7 @@ def test_the_curves_belong_together():
 
 
 def test_adhesive_solids_are_not_shaken():
-    """A contact that lets go and catches in each cycle is not followed."""
+    """A contact with pull-off and re-contact in each cycle is not followed."""
     sticky = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
     sphere = ck.Sphere(radius=0.1)
     near = scene(VISCOUS, sticky, body=sphere, initial_gap=5e-8, vibration=shaken(1e-8))

@@ -55,7 +55,7 @@ def test_a_sphere_on_a_half_space_is_a_pile_of_discs(gap):
     assert van_der_waals.hamaker_sphere_force(gap, A, 0.0, 1.0 / radius) == approx(summed, 1e-9)
 
 
-def test_derjaguins_force_is_off_by_the_share_of_the_gap():
+def test_derjaguins_force_is_off_by_the_ratio_of_gap_and_radius():
     for share in (1e-6, 1e-3, 1e-2):
         near = van_der_waals.sphere_force(share, A, 1.0)
         whole = van_der_waals.hamaker_sphere_force(share, A, 0.0, 1.0)
@@ -139,8 +139,8 @@ def work_to(a_end, transition):
 def test_the_work_of_closing_is_the_energy_of_jkr(transition):
     """No energy is lost on the way: w stands in the equations only through the ring.
 
-    Whatever the ring, a wide contact has the energy of JKR, of which w pi a^2 is a share; what is
-    left out is of the width of the ring.
+    Whatever the ring, a wide contact has the energy of JKR, of which w pi a^2 is a fraction; what
+    is left out is of the width of the ring.
     """
     off = []
     for a in (3.0, 10.0):

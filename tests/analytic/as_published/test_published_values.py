@@ -116,7 +116,7 @@ def test_sphere_3_12_beside_the_exact_bridge(row):
 
 @pytest.mark.parametrize("row", PRINTED["sphere_rows"], ids=lambda r: f"s0={r['s0_nm']}nm")
 def test_break_distance_of_section_3_2_3(row):
-    """45 to 104 nm for a closed neck, where the exact bridge lets go at 13 to 28 nm."""
+    """45 to 104 nm for a closed neck, where the exact bridge breaks at 13 to 28 nm."""
     found = ck.published(
         "zero neck",
         volume=row["V_arc_nm3"] * 1e-27,

@@ -137,7 +137,7 @@ def test_volume_between_a_sphere_and_a_flat_by_integration(lower, upper):
     assert height == pytest.approx(sphere, rel=1e-13)  # the arc ends on the sphere
 
 
-BANDS = {  # largest relative error of the force, up to a share of the exact stability limit
+BANDS = {  # largest relative error of the force, up to a fraction of the exact stability limit
     "flat_60_60_D0.02": 0.007,
     "flat_60_60_D1": 0.07,
     "flat_0_0_D0.5": 0.07,

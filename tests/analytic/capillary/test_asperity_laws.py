@@ -100,7 +100,7 @@ def test_deep_in_the_tail_and_far_below_it_nothing_is_lost():
 
 @pytest.mark.parametrize("height", [1e-16, 1e-12, 1e-9, 17e-9])
 @pytest.mark.parametrize("separation", [-3e-9, 0.0, 5e-9])
-def test_the_cross_cut_is_the_share_of_a_normal_surface(separation, height):
+def test_the_cross_cut_is_the_fraction_of_a_normal_surface(separation, height):
     found = laws.cross_cut(separation, 1e-9, 1.0, 0.072, 1.0, height)
     x = np.polynomial.legendre.leggauss(200)
     z = separation - 0.5 * height * (x[0] + 1.0)
@@ -125,7 +125,7 @@ def test_peaks_of_a_gaussian_surface_are_counted():
     assert found == pytest.approx(laws.gaussian_peaks(2.5, size**2, m0, m2), rel=0.2)
 
 
-# The noun -----------------------------------------------------------------------------------
+# Scene objects -----------------------------------------------------------------------------------
 
 
 def test_a_sphere_split_into_equal_ones_fills_the_same_square():

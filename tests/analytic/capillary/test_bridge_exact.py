@@ -97,7 +97,7 @@ def test_limits_between_flats(case):
 
 
 @pytest.mark.parametrize("case", named("exact_special", ["D_limit"]))
-def test_a_drop_is_left_when_a_repelling_body_lets_go(case):
+def test_a_drop_is_left_when_a_repelling_body_is_detached(case):
     limit = stability_limit(case["V"], *fixed(case))
     assert float(limit.gap) == pytest.approx(case["D_limit"], rel=1e-12)
     assert float(limit.force) == float(limit.radius_lower) == 0.0

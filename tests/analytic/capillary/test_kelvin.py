@@ -86,7 +86,7 @@ def test_its_force_is_pressure_times_the_area_of_a_parabola():
     assert found == pytest.approx(-pressure * area, rel=2e-5)
 
 
-# The nouns ----------------------------------------------------------------------------------
+# Scene objects ----------------------------------------------------------------------------------
 
 
 def test_a_meniscus_of_a_humidity_has_the_pressure_of_its_own_liquid():

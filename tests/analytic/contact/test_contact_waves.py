@@ -121,7 +121,7 @@ def test_a_wave_along_y_is_a_wave_along_x():
 
 @pytest.mark.parametrize("solid", [UNIT, COATED], ids=["half-space", "layered"])
 @pytest.mark.parametrize("both", [False, True], ids=["one wave", "product"])
-def test_full_contact_is_the_closed_form_to_rounding(solid, both):
+def test_full_contact_is_the_closed_form_to_round_off(solid, both):
     wavenumber = 2.0 * math.pi * (math.sqrt(2.0) if both else 1.0)
     moduli = MODULI if solid is COATED else ([UNIT.young_modulus], [NU], [])
     full = layered_wave.full_contact_pressure(1.0, wavenumber, *moduli)

@@ -1,4 +1,4 @@
-"""The contact solver against closed forms: waves, a ball, a punch, full contact, a capped wave."""
+"""The contact solver against closed forms: waves, a ball, a punch, full contact, bounds."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def test_flat_map_periodic_and_free():
     assert s.pressure[0, 0] > 5.0 * s.pressure[n // 2, n // 2]
 
 
-def test_capped_wave_matches_an_independent_solver():
+def test_a_wave_with_a_pressure_bound_matches_an_independent_solver():
     """The bound changes the elastic answer elsewhere too: compare with L-BFGS-B and with CG."""
     n = 16
     rng = np.random.default_rng(3)

@@ -193,7 +193,7 @@ def test_the_impulse_of_a_sphere_full_to_its_rim_is_the_integral_of_its_force(ri
     )
 
 
-def test_a_bath_around_a_sphere_takes_the_logarithm_of_the_gaps():
+def test_a_flooded_sphere_takes_the_logarithm_of_the_gaps():
     impulse = squeeze.sphere_impulse_flooded(5e-3, math.inf, 1e-9, 1e-6, OIL)
     assert impulse == approx(6.0 * math.pi * OIL * 5e-3**2 * math.log(1e3), CLOSED)
 
@@ -211,7 +211,7 @@ def test_a_film_that_draws_in_takes_half_the_impulse_of_one_that_does_not(ratio)
     assert flooded / conserving == approx(2.0 / (1.0 + ratio**-2), CLOSED)
 
 
-def test_a_film_wide_against_its_height_makes_a_sphere_stand_in_a_bath():
+def test_a_film_wide_against_its_height_is_that_of_a_flooded_sphere():
     """What is left out is 2 D/H of the force."""
     force = squeeze.sphere_force(5e-3, 1e-9, 1e-2, 1e-3, OIL)
     assert force == approx(squeeze.sphere_force(5e-3, 1e-9, math.inf, 1e-3, OIL), 3e-7)

@@ -82,7 +82,7 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
         (0.05e-6, 8192, 0.96),
     ],
 )
-def test_the_cutoff_takes_the_share_of_the_notes(beta, n, share):
+def test_the_cutoff_takes_the_fraction_of_the_notes(beta, n, share):
     pixel, cutoff = (SCAN / 256, SCAN / 256), 2.0 * SCAN / n
     found = roughness.resolved_variance((256, 256), pixel, beta, cutoff)
     assert 1.0 - found.cutoff == pytest.approx(share, abs=6e-3)

@@ -11,7 +11,7 @@ import contactkit as ck
 from contactkit.lubrication import constant_force
 from contactkit.lubrication import squeeze_film as squeeze
 
-# The printed injector is outside the range of its models, and says so.
+# The printed injector is outside the range of its models, and reports it.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
 VOLUME, START, END, OIL = 6.333843488718721e-11, 2e-6, 20e-6, 0.1
@@ -145,7 +145,7 @@ def injector(film_scene, *effects, volume=VOLUME, face=FACE, **loading):
 LAPLACE = ck.MeniscusForce(profile="as-published")
 
 
-def test_a_result_tells_the_time_of_a_pull(film_scene):
+def test_a_result_gives_the_time_of_a_pull(film_scene):
     scene = injector(film_scene, ck.MeniscusForce(), ck.ViscousForce(), time=1.0)
     viscous = ck.simulate(ck.plan(scene)).of(ck.ViscousForce)
     assert viscous.time_at_constant_force(5.0) == approx(conserved(5.0), 1e-13)
@@ -162,7 +162,7 @@ def test_a_film_full_at_first_draws_in_later(film_scene):
 
 
 @pytest.mark.parametrize("count", [1, 100])
-def test_each_of_many_menisci_carries_its_share(film_scene, count):
+def test_each_of_many_menisci_carries_its_part(film_scene, count):
     """N films of V/N share the faces: each has the wetted area over N and takes F/N."""
     scene = film_scene(
         ck.MeniscusForce(),

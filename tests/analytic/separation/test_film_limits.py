@@ -276,7 +276,7 @@ def test_the_shear_limit_of_a_sphere_keeps_its_digits_however_fast_it_opens():
 
 
 @pytest.mark.parametrize("tension", [1e-3, 1e12])
-def test_a_bath_around_a_sphere_is_bounded_too(tension):
+def test_a_flooded_sphere_is_bounded_too(tension):
     force = film_limits.sphere_tension_truncated(1.0, SPHERE, LOW, math.inf, tension)
     assert 0.0 < force <= 1.0
     shear = film_limits.sphere_shear_limited(1.0, SPHERE, LOW, math.inf, tension)

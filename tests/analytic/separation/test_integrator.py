@@ -323,8 +323,8 @@ def test_a_creeping_film_takes_four_evaluations_a_step():
     assert state.n_evaluations - begin.n_evaluations == 200
 
 
-def test_what_was_asked_before_makes_no_difference():
-    """A state that is taken back must not see what another one left in the plan."""
+def test_an_earlier_evaluation_makes_no_difference():
+    """A state that is rolled back must not see what another one left in the plan."""
     made, force, warm = RUNS["bridge"]
     pull = ck.Pull(force)
     begin = ck.advance(made, start(made), pull, warm)

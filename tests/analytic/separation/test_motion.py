@@ -99,7 +99,7 @@ def test_the_work_of_the_pull_is_accounted_for(release_cases, release_scene, nam
         epsabs=0.0,
     )
     stored = 0.5 * case["m"] * state.release_speed**2 + 0.5 * case["k_s"] * travel**2
-    # Steps are taken to 1e-8 in the gap, of which each loses that share of its own work.
+    # Steps are taken to 1e-8 in the gap, of which each loses that fraction of its own work.
     assert stored + state.dissipated_work + meniscus == approx(case["F0"] * travel, 1e-8)
 
 
@@ -109,13 +109,13 @@ def test_the_impulse_of_the_pull_is_accounted_for(release_cases, release_scene, 
     case = release_cases[name]["case"]
     state = run(release_scene(name, stiffness=0.0)).state
     time, rise = state.release_time, case["tau"]
-    given_impulse = case["F0"] * (time + (rise * math.expm1(-time / rise) if rise else 0.0))
+    applied_impulse = case["F0"] * (time + (rise * math.expm1(-time / rise) if rise else 0.0))
     taken = (
         case["m"] * state.release_speed
         + state.impulses["viscous_impulse"]
         + state.impulses["meniscus_impulse"]
     )
-    assert taken == approx(given_impulse, 1e-7)
+    assert taken == approx(applied_impulse, 1e-7)
 
 
 @pytest.mark.parametrize("name", ["A", "B", "D"])
@@ -145,7 +145,7 @@ def test_a_film_alone_slows_a_mass_by_its_impulse(release_scene):
     assert result.state.dissipated_work == approx(lost, 1e-7)
 
 
-def test_a_mass_that_the_film_stops_stays_where_its_momentum_is_spent(release_scene):
+def test_a_mass_that_the_film_stops_stays_where_its_momentum_ends(release_scene):
     """m v0 = Phi(h) - Phi(h0) gives the gap at which it stops, for good."""
     mass, speed, start_gap, face, oil = 0.02, 0.1, 20e-6, 3.175e-3, 0.01
     scene = release_scene(

@@ -5,8 +5,8 @@
 
 Each solver runs in a process of its own, and each answer is graded by one independent operator:
 largest violation of a contact condition over the rms roughness. A solver's tolerance is lowered
-until that is 1e-8, or it can no more. What is missing, refused or out of budget is said. Tables go
-to out/bench/contact.md, numbers to out/bench/contact.json.
+until that is 1e-8, or it can no more. What is missing, refused or out of budget is reported.
+Tables go to out/bench/contact.md, numbers to out/bench/contact.json.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def run(python, job, patience=1.0):
 
 def contest(given, found):
     """Yield a row for each solver on each case, smaller maps first."""
-    spent = {}
+    used = {}
     cases = itertools.product(
         given.sizes, given.surfaces, given.boundaries, given.areas, given.threads
     )
@@ -106,7 +106,7 @@ def contest(given, found):
             key = (name, surface, boundary, area, threads)
             row = {"solver": name, "n": n, "surface": surface, "boundary": boundary}
             row |= {"area": area, "threads": threads}
-            size, seconds, tolerance = spent.get(key, (n, 0.0, START))
+            size, seconds, tolerance = used.get(key, (n, 0.0, START))
             if f"{name}@{n}" in given.skip:
                 row["failed"] = "left out by --skip"
             elif name in SERIAL and threads > 1 and 1 in given.threads:
@@ -118,9 +118,9 @@ def contest(given, found):
                 # A step looser than the smaller map took: no long solves in vain.
                 row |= run(python, job | {"tolerance": min(START, tolerance / STEP)})
                 if "failed" in row:
-                    spent[key] = (n, float("inf") if "not done" in row["failed"] else 0.0, START)
+                    used[key] = (n, float("inf") if "not done" in row["failed"] else 0.0, START)
                 else:
-                    spent[key] = (n, row["seconds"], row["tolerance"])
+                    used[key] = (n, row["seconds"], row["tolerance"])
             yield row
 
 

@@ -80,13 +80,13 @@ def _good(press, given, symbol=None, bound=None):
 
 def _best(one, other, job):
     """Best CPU seconds of two solves, taken in turns: the machine may be shared."""
-    best, count, spent = [np.inf, np.inf], 0, 0.0
-    while goes_on(count, spent, job):
+    best, count, used = [np.inf, np.inf], 0, 0.0
+    while goes_on(count, used, job):
         for i, solve in enumerate((one, other)):
             begun = time.process_time()
             solve()
             seconds = time.process_time() - begun
-            best[i], spent = min(best[i], seconds), spent + seconds
+            best[i], used = min(best[i], seconds), used + seconds
         count += 1
     return best
 
@@ -104,9 +104,9 @@ def _single(job, given, fast):
     n = job["n"]
     press = _press(job, symbol_maker(given.periodic), fast)
     plain, elastic, _ = _good(press, given)
-    capped, found, kkt = _good(press, given, bound=CAP)
+    bounded, found, kkt = _good(press, given, bound=CAP)
     share = float((found.pressure >= CAP).sum() / (found.pressure > 0.0).sum())
-    seconds, reference = _best(capped, plain, job)
+    seconds, reference = _best(bounded, plain, job)
     counts = found.n_applications, elastic.n_applications
     rows = [_row(job, fast, "hardness", seconds, reference, counts, kkt, 2.0, plastic=share)]
     for name, stack in STACKS.items():

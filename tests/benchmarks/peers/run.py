@@ -27,19 +27,19 @@ def run(job):
     forget_peak()
     before = peak_memory()
     solve, setup, setup_wall = timed(prepare, given, job["threads"])
-    tolerance, spent, memory = job["tolerance"], 0.0, None
+    tolerance, used, memory = job["tolerance"], 0.0, None
     while True:
         (pressure, count), seconds, wall = timed(solve, tolerance)
-        spent += seconds
+        used += seconds
         memory = peak_memory() - before if memory is None else memory
         kkt, load_error = violation(pressure, given)
-        if kkt <= TARGET or tolerance < 1e-4 * TARGET or spent > job["budget"]:
+        if kkt <= TARGET or tolerance < 1e-4 * TARGET or used > job["budget"]:
             break
         tolerance *= STEP
-    count_again, spent_again = 0, 0.0
-    while goes_on(count_again, spent_again, job):
+    count_again, used_again = 0, 0.0
+    while goes_on(count_again, used_again, job):
         _, again, again_wall = timed(solve, tolerance)
-        count_again, spent_again = count_again + 1, spent_again + again
+        count_again, used_again = count_again + 1, used_again + again
         seconds, wall = min(seconds, again), min(wall, again_wall)
     return {
         "seconds": seconds,
@@ -52,7 +52,7 @@ def run(job):
         "load_error": load_error,
         "tolerance": tolerance,
         "memory": memory,
-        "spent": spent + spent_again,
+        "used": used + used_again,
         "contact": float((pressure > 0.0).mean()),
         "checksum": float((given.heights**3).sum()),
         "version": version(job["solver"]),
