@@ -82,17 +82,14 @@ OWNED = {
 BESIDE = [(), (ck.MeniscusForce(),), (ck.ViscousForce(), ck.Rupture(gap=5e-6))]
 RUBBER = {"work_of_adhesion": 0.05, "reduced_modulus": 1e6, "strength": 1e4}
 VAN_DER_WAALS = {body: {"adhesion.van_der_waals.*"} for body in BODIES}
+CONTACT = {"adhesion.parameters.*", "adhesion.contact_models.*"}
 SOLIDS = {
     ck.VanDerWaalsForce(hamaker_constant=1e-19): VAN_DER_WAALS,
     ck.VanDerWaalsForce(hamaker_constant=1e-19, closure="hamaker"): VAN_DER_WAALS,
-    ck.AdhesiveContact(model="jkr", **RUBBER): {
-        "sphere": {"adhesion.jkr.*", "adhesion.parameters.*"}
-    },
-    ck.AdhesiveContact(model="dmt", **RUBBER): {
-        "sphere": {"adhesion.dmt.*", "adhesion.parameters.*"}
-    },
+    ck.AdhesiveContact(model="jkr", **RUBBER): {"sphere": {"adhesion.jkr.*", *CONTACT}},
+    ck.AdhesiveContact(model="dmt", **RUBBER): {"sphere": {"adhesion.dmt.*", *CONTACT}},
     ck.AdhesiveContact(**RUBBER): {
-        "sphere": {"adhesion.maugis_dugdale.*", "adhesion.dmt.*", "adhesion.parameters.*"}
+        "sphere": {"adhesion.maugis_dugdale.*", "adhesion.dmt.*", *CONTACT}
     },
 }
 # Menisci at asperities stand alone, in a film of a height or in the air of a humidity.

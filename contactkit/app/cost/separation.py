@@ -81,7 +81,7 @@ def _release(scene: SeparationScene, rtol: float) -> Outcome:
 
 
 def monolithic_release(film: SeparationScene, pulled_by: Drive, end: float, rtol: float) -> Outcome:
-    """First release of film and pull_law, solved monolithically."""
+    """First release of film and drive, solved monolithically."""
     from ...models.injector.monolithic import simulate
 
     found = simulate(plan(film), pulled_by, end, rtol=rtol)

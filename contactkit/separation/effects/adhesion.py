@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 from attrs import field, frozen
 
-from ...adhesion import dmt, jkr, maugis_dugdale
 from ...adhesion import parameters as adhesion_scales
+from ...adhesion.contact_models import ContactModel, contact_model
 from ...adhesion.parameters import cohesive_stress
 from ...errors import InfeasibleError
 from ...scene.column import Column
@@ -346,6 +346,11 @@ class AdhesionNumbers(NamedTuple):
     release_force: float
 
     @property
+    def contact(self) -> ContactModel:
+        """The contact in dimensionless form."""
+        return contact_model(self.model, self.transition_parameter)
+
+    @property
     def units(self) -> adhesion_scales.AdhesionScales:
         """Units of the dimensionless kernels."""
         return adhesion_scales.scales(self.radius, self.work_of_adhesion, self.reduced_modulus)
@@ -379,16 +384,7 @@ def numbers(
     if strength is not None:
         transition = float(adhesion_scales.transition_parameter(radius, work, modulus, strength))
         tabor = transition / adhesion_scales.TRANSITION_OVER_TABOR
-    if model == "jkr":
-        pull_off, gap, last = jkr.PULL_OFF_FORCE, jkr.LAST_GAP, jkr.LAST_FORCE
-    else:
-        assert transition is not None  # lacks() has asked for a stress
-        if model == "dmt":
-            pull_off, gap, last = dmt.PULL_OFF_FORCE, float(dmt.reach(transition)), 0.0
-        else:
-            found = maugis_dugdale.limits(transition)
-            pull_off = -found.pull_off.load
-            gap, last = -found.release.approach, -found.release.load
+    contact = contact_model(model, transition)
     return AdhesionNumbers(
         model,
         radius,
@@ -397,80 +393,39 @@ def numbers(
         strength,
         transition,
         tabor,
-        pull_off * units.load,
-        gap * units.approach,
-        last * units.load,
+        contact.pull_off_force * units.load,
+        contact.last_gap * units.approach,
+        contact.last_force * units.load,
     )
 
 
 def law(found: AdhesionNumbers, count: int, start: float) -> ForceLaw:
     """Pull of `count` equal contacts that hold on from a gap `start` [m] on."""
-    units = found.units
-    most, length = count * float(units.load), float(units.approach)
-    if found.model == "jkr":
-        return ForceLaw(
-            lambda gap, speed: -most * jkr.load(jkr.radius_at_gap(gap / length)),
-            release=found.release_gap,
-            recontact=start,
-        )
-    transition = found.transition_parameter
-    assert transition is not None  # lacks() has asked for a stress
-    reach = float(dmt.reach(transition)) * length
-    if found.model == "dmt":
-        most *= dmt.PULL_OFF_FORCE
-        return ForceLaw(lambda gap, speed: most * max(1.0 - gap / reach, 0.0), (reach,))
-    bounds = maugis_dugdale.limits(transition)
-    touch = -bounds.touch.approach * length
+    contact, units, end = found.contact, found.units, found.release_gap
+    scale, length = count * float(units.load), float(units.approach)
 
     def force(gap: float, speed: float) -> float:
-        return -most * maugis_dugdale.at_gap(gap / length, transition, bounds).load
+        return scale * contact.pull(gap / length)
 
-    kinks = (touch,) if touch < found.release_gap else ()
+    touch = contact.touch_gap * length
+    kinks = (touch,) if touch < end else ()
     if found.release_force < _NOTHING * found.pull_off_force:  # ends without a jump, as with DMT
-        end = found.release_gap
         return ForceLaw(lambda gap, v: force(gap, v) if gap < end else 0.0, (*kinks, end))
-    return ForceLaw(force, kinks, release=found.release_gap, recontact=max(start, reach))
+    return ForceLaw(force, kinks, release=end, recontact=max(start, contact.reach * length))
 
 
 def cohesive_radius(found: AdhesionNumbers, gap: float) -> float:
     """Radius [m] within which the bodies of one contact attract each other at a gap [m]."""
-    units, transition = found.units, found.transition_parameter
-    if found.model == "jkr":
-        return float(units.radius * jkr.radius_at_gap(gap / units.approach))
-    assert transition is not None  # lacks() has asked for a stress
-    if found.model == "dmt":
-        reach = float(dmt.reach(transition)) * units.approach
-        return math.sqrt(2.0 * found.radius * max(reach - gap, 0.0))
-    bounds = maugis_dugdale.limits(transition)
-    state = maugis_dugdale.at_gap(gap / units.approach, transition, bounds)
-    return float(units.radius * state.cohesive_radius)
+    units = found.units
+    return float(units.radius * found.contact.cohesive_radius(gap / units.approach))
 
 
 def states_at_loads(found: AdhesionNumbers, loads: Sequence[float]) -> list[ContactState]:
     """States of one contact that rests under loads [N] of at least minus the pull-off force."""
-    units, transition = found.units, found.transition_parameter
-
-    def of_jkr(load: float) -> tuple[float, float, float]:
-        a = jkr.radius_at_load(load)
-        return a, a, jkr.approach(a)
-
-    def of_dmt(load: float) -> tuple[float, float, float]:
-        a = float(dmt.radius_at_load(max(load, -dmt.PULL_OFF_FORCE)))
-        return a, a, a * a
-
-    if found.model == "maugis-dugdale":
-        assert transition is not None  # lacks() has asked for a stress
-        bounds = maugis_dugdale.limits(transition)
-
-        def at(load: float) -> tuple[float, float, float]:
-            state = maugis_dugdale.at_load(load, transition, bounds)
-            return state.contact_radius, state.cohesive_radius, state.approach
-
-    else:
-        at = of_jkr if found.model == "jkr" else of_dmt
+    contact, units = found.contact, found.units
     states = []
     for load in loads:
-        a, c, approach = at(load / units.load)
+        a, c, _, approach = contact.at_load(load / units.load)
         state = load, approach * units.approach, a * units.radius, c * units.radius
         states.append(ContactState(*state))
     return states
