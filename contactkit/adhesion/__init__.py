@@ -1,6 +1,6 @@
 """Adhesion of solids: van der Waals attraction, JKR, DMT and Maugis-Dugdale.
 
-van_der_waals   Non-retarded van der Waals attraction (Hamaker).
+van_der_waals   Non-retarded van der Waals attraction; Hamaker constant and work of adhesion.
 parameters      Maugis' units, Tabor and transition parameters.
 jkr             JKR: attraction inside the contact only.
 dmt             DMT: attraction outside a contact of Hertzian shape.

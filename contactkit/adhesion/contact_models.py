@@ -70,11 +70,12 @@ class DmtContact(ContactModel):
     last_force = 0.0
 
     def __init__(self, transition: float) -> None:
+        self._transition = transition
         self.reach = self.last_gap = float(dmt.reach(transition))
 
     def pull(self, gap: float) -> float:
         """See `ContactModel.pull`."""
-        return self.pull_off_force * max(1.0 - gap / self.reach, 0.0)
+        return max(float(dmt.force_before_touch(gap, self._transition)), 0.0)
 
     def cohesive_radius(self, gap: float) -> float:
         """See `ContactModel.cohesive_radius`: where the undeformed gap is the reach."""

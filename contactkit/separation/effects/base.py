@@ -122,11 +122,6 @@ class LimitPart:
     first: float | None
     last: float | None
 
-    @property
-    def has_acted(self) -> bool:
-        """Whether the limit acted at all."""
-        return bool(self.acts.any())
-
 
 @frozen(kw_only=True)
 class SeparationEffect(Effect):
