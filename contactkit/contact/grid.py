@@ -154,11 +154,11 @@ def realise(surface: Surface, grid: Grid) -> Map:
 
 
 def _round(surface: Paraboloid | Sphere, grid: Grid) -> Map:
-    from ..roughness import roughness
+    from ..roughness import elementary
 
     if isinstance(surface, Paraboloid):
         second = surface.radius_y if surface.radius_y is not None else surface.radius
-        return roughness.paraboloid(grid.shape, grid.pixel_size, surface.radius, second)
+        return elementary.paraboloid(grid.shape, grid.pixel_size, surface.radius, second)
     reach = (
         0.5
         * float(
@@ -174,11 +174,11 @@ def _round(surface: Paraboloid | Sphere, grid: Grid) -> Map:
             unit="m",
             hint="use a smaller window, or Paraboloid",
         )
-    return roughness.sphere(grid.shape, grid.pixel_size, surface.radius)
+    return elementary.sphere(grid.shape, grid.pixel_size, surface.radius)
 
 
 def _wave(surface: Wave, grid: Grid) -> Map:
-    from ..roughness import roughness
+    from ..roughness import elementary
 
     sizes = (grid.shape[1] * grid.pixel_size[1], grid.shape[0] * grid.pixel_size[0])
     lengths = (surface.wavelength, surface.wavelength_y)
@@ -194,15 +194,15 @@ def _wave(surface: Wave, grid: Grid) -> Map:
                 f"fit a whole number of times into the periodic window of {size:g} m",
                 unit="m",
             )
-    return roughness.wave(grid.shape, grid.pixel_size, surface.amplitude, *lengths)
+    return elementary.wave(grid.shape, grid.pixel_size, surface.amplitude, *lengths)
 
 
 def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
-    from ..roughness import roughness
+    from ..roughness import random_surfaces
 
     _resolved(f"{type(surface).__name__}.cutoff", surface.cutoff, max(grid.pixel_size))
     if isinstance(surface, GaussianRoughness):
-        return roughness.gaussian_exponential(
+        return random_surfaces.gaussian_exponential(
             grid.shape,
             grid.pixel_size,
             surface.rms,
@@ -210,13 +210,11 @@ def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
             surface.cutoff,
             surface.seed,
         )
-    return roughness.self_affine(
+    return random_surfaces.self_affine(
         grid.shape,
         grid.pixel_size,
         surface.rms,
-        surface.hurst,
-        surface.rolloff,
-        surface.cutoff,
+        random_surfaces.SelfAffineSpectrum(surface.hurst, surface.rolloff, surface.cutoff),
         surface.seed,
     )
 

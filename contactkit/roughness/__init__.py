@@ -1,9 +1,7 @@
-"""Rough surfaces: spectra, random fields, statistics, measured height maps.
+"""Rough surfaces: random and measured height maps, and their statistics.
 
-roughness      Random rough surfaces: exponential autocorrelation, self-affine.
-random_fields  Periodic Gaussian random fields from a spectrum.
-elementary     Heights of simple shapes: waves, spheres, paraboloids.
-height_maps    Measured height maps: reading, validation, detrending.
-statistics     Heights, slopes, curvatures, bearing area of a map.
-spectra        Autocorrelation and power spectral density of a map.
+elementary       Heights of simple shapes: waves, spheres, paraboloids.
+random_surfaces  Random rough surfaces: exponential autocorrelation, self-affine; resolved variance.
+height_maps      Measured height maps: reading, validation, detrending.
+statistics       Roughness parameters, bearing fraction, autocorrelation, spectrum and its moments.
 """

@@ -31,7 +31,11 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
+Pair = tuple[float, float]
+Trend = Literal["none", "mean", "tilt", "curvature"]
 
+_MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")
+_UNMARKED = ("hgt", "nms")
 _ROUNDED = 0.02  # tolerance of coordinates over the step, for values rounded in a text
 
 
@@ -154,9 +158,6 @@ def _reason(file: Path, delimiter: str | None, message: str) -> DescriptionError
     return DescriptionError("HeightMap.heights", message, f"be numbers ({file.name})")
 
 
-Trend = Literal["none", "mean", "tilt", "curvature"]
-
-
 def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     r"""Detrended heights: less the least-squares polynomial over all pixels.
 
@@ -203,12 +204,6 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
 
 def _centred(values: Array) -> Array:
     return np.asarray(values - values.mean())
-
-
-Pair = tuple[float, float]
-
-_MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")
-_UNMARKED = ("hgt", "nms")
 
 
 class HeightMap(NamedTuple):

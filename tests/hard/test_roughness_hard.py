@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactkit.errors import DescriptionError
-from contactkit.roughness import roughness
+from contactkit.roughness import elementary, random_surfaces
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.height_maps import detrended
 
@@ -16,7 +16,7 @@ from contactkit.roughness.height_maps import detrended
 def test_a_cutoff_at_the_window_leaves_the_longest_waves():
     """One along each direction, equally strong, and whatever the rounding of the pixel."""
     for pixel in (1e-9 / 3.0, 0.1, 7.0):
-        heights = roughness.gaussian_exponential(
+        heights = random_surfaces.gaussian_exponential(
             (30, 30), (pixel, pixel), 1.0, 5.0 * pixel, 30.0 * pixel, seed=1
         )
         waves = np.abs(np.fft.fft2(heights, norm="forward"))
@@ -30,18 +30,20 @@ def test_a_cutoff_at_the_window_leaves_the_longest_waves():
 
 def test_a_cutoff_beyond_the_window_leaves_nothing():
     with pytest.raises(DescriptionError, match=r"cutoff_wavelength must leave waves.*1e-08 m by"):
-        roughness.gaussian_exponential((10, 10), (1e-9, 1e-9), 1e-9, 5e-9, 1.1e-8, 1)
+        random_surfaces.gaussian_exponential((10, 10), (1e-9, 1e-9), 1e-9, 5e-9, 1.1e-8, 1)
     with pytest.raises(DescriptionError, match="cutoff_wavelength must leave waves"):
-        roughness.resolved_variance((2, 2), (1e-9, 1e-9), 5e-9, 1e-9)  # Nyquist waves only
+        random_surfaces.resolved_variance((2, 2), (1e-9, 1e-9), 5e-9, 1e-9)  # Nyquist waves only
     with pytest.raises(DescriptionError, match="cutoff_wavelength must leave waves"):
-        roughness.self_affine((10, 10), (1e-9, 1e-9), 1e-9, 0.8, 5e-9, 1.1e-8, 1)
+        random_surfaces.self_affine(
+            (10, 10), (1e-9, 1e-9), 1e-9, random_surfaces.SelfAffineSpectrum(0.8, 5e-9, 1.1e-8), 1
+        )
 
 
 def test_a_cutoff_on_a_wave_keeps_it_on_every_grid():
     """At n thirds of a pixel the window is rounded differently; the wave must not come and go."""
     for n in (48, 49, 54, 96, 97):
         size = (0.3 / n, 0.3 / n)
-        heights = roughness.gaussian_exponential((n, n), size, 1.0, 0.05, 0.3 / 20, seed=3)
+        heights = random_surfaces.gaussian_exponential((n, n), size, 1.0, 0.05, 0.3 / 20, seed=3)
         waves = np.abs(np.fft.rfft2(heights, norm="forward"))
         assert waves[0, 20] > 1e-9
         assert waves[12, 16] > 1e-9  # 12, 16, 20
@@ -49,14 +51,18 @@ def test_a_cutoff_on_a_wave_keeps_it_on_every_grid():
 
 
 def test_a_profile_is_a_surface_of_one_row():
-    heights = roughness.gaussian_exponential((1, 4096), (1e-9, 1e-9), 1e-9, 40e-9, 4e-9, seed=1)
+    heights = random_surfaces.gaussian_exponential(
+        (1, 4096), (1e-9, 1e-9), 1e-9, 40e-9, 4e-9, seed=1
+    )
     assert heights.shape == (1, 4096)
     assert heights.std() == pytest.approx(1e-9, rel=0.3)
 
 
 @pytest.mark.parametrize("shape", [(3, 500), (501, 4), (64, 65), (2, 3)])
 def test_any_shape_is_real_and_of_zero_mean(shape):
-    heights = roughness.self_affine(shape, (2.0, 1.0), 1.0, 0.5, math.inf, 2.5, 9)
+    heights = random_surfaces.self_affine(
+        shape, (2.0, 1.0), 1.0, random_surfaces.SelfAffineSpectrum(0.5, math.inf, 2.5), 9
+    )
     assert heights.shape == shape
     assert heights.dtype == np.float64
     assert np.isfinite(heights).all()
@@ -66,19 +72,12 @@ def test_any_shape_is_real_and_of_zero_mean(shape):
 
 @pytest.mark.parametrize("scale", [1e-15, 1e-9, 1e9])
 def test_neither_atoms_nor_planets_overflow(scale):
-    recipe = {"hurst": 1.0, "cutoff_wavelength": 3.0 * scale, "seed": 4}
+    spectrum = random_surfaces.SelfAffineSpectrum(1.0, math.inf, 3.0 * scale)
     maps = [
-        roughness.gaussian_exponential(
+        random_surfaces.gaussian_exponential(
             (40, 50), (scale, scale), 1e-3 * scale, 8.0 * scale, 3.0 * scale, 4, "sample"
         ),
-        roughness.self_affine(
-            (40, 50),
-            (scale, scale),
-            1e-3 * scale,
-            rolloff_wavelength=math.inf,
-            normalise="sample",
-            **recipe,
-        ),
+        random_surfaces.self_affine((40, 50), (scale, scale), 1e-3 * scale, spectrum, 4, "sample"),
     ]
     for heights in maps:
         assert heights.std() == pytest.approx(1e-3 * scale, rel=1e-12)
@@ -89,23 +88,29 @@ def test_neither_atoms_nor_planets_overflow(scale):
 
 def test_a_strong_lay_still_has_its_budget():
     """Grooves 100 times as long as wide: of short waves only those across the grooves have any."""
-    found = roughness.resolved_variance((512, 512), (1.0, 1.0), (2.0, 200.0), 0.02)
+    found = random_surfaces.resolved_variance((512, 512), (1.0, 1.0), (2.0, 200.0), 0.02)
     across = 2.0 / math.pi / (2.0 * math.pi / 0.02 * 2.0 / 2.3)
     assert found.cutoff == pytest.approx(across, rel=1e-3)
-    turned = roughness.resolved_variance((512, 512), (1.0, 1.0), (200.0, 2.0), 0.02)
+    turned = random_surfaces.resolved_variance((512, 512), (1.0, 1.0), (200.0, 2.0), 0.02)
     assert turned == pytest.approx(found, rel=1e-12)
 
 
 def test_a_fine_surface_shares_its_waves_with_a_coarse_one_through_many_tiles():
     """Waves up to 200 per window: tiles of random numbers at both signs of the wavenumber."""
-    coarse = roughness.gaussian_exponential((450, 405), (1 / 450, 1 / 405), 1.0, 0.02, 0.005, 11)
-    fine = roughness.gaussian_exponential((900, 810), (1 / 900, 1 / 810), 1.0, 0.02, 0.005, 11)
+    coarse = random_surfaces.gaussian_exponential(
+        (450, 405), (1 / 450, 1 / 405), 1.0, 0.02, 0.005, 11
+    )
+    fine = random_surfaces.gaussian_exponential(
+        (900, 810), (1 / 900, 1 / 810), 1.0, 0.02, 0.005, 11
+    )
     np.testing.assert_allclose(fine[::2, ::2], coarse, atol=1e-12)
 
 
 def test_no_two_waves_share_a_random_number():
     """A white spectrum repeats nothing, at the seams between tiles neither."""
-    heights = roughness.self_affine((300, 300), (1.0, 1.0), 1.0, -1.0, math.inf, 2.05, 1)
+    heights = random_surfaces.self_affine(
+        (300, 300), (1.0, 1.0), 1.0, random_surfaces.SelfAffineSpectrum(-1.0, math.inf, 2.05), 1
+    )
     waves = np.fft.rfft2(heights, norm="forward")[:, 1:145].ravel()
     waves = waves[np.abs(waves) > 1e-9]
     assert waves.size > 30_000
@@ -113,25 +118,25 @@ def test_no_two_waves_share_a_random_number():
 
 
 def test_a_large_ball_keeps_every_digit_under_a_small_window():
-    heights = roughness.sphere((5, 5), (1e-9, 1e-9), 1.0)
+    heights = elementary.sphere((5, 5), (1e-9, 1e-9), 1.0)
     assert heights[2, 3] == pytest.approx(-0.5e-18, rel=1e-15)
-    assert roughness.paraboloid((5, 5), (1e-9, 1e-9), 1.0)[2, 3] == pytest.approx(-0.5e-18)
+    assert elementary.paraboloid((5, 5), (1e-9, 1e-9), 1.0)[2, 3] == pytest.approx(-0.5e-18)
 
 
 def test_outside_a_ball_there_is_its_plate():
-    heights = roughness.sphere((1, 9), (1.0, 1.0), 2.0)[0]
+    heights = elementary.sphere((1, 9), (1.0, 1.0), 2.0)[0]
     np.testing.assert_array_equal(heights[[0, 1, 2, 4, 6, 7, 8]], [-2.0] * 3 + [0.0] + [-2.0] * 3)
     np.testing.assert_allclose(heights[[3, 5]], math.sqrt(3.0) - 2.0, rtol=1e-14)
 
 
 def test_a_wave_of_many_periods_stays_a_wave():
-    heights = roughness.wave((1, 10**6), (1.0, 1e-9), 1.0, 8e-9)
+    heights = elementary.wave((1, 10**6), (1.0, 1e-9), 1.0, 8e-9)
     np.testing.assert_allclose(heights[0, -8:], heights[0, :8], atol=1e-8)
 
 
 def test_roughness_far_from_zero_keeps_its_digits():
     """Nanometres at a height of a metre: what the numbers still hold, 1e-16 m."""
-    z = roughness.gaussian_exponential((64, 64), (1e-8, 1e-8), 1e-9, 1e-7, 4e-8, seed=1)
+    z = random_surfaces.gaussian_exponential((64, 64), (1e-8, 1e-8), 1e-9, 1e-7, 4e-8, seed=1)
     far = stats.summary(z + 1.0, (1e-8, 1e-8), periodic=True)
     near = stats.summary(z, (1e-8, 1e-8), periodic=True)
     for a, b in zip(far, near, strict=True):
@@ -174,4 +179,12 @@ def test_a_trend_of_a_small_map_takes_what_the_map_holds():
 )
 def test_a_self_affine_surface_has_one_size(rms, slope, normalise, message):
     with pytest.raises(DescriptionError, match=message):
-        roughness.self_affine((8, 8), (1.0, 1.0), rms, 0.8, 8.0, 3.0, 1, normalise, rms_slope=slope)
+        random_surfaces.self_affine(
+            (8, 8),
+            (1.0, 1.0),
+            rms,
+            random_surfaces.SelfAffineSpectrum(0.8, 8.0, 3.0),
+            1,
+            normalise,
+            rms_slope=slope,
+        )

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import fft
 
-from contactkit.roughness import roughness
+from contactkit.roughness import random_surfaces
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.height_maps import detrended
 
@@ -26,16 +26,14 @@ TREND = st.sampled_from(["none", "mean", "tilt", "curvature"])
 
 # kinds of random surface in a window of 12 by 20, shortest wave 2, on any shape
 KINDS = {
-    "exponential": lambda shape, pixel, seed, normalise: roughness.gaussian_exponential(
+    "exponential": lambda shape, pixel, seed, normalise: random_surfaces.gaussian_exponential(
         shape, pixel, 1.0, (2.0, 5.0), 2.0, seed, normalise
     ),
-    "self-affine": lambda shape, pixel, seed, normalise: roughness.self_affine(
+    "self-affine": lambda shape, pixel, seed, normalise: random_surfaces.self_affine(
         shape,
         pixel,
         None,
-        0.7,
-        9.0,
-        2.0,
+        random_surfaces.SelfAffineSpectrum(0.7, 9.0, 2.0),
         seed,
         "sample" if normalise == "sample" else "expected",
         rms_slope=0.2,
@@ -79,8 +77,8 @@ def test_long_waves_do_not_depend_on_the_cutoff_or_the_grid(kind, ny, nx, seed, 
 @given(SIDE, SIDE, SEED, st.floats(-12.0, 6.0), st.floats(-12.0, 6.0), NORMALISE)
 def test_lengths_and_heights_scale(ny, nx, seed, power, height_power, normalise):
     length, height = 10.0**power, 10.0**height_power
-    one = roughness.gaussian_exponential((ny, nx), (1.0, 0.7), 1.0, 3.0, 2.1, seed, normalise)
-    two = roughness.gaussian_exponential(
+    one = random_surfaces.gaussian_exponential((ny, nx), (1.0, 0.7), 1.0, 3.0, 2.1, seed, normalise)
+    two = random_surfaces.gaussian_exponential(
         (ny, nx), (length, 0.7 * length), height, 3.0 * length, 2.1 * length, seed, normalise
     )
     np.testing.assert_allclose(two / height, one, atol=1e-12)
@@ -89,7 +87,7 @@ def test_lengths_and_heights_scale(ny, nx, seed, power, height_power, normalise)
 @given(SIDE, SIDE, PIXEL, st.floats(0.05, 1.0))
 def test_the_budget_of_variance_adds_up(ny, nx, pixel, share):
     cutoff = share * max(ny * pixel[0], nx * pixel[1])
-    found = roughness.resolved_variance((ny, nx), pixel, (1.0, 3.0), cutoff)
+    found = random_surfaces.resolved_variance((ny, nx), pixel, (1.0, 3.0), cutoff)
     assert sum(found) == pytest.approx(1.0, abs=1e-14)
     assert found.resolved > 0.0
     assert 0.0 < found.cutoff < 1.0

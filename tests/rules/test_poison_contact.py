@@ -65,8 +65,16 @@ SHAPES = {
     "paraboloid": {"roughness.elementary.paraboloid"},
     "sphere": {"roughness.elementary.sphere"},
     "wave": {"roughness.elementary.wave"},
-    "gaussian": {"roughness.roughness.gaussian_exponential", "roughness.random_fields.*"},
-    "self-affine": {"roughness.roughness.self_affine", "roughness.random_fields.*"},
+    "gaussian": {
+        "roughness.random_surfaces.gaussian_exponential",
+        "roughness.random_surfaces.add_up",
+        "roughness.random_surfaces.waves",
+    },
+    "self-affine": {
+        "roughness.random_surfaces.self_affine",
+        "roughness.random_surfaces.add_up",
+        "roughness.random_surfaces.waves",
+    },
 }
 SOLVER = {"contact.solver.*"}
 WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07)

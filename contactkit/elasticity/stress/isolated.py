@@ -91,10 +91,10 @@ class Grids(NamedTuple):
         lows = [None if q is None else _low(q, shape) * (dy * dx) for q in loads]
         lows = [None if q is None else _shifted(q, period, centre) for q in lows]
         for step in self.steps:
-            loads = [None if low is None else _smooth_load(low, step) for low in lows]
+            smooth = [None if low is None else _smooth_load(low, step) for low in lows]
             for grid in (step.wide, step.narrow):
                 size = grid.modes.shape
-                found.append([None if q is None else spectrum(q, size) for q in loads])
+                found.append([None if m is None else spectrum(m, size) for m in smooth])
             lows = _long_waves(found[-2], step)
         return found
 

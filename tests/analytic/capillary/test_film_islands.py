@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from contactkit.capillary.film_islands import film_force, islands, meniscus_area
-from contactkit.roughness.roughness import gaussian_exponential, paraboloid
+from contactkit.roughness.elementary import paraboloid
+from contactkit.roughness.random_surfaces import gaussian_exponential
 
 MASKS = arrays(bool, st.tuples(st.integers(1, 7), st.integers(1, 7)))
 GAPS = arrays(

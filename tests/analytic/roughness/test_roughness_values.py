@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from contactkit.roughness import roughness
+from contactkit.roughness import elementary, random_surfaces
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.height_maps import detrended
 
@@ -18,7 +18,7 @@ SEEDS = range(40)
 
 def exponential(n, beta, cutoff, seed, normalise="expected", rms=1e-9):
     pixel = (SCAN / n, SCAN / n)
-    return roughness.gaussian_exponential((n, n), pixel, rms, beta, cutoff, seed, normalise)
+    return random_surfaces.gaussian_exponential((n, n), pixel, rms, beta, cutoff, seed, normalise)
 
 
 # Correlation and spectrum -------------------------------------------------------------------
@@ -56,7 +56,13 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
     n, longest, shortest = 256, 64.0, 4.0
     density = 0.0
     for seed in SEEDS[:20]:
-        heights = roughness.self_affine((n, n), (1.0, 1.0), 1.0, hurst, longest, shortest, seed)
+        heights = random_surfaces.self_affine(
+            (n, n),
+            (1.0, 1.0),
+            1.0,
+            random_surfaces.SelfAffineSpectrum(hurst, longest, shortest),
+            seed,
+        )
         found = stats.radial_spectrum(heights, (1.0, 1.0), periodic=True)
         density = density + found.density / 20
     q = found.wavenumber
@@ -84,7 +90,7 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
 )
 def test_the_cutoff_takes_the_fraction_of_the_notes(beta, n, share):
     pixel, cutoff = (SCAN / 256, SCAN / 256), 2.0 * SCAN / n
-    found = roughness.resolved_variance((256, 256), pixel, beta, cutoff)
+    found = random_surfaces.resolved_variance((256, 256), pixel, beta, cutoff)
     assert 1.0 - found.cutoff == pytest.approx(share, abs=6e-3)
     assert sum(found) == pytest.approx(1.0, abs=1e-12)
     if n == 256:
@@ -99,13 +105,13 @@ def test_the_cutoff_of_a_surface_with_a_lay_agrees_with_an_integral():
         return 4.0 * lx * ly / (2.0 * math.pi) * q * (1.0 + stretched) ** -1.5
 
     inside, _ = dblquad(density, 0.0, math.pi / 2, 0.0, qc, epsabs=1e-10)
-    found = roughness.resolved_variance((64, 64), (0.3, 0.3), (0.6, 3.0), 0.7)
+    found = random_surfaces.resolved_variance((64, 64), (0.3, 0.3), (0.6, 3.0), 0.7)
     assert found.cutoff == pytest.approx(1.0 - inside, abs=1e-8)
 
 
 def test_a_long_window_loses_little():
     short, long = (
-        roughness.resolved_variance((n, n), (0.1, 0.1), 1.0, 0.4).window for n in (64, 512)
+        random_surfaces.resolved_variance((n, n), (0.1, 0.1), 1.0, 0.4).window for n in (64, 512)
     )
     assert 0.0 < long < 2e-3 < short < 0.1
 
@@ -113,13 +119,13 @@ def test_a_long_window_loses_little():
 @pytest.mark.parametrize("normalise", ["expected", "sample", "none"])
 def test_the_standard_deviation_is_what_it_says(normalise):
     recipe = ((64, 48), (1e-9, 1e-9), 2e-9, 6e-9, 4e-9)
-    maps = [roughness.gaussian_exponential(*recipe, seed, normalise) for seed in range(300)]
+    maps = [random_surfaces.gaussian_exponential(*recipe, seed, normalise) for seed in range(300)]
     variance = np.array([heights.var() for heights in maps]) / 4e-18
     noise = float(variance.std()) / math.sqrt(300)
     if normalise == "sample":
         np.testing.assert_allclose(variance, 1.0, rtol=1e-12)
     else:
-        share = roughness.resolved_variance(recipe[0], recipe[1], 6e-9, 4e-9).resolved
+        share = random_surfaces.resolved_variance(recipe[0], recipe[1], 6e-9, 4e-9).resolved
         assert 0.5 < share < 0.95
         expected = 1.0 if normalise == "expected" else share
         assert float(variance.mean()) == pytest.approx(expected, abs=4.0 * noise)
@@ -156,21 +162,21 @@ def test_the_slope_has_no_end():
 
 
 def test_a_self_affine_surface_has_the_slope_asked_for():
-    recipe = {"hurst": 0.8, "rolloff_wavelength": 64e-9, "cutoff_wavelength": 8e-9}
+    spectrum = random_surfaces.SelfAffineSpectrum(0.8, 64e-9, 8e-9)
     pixel = (0.5e-9, 0.5e-9)
-    heights = roughness.self_affine(
-        (192, 320), pixel, None, seed=1, normalise="sample", rms_slope=0.1, **recipe
+    heights = random_surfaces.self_affine(
+        (192, 320), pixel, None, spectrum, 1, "sample", rms_slope=0.1
     )
     assert stats.spectral_moment(heights, pixel, 2) == pytest.approx(0.01, rel=1e-12)
     # Differences miss a little: at most 1 - sinc of 16 pixels per wave, 0.6 %.
     assert stats.rms_slope(heights, pixel, periodic=True) == pytest.approx(0.1, rel=0.007)
-    tall = roughness.self_affine((192, 320), pixel, 3e-9, seed=1, normalise="sample", **recipe)
+    tall = random_surfaces.self_affine((192, 320), pixel, 3e-9, spectrum, 1, "sample")
     assert tall.std() == pytest.approx(3e-9, rel=1e-12)
 
 
 def test_a_seed_gives_this_surface_everywhere():
     """The numbers of one small map, so that no release can change the surfaces of a seed."""
-    heights = roughness.gaussian_exponential((4, 6), (1.0, 1.0), 1.0, 2.0, 2.0, seed=2024)
+    heights = random_surfaces.gaussian_exponential((4, 6), (1.0, 1.0), 1.0, 2.0, 2.0, seed=2024)
     np.testing.assert_allclose(heights[:2, :3], GOLDEN, rtol=1e-12)
 
 
@@ -185,7 +191,7 @@ GOLDEN = [
 
 def test_a_wave_has_the_numbers_of_a_cosine():
     pixel = (2e-9, 1e-9)
-    heights = roughness.wave((8, 64), pixel, 3e-9, 16e-9)
+    heights = elementary.wave((8, 64), pixel, 3e-9, 16e-9)
     found = stats.summary(heights, pixel, periodic=True)
     q = 2.0 * math.pi / 16e-9
     assert found.rms == pytest.approx(3e-9 / math.sqrt(2.0), rel=1e-13)
@@ -201,17 +207,17 @@ def test_a_wave_has_the_numbers_of_a_cosine():
 
 
 def test_a_product_of_waves_has_peaks_at_its_crests():
-    heights = roughness.wave((12, 20), (1.0, 1.0), 2.0, 10.0, 6.0)
+    heights = elementary.wave((12, 20), (1.0, 1.0), 2.0, 10.0, 6.0)
     assert {tuple(at) for at in np.argwhere(heights > 1.999).tolist()} == {
         (i, j) for i in (0, 6) for j in (0, 10)
     } | {(i, j) for i in (3, 9) for j in (5, 15)}
-    moved = roughness.wave((12, 20), (1.0, 1.0), 2.0, 10.0, 6.0, phase=(0.0, math.pi / 5.0))
+    moved = elementary.wave((12, 20), (1.0, 1.0), 2.0, 10.0, 6.0, phase=(0.0, math.pi / 5.0))
     np.testing.assert_allclose(moved, np.roll(heights, -1, axis=1), atol=1e-13)
 
 
 def test_a_ball_is_a_ball():
     """Distance of each point of the surface from the centre of the ball is its radius."""
-    heights = roughness.sphere((31, 40), (0.1, 0.13), 5.0)
+    heights = elementary.sphere((31, 40), (0.1, 0.13), 5.0)
     y, x = (np.arange(31) - 15)[:, None] * 0.1, (np.arange(40) - 20)[None, :] * 0.13
     np.testing.assert_allclose(x * x + y * y + (heights + 5.0) ** 2, 25.0, rtol=1e-14)
     assert heights.argmax() == 15 * 40 + 20
@@ -219,18 +225,18 @@ def test_a_ball_is_a_ball():
 
 def test_a_paraboloid_is_the_ball_near_its_apex():
     shape, pixel = (41, 41), (0.01, 0.01)
-    ball, bowl = roughness.sphere(shape, pixel, 10.0), roughness.paraboloid(shape, pixel, 10.0)
+    ball, bowl = elementary.sphere(shape, pixel, 10.0), elementary.paraboloid(shape, pixel, 10.0)
     r = 0.2 * math.sqrt(2.0)
     assert (bowl - ball).max() == pytest.approx(r**4 / 8e3, rel=1e-3)
     assert (bowl >= ball).all()
-    moved = roughness.paraboloid(shape, pixel, 10.0, 20.0, centre=(0.1, 0.3))
+    moved = elementary.paraboloid(shape, pixel, 10.0, 20.0, centre=(0.1, 0.3))
     assert np.unravel_index(moved.argmax(), shape) == (10, 30)
     assert moved[20, 30] == pytest.approx(-(0.1**2) / 40.0)
     assert moved[10, 40] == pytest.approx(-(0.1**2) / 20.0)
 
 
 def test_the_curvature_of_a_ball_is_one_over_its_radius():
-    heights = roughness.sphere((21, 21), (1e-3, 1e-3), 7.0)
+    heights = elementary.sphere((21, 21), (1e-3, 1e-3), 7.0)
     assert stats.rms_curvature(heights, (1e-3, 1e-3), periodic=False) == pytest.approx(
         1.0 / 7.0, rel=1e-5
     )
@@ -275,7 +281,7 @@ def test_the_correlation_length_is_the_one_asked_for():
     found = np.mean(
         [
             stats.correlation_length(
-                roughness.gaussian_exponential((512, 512), pixel, 1e-9, beta, 0.09e-6, seed),
+                random_surfaces.gaussian_exponential((512, 512), pixel, 1e-9, beta, 0.09e-6, seed),
                 pixel,
                 periodic,
             )
