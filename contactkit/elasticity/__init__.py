@@ -1,12 +1,13 @@
 """Elasticity: layered half-spaces, point and patch loads, stresses.
 
 layered          Surface compliance of a layered half-space in Fourier space.
-layered_fields   Displacements and tractions on planes at depth, in Fourier space.
+layer_stack      Validated materials of a layered half-space; its compliance for long waves
+                 (`small_wavenumber_constant`) and under uniform pressure (`uniform_compliance`).
 layer_recursion  Recursion over one layer: compliance upward, tractions downward.
-layer_stack      Validated materials of a layered half-space; long-wavelength compliance.
+layered_fields   Displacements and tractions on planes at depth, in Fourier space.
 depths           Planes at depth: layer, and side of an interface.
-point_load       Surface displacement under a point load, tabulated over the radius.
 love             Uniform pressure on a rectangle: Love's influence coefficients.
+point_load       Surface displacement under a point load, tabulated over the radius.
 influence        Influence coefficients of non-periodic contacts.
 stress           Subsurface stress under a map of pressure and traction.
 """

@@ -7,22 +7,37 @@ material above, side "+" the one below.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DescriptionError
 
-__all__ = ["Side", "default_depths", "locate"]
+__all__ = ["Depths", "PlaneAt", "Side", "default_depths", "locate"]
 
 Side = Literal["+", "-"]
 SIDES: dict[str, Side] = {"+": "+", "-": "-"}
 
 
+class PlaneAt(NamedTuple):
+    """A plane: its depth [m], its side of an interface, and its layer, 0 at the top."""
+
+    depth: float
+    side: Side
+    layer: int
+
+
+class Depths(NamedTuple):
+    """Depths of planes [m], ascending, and the side of each."""
+
+    depths: list[float]
+    sides: list[Side]
+
+
 def locate(
     depths: Sequence[float], sides: Sequence[str] | str, thickness: ArrayLike
-) -> list[tuple[float, Side, int]]:
+) -> list[PlaneAt]:
     """Depth, side and layer of each plane, in the order given.
 
     Parameters
@@ -37,7 +52,7 @@ def locate(
 
     Returns
     -------
-    list of (depth, side, layer)
+    list of PlaneAt
         Layers are counted from 0 at the top; n_layers is the substrate.
 
     Raises
@@ -52,14 +67,15 @@ def locate(
 
     Examples
     --------
-    >>> locate([0.0, 0.75, 0.75, 1.0], ["+", "-", "+", "+"], [0.25, 0.5])
-    [(0.0, '+', 0), (0.75, '-', 1), (0.75, '+', 2), (1.0, '+', 2)]
+    >>> planes = locate([0.0, 0.75, 0.75, 1.0], ["+", "-", "+", "+"], [0.25, 0.5])
+    >>> [plane.layer for plane in planes]
+    [0, 1, 2, 2]
     """
     each = [sides] * len(depths) if sides in ("+", "-") else list(sides)
     if len(each) != len(depths):
         raise DescriptionError("planes.sides", len(each), f"be {len(depths)}, one for each depth")
     bottoms = np.cumsum(np.asarray(thickness, dtype=np.float64))
-    found: list[tuple[float, Side, int]] = []
+    found: list[PlaneAt] = []
     for z, side in zip(depths, each, strict=True):
         if not 0.0 <= z < np.inf:
             raise DescriptionError("planes.depths", z, "be zero or positive and finite", unit="m")
@@ -68,15 +84,13 @@ def locate(
         known = SIDES[side]
         on = np.flatnonzero(np.abs(bottoms - z) <= 1e-12 * bottoms)
         if on.size:
-            found.append((float(bottoms[on[0]]), known, int(on[0]) + (side == "+")))
+            found.append(PlaneAt(float(bottoms[on[0]]), known, int(on[0]) + (side == "+")))
         else:
-            found.append((float(z), known, int(np.searchsorted(bottoms, z))))
+            found.append(PlaneAt(float(z), known, int(np.searchsorted(bottoms, z))))
     return found
 
 
-def default_depths(
-    thickness: ArrayLike, deepest: float, count: int = 24
-) -> tuple[list[float], list[Side]]:
+def default_depths(thickness: ArrayLike, deepest: float, count: int = 24) -> Depths:
     """Default planes: the surface, both sides of every interface, and a graded set.
 
     Parameters
@@ -90,8 +104,8 @@ def default_depths(
 
     Returns
     -------
-    depths, sides
-        Ascending; interfaces below `deepest` are omitted.
+    Depths
+        Interfaces below `deepest` are omitted.
 
     Raises
     ------
@@ -101,7 +115,7 @@ def default_depths(
     Examples
     --------
     >>> default_depths([0.5], 1.0, count=2)
-    ([0.0, 0.25, 0.5, 0.5, 1.0], ['+', '+', '-', '+', '+'])
+    Depths(depths=[0.0, 0.25, 0.5, 0.5, 1.0], sides=['+', '+', '-', '+', '+'])
     """
     if not (0.0 < deepest < np.inf and count >= 1):
         raise DescriptionError("default_depths.deepest", (deepest, count), "be positive", unit="m")
@@ -112,4 +126,4 @@ def default_depths(
     planes: list[tuple[float, bool]] = [(z, True) for z in apart]
     planes += [(float(z), below) for z in bottoms for below in (False, True)]
     planes.sort()
-    return [z for z, _ in planes], ["+" if below else "-" for _, below in planes]
+    return Depths([z for z, _ in planes], ["+" if below else "-" for _, below in planes])

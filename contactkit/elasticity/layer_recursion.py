@@ -21,7 +21,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Products", "climb", "climb_shear", "cross", "descend", "half_space", "products"]
+__all__ = [
+    "Products",
+    "Transfer",
+    "climb",
+    "climb_shear",
+    "cross",
+    "descend",
+    "half_space",
+    "products",
+]
 
 Array = NDArray[np.float64]
 Projective = tuple[Array, Array, Array, Array]
@@ -180,12 +189,18 @@ def climb_shear(p: Products, fs: Array) -> Array:
     return (fs + tanh) / (1.0 + fs * tanh)
 
 
-def descend(
-    x: Array, p: Products, f: Projective, fs: Array, m: float, n: float
-) -> tuple[Array, Array, Array, Array, Array]:
-    """Tractions at the bottom of a layer per traction at its top; f and fs at the bottom.
+class Transfer(NamedTuple):
+    """Tractions at the bottom of a layer: ``tau_bottom = t tau_top``, ``Q_bottom = ts Q_top``."""
 
-    Returns (t11, t12, t21, t22, ts) of ``tau_bottom = t tau_top`` and ``Q_bottom = ts Q_top``.
+    t11: Array
+    t12: Array
+    t21: Array
+    t22: Array
+    ts: Array
+
+
+def descend(x: Array, p: Products, f: Projective, fs: Array, m: float, n: float) -> Transfer:
+    """Tractions at the bottom of a layer per traction at its top; f and fs at the bottom.
 
     Examples
     --------
@@ -211,7 +226,7 @@ def descend(
     stiff, slack = m * s + g, e + c
     r = np.exp(-x) / denominator(p, f, m, n)
     ts = np.exp(-x) / (c + fs * s)
-    return (
+    return Transfer(
         r * (c - e - e * f12 - g * f22),
         -r * (stiff * f12 + e * f22 + (1.0 - n) * s + g),
         r * (e * f11 + g * f12 + s + g),

@@ -31,14 +31,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DescriptionError
 from .layer_recursion import climb, climb_shear, cross, half_space, products
-from .layer_stack import Stack, small_wavenumber_constant, stack_of, uniform_compliance
+from .layer_stack import Stack, stack_of
 
 __all__ = [
     "Compliance",
     "compliance",
     "normal_symbol",
-    "small_wavenumber_constant",
-    "uniform_compliance",
 ]
 
 Array = NDArray[np.float64]

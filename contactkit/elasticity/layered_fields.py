@@ -19,12 +19,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DescriptionError
-from .depths import Side, locate
+from .depths import PlaneAt, Side, locate
 from .layer_recursion import climb, climb_shear, cross, descend, half_space, products
 from .layer_stack import Stack, stack_of
 from .layered import blocks
 
-__all__ = ["PlaneStates", "plane_states", "unit_stresses"]
+__all__ = ["PlaneStates", "UnitStresses", "plane_states", "unit_stresses"]
 
 Array = NDArray[np.float64]
 
@@ -105,7 +105,18 @@ def plane_states(
     return _descended(alpha, stack, planes, cutoff)
 
 
-def unit_stresses(states: PlaneStates) -> tuple[Array, Array, Array]:
+class UnitStresses(NamedTuple):
+    """In-plane stresses per unit load [1].
+
+    `pressure` and `traction` (2, m) hold sigma_LL and sigma_TT, `transverse` (m,) sigma_LT/i.
+    """
+
+    pressure: Array
+    traction: Array
+    transverse: Array
+
+
+def unit_stresses(states: PlaneStates) -> UnitStresses:
     """In-plane stresses of the unit states, from U, V and S.
 
     ``sigma_LL = (nu S - 2 G alpha U)/(1 - nu)``, ``sigma_TT = nu (S - 2 G alpha U)/(1 - nu)`` and
@@ -118,10 +129,8 @@ def unit_stresses(states: PlaneStates) -> tuple[Array, Array, Array]:
 
     Returns
     -------
-    pressure, traction : ndarray, shape (2, m)
-        sigma_LL and sigma_TT per unit load [1].
-    transverse : ndarray, shape (m,)
-        sigma_LT/i per unit load [1].
+    UnitStresses
+        Per unit load.
 
     Examples
     --------
@@ -132,20 +141,20 @@ def unit_stresses(states: PlaneStates) -> tuple[Array, Array, Array]:
     [-1.  -0.6]
     """
     nu = states.poisson_ratio
-    share = nu / (1.0 - nu)
+    ratio = nu / (1.0 - nu)
 
     def both(state: Array) -> Array:
         U, S = state[0], state[3]
-        return np.stack([share * S - U / (1.0 - nu), share * (S - U)])
+        return np.stack([ratio * S - U / (1.0 - nu), ratio * (S - U)])
 
-    return both(states.pressure), both(states.traction), states.transverse[0]
+    return UnitStresses(both(states.pressure), both(states.traction), states.transverse[0])
 
 
 # Downward -----------------------------------------------------------------------------------
 
 
 def _descended(
-    alpha: Array, stack: Stack, planes: list[tuple[float, Side, int]], cutoff: float
+    alpha: Array, stack: Stack, planes: list[PlaneAt], cutoff: float
 ) -> Iterator[PlaneStates]:
     tops = np.concatenate([[0.0], np.cumsum(stack.h)])
     bottoms = _bottoms(alpha, stack, [_reached(alpha, z, cutoff) for z in tops[1:]])

@@ -38,7 +38,7 @@ from scipy.special import loggamma
 
 from . import layered
 
-__all__ = ["ORDERS", "PointLoad", "cubic", "locate", "mean_to", "table"]
+__all__ = ["ORDERS", "Place", "PointLoad", "cubic", "locate", "mean_to", "table"]
 
 ORDERS = 5
 """Number of functions T_0, T_1 ... that are tabulated."""
@@ -132,10 +132,10 @@ def table(
     modes = _modes(rest, np.log(low) + start)
     orders, mean = _rest_over_radius(modes, count, n_radii)
     root = np.hypot(radius, scale)
-    share = radius / root
+    ratio = radius / root
     for k in range(ORDERS + 1):
         odd = float(np.prod(np.arange(1.0, 2 * k, 2)))
-        orders[k] += (-1) ** k * odd * (c_inf + (c_s - c_inf) * share ** (2 * k + 1))
+        orders[k] += (-1) ** k * odd * (c_inf + (c_s - c_inf) * ratio ** (2 * k + 1))
     mean += c_inf + (c_s - c_inf) * radius / (root + scale)
     slopes = [orders[k + 1] + (2 * k + 1) * orders[k] for k in range(ORDERS)]
     cubics = [_hermite(orders[k], slopes[k], step) for k in range(ORDERS)]
@@ -147,14 +147,19 @@ def mean_to(load: PointLoad, radius: NDArray[np.float64]) -> NDArray[np.float64]
     return cubic(load.mean, *locate(load, np.log(radius)))
 
 
-def locate(
-    load: PointLoad, log_radius: NDArray[np.float64]
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+class Place(NamedTuple):
+    """Steps of the table, and the fractions of these steps."""
+
+    index: NDArray[np.intp]
+    fraction: NDArray[np.float64]
+
+
+def locate(load: PointLoad, log_radius: NDArray[np.float64]) -> Place:
     """Step of the table in which a logarithm of a radius lies, and the fraction of the step."""
     place = (log_radius - load.start) / load.step
     index = place.astype(np.intp)
     place -= index
-    return index, place
+    return Place(index, place)
 
 
 def cubic(

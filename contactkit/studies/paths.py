@@ -14,7 +14,7 @@ from ..files.structure import field_value, renamed
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..separation.effects.registry import Effect
 
-__all__ = ["Axis", "Scene", "axes", "changed"]
+__all__ = ["Axis", "Changed", "Scene", "axes", "changed"]
 
 Scene = SeparationScene | SlidingScene | ContactScene
 Tree = dict[str, Any]
@@ -75,7 +75,14 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) ->
     return found
 
 
-def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> tuple[Scene, Accuracy]:
+class Changed(NamedTuple):
+    """Scene and accuracy of a point of a study."""
+
+    scene: Scene
+    accuracy: Accuracy
+
+
+def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> Changed:
     """Apply values by path; each object is rebuilt once, so that coupled fields change together.
 
     Raises
@@ -92,7 +99,7 @@ def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> tupl
         for segment in segments[:-1]:
             at = at.setdefault(segment, {})
         at[segments[-1]] = _Leaf(value)
-    return _rebuilt(scene, trees[False]), _rebuilt(accuracy, trees[True])
+    return Changed(_rebuilt(scene, trees[False]), _rebuilt(accuracy, trees[True]))
 
 
 def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:

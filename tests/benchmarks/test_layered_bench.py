@@ -7,7 +7,8 @@ import pytest
 
 from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.layered import compliance, normal_symbol
-from contactkit.elasticity.stress.measures import maxima, tresca, von_mises
+from contactkit.elasticity.stress.maxima import maxima
+from contactkit.elasticity.stress.measures import tresca, von_mises
 from contactkit.elasticity.stress.planes import planes
 from contactkit.elasticity.stress.tractions import Tractions
 

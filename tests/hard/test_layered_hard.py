@@ -16,7 +16,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactkit.elasticity.depths import default_depths, locate
-from contactkit.elasticity.layered import compliance, normal_symbol, uniform_compliance
+from contactkit.elasticity.layer_stack import uniform_compliance
+from contactkit.elasticity.layered import compliance, normal_symbol
 from contactkit.elasticity.layered_fields import plane_states
 from contactkit.errors import DescriptionError
 

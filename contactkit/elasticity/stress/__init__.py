@@ -1,7 +1,7 @@
 """Subsurface stress under a map of pressure and traction.
 
-planes     Stresses on planes at depth.
 tractions  Maps of tractions; normal displacement under tangential ones.
+planes     Stresses on planes at depth.
 measures   Equivalent stresses: von Mises, Tresca, principal stresses, interface shear.
 maxima     Maxima of these measures and their locations.
 periodic   Stresses on one plane, mode by mode of a periodic map.

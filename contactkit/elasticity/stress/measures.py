@@ -13,14 +13,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .maxima import Maximum, maxima, plane_maximum
-
 __all__ = [
-    "Maximum",
     "interface_shear",
     "max_principal_stress",
-    "maxima",
-    "plane_maximum",
     "principal_stresses",
     "sqrt_j2",
     "tresca",

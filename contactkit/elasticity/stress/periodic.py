@@ -18,7 +18,16 @@ from numpy.typing import NDArray
 
 from ..layered_fields import PlaneStates, unit_stresses
 
-__all__ = ["Modes", "component", "grid_of_modes", "into_space", "spectrum", "table_of", "within"]
+__all__ = [
+    "Modes",
+    "UnitFields",
+    "component",
+    "grid_of_modes",
+    "into_space",
+    "spectrum",
+    "table_of",
+    "within",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -127,8 +136,18 @@ def into_space(
     return scipy.fft.irfft(rows, n=modes.shape[1], axis=1, workers=workers)[:, : window[1]]
 
 
-def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> tuple[Array, Array]:
-    """Rows LL, TT, S, T, U, W for a unit pressure and for a unit traction, then V, Q, uV.
+class UnitFields(NamedTuple):
+    """Fields per unit load, a column for each wavenumber.
+
+    Rows LL, TT, S, T, U, W for a unit `pressure`; the same and V, Q, uV for a unit `traction`.
+    """
+
+    pressure: Array
+    traction: Array
+
+
+def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> UnitFields:
+    """Table of the fields of a plane per unit load.
 
     Zeros are inserted before and after the wavenumbers, for the mean and the omitted ones.
 
@@ -150,12 +169,10 @@ def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> tuple
     tables = np.zeros((2, 9, alpha.size + 2))
     tables[0, :6, 1:-1] = loads[0]
     tables[1, :, 1:-1] = loads[1] + shear
-    return tables[0, :6], tables[1]
+    return UnitFields(tables[0, :6], tables[1])
 
 
-def component(
-    k: int, loads: list[Complex | None], tables: tuple[Array, Array], modes: Modes
-) -> Complex:
+def component(k: int, loads: list[Complex | None], tables: UnitFields, modes: Modes) -> Complex:
     """Spectrum of component k due to a pressure and tractions along x and y.
 
     Parameters
@@ -189,11 +206,11 @@ def component(
     x, y, xx, yy = modes.x, modes.y, modes.xx, modes.yy
     terms: list[Complex] = []
     if pressure is not None:
-        terms.append(_of_pressure(k, tables[0], modes.rank, x, y, xx, yy) * pressure)
+        terms.append(_of_pressure(k, tables.pressure, modes.rank, x, y, xx, yy) * pressure)
     if traction_x is not None:
-        terms.append(_of_traction(k, tables[1], modes.rank, x, y, xx, yy) * traction_x)
+        terms.append(_of_traction(k, tables.traction, modes.rank, x, y, xx, yy) * traction_x)
     if traction_y is not None:
-        swapped = _of_traction(SWAPPED[k], tables[1], modes.rank, y, x, yy, xx)
+        swapped = _of_traction(SWAPPED[k], tables.traction, modes.rank, y, x, yy, xx)
         terms.append(swapped * traction_y)
     total = terms[0]
     for term in terms[1:]:

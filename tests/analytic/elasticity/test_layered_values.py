@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contactkit.elasticity.layer_stack import small_wavenumber_constant, uniform_compliance
 from contactkit.elasticity.layered import (
     compliance,
     normal_symbol,
-    small_wavenumber_constant,
-    uniform_compliance,
 )
 from contactkit.elasticity.layered_fields import plane_states
 from contactkit.elasticity.stress.periodic import component, grid_of_modes, table_of

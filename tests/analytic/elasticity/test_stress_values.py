@@ -12,11 +12,10 @@ from numpy.polynomial import polynomial
 from scipy.interpolate import RectBivariateSpline
 
 from contactkit.elasticity.layer_stack import Layers
+from contactkit.elasticity.stress.maxima import maxima, plane_maximum
 from contactkit.elasticity.stress.measures import (
     interface_shear,
     max_principal_stress,
-    maxima,
-    plane_maximum,
     principal_stresses,
     sqrt_j2,
     tresca,
