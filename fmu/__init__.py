@@ -1,6 +1,9 @@
-"""The FMU face of contactkit: ports, slaves and packaging; no formula lives here.
+"""FMI: description, contents and packaging of FMUs, and a master; no formula of physics.
 
-``ports`` describes the variables of an FMU and needs nothing but attrs, ``slave`` turns them
-into an FMI 2.0 co-simulation slave on top of pythonfmu, ``build`` writes the FMU file. Nothing
-is imported here, so that a plot can read a ports table without pythonfmu being installed.
+framework  FMI variables, model description, access and state of an FMU.
+slaves     The models inside FMUs: their ports, and a plan stepped behind them.
+python     FMUs that run in Python: build, carried modules, integrity.
+native     Native FMUs: one C kernel for all models, and the tables of one scene.
+contents   Files inside an FMU beside its model: documentation, icon, terminals, archive.
+master     Co-simulation of a film with a device.
 """

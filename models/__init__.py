@@ -1,1 +1,10 @@
-"""The devices contactkit is shown on, and the data of their materials and liquids."""
+"""Devices that contactkit comes with: equations of motion, and their scenes as files.
+
+injector        Fuel injector: its file, coil, valve and monolithic model.
+micromirror     Digital micromirror: electrostatics, spring tips, landing and release.
+head_disk       Head-disk interface: its scene.
+end_stop        Rough faces of an end stop.
+liquid_bridges  Liquid bridges whose closures are compared.
+library         Scenes by name.
+ode_events      Events of scipy's solvers, and slopes by differences, for monolithic models.
+"""

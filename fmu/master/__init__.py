@@ -7,6 +7,7 @@ force_step    One step of the master where a limit of the liquid may act: forces
               fifth order.
 impulse_step  One step of the master: the mass on one side, the impulse of the film on the other.
 injector      The master: couples the FMUs ``valve-drive`` and ``stiction-mass`` through fmpy.
+steps         Communication steps: adaptive, or fixed with a coupling scheme.
 sides         The coupled subsystems of a run: a film that can be tried, and the source of the pull.
 stage_root    The gap at which a stage of the master ends: Newton in ln h, with the film's own law.
 """

@@ -11,6 +11,7 @@ import pkgutil
 import re
 import subprocess
 import typing
+from collections import Counter
 from pathlib import Path
 
 import attrs
@@ -38,7 +39,9 @@ from contactkit.separation.sliding.effects import SlidingForce
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")
-MOST_LINES_OF_A_FUNCTION = 75  # as the formatter lays them out
+MOST_LINES_OF_A_FUNCTION = 60  # as the formatter lays them out
+MOST_ARGUMENTS = 8
+MOST_FILES_IN_A_FOLDER = 25
 
 SCENE_OBJECTS = [
     ck.Accuracy,
@@ -292,6 +295,56 @@ def test_no_function_is_longer_than_a_screen():
         for where, tree in trees().items()
     }
     assert offenders(long) == {}
+
+
+def arguments_of(function):
+    """How many arguments a function takes; the instance or class is none."""
+    given = function.args
+    names = [a.arg for a in (*given.posonlyargs, *given.args, *given.kwonlyargs)]
+    return len(names) - (names[:1] in (["self"], ["cls"]))
+
+
+def test_no_function_takes_too_many_arguments():
+    wide = {
+        where: {
+            f"{function.name} ({count} arguments)"
+            for function in functions(tree)
+            if (count := arguments_of(function)) > MOST_ARGUMENTS
+        }
+        for where, tree in trees().items()
+    }
+    assert offenders(wide) == {}
+
+
+def test_too_many_arguments_would_be_seen():
+    source = "class A:\n    def f(self, a, b=1, *args, c, d=2, **more): pass"
+    assert [arguments_of(function) for function in functions(ast.parse(source))] == [4]
+
+
+def test_no_folder_is_crowded():
+    kept = Counter(
+        path.relative_to(ROOT).parent.as_posix()
+        for path in committed_files()
+        if path.suffix in (".py", ".c", ".h") and path.is_file()
+    )
+    crowded = {folder: n for folder, n in kept.items() if n > MOST_FILES_IN_A_FOLDER}
+    assert crowded == {}
+
+
+def not_in_the_contents(room):
+    """Modules of a room that its table of contents does not list."""
+    contents = ast.get_docstring(trees()[label(room / "__init__.py")])
+    listed = {line.split()[0] for line in contents.splitlines()[1:] if line.strip()}
+    modules = {path.stem for path in room.glob("*.py") if not path.name.startswith("_")}
+    modules |= {path.parent.name for path in room.glob("*/__init__.py")}
+    return sorted(modules - listed - {"data"})
+
+
+def test_a_room_lists_its_modules():
+    """As a table of contents, one line per module; the library itself has its public names."""
+    rooms = {path.parent for path in python_files() if path.name == "__init__.py"}
+    rooms.discard(ROOT / "contactkit")
+    assert offenders({label(room): not_in_the_contents(room) for room in rooms}) == {}
 
 
 def undocumented(tree):
