@@ -27,7 +27,7 @@ def arrows() -> set[tuple[str, str]]:
     """Pairs of rooms of which the first imports from the second."""
     found = {
         (rule.room(name), rule.room(target))
-        for name, targets in rule.IMPORTS.items()
+        for name, targets in rule.all_imports().items()
         for target in targets
         if target.startswith("contactkit.") and name != "contactkit"
     }
