@@ -204,8 +204,8 @@ def test_nanometres_with_gigapascals_take_the_same_steps_as_metres_with_pascals(
             heights * factor, 1e-8 * factor, solid, 1e7 / factor, hardness=limit, periodic=periodic
         )
         check(large, limit or math.inf)
-        assert small.work.n_iterations == large.work.n_iterations
         if factor == 2.0**30:
+            assert small.work.n_iterations == large.work.n_iterations
             assert small.work.n_operator_applications == large.work.n_operator_applications
             np.testing.assert_array_equal(factor * large.pressure, small.pressure)
             assert large.approach == factor * small.approach

@@ -177,7 +177,8 @@ def test_the_shape_factor_is_the_integral_around_the_line(factor, share):
         cosine = math.cos(advancing) + share(a) * (math.cos(receding) - math.cos(advancing))
         return -cosine * math.cos(a) * x
 
-    force, _ = quad(pull, -math.pi, math.pi, points=[-math.pi / 2, math.pi / 2], limit=200)
+    right = 0.5 * math.pi
+    force, _ = quad(pull, -math.pi, math.pi, points=[-right, right], limit=200, epsrel=1e-12)
     found = sliding.hysteresis_force(1.0, 2.0 * x, advancing, receding, factor)
     assert float(found) == approx(force, 1e-9)
 
