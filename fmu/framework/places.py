@@ -1,19 +1,20 @@
 """Parameters of an FMU as fields of the scene behind it: one table for both directions.
 
 A `Place` says where in the scene a parameter stands. `read` gives the start values of a scene,
-`write` puts the values of a host into a scene; both follow the same table.
+`write` puts the values of a host into a scene; both follow the same table. `differences` finds what
+of a scene does not survive both, so that it can be refused.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from enum import IntEnum
 from functools import reduce
-from typing import Any, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
-from attrs import evolve, field, frozen
+from attrs import evolve, field, fields, frozen, has
 
-__all__ = ["Place", "read", "write"]
+__all__ = ["Difference", "Place", "differences", "read", "write"]
 
 _T = TypeVar("_T")
 
@@ -90,3 +91,51 @@ def _evolved(owner: Any, tree: Mapping[str, Any]) -> Any:
         for name, value in tree.items()
     }
     return evolve(owner, **changes)
+
+
+class Difference(NamedTuple):
+    """Field of a scene that its parameters do not hold, with both values."""
+
+    path: str
+    given: Any
+    held: Any
+
+    def __str__(self) -> str:
+        """Return the field with the value that the parameters hold, and the one given."""
+        if self.held is None and has(type(self.given)):
+            return f"no {self.path}"
+        if self.given is None and has(type(self.held)):
+            return f"always {self.path}"
+        return f"{self.path} = {_short(self.held)}, not {_short(self.given)}"
+
+
+def differences(given: Any, held: Any, free: Collection[str] = ()) -> list[Difference]:
+    """Fields in which a scene differs from the one that its parameters describe.
+
+    Parameters
+    ----------
+    given, held : scene
+        What was given, and what `write` makes of its parameters.
+    free : collection of str
+        Dotted names of fields that may differ, as they are no part of what is represented.
+    """
+    return [one for one in _differences(given, held, "") if one.path not in free]
+
+
+def _differences(given: Any, held: Any, path: str) -> Iterator[Difference]:
+    if given == held:
+        return
+    if path == "effects":
+        one, other = ({type(e).__name__: e for e in effects} for effects in (given, held))
+        for name in sorted({*one, *other}):
+            yield from _differences(one.get(name), other.get(name), name)
+    elif type(given) is type(held) and has(type(given)):
+        for part in fields(type(given)):
+            name = f"{path}.{part.name}" if path else part.name
+            yield from _differences(getattr(given, part.name), getattr(held, part.name), name)
+    else:
+        yield Difference(path, given, held)
+
+
+def _short(value: Any) -> str:
+    return f"{type(value).__name__}(...)" if has(type(value)) else repr(value)

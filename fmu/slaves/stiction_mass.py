@@ -22,7 +22,7 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
-from ...separation.effects.base import FilmStatus, LimitKind, SeparationForce
+from ...separation.effects.base import FilmStatus, LimitKind
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -33,7 +33,7 @@ from ...separation.effects.registry import (
 from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, start
 from ...separation.plan import Plan, plan
-from ..framework.places import Place, read, write
+from ..framework.places import Place, differences, read, write
 from ..framework.ports import Port
 from ..framework.slave import PortSlave
 
@@ -227,35 +227,53 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
         If the FMU cannot represent the scene; says what stands against it.
     """
     interface, loading = scene.interface, scene.loading
-    viscous, film = scene.effect(ViscousForce), scene.effect(MeniscusForce)
-    tension, rupture = scene.effect(TensionLimit), scene.effect(Rupture)
-    against = [
-        reason
-        for reason, holds in {
-            "two flats": interface.is_flat,
-            "a face with a radius [m]": math.isfinite(interface.rim_radius),
-            "loading = ImposedForce(...) with a mass [kg]": isinstance(loading, ImposedForce)
-            and loading.mass is not None,
-            "no force of the solids": not any(
-                isinstance(e, SeparationForce) and not e.needs_film for e in scene.effects
-            ),
-            "ViscousForce() with closure='volume-conserving'": viscous is not None
-            and viscous.closure == "volume-conserving",
-            "TensionLimit with cavity='truncated'": tension is None
-            or tension.cavity == "truncated",
-            "Rupture with a gap [m]": rupture is None
-            or rupture.gap is not None
-            or (rupture.criterion == "limit" and film is not None and film.profile == "exact"),
-            "MeniscusForce(profile='as-published') with pulled='lower'": film is None
-            or film.profile != "as-published"
-            or film.pulled == "lower",
-        }.items()
-        if not holds
-    ]
+    needs = {
+        "two flats": interface.is_flat,
+        "a face with a radius [m]": math.isfinite(interface.rim_radius),
+        "loading = ImposedForce(...) with a mass [kg]": isinstance(loading, ImposedForce)
+        and loading.mass is not None,
+    }
+    against = [reason for reason, holds in needs.items() if not holds]
     if against:
-        cure = "change the scene, or add --native, which takes any scene with a mass"
-        raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {cure}")
-    return read(PLACES, with_numbers(scene))
+        raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
+    settled = _same_form(with_numbers(scene))
+    values = read(PLACES, settled)
+    numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
+    lost = differences(settled, scene_of(numbers), _NOT_HELD)
+    if lost:
+        raise PlanError(f"the Python FMU stiction-mass has {'; '.join(map(str, lost))}; {_CURE}")
+    return values
+
+
+_CURE = "change the scene, or add --native, which takes any scene with a mass"
+_NOT_HELD = (
+    "name",
+    "temperature",  # the liquid is that of it
+    "interface.meniscus.liquid.name",
+    "loading.force",  # the pull is an input
+    "loading.rise_time",
+    "loading.time_limit",
+)
+"""Fields of a scene that are no part of the FMU."""
+
+
+def _same_form(scene: SeparationScene) -> SeparationScene:
+    """Scene written as the parameters write it: one rim, and no choice without an effect."""
+    interface, film = scene.interface, scene.effect(MeniscusForce)
+    rim = Flat(radius=interface.rim_radius)
+    is_exact = film is not None and film.profile == "exact"
+    effects = []
+    for effect in scene.effects:
+        if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
+            effects.append(evolve(effect, pulled="lower"))
+        elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
+            effects.append(effect)
+    interface = evolve(
+        interface,
+        lower=evolve(interface.lower, surface=rim),
+        upper=evolve(interface.upper, surface=rim),
+    )
+    return evolve(scene, interface=interface, effects=tuple(effects))
 
 
 def with_numbers(scene: SeparationScene) -> SeparationScene:

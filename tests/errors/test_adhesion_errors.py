@@ -10,7 +10,6 @@ import pytest
 from refusals import says
 
 import contactkit as ck
-from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.separation.effects.prepared import prepare_scene
 from contactkit.separation.simulate import simulate
 
@@ -146,8 +145,6 @@ def test_what_does_not_know_solids_refuses_them():
         part = simulate(ck.plan(film)).of(ck.ViscousForce)
     with pytest.raises(ck.PlanError, match="knows the film and its meniscus, not VanDerWaalsForce"):
         part.time_at_constant_force(1e-3)
-    with pytest.raises(ck.PlanError, match="no force of the solids"):
-        mass_values(film)
 
 
 def test_the_monolithic_reference_refuses_solids():

@@ -8,14 +8,22 @@ import subprocess
 import sys
 import zipfile
 
+import attrs
 import pytest
 from selection import quick
 
+import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.stability import stability_limit
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.fmu.python import build as building
-from contactkit.fmu.slaves.stiction_mass import PORTS, MeniscusLaw, StictionMass
+from contactkit.fmu.slaves.stiction_mass import (
+    PORTS,
+    MeniscusLaw,
+    StictionMass,
+    mass_values,
+    scene_of,
+)
 from contactkit.separation.effects.base import FilmStatus, LimitKind
 
 OK, DISCARD = 0, 2
@@ -346,7 +354,113 @@ def test_a_slave_in_python_gives_the_numbers_of_the_fmu(host):
 
 
 def test_a_scene_the_fmu_cannot_hold_is_refused(film_scene):
-    from contactkit.fmu.slaves.stiction_mass import mass_values
-
     with pytest.raises(PlanError, match=r"with a mass \[kg\]"):
         mass_values(film_scene())
+
+
+# Scene and parameters --------------------------------------------------------------------------
+
+
+def held_scene():
+    """A scene whose numbers are all parameters of the FMU, but those of its pull."""
+    flat = ck.Flat(radius=1.5e-3)
+    return ck.SeparationScene(
+        interface=ck.Interface(
+            lower=flat,
+            upper=flat,
+            meniscus=ck.Meniscus(
+                liquid=ck.Liquid(name="oil", viscosity=0.07, surface_tension=0.031),
+                volume=1.1e-11,
+                contact_angle_lower=0.21,
+                contact_angle_upper=0.34,
+                count=3,
+                rewetting=0.6,
+            ),
+        ),
+        loading=ck.ImposedForce(
+            force=40.0,
+            mass=0.017,
+            stiffness=4e3,
+            initial_speed=1e-4,
+            initial_gap=6e-6,
+            final_gap=2e-4,
+            rest_gap=4e-6,
+        ),
+        effects=(
+            ck.MeniscusForce(profile="arc"),
+            ck.ViscousForce(),
+            ck.TensionLimit(tension=2e5),
+            ck.ShearLimit(strength=3e6),
+            ck.Rupture(gap=9e-5),
+        ),
+    )
+
+
+def numbers_of(owner, path=()):
+    """Paths of the numbers of a scene."""
+    for part in attrs.fields(type(owner)):
+        value, name = getattr(owner, part.name), (*path, part.name)
+        if isinstance(value, tuple):
+            for i, one in enumerate(value):
+                yield from numbers_of(one, (*name, i))
+        elif attrs.has(type(value)):
+            yield from numbers_of(value, name)
+        elif isinstance(value, float | int):
+            yield name
+
+
+def changed(owner, path, change):
+    """Scene with one of its numbers changed."""
+    if not path:
+        return change(owner)
+    first, *rest = path
+    if isinstance(first, int):
+        return (*owner[:first], changed(owner[first], rest, change), *owner[first + 1 :])
+    return attrs.evolve(owner, **{first: changed(getattr(owner, first), rest, change)})
+
+
+PULL = {"force", "rise_time", "time_limit"}
+
+
+NUMBERS = [path for path in numbers_of(held_scene()) if path[-1] not in PULL]
+
+
+@pytest.mark.parametrize("path", NUMBERS, ids=str)
+def test_every_number_of_a_scene_arrives(path):
+    """In a parameter, and from there in the scene that the FMU plans."""
+    scene = held_scene()
+    other = changed(scene, path, lambda x: x + 1 if isinstance(x, int) else 0.99 * x)
+    values = mass_values(other)
+    if path == ("temperature",):
+        assert values == mass_values(scene)  # the liquid is the same at all temperatures
+        return
+    assert values != mass_values(scene)
+    again = scene_of({p.name: p.read(values.get(p.name, p.start)) for p in PORTS})
+    assert mass_values(again) == values
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"pressure": -1e4, "volume": None}, "interface.meniscus.pressure = None, not -10000.0"),
+        ({"effects": ck.VanDerWaalsForce(hamaker_constant=1e-19)}, "has no VanDerWaalsForce"),
+        ({"drop": ck.ViscousForce}, "always ViscousForce"),
+        ({"effects": ck.Rupture(criterion="zero-neck")}, "Rupture"),
+        ({"loading": ck.ImposedForce(force=1.0, initial_gap=6e-6, final_gap=2e-4)}, "a mass"),
+        ({"effects": ck.TensionLimit(cavity="reynolds")}, "TensionLimit.cavity = 'truncated', not"),
+        ({"effects": ck.MeniscusForce(profile="as-published", pulled="upper")}, "pulled = 'lower'"),
+    ],
+)
+def test_what_the_parameters_do_not_hold_is_refused(changes, message):
+    scene = held_scene()
+    added = (changes["effects"],) if "effects" in changes else ()
+    dropped = (changes.get("drop"), *map(type, added))
+    kept = tuple(e for e in scene.effects if type(e) not in dropped)
+    meniscus = {k: changes[k] for k in ("pressure", "volume") if k in changes}
+    interface = attrs.evolve(scene.interface, meniscus=attrs.evolve(scene.meniscus, **meniscus))
+    loading = changes.get("loading", scene.loading)
+    scene = attrs.evolve(scene, interface=interface, loading=loading, effects=(*kept, *added))
+    with pytest.raises(PlanError) as caught:
+        mass_values(scene)
+    assert message in str(caught.value)
+    assert "--native" in str(caught.value)
