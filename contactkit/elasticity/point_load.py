@@ -150,7 +150,7 @@ def mean_to(load: PointLoad, radius: NDArray[np.float64]) -> NDArray[np.float64]
 class Place(NamedTuple):
     """Steps of the table, and the fractions of these steps."""
 
-    index: NDArray[np.intp]
+    step: NDArray[np.intp]
     fraction: NDArray[np.float64]
 
 
