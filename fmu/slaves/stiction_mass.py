@@ -286,7 +286,9 @@ def with_numbers(scene: SeparationScene) -> SeparationScene:
         surface_tension=state.given("surface_tension"),
     )
     effects = tuple(
-        evolve(effect, tension=effect.pressure_drop) if isinstance(effect, TensionLimit) else effect
+        TensionLimit(tension=effect.pressure_drop, cavity=effect.cavity)
+        if isinstance(effect, TensionLimit)
+        else effect
         for effect in scene.effects
     )
     interface = evolve(scene.interface, meniscus=evolve(meniscus, liquid=liquid))

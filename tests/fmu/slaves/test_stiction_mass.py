@@ -431,8 +431,8 @@ def test_every_number_of_a_scene_arrives(path):
     scene = held_scene()
     other = changed(scene, path, lambda x: x + 1 if isinstance(x, int) else 0.99 * x)
     values = mass_values(other)
-    if path == ("temperature",):
-        assert values == mass_values(scene)  # the liquid is the same at all temperatures
+    if path[-1] in ("temperature", "ambient_pressure"):
+        assert values == mass_values(scene)  # of a constant liquid with a tension of its own
         return
     assert values != mass_values(scene)
     again = scene_of({p.name: p.read(values.get(p.name, p.start)) for p in PORTS})
@@ -464,3 +464,10 @@ def test_what_the_parameters_do_not_hold_is_refused(changes, message):
         mass_values(scene)
     assert message in str(caught.value)
     assert "--native" in str(caught.value)
+
+
+def test_the_pressure_around_limits_a_liquid_that_boils():
+    scene = held_scene()
+    kept = tuple(e for e in scene.effects if not isinstance(e, ck.TensionLimit))
+    boils = ck.TensionLimit(tension="vapour", ambient_pressure=5e4)
+    assert mass_values(attrs.evolve(scene, effects=(*kept, boils)))["dp_cav"] == 5e4

@@ -209,7 +209,7 @@ def _law(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Path:
     ax.set(xscale="log", xlabel="gap under a tip [nm]", ylabel="force on one tip [nN]")
     ax.set_ylim(0.0, None)
     plot.plain_log(ax.xaxis)
-    plot.title(ax, "what holds a tip over its gap")
+    plot.title(ax, "adhesion of a tip over its gap")
     plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return plot.save(made, out / "force-gap")
 
