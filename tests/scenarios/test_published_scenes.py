@@ -109,7 +109,7 @@ def test_a_flooded_film_keeps_its_radius_rightly():
     face = ck.Flat(radius=3e-5)
     (found,) = run(PRINTED, face=face, volume=None, time=1e-3).errata
     assert found.corrected == found.value
-    assert "bath" in found.corrected_by
+    assert "flooded" in found.corrected_by
 
 
 def test_the_closed_neck_stands_beside_the_exact_limit():
