@@ -41,10 +41,14 @@ Progress = Callable[[float], None]
 
 
 class FmuStart(NamedTuple):
-    """Name of the FMU that holds a scene, and the start values to bake in."""
+    """Name of the FMU that holds a scene, and the start values to bake in.
+
+    `film` is the scene of the film of a device, which a native FMU takes as it is.
+    """
 
     name: str
     values: Mapping[str, Any]
+    film: SeparationScene | None = None
 
 
 class OpenedScene(Protocol):
@@ -292,7 +296,8 @@ class OpenedInjector:
         """See `OpenedScene.fmu_start`."""
         from ..fmu.slaves.stiction_mass import mass_values
 
-        return FmuStart("stiction-mass", mass_values(self.scene.separation(self.scene.temperature)))
+        film = self.scene.separation(self.scene.temperature)
+        return FmuStart("stiction-mass", mass_values(film), film)
 
 
 @frozen

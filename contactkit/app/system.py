@@ -41,7 +41,7 @@ _CONNECTIONS = (
 
 @frozen
 class _Film:
-    """Start values of a film, as `native_build.native_scene` asks for them."""
+    """Start values of a film, as `native_scene` asks for them."""
 
     values: Mapping[str, Any]
 

@@ -222,7 +222,9 @@ def native_scene(what: Any, model: Model | None = None) -> NativeScene:
             "a contact scene makes a contact-stop, which has no native form in this version; "
             "leave out --native"
         )
-    name, given = (what, {}) if isinstance(what, str) else what.fmu_start()
+    name, given, film = (what, {}, None) if isinstance(what, str) else what.fmu_start()
+    if film is not None:
+        return NativeScene(film, {})
     if name == "valve-drive":
         raise PlanError(
             "valve-drive has no native form made of a scene, as it has no film; build it by its "

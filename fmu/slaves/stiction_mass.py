@@ -22,7 +22,7 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
-from ...separation.effects.base import FilmStatus, LimitKind
+from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -262,7 +262,7 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     interface, film = scene.interface, scene.effect(MeniscusForce)
     rim = Flat(radius=interface.rim_radius)
     is_exact = film is not None and film.profile == "exact"
-    effects = []
+    effects: list[SeparationEffect] = []
     for effect in scene.effects:
         if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
             effects.append(evolve(effect, pulled="lower"))

@@ -85,9 +85,6 @@ DELIBERATE: list[tuple[str, str, str]] = [
     ("docs/usage.md", '= "clipped"`', "former spelling of a key"),
     ("tests/benchmarks/*", "rounds", "argument of pytest-benchmark"),
 ]
-# Rooms that are still being cleaned.
-NOT_YET: tuple[str, ...] = ()
-
 # First lines that are a riddle: what the thing is must come first.
 RIDDLE = re.compile(r"(What|How|Where|When|Which|Why|That)\b")
 
@@ -152,16 +149,10 @@ def is_deliberate(path, around):
     return any(fnmatch(path, where) and text in around for where, text, _ in DELIBERATE)
 
 
-def is_exempt(path):
-    """Whether a file lies in a room that is still being cleaned."""
-    return any(fnmatch(path, room) for room in NOT_YET)
-
-
 def test_only_terms_of_the_field():
     found = [
         f"{path}:{line}: {phrase!r} -> {term}"
         for path in files()
-        if not is_exempt(path)
         for line, phrase, term in found_in(path)
     ]
     assert found == [], "\n".join(found)
@@ -182,7 +173,7 @@ def test_first_lines_name_the_thing():
     found = [
         f"{path}:{line}: {first}"
         for path in files()
-        if path.endswith(".py") and not path.startswith("tests/") and not is_exempt(path)
+        if path.endswith(".py") and not path.startswith("tests/")
         for line, first in summaries(path)
         if RIDDLE.match(first)
     ]
