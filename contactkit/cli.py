@@ -175,7 +175,8 @@ def _build(parsed: argparse.Namespace) -> None:
     if parsed.native:
         name, path = _build_native(parsed)
     else:
-        name, start = (parsed.what, {}) if parsed.what in FMUS else _load(parsed.what).fmu_start()
+        what = parsed.what
+        name, start, *_ = (what, {}) if what in FMUS else _load(what).fmu_start()
         path = build(name, parsed.out, start=start)
     problems = validate(path)
     print(

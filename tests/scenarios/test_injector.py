@@ -138,9 +138,10 @@ def test_the_plan_says_what_is_simulated(device):
 
 
 def test_the_scene_becomes_the_parameters_of_the_fmu(device):
-    name, values = device.fmu_start()
+    name, values, film = device.fmu_start()
     assert name == "stiction-mass"
-    assert values == mass_values(device.scene.separation(device.scene.temperature))
+    assert film == device.scene.separation(device.scene.temperature)
+    assert values == mass_values(film)
     assert values["R"] == pytest.approx(3.175e-3)
     assert values["dp_cav"] == 1e6
     assert values["h_break"] == pytest.approx(20e-6)

@@ -164,7 +164,7 @@ def test_the_plan_says_what_is_simulated(device):
 
 
 def test_the_scene_becomes_the_parameters_of_the_fmu(device):
-    name, values = device.fmu_start()
+    name, values, _ = device.fmu_start()
     assert name == "tip-contact"
     assert values["R"] == pytest.approx(1e-7)
     assert 1e-26 < values["V"] < 1e-24

@@ -330,7 +330,7 @@ def test_a_contact_scene_without_a_load_displacement_curve_is_refused(tmp_path, 
 def valve(curve, tmp_path_factory):
     """The FMUs of the injector: mass, drive, drive with rough faces, and one that never stops."""
     folder, injector = tmp_path_factory.mktemp("valve"), open_scene("fuel-injector")
-    name, start = injector.fmu_start()
+    name, start, _ = injector.fmu_start()
     values = drive_values(injector.scene.valve) | {"n_cycles": 1, "d_stop": 0.0}
     made = {"mass": building.build(name, folder / "mass.fmu", start=start)}
     for tag, more in {"plain": {}, "rough": {"curve": curve}}.items():
