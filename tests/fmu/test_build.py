@@ -29,6 +29,7 @@ def test_fmpy_finds_no_problems(toy_fmu):
     assert validate(toy_fmu) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [None, {"tau": 0.2}])
 def test_rebuild_is_byte_identical(toy_module, tmp_path, monkeypatch, start):
     first = build("toy", tmp_path / "one.fmu", start=start).read_bytes()

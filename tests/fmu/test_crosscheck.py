@@ -21,6 +21,8 @@ from contactkit.errors import DescriptionError  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.native.build import build_native  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 KEPT = Path(__file__).parents[2] / "examples" / "crosscheck"
 ONE = {"platforms": [local()], "compiler": "cc"}
 

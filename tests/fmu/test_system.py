@@ -28,6 +28,8 @@ from contactkit.fmu.master.injector import Fmu, cosimulate  # noqa: E402
 from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 SSD, SSC, SSV = f"{{{SSP}Description}}", f"{{{SSP}Common}}", f"{{{SSP}ParameterValues}}"

@@ -149,6 +149,7 @@ def is_deliberate(path, around):
     return any(fnmatch(path, where) and text in around for where, text, _ in DELIBERATE)
 
 
+@pytest.mark.slow
 def test_only_terms_of_the_field():
     found = [
         f"{path}:{line}: {phrase!r} -> {term}"

@@ -44,6 +44,7 @@ def test_each_example_has_its_number():
 LONG = {"coated_sphere", "step_the_fmu"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in NUMBERS]
 )

@@ -190,6 +190,7 @@ def test_energy_of_the_monolithic_model_is_conserved():
     assert put_in == pytest.approx(kinetic + meniscus + result["dissipated_work"][-1], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_film_that_heals_at_once_keeps_the_cold_valve_from_closing():
     """Without rupture the closing spool has to squeeze the oil out, 33 N.s at -20 degC."""
     scene, valve = injector(-20.0, [ck.Rupture])

@@ -1,6 +1,6 @@
 """The same release through hosts of others, against the monolithic value.
 
-fmpy and libcosim are in every test run; OMSimulator and PyFMI are run where they are installed
+fmpy and libcosim are in `make test-all`; OMSimulator and PyFMI are run where they are installed
 (docs/hosts.md says how). The last host is in C, with no Python in its process.
 """
 
@@ -25,6 +25,7 @@ from native_scenes import HAS_CC, HERE, compile_c  # noqa: E402
 from contactkit.fmu.framework.toolchain import fmi_headers  # noqa: E402
 from contactkit.fmu.python.guard import can_guard  # noqa: E402
 
+pytestmark = pytest.mark.slow
 needs_cc = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 KINDS = [
     "python",

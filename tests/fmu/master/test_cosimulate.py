@@ -61,6 +61,7 @@ def test_every_output_of_both_fmus_is_recorded_with_its_unit(pair):
         found["h"][0] = 0.0
 
 
+@pytest.mark.slow
 def test_the_coupling_error_falls_with_the_square_of_the_step(pair, first_release):
     """Steps that meet the switching of the voltage; others err by the kink inside one step."""
     steps = (10e-6, 5e-6, 2e-6)
@@ -70,6 +71,7 @@ def test_the_coupling_error_falls_with_the_square_of_the_step(pair, first_releas
     assert errors[-1] < 2e-7
 
 
+@pytest.mark.slow
 def test_a_pull_that_is_held_costs_an_order(pair, first_release):
     steps = (10e-6, 5e-6, 2e-6)
     errors = [

@@ -88,6 +88,7 @@ def test_it_holds_what_it_is_made_of(unpacked):
     assert "Python interpreter" not in page
 
 
+@pytest.mark.slow
 def test_rebuild_is_byte_identical(fmu, unpacked, tmp_path):
     again = build_native(SCENES["drop"], tmp_path / "again.fmu", **ONE)
     assert again.read_bytes() == fmu.read_bytes()
@@ -110,6 +111,7 @@ def release_of(folder):
     return found["t_release"][-1], found["J"][-1]
 
 
+@pytest.mark.slow
 def test_the_sources_inside_are_all_it_takes(fmu, tmp_path):
     """Those the description names, compiled with nothing but what lies beside them."""
     folder = tmp_path / "x"
@@ -306,6 +308,7 @@ def test_without_zig_only_this_platform_is_compiled(tmp_path):
         compile_kernel(write_sources(tmp_path / "sources"), other, tmp_path / "library", "cc")
 
 
+@pytest.mark.slow
 def test_the_command_line_builds_one(tmp_path, monkeypatch, capsys):
     from contactkit import cli
     from contactkit.fmu.native import build as native_build

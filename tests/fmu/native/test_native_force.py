@@ -163,6 +163,7 @@ def test_the_impulse_does_not_depend_on_the_way(n, end, native, open_fmu):
     assert host.get("J") == pytest.approx(0.0, abs=1e-12 * whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sphere", "stieber", "shear", "rewetting"])
 def test_impulses_are_integrals_of_the_forces(name, native, open_fmu):
     """Over kinks and limits, by 20 000 midpoints of the Python laws at the mean speed."""
@@ -204,6 +205,7 @@ def test_solids_hold_on_after_the_film_broke(native, open_fmu):
 # Master --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["A", "B", "D", "E"])
 def test_the_master_drives_it_as_the_python_one(name, release_cases, pair):
     case, values = release_cases[name]["case"], release_cases[name]["values"]

@@ -84,7 +84,7 @@ def slope(function, gap, share=4e-4):
     return (45.0 * (f[3] - f[2]) - 9.0 * (f[4] - f[1]) + f[5] - f[0]) / (60.0 * share)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", quick(SCENES, 0, 2, 4, 6, 8, 10, 12))
 def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, tmp_path):
     scene = moving(SCENES[name], None)
     film = plan(scene, FINE).film

@@ -352,6 +352,7 @@ def test_rough_faces_soften_the_stop_of_the_valve_and_take_energy(valve, curve):
     assert rough["v"][bounced].min() > plain["v"][bounced].min()  # comes back slower
 
 
+@pytest.mark.slow
 def test_beside_the_drive_it_does_what_it_does_inside(valve, stop_fmu):
     """One impact, by three FMUs and by two."""
     step, n = 5e-6, 340

@@ -196,6 +196,7 @@ def test_which_limit_acts_is_reported(host):
     assert host.get("limit") == LimitKind.SHEAR
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lower", "upper"),
     quick([(0, 0), (90, 90), (180, 180), (60, 120), (15, 165), (0, 90)], 0, 2, 3),

@@ -137,6 +137,7 @@ def test_damping_dissipates_its_part(dry):
     assert off.landing_loss == pytest.approx(0.5 * MASS * (came**2 - left**2), rel=5e-3)
 
 
+@pytest.mark.slow
 def test_a_stiff_dead_site_is_the_rigid_one(dry):
     """A site 10, 100, 1000 times as hard that gives nothing back: depths fall as factor^-2/5."""
     depths, rigid = [], advance_tip(dry, 0.0, free_start(dry, 1e-9, -0.1), Root(1e-9), 2e-8)
@@ -279,6 +280,7 @@ def test_it_starts_at_rest(soft):
     assert abs(motion["tilt"] - soft.start[0]).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_the_fmu_restores_an_impact(soft, open_fmu, tmp_path):
     path = building.build("tip-contact", tmp_path / "tip.fmu", start=tip_start(soft, 0.0))
     assert building.validate(path) == []
@@ -305,6 +307,7 @@ def test_the_fmu_restores_an_impact(soft, open_fmu, tmp_path):
     assert once["state"] in (TipStatus.LANDED, TipStatus.HELD)
 
 
+@pytest.mark.slow
 def test_on_a_rigid_site_there_is_nothing_to_damp(scene, open_fmu, tmp_path):
     path = building.build("tip-contact", tmp_path / "r.fmu", start=tip_start(scene, 0.0))
     host = open_fmu(path)
