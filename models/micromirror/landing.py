@@ -3,12 +3,12 @@ r"""Landing of a spring tip on its site: force, dissipated work and rebound.
 `contactkit.models.micromirror.tip` lets a tip land without a bounce of its apex, on a site that
 is rigid. Here the site deforms by its `LoadDisplacementCurve`; the energy of one impact decides,
 
-.. math:: \tfrac12 m v^2 + w = W(d_m), \qquad e^2 = 1 - \text{lost} / \tfrac12 m v^2
+.. math:: \tfrac12 m v^2 + w = W(d_m), \qquad e^2 = 1 - D / \tfrac12 m v^2
 
-with w the work of the attraction that pulls it in and holds it again on unloading. The apex
-stays if the plastic work takes the whole kinetic energy. Left out: what runs away in the tip as a
-wave, vapour that condenses while it touches, and that approaches of less than a nanometre are
-those of a few atoms, to which hardness and elasticity are strangers.
+with w the work of the attraction, on loading and unloading, and D the dissipated work. The apex
+stays if the plastic work takes the whole kinetic energy. Left out: energy carried away by waves in
+the tip, and vapour that condenses while it touches. Approaches below a nanometre are those of a
+few atoms, where hardness and elasticity of the bulk do not hold.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class TipLanding(NamedTuple):
     """Largest approach of apex and site [m]."""
     force: float
     """Largest force between them [N]."""
-    lost: float
+    dissipated_work: float
     """Work that plasticity takes [J]."""
     restitution: float
     """Speed at which the apex leaves over that at which it came [-]; 0: it stays."""

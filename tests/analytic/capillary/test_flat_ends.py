@@ -41,6 +41,7 @@ def integrated(lower, upper, gap, radius, pressure):
     return 2.0 * math.pi * x[0] * math.sin(lower) - math.pi * x[0] ** 2 * x[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pair", "share"), [((180, 180), 0.9), ((179.9, 179.9), 0.9999), ((180, 90), 0.99)], ids=str
 )
@@ -58,6 +59,7 @@ def test_a_repelled_bridge_ends_as_the_drop_it_leaves():
     assert flat_end(*radians((180, 90)))[0] == pytest.approx((1.5 / math.pi) ** (1 / 3), rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("pair", "contacts"), [((180, 180), 2), ((180, 90), 1)])
 def test_a_drop_yields_to_a_small_push_as_in_the_theory_of_its_small_facets(pair, contacts):
     """Way over force falls by 1/(4 pi) per contact and e-fold of the force (Morse and Witten)."""

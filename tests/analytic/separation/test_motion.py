@@ -52,6 +52,7 @@ def test_the_peak_comes_when_the_reference_has_it(release_cases, release_scene, 
     assert run(release_scene(name)).state.peak_time == approx(when, 1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["A", "B", "D", "E"])
 def test_a_tighter_tolerance_brings_the_release_nearer(release_cases, release_scene, name):
     exact = run(release_scene(name), 1e-11).state.release_time

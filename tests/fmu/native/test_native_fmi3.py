@@ -24,6 +24,8 @@ from contactkit.fmu.framework.toolchain import PLATFORMS, local  # noqa: E402
 from contactkit.fmu.native.build import build_native  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 ONE = {"platforms": [local()], "compiler": "cc"}
 OUTPUTS = ("h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "F_peak", "t_break", "t_release")
 linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="dlopen and ASan")

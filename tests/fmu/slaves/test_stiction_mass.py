@@ -285,6 +285,7 @@ def test_the_film_breaks_at_the_limit_of_the_exact_bridge(host):
     assert before < limit < host.get("h") < 1.2 * limit
 
 
+@pytest.mark.slow
 def test_two_builds_in_one_process_keep_their_own_numbers(tmp_path, open_fmu):
     paths = [
         building.build("stiction-mass", tmp_path / f"{i}.fmu", start={"eta": eta, "h0": "20 um"})

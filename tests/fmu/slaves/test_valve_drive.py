@@ -147,6 +147,7 @@ def test_an_impossible_drive_is_refused(drive_fmu, open_fmu):
     assert "t_on must not exceed T_period = 0.01 s" in host.errors[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("temperature", [-20.0, 80.0])
 def test_coupled_to_the_film_it_gives_what_the_monolithic_solver_gives(temperature):
     tables = read_tables(MODEL)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
-from ....models.micromirror.coupling import FREE, HELD, SIGNALS
+from ....models.micromirror.coupling import HELD, SIGNALS
 from ....models.micromirror.electrostatics import pull_in
 from ....models.micromirror.release import Landing, Release, landing, release_curve
 from ....models.micromirror.scene import MicromirrorScene
@@ -21,7 +21,7 @@ from ...report import Report
 from .cosimulation import MirrorRun, cosimulate_flips
 from .landing_sites import landing_numbers
 
-__all__ = ["flip_times", "plan_text", "report", "run_errors", "run_micromirror"]
+__all__ = ["plan_text", "report", "run_errors", "run_micromirror"]
 
 Progress = Callable[[float], None]
 
@@ -165,13 +165,6 @@ def _verdict(scene: MicromirrorScene, found: Sequence[Release]) -> list[str]:
 
 def _energy(scene: MicromirrorScene, one: Release) -> float:
     return scene.mirror.tips.per_side * one.adhesion.energy
-
-
-def flip_times(run: MirrorRun, side: str) -> list[float]:
-    """Times [s] at which the tips of a side, ``plus`` or ``minus``, become free."""
-    free = run.coupled[f"state_{side}"] == FREE
-    begins = np.flatnonzero(free[1:] & ~free[:-1]) + 1
-    return [float(run.coupled["time"][i]) for i in begins]
 
 
 def run_errors(scene: MicromirrorScene, run: MirrorRun) -> tuple[float, float]:
