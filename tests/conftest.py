@@ -26,7 +26,7 @@ settings.load_profile("repeatable")
 
 
 def pytest_collection_finish():
-    """Leave what was imported and collected to the end: a tenth of the time is spent on it else."""
+    """Leave what was imported to the end: collecting it over and over takes a tenth of the run."""
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 50)

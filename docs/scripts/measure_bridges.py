@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from measured_blocks import write_blocks
+from measured_blocks import measure
 from scipy.optimize import brentq
 from validation_tables import grid
 
@@ -169,18 +169,5 @@ TABLES: Mapping[str, Callable[[], str]] = {
 }
 
 
-def main() -> int:
-    """Measure, print, and write if asked."""
-    names = [a for a in sys.argv[1:] if a != "--write"] or list(TABLES)
-    found = {}
-    for name in names:
-        found[f"bridges {name}"] = TABLES[name]()
-        sys.stdout.write(f"{name}\n\n{found[f'bridges {name}']}\n\n")
-    if "--write" in sys.argv[1:]:
-        missing = write_blocks(found)
-        sys.stdout.write(f"no page has: {', '.join(missing) or 'none missing'}\n")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(measure(TABLES, "bridges "))

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from contact_effort import best_of, fast_table, ratio_table, solver_table
-from measured_blocks import write_blocks
+from measured_blocks import measure
 from validation_tables import grid
 
 import contactkit as ck
@@ -208,18 +208,5 @@ TABLES: Mapping[str, Callable[[], str]] = {
 }
 
 
-def main() -> int:
-    """Measure, print, and write if asked."""
-    names = [a for a in sys.argv[1:] if a != "--write"] or list(TABLES)
-    found = {}
-    for name in names:
-        found[name] = TABLES[name]()
-        sys.stdout.write(f"{name}\n\n{found[name]}\n\n")
-    if "--write" in sys.argv[1:]:
-        missing = write_blocks(found)
-        sys.stdout.write(f"no page has: {', '.join(missing) or 'none missing'}\n")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(measure(TABLES))

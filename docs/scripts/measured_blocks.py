@@ -2,13 +2,14 @@
 
 A page holds ``<!-- measured: NAME -->`` and ``<!-- end of measured -->``. Unlike the tables of
 `tables.py` these are not checked by a test, as they differ from machine to machine; the scripts
-`measure_contact.py` and `pictures.py` write them.
+`measure_contact.py`, `measure_bridges.py` and `pictures.py` write them.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+import sys
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 DOCS = Path(__file__).parents[1]
@@ -28,3 +29,19 @@ def write_blocks(found: Mapping[str, str]) -> list[str]:
         if new != old:
             page.write_text(new, encoding="utf-8")
     return sorted(left)
+
+
+def measure(tables: Mapping[str, Callable[[], str]], prefix: str = "") -> int:
+    """Measure the tables named on the command line, or all; print, and write with ``--write``.
+
+    A block is called as its table, behind `prefix`.
+    """
+    names = [a for a in sys.argv[1:] if a != "--write"] or list(tables)
+    found = {}
+    for name in names:
+        text = found[prefix + name] = tables[name]()
+        sys.stdout.write(f"{name}\n\n{text}\n\n")
+    if "--write" in sys.argv[1:]:
+        missing = write_blocks(found)
+        sys.stdout.write(f"no page has: {', '.join(missing) or 'none missing'}\n")
+    return 0

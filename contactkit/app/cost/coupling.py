@@ -12,7 +12,7 @@ import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from attrs import field, frozen
 
@@ -50,15 +50,7 @@ Coupling = Literal[
 ]
 """How film and mass are put together."""
 
-SCHEMES: tuple[Coupling, ...] = (
-    "jacobi",
-    "gauss-seidel",
-    "end-point",
-    "impulse",
-    "impulse, adaptive",
-    "mass inside, held",
-    "mass inside",
-)
+SCHEMES: tuple[Coupling, ...] = get_args(Coupling)
 _COUNTS = (3, 10, 30, 100, 300, 1000)
 _INSIDE = (1, 3, 10, 30, 100, 300)
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

@@ -124,7 +124,7 @@ static void settle(ck_model *model, double time) {
     memory->pending = CK_NONE;
 }
 
-/* Apply what happens at a gap the motion has come to: rupture, parting, re-wetting, joining. */
+/* Apply the event at the gap that the motion has reached: rupture, pull-off, re-wetting, contact. */
 static void apply_event(ck_model *model, double gap, int rising, double time) {
     ck_memory *memory = &model->state.memory;
     int next = model->scene.film_count - 1;
