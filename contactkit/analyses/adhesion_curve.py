@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..scene.scenes import SeparationScene
-from ..separation.effects.prepared import prepare_scene
+from ..separation.effects.prepared import checked_liquid, prepare_scene
 from ..separation.effects.registry import AdhesiveContact
 
 if TYPE_CHECKING:
@@ -86,8 +86,8 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
         raise PlanError(
             "the scene does not call for adhesive-contact: add AdhesiveContact(...) to its effects"
         )
-    liquid = scene.meniscus.liquid.at(scene.temperature)
-    if missing := (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene)):
+    liquid = checked_liquid(scene)
+    if missing := effect.lacks(scene):
         raise PlanError("; ".join(f"AdhesiveContact needs {item}" for item in missing))
     from ..separation.effects.adhesion import states_at_loads
 

@@ -12,6 +12,7 @@ from ..errors import InfeasibleError, NotSimulatedError, PlanError
 from ..lubrication import squeeze_film as squeeze
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime, SeparationLoading
 from ..separation.effects.as_published import mixed
+from ..separation.effects.prepared import checked_liquid
 from ..separation.effects.registry import MeniscusForce, ViscousForce
 
 if TYPE_CHECKING:
@@ -66,7 +67,8 @@ def law_of(scene: SeparationScene, name: Name | None, min_volume: float) -> Divi
     """Law of a scene; `min_volume` [m3] is any volume, from which the limits are scaled."""
     effect = scene.effect(MeniscusForce)
     name = name or _own_law(scene)
-    liquid = _checked(scene, name)
+    _check(scene, name)
+    liquid = checked_liquid(scene)
     gap, limit = scene.loading.initial_gap, _limits(scene, name, min_volume)
     meniscus, radius = _meniscus(scene, name, liquid)
     film = scene.effect(ViscousForce)
@@ -85,8 +87,8 @@ def _own_law(scene: SeparationScene) -> Name:
     return "as-published" if is_printed else "exact"
 
 
-def _checked(scene: SeparationScene, name: str) -> LiquidState:
-    """Refuse scenes other than a film between two flats with the necessary data."""
+def _check(scene: SeparationScene, name: str) -> None:
+    """Refuse scenes other than a film between two flats."""
     interface, loading = scene.interface, scene.loading
     known = (MeniscusForce, ViscousForce)
     others = [type(e).__name__ for e in scene.effects if not isinstance(e, known)]
@@ -115,11 +117,6 @@ def _checked(scene: SeparationScene, name: str) -> LiquidState:
         )
     if loading.initial_gap <= 0.0:
         raise InfeasibleError("loading.initial_gap is 0 m: touching flats hold no film to divide")
-    liquid = scene.meniscus.liquid.at(scene.temperature)
-    needed = ("surface_tension",) if viscous is None else ("surface_tension", "viscosity")
-    if missing := liquid.missing(*needed):
-        raise PlanError(f"a division needs {' and '.join(missing)}")
-    return liquid
 
 
 def _angles(scene: SeparationScene) -> tuple[float, float]:
@@ -143,7 +140,7 @@ def _limits(scene: SeparationScene, name: str, volume: float) -> Callable[[Float
 def _meniscus(
     scene: SeparationScene, name: str, liquid: LiquidState
 ) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats], Floats]]:
-    gap, angles, tension = scene.loading.initial_gap, _angles(scene), liquid.surface_tension
+    gap, angles = scene.loading.initial_gap, _angles(scene)
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
         pulled = effect.pulled if effect is not None else "lower"
@@ -151,6 +148,7 @@ def _meniscus(
 
         def printed(volume: Floats, number: Floats) -> Floats:
             whole = squeeze.disc_radius(volume * number, gap)
+            tension = liquid.surface_tension
             return np.asarray(meniscus_divided_3_33(whole, gap, tension, *angles, number, pulled))
 
         return printed, lambda volume: np.asarray(squeeze.disc_radius(volume, gap))
@@ -160,7 +158,7 @@ def _meniscus(
         from ..capillary.exact.bridge import bridge  # type: ignore[assignment]
 
     def force(volume: Floats, number: Floats) -> Floats:
-        return np.asarray(number * tension * bridge(gap, volume, *angles).force)
+        return np.asarray(number * liquid.surface_tension * bridge(gap, volume, *angles).force)
 
     def radius(volume: Floats) -> Floats:
         state = bridge(gap, volume, *angles)

@@ -138,6 +138,11 @@ class Film:
         by_speed = (self.viscous_force(gap, faster)[0] - viscous) / (faster - speed)
         return Forces(static, static_by_gap, viscous, by_gap, by_speed, limit)
 
+    @staticmethod
+    def acting_limit(forces: Forces) -> LimitKind:
+        """Limit of the liquid that acts in forces of this film."""
+        return LimitKind.NONE if forces.limit is None else LimitKind(forces.limit)
+
     def force(self, gap: float, speed: float) -> float:
         """Sum of all forces [N]; positive resists opening."""
         total = self.viscous_force(gap, speed)[0]

@@ -229,7 +229,7 @@ class StictionForce(PortSlave):
             k=found.static_by_gap + found.viscous_by_gap,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
             state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE),
-            limit=int(found.limit or LimitKind.NONE),
+            limit=int(film.acting_limit(found)),
         )
         above = below = 0.0
         for mark in (*film.kinks, film.end):  # they ascend

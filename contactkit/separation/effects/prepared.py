@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 from attrs import frozen
 
 from ...accuracy import Accuracy
+from ...errors import PlanError
 from .film_shape import FilmShape, film_shape
 
 if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
 
-__all__ = ["Angles", "Curvatures", "PreparedScene", "prepare_scene"]
+__all__ = ["Angles", "Curvatures", "PreparedScene", "checked_liquid", "prepare_scene"]
 
 S_co = TypeVar("S_co", bound="SeparationScene | SlidingScene", covariant=True)
 
@@ -63,6 +64,27 @@ class PreparedScene(Generic[S_co]):
 
 
 S = TypeVar("S", bound="SeparationScene | SlidingScene")
+
+
+def checked_liquid(scene: SeparationScene) -> LiquidState:
+    """Liquid of a scene at its temperature, with all that the effects need of it.
+
+    For analyses that do not run the scene, and so do not plan it.
+
+    Raises
+    ------
+    PlanError
+        Naming each effect and the property of the liquid that it needs.
+    """
+    liquid = scene.meniscus.liquid.at(scene.temperature)
+    missing = [
+        f"{type(effect).__name__} needs {item}"
+        for effect in scene.effects
+        for item in liquid.missing(*effect.liquid_needs(scene))
+    ]
+    if missing:
+        raise PlanError("; ".join(missing))
+    return liquid
 
 
 def prepare_scene(
