@@ -124,14 +124,18 @@ class Film:
         relative: they never straddle the speed at which the limit sets in.
         """
         near = gap * (1.0 + _DIFFERENCE)
-        static, static_near = self.static_force(gap), self.static_force(near)
+        static = static_near = damping = damping_near = 0.0
+        for force in self._static:
+            static += force(gap, 0.0)
+            static_near += force(near, 0.0)
         static_by_gap = (static_near - static) / (near - gap)
-        damping = self.damping(gap)
+        if self._viscous is not None:
+            damping, damping_near = self._viscous.force(gap, 1.0), self._viscous.force(near, 1.0)
         viscous, limit = (
             self.viscous_force(gap, speed) if self.limits else (damping * speed, LimitKind.NONE)
         )
         if limit is LimitKind.NONE:
-            by_gap = speed * (self.damping(near) - damping) / (near - gap)
+            by_gap = speed * (damping_near - damping) / (near - gap)
             return Forces(static, static_by_gap, viscous, by_gap, damping)
         by_gap = (self.viscous_force(near, speed)[0] - viscous) / (near - gap)
         faster = speed * (1.0 + _DIFFERENCE)
