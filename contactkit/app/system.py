@@ -20,7 +20,7 @@ from attrs import frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..fmu.contents.packing import write_archive
-from ..fmu.contents.ssp import Component, Connection, Experiment, structure_xml
+from ..fmu.contents.ssp import Component, Connection, Connector, Experiment, structure_xml
 from ..fmu.framework.ports import Port, Value, find_port
 from ..fmu.slaves.stiction_mass import mass_values
 from ..models.injector.scene import InjectorScene
@@ -32,10 +32,10 @@ __all__ = ["write_system"]
 
 _DRIVE, _MASS = "drive", "mass"
 _CONNECTIONS = (
-    Connection((_DRIVE, "F_ext"), (_MASS, "F_ext")),
-    Connection((_DRIVE, "dF_ext"), (_MASS, "dF_ext")),
-    Connection((_MASS, "h"), (_DRIVE, "h")),
-    Connection((_MASS, "v"), (_DRIVE, "v")),
+    Connection(Connector(_DRIVE, "F_ext"), Connector(_MASS, "F_ext")),
+    Connection(Connector(_DRIVE, "dF_ext"), Connector(_MASS, "dF_ext")),
+    Connection(Connector(_MASS, "h"), Connector(_DRIVE, "h")),
+    Connection(Connector(_MASS, "v"), Connector(_DRIVE, "v")),
 )
 
 

@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostr
 
 from attrs import field, frozen
 
-__all__ = ["Component", "Connection", "Experiment", "structure_xml"]
+__all__ = ["Component", "Connection", "Connector", "Experiment", "structure_xml"]
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _SPACES = {
@@ -28,12 +28,19 @@ _SPACES = {
 _KINDS = ("Real", "Integer", "Boolean", "String")  # libcosim ends its process on Enumeration
 
 
+class Connector(NamedTuple):
+    """A variable of an element of a system."""
+
+    element: str
+    variable: str
+
+
 @frozen
 class Connection:
-    """A connection: element and variable it starts at, element and variable it ends at."""
+    """A connection from an output to an input."""
 
-    start: tuple[str, str]
-    end: tuple[str, str]
+    start: Connector
+    end: Connector
 
 
 @frozen(kw_only=True)
@@ -113,10 +120,10 @@ def structure_xml(
         SubElement(
             joined,
             "ssd:Connection",
-            startElement=each.start[0],
-            startConnector=each.start[1],
-            endElement=each.end[0],
-            endConnector=each.end[1],
+            startElement=each.start.element,
+            startConnector=each.start.variable,
+            endElement=each.end.element,
+            endConnector=each.end.variable,
         )
     _oms_step(system, experiment.step)
     units = Element("ssd:Units")

@@ -68,8 +68,8 @@ class FixedWalk:
         start = self.film.save()
         if self._scheme in _STABLE:
             gap, speed, there = self._explicit(point, impulse)
-        elif self._scheme == "end-point":
-            gap, speed, there = self._end_point(point, impulse)
+        elif self._scheme == "implicit-force":
+            gap, speed, there = self._implicit_force(point, impulse)
         else:
             gap, speed, there = self._by_impulse(point, impulse)
         if gap < self.body.floor:
@@ -113,7 +113,7 @@ class FixedWalk:
         there = self.film.move(point.time, self._length, found.gap, found.speed)
         return found.gap, found.speed, there
 
-    def _end_point(self, point: Point, impulse: float) -> tuple[float, float, Reaction]:
+    def _implicit_force(self, point: Point, impulse: float) -> tuple[float, float, Reaction]:
         """Implicit in the force at the end of the step: secants from the gap the speed leads to."""
         body, length = self.body, self._length
         mark = self.film.save()

@@ -11,7 +11,7 @@ from ...validators import choice, count, positive, refuse
 
 __all__ = ["AdaptiveSteps", "FixedSteps", "Scheme"]
 
-Scheme = Literal["impulse", "end-point", "gauss-seidel", "jacobi"]
+Scheme = Literal["impulse", "implicit-force", "gauss-seidel", "jacobi"]
 
 
 def _tolerance(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -45,7 +45,7 @@ class FixedSteps:
     ----------
     step : float
         Communication step [s]; shortened so that a whole number of them fits.
-    scheme : {"impulse", "end-point", "gauss-seidel", "jacobi"}
+    scheme : {"impulse", "implicit-force", "gauss-seidel", "jacobi"}
         What is exchanged: impulses; the force at the end of the step, found by iteration; or the
         force of the last step, with the mass first or both at once.
     refuse_unstable : bool
@@ -54,6 +54,6 @@ class FixedSteps:
 
     step: float = field(validator=positive, metadata=si("s"))
     scheme: Scheme = field(
-        default="impulse", validator=choice("impulse", "end-point", "gauss-seidel", "jacobi")
+        default="impulse", validator=choice("impulse", "implicit-force", "gauss-seidel", "jacobi")
     )
     refuse_unstable: bool = True

@@ -17,6 +17,7 @@ from attrs import evolve
 
 from ...errors import DescriptionError, PlanError
 from ...scene.scenes import ContactScene, SeparationScene
+from ...separation.effects.prepared import prepare_scene
 from ..contents.document import license_text
 from ..contents.packing import write_archive
 from ..contents.terminals import terminal_files
@@ -111,7 +112,7 @@ def build_native(
         given.setdefault("h", given["h0"])
     scene = moving(scene, mass)
     film = film_numbers(scene)
-    ports = native_ports(scene, film.lowest, model)
+    ports = native_ports(film.prepared, film.lowest, model)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
@@ -243,7 +244,7 @@ def native_scene(what: Any, model: Model | None = None) -> NativeScene:
         rest: dict[str, Value] = {"v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 20.0 * values["h0"]}
         values |= rest | {"m": values["m_ref"]}
     scene = scene_of(values)
-    kept = {port.name for port in native_ports(scene, 0.0, model or own)}
+    kept = {port.name for port in native_ports(prepare_scene(scene), 0.0, model or own)}
     start = {key: value for key, value in values.items() if key in kept and key in given}
     return NativeScene(scene, start)
 

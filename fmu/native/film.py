@@ -32,10 +32,12 @@ _INF = math.inf
 
 
 class FilmNumbers(NamedTuple):
-    """Numbers that the kernel reads about a scene, and the lowest gap of its tables [m]."""
+    """Numbers that the kernel reads about a scene, and what they were made of."""
 
     numbers: list[float]
     lowest: float
+    """Lowest gap of the tables [m]."""
+    prepared: PreparedScene[SeparationScene]
 
 
 def moving(scene: SeparationScene, mass: float | None) -> SeparationScene:
@@ -69,19 +71,19 @@ class FreeLiquid(NamedTuple):
     surface_tension: float  # [N/m]
 
 
-def free_liquid(scene: SeparationScene) -> FreeLiquid:
+def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     """Viscosity [Pa.s] and surface tension [N/m] that may be set in the FMU; 0 where they may not.
 
     A property of the liquid may be set where each effect that reads it is proportional to it.
     """
-    state = scene.meniscus.liquid.at(scene.temperature)
+    scene = prepared.scene
     forces = {e for e in scene.effects if isinstance(e, SeparationForce)}
     scaled = {e.proportional_to(scene) for e in forces}
     for effect in scene.effects:
         own = effect.proportional_to(scene) if isinstance(effect, SeparationForce) else ""
         scaled -= set(effect.liquid_needs(scene)) - {own}
     viscosity, tension = (
-        (state.given(name) or 0.0) if name in scaled else 0.0
+        (prepared.liquid.given(name) or 0.0) if name in scaled else 0.0
         for name in ("viscosity", "surface_tension")
     )
     return FreeLiquid(viscosity, tension)
@@ -116,7 +118,7 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     ]
     for one in shares:
         numbers += _film(prepared, one, lowest)
-    return FilmNumbers(numbers, lowest)
+    return FilmNumbers(numbers, lowest, prepared.prepared)
 
 
 def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
@@ -130,7 +132,7 @@ def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
     numbers = [ends, breaks, film.full_gap, float(len(film.laws))]
     for effect in made.scene.effects:
         if isinstance(effect, SeparationForce):
-            numbers += _law(made.scene, effect, film.laws[type(effect)], lowest)
+            numbers += _law(made.prepared, effect, film.laws[type(effect)], lowest)
     return numbers + _shape(prepared, film, lowest).numbers()
 
 
@@ -147,9 +149,13 @@ def _with_fraction(
 
 
 def _law(
-    scene: SeparationScene, effect: SeparationForce, law: ForceLaw, lowest: float
+    prepared: PreparedScene[SeparationScene],
+    effect: SeparationForce,
+    law: ForceLaw,
+    lowest: float,
 ) -> list[float]:
-    viscosity, surface_tension = free_liquid(scene)
+    scene = prepared.scene
+    viscosity, surface_tension = free_liquid(prepared)
     speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
     scale, unit = _FIXED, 1.0
     proportional_to = effect.proportional_to(scene)

@@ -14,6 +14,7 @@ from attrs import evolve
 
 from ...errors import DescriptionError
 from ...scene.scenes import SeparationScene
+from ...separation.effects.prepared import PreparedScene
 from ...separation.effects.registry import (
     AdhesiveContact,
     ViscousForce,
@@ -54,11 +55,12 @@ _LABELS = {
 
 
 def native_ports(
-    scene: SeparationScene, lowest: float, model: Model = "stiction-mass"
+    prepared: PreparedScene[SeparationScene], lowest: float, model: Model = "stiction-mass"
 ) -> tuple[Port, ...]:
     """Variables of the FMU of a scene whose tables begin at a gap [m]."""
     own = MODELS[model]
-    there = {port.name for port in own} & set(IDENTIFIERS) - _absent(scene, model)
+    there = {port.name for port in own} & set(IDENTIFIERS) - _absent(prepared, model)
+    start = start_of(prepared, model)
     ports = []
     for port in own:
         if port.name not in there:
@@ -66,11 +68,13 @@ def native_ports(
         depends = port.depends_on
         if depends is not None:
             depends = tuple(name for name in depends if name in there)
-        start = start_of(scene, model).get(port.name, port.start)
         port = evolve(
-            port, depends_on=depends, label=_LABELS.get(port.name, port.label), start=start
+            port,
+            depends_on=depends,
+            label=_LABELS.get(port.name, port.label),
+            start=start.get(port.name, port.start),
         )
-        ports.append(_bounded(port, scene, lowest, model))
+        ports.append(_bounded(port, prepared.scene, lowest, model))
     return tuple(ports)
 
 
@@ -87,9 +91,9 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
     return port
 
 
-def _absent(scene: SeparationScene, model: Model) -> set[str]:
+def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
     """Parameters that mean nothing for a scene, or that its tables have fixed."""
-    viscosity, surface_tension = free_liquid(scene)
+    viscosity, surface_tension = free_liquid(prepared)
     absent = set()
     if not viscosity:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
@@ -104,14 +108,16 @@ def _start_is_held(scene: SeparationScene) -> bool:
     return adheres or (keeps_radius(scene) and scene.meniscus.volume is not None)
 
 
-def start_of(scene: SeparationScene, model: Model = "stiction-mass") -> dict[str, Value]:
+def start_of(
+    prepared: PreparedScene[SeparationScene], model: Model = "stiction-mass"
+) -> dict[str, Value]:
     """Start values that a scene gives the variables, by the places of the Python FMU."""
-    if scene.imposed_force.mass is None:
+    if prepared.scene.imposed_force.mass is None:
         raise DescriptionError("m", None, "be given", unit="kg")
     named = _OF_MASS if model == "stiction-mass" else _OF_FILM
-    settled = with_numbers(scene)
+    settled = with_numbers(prepared)
     values: dict[str, Value] = {name: PLACES[of].read(settled) for name, of in named.items()}
-    viscosity, surface_tension = free_liquid(scene)
+    viscosity, surface_tension = free_liquid(prepared)
     return values | {"eta": viscosity, "gamma": surface_tension}
 
 

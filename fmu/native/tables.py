@@ -206,7 +206,7 @@ def _places(series: Any, a: float, b: float, rtol: float) -> Floats:
 
 
 def _quintics(t: Floats, y: Floats, m: Floats, w: Floats) -> tuple[Floats, Floats]:
-    """Values and slopes at shares t of the ways between nodes; as in ``native/data.c``."""
+    """Values and slopes at fractions t of the intervals between nodes; as in ``native/data.c``."""
     rise, m0, m1, w0, w1 = y[1:] - y[:-1], m[:-1], m[1:], w[:-1], w[1:]
     c = 10.0 * rise - 6.0 * m0 - 4.0 * m1 - 1.5 * w0 + 0.5 * w1
     d = -15.0 * rise + 8.0 * m0 + 7.0 * m1 + 1.5 * w0 - w1

@@ -138,7 +138,7 @@ class ContactStop(PortSlave):
 
     curve: LoadDisplacementCurve
     memory: _Memory
-    lost_before: float
+    dissipated_before: float
     answered: tuple[tuple[float, float, float], tuple[CurvePoint, float]] | None
 
     def prepare(self) -> None:
@@ -155,7 +155,7 @@ class ContactStop(PortSlave):
             expected = f"not exceed {self.curve.max_approach:.6g} m, where the tables end"
             raise DescriptionError("d_max0", values["d_max0"], expected, unit="m")
         self.memory, self.answered = _Memory(values["d_max0"], 0.0, 0.0, 0.0, False), None
-        self.lost_before = self.curve.dissipated_work(values["d_max0"])
+        self.dissipated_before = self.curve.dissipated_work(values["d_max0"])
         values.update(W=0.0, W_d=0.0, n_beyond=0)
         point, _ = self._show()
         self.memory = self._memory(values["d_max0"], point)
@@ -210,10 +210,10 @@ class ContactStop(PortSlave):
 
     def _remember(self) -> None:
         curve, largest = self.curve, self.memory.largest
-        # The area of the loop that a host sees. Between the ways that were solved it may fall by a
-        # thousandth of the work, as the tables give that back.
-        lost = curve.dissipated_work(largest) - self.lost_before
-        self.values.update(d_max=largest, d_res=curve.residual(largest), W=lost)
+        # The area of the loop that a host sees. Between the solved unloading curves it may fall by
+        # a thousandth of the work, as the tables give that back.
+        work = curve.dissipated_work(largest) - self.dissipated_before
+        self.values.update(d_max=largest, d_res=curve.residual(largest), W=work)
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`: the gap that was set is where the step ends."""

@@ -23,6 +23,7 @@ from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
 from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect
+from ...separation.effects.prepared import PreparedScene, prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -236,7 +237,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     against = [reason for reason, holds in needs.items() if not holds]
     if against:
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
-    settled = _same_form(with_numbers(scene))
+    settled = _same_form(with_numbers(prepare_scene(scene)))
     values = read(PLACES, settled)
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
     lost = differences(settled, scene_of(numbers), _NOT_HELD)
@@ -276,10 +277,10 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     return evolve(scene, interface=interface, effects=tuple(effects))
 
 
-def with_numbers(scene: SeparationScene) -> SeparationScene:
+def with_numbers(prepared: PreparedScene[SeparationScene]) -> SeparationScene:
     """Scene with a liquid of constant properties, and the tension limit as a pressure [Pa]."""
+    scene, state = prepared.scene, prepared.liquid
     meniscus = scene.meniscus
-    state = meniscus.liquid.at(scene.temperature)
     liquid = Liquid(
         name=meniscus.liquid.name,
         viscosity=state.given("viscosity"),

@@ -44,6 +44,7 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat, Sphere
+from ...separation.effects.prepared import prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
     VanDerWaalsForce,
@@ -51,7 +52,7 @@ from ...separation.effects.registry import (
 )
 from ...separation.motion.state import MotionState
 from ...separation.plan import Plan, plan
-from ..framework.places import Place, read, write
+from ..framework.places import Place, differences, read, write
 from ..framework.ports import Port
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
@@ -137,7 +138,7 @@ PORTS = (
     ),
     _output("J", "N.s", "impulse of all tips on the root since the start", (), nominal=1e-13),
     _output("W_visc", "J", "work dissipated in the films of all tips", (), nominal=1e-16),
-    _output("W_land", "J", "energy lost in all landings, of all tips", (), nominal=1e-17),
+    _output("W_land", "J", "energy dissipated in all landings, of all tips", (), nominal=1e-17),
     _output("state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus),
     _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
     _output(
@@ -264,32 +265,43 @@ def tip_values(tip: SeparationScene) -> dict[str, Any]:
     PlanError
         If the FMU cannot represent the scene; says what stands against it.
     """
-    meniscus = tip.meniscus
-    site, apex = tip.interface.lower.surface, tip.interface.upper.surface
-    film, solids = tip.effect(MeniscusForce), tip.effect(VanDerWaalsForce)
-    viscous = tip.effect(ViscousForce)
-    known = MeniscusForce | VanDerWaalsForce | ViscousForce
+    loading, surfaces = tip.loading, (tip.interface.lower.surface, tip.interface.upper.surface)
     needs = {
-        "an endless flat below and a sphere above": isinstance(apex, Sphere)
-        and isinstance(site, Flat)
-        and site.radius is None,
-        "meniscus-force, viscous-force and van-der-waals-force only": all(
-            isinstance(e, known) for e in tip.effects
-        ),
-        "MeniscusForce with profile 'exact' or 'arc'": film is None
-        or film.profile in ("exact", "arc"),
-        "ViscousForce() with closure='volume-conserving'": viscous is None
-        or viscous.closure == "volume-conserving",
-        "VanDerWaalsForce with its own cutoff and closure": solids is None
-        or solids == VanDerWaalsForce(hamaker_constant=solids.hamaker_constant),
-        "Meniscus.count = 1 and rewetting = 1": meniscus.count == 1 and meniscus.rewetting == 1.0,
+        "a flat below and a sphere above": [type(s) for s in surfaces] == [Flat, Sphere],
+        "loading = ImposedForce(...) with a mass [kg]": isinstance(loading, ImposedForce)
+        and loading.mass is not None,
     }
     if against := [reason for reason, holds in needs.items() if not holds]:
         raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
-    values = read(PLACES, with_numbers(tip))
-    if film is None:
+    settled = _same_form(with_numbers(prepare_scene(tip)))
+    values = read(PLACES, settled)
+    if tip.effect(MeniscusForce) is None:
         del values["profile"]
-    return values if viscous is not None else values | {"eta": 0.0}
+    numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
+    if lost := differences(settled, tip_scene(numbers), _NOT_HELD):
+        raise PlanError(f"the FMU tip-contact has {'; '.join(map(str, lost))}; change the scene")
+    return values
+
+
+_NOT_HELD = (
+    "name",
+    "temperature",  # the liquid is that of it
+    "interface.meniscus.liquid.name",
+    "loading.force",  # what pulls is the root
+    "loading.rise_time",
+    "loading.time_limit",
+)
+"""Fields of a scene that are no part of the FMU."""
+
+
+def _same_form(tip: SeparationScene) -> SeparationScene:
+    """Scene written as the parameters write it: no viscosity and no liquid that nothing reads."""
+    meniscus = tip.meniscus
+    if tip.effect(ViscousForce) is None:
+        meniscus = evolve(meniscus, liquid=evolve(meniscus.liquid, viscosity=None))
+    if tip.effect(MeniscusForce) is None and tip.effect(ViscousForce) is None:
+        meniscus = evolve(meniscus, volume=None, pressure=None, relative_humidity=None)
+    return evolve(tip, interface=evolve(tip.interface, meniscus=meniscus))
 
 
 class TipContact(PortSlave):

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 from attrs import frozen
 
@@ -38,7 +38,18 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["FmuTip", "LocalTip", "Motion", "Tip", "couple", "longest_step", "mirror_step"]
+__all__ = [
+    "FmuTip",
+    "LocalTip",
+    "Motion",
+    "RootForce",
+    "Tip",
+    "TipSides",
+    "TipSignals",
+    "couple",
+    "longest_step",
+    "mirror_step",
+]
 
 SIGNALS = (
     "time",
@@ -61,14 +72,46 @@ LANDED, HELD, FREE = 1.0, 2.0, 3.0
 """State of a tip: on its site, off it but within reach of its forces, and free."""
 
 
+class RootForce(NamedTuple):
+    """Force of the tips of a side on their roots in a communication step [N]."""
+
+    mean: float
+    """Impulse over the length of the step."""
+    last: float
+    """At the end of the step."""
+
+
+class TipSignals(NamedTuple):
+    """What is recorded of the tips of a side."""
+
+    gap: float
+    """Under a tip [m]."""
+    force: float
+    """Of all tips on their roots [N]."""
+    film: float
+    """Force of the film of one tip [N]."""
+    state: float
+    """`LANDED`, `HELD` or `FREE`."""
+
+
 class Tip(Protocol):
     """The tips of one side, as the mirror sees them."""
 
-    def step(self, root: Root, dt: float) -> tuple[float, float]:
-        """Advance while the root moves on; the mean force on it and the last [N]."""
+    def step(self, root: Root, dt: float) -> RootForce:
+        """Advance while the root moves on."""
 
-    def read(self, height: float, speed: float) -> tuple[float, float, float, float]:
-        """Gap [m], force of all tips [N], force of one film [N] and state, now."""
+    def read(self, height: float, speed: float) -> TipSignals:
+        """Signals now."""
+
+
+T_co = TypeVar("T_co", bound=Tip, covariant=True)
+
+
+class TipSides(NamedTuple, Generic[T_co]):
+    """Tips of both sides of a mirror."""
+
+    plus: T_co
+    minus: T_co
 
 
 class FmuInstance(Protocol):
@@ -99,18 +142,18 @@ class LocalTip:
         self.plan, self.damping, self.count, self.state = plan, damping, count, state
         self.stop = stop
 
-    def step(self, root: Root, dt: float) -> tuple[float, float]:
+    def step(self, root: Root, dt: float) -> RootForce:
         """See `Tip.step`."""
         before, there = self.state, root.after(dt)
         self.state = advance_tip(self.plan, self.damping, before, root, dt, self.stop)
         mean = self.count * (self.state.impulse - before.impulse) / dt
-        return mean, self.read(there.height, there.speed)[1]
+        return RootForce(mean, self.read(there.height, there.speed).force)
 
-    def read(self, height: float, speed: float) -> tuple[float, float, float, float]:
+    def read(self, height: float, speed: float) -> TipSignals:
         """See `Tip.read`."""
         state = self.state
         force = self.count * tip_force(self.plan, self.damping, state, height, speed)
-        return state.gap, force, film_force(self.plan, state), state_of(state)
+        return TipSignals(state.gap, force, film_force(self.plan, state), state_of(state))
 
 
 class FmuTip:
@@ -123,18 +166,18 @@ class FmuTip:
         self._seen = instance.references("h", "F", "F_film")
         self._state = instance.references("state")
 
-    def step(self, root: Root, dt: float) -> tuple[float, float]:
+    def step(self, root: Root, dt: float) -> RootForce:
         """See `Tip.step`."""
         self.fmu.set(self._inputs, [root.height, root.speed, root.acceleration])
         self.fmu.step(root.time, dt)
         mean, last = self.fmu.get(self._forces)
-        return mean, last
+        return RootForce(mean, last)
 
-    def read(self, height: float, speed: float) -> tuple[float, float, float, float]:
+    def read(self, height: float, speed: float) -> TipSignals:
         """See `Tip.read`."""
         self.fmu.set(self._inputs, [height, speed, 0.0])
         gap, force, film = self.fmu.get(self._seen)
-        return gap, force, film, float(self.fmu.get_integers(self._state)[0])
+        return TipSignals(gap, force, film, float(self.fmu.get_integers(self._state)[0]))
 
 
 def state_of(state: TipState) -> float:
@@ -170,8 +213,8 @@ def mirror_step(
     force: float,
     slope: float,
     dt: float,
-) -> tuple[float, float]:
-    """Tilt [rad] and rate [rad/s] after a time, under a force of the tips that changes steadily.
+) -> Attitude:
+    """Tilt and rate after a time, under a force of the tips that changes steadily.
 
     `force` [N] is that of the side + less that of the side - at the start, `slope` its rate
     [N/s]. Classical Runge-Kutta: a step is a thousandth of the mirror's own period, and its error
@@ -190,12 +233,12 @@ def mirror_step(
     r4 = rate + dt * a3
     a4 = pull(dt, tilt + dt * r3, r4)
     moved = tilt + dt * (rate + 2.0 * (r2 + r3) + r4) / 6.0
-    return moved, rate + dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0
+    return Attitude(moved, rate + dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0)
 
 
 def couple(
     mirror: Mirror,
-    tips: tuple[Tip, Tip],
+    tips: TipSides[Tip],
     tip_stiffness: float,
     start: Attitude,
     stop_time: float,
@@ -209,12 +252,12 @@ def couple(
     Parameters
     ----------
     mirror : Mirror
-    tips : (Tip, Tip)
-        Tips of the sides + and -, at their state of the start.
+    tips : TipSides
+        At their state of the start.
     tip_stiffness : float
         Stiffness of one tip [N/m], for the check of the step.
-    start : (float, float)
-        Tilt [rad] and rate [rad/s] at the start.
+    start : Attitude
+        Tilt and rate at the start.
     stop_time, step : float
         Where to end, and the longest communication step [s].
     until : callable, optional
@@ -267,7 +310,7 @@ def _points(mirror: Mirror, stop_time: float, step: float) -> list[float]:
 
 def _exchange(
     mirror: Mirror,
-    tips: tuple[Tip, Tip],
+    tips: TipSides[Tip],
     span: tuple[float, float],
     tilt: float,
     rate: float,
@@ -285,15 +328,13 @@ def _exchange(
         height, speed = _root(mirror, tilt, rate, side)
         travel = root_height(mirror.tips, ahead, side) - height
         found = tip.step(Root(height, speed, 2.0 * (travel / dt - speed) / dt, time), dt)
-        mean, last = mean + side * found[0], last + side * found[1]
+        mean, last = mean + side * found.mean, last + side * found.last
     # A straight line with the impulse that was given, and as steep as the force changed.
     slope = (last - known) / dt
     return *mirror_step(mirror, tilt, rate, volts, mean - 0.5 * slope * dt, slope, dt), slope
 
 
-def _row(
-    mirror: Mirror, tips: tuple[Tip, Tip], time: float, tilt: float, rate: float
-) -> list[float]:
+def _row(mirror: Mirror, tips: TipSides[Tip], time: float, tilt: float, rate: float) -> list[float]:
     plus, minus = (
         tip.read(*_root(mirror, tilt, rate, side))
         for tip, side in zip(tips, (1.0, -1.0), strict=True)

@@ -13,7 +13,7 @@ from .coupling import couple
 from .scene import MicromirrorScene
 from .tip_film import Adhesion, adhesion, tip_law
 
-__all__ = ["Landing", "Release", "landing", "release", "release_curve", "smallest_reset"]
+__all__ = ["Landing", "Release", "Reset", "landing", "release", "release_curve", "smallest_reset"]
 
 _COARSE = 2.0  # [V] between the pulses tried first
 _FINE = 0.05  # [V]
@@ -31,6 +31,15 @@ class Release(NamedTuple):
     """Smallest reset pulse that releases [V], of the time the scene gives it; nan if none does."""
     reset_delay: float
     """Time after the start of that pulse at which the tips are free [s]."""
+
+
+class Reset(NamedTuple):
+    """A reset pulse, and what it does."""
+
+    voltage: float
+    """[V]; nan if none releases."""
+    delay: float
+    """Time after its start at which the tips are free [s]; nan if it does not release."""
 
 
 class Landing(NamedTuple):
@@ -106,8 +115,8 @@ def release(scene: MicromirrorScene, made: Plan, reset_voltage: float | None) ->
     return float(motion["time"][held][-1])
 
 
-def smallest_reset(scene: MicromirrorScene, made: Plan) -> tuple[float, float]:
-    """Smallest reset voltage [V] that releases, and the time until then [s]; nan if none does.
+def smallest_reset(scene: MicromirrorScene, made: Plan) -> Reset:
+    """Smallest reset voltage that releases; nan if none does.
 
     Looked for upwards from the bias in steps of 2 V, then halved to 0.05 V: the mirror swings on
     its tips during the pulse, so that larger voltages need not all do, and smaller ones could.
@@ -116,12 +125,12 @@ def smallest_reset(scene: MicromirrorScene, made: Plan) -> tuple[float, float]:
     high, found = low, _try(scene, made, low)
     while math.isnan(found):
         if high >= most:
-            return math.nan, math.nan
+            return Reset(math.nan, math.nan)
         low, high = high, min(high + _COARSE, most)
         try:
             found = _try(scene, made, high)
         except InfeasibleError:  # it would reach the electrode
-            return math.nan, math.nan
+            return Reset(math.nan, math.nan)
     times = {low: math.nan, high: found}
 
     def releases(voltage: float) -> bool:
@@ -130,7 +139,7 @@ def smallest_reset(scene: MicromirrorScene, made: Plan) -> tuple[float, float]:
         return not math.isnan(times[voltage])
 
     least = first_true(releases, low, high, atol=_FINE)
-    return least, times[least]
+    return Reset(least, times[least])
 
 
 def _try(scene: MicromirrorScene, made: Plan, reset_voltage: float) -> float:
@@ -148,6 +157,7 @@ def release_curve(scene: MicromirrorScene, progress: Callable[[float], None]) ->
             continue
         made = tip_law(scene.tip, humidity)
         alone = release(scene, made, None)
-        found.append(Release(held, alone, *smallest_reset(scene, made)))
+        reset = smallest_reset(scene, made)
+        found.append(Release(held, alone, reset.voltage, reset.delay))
         progress((i + 1) / len(humidities))
     return found

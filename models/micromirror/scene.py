@@ -16,7 +16,7 @@ from ...separation.effects.registry import (
 from ...separation.plan import Plan
 from ...units import celsius, si
 from ...validators import as_tuple, fraction, part, positive
-from .coupling import LocalTip
+from .coupling import LocalTip, TipSides
 from .flight import Root
 from .mirror import Attitude, Mirror, electrode_volts, landed_tilt, root_height
 from .tip import TipStop, contact_of, free_start, landed_start
@@ -144,12 +144,12 @@ class MicromirrorScene:
 
         return TipStop(solved(faces), self.mirror.tips.landing_damping)
 
-    def tips(self, made: Plan) -> tuple[LocalTip, LocalTip]:
+    def tips(self, made: Plan) -> TipSides[LocalTip]:
         """Tips of both sides at the start: the side + landed, the side - free."""
         tips, (tilt, _), stop = self.mirror.tips, self.start, self.stop
         landed = landed_start(made, stop=stop, height=root_height(tips, tilt, 1.0))
         far = free_start(made, root_height(tips, tilt, -1.0))
-        return (
+        return TipSides(
             LocalTip(made, tips.damping, tips.per_side, landed, stop),
             LocalTip(made, tips.damping, tips.per_side, far, stop),
         )

@@ -324,7 +324,7 @@ def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) 
         motion=moved,
         touching=found.end is ImpactEnd.TIME,
         impulse=state.impulse + found.impulse,
-        landing_loss=state.landing_loss + found.lost,
+        landing_loss=state.landing_loss + found.dissipated,
         depth=found.depth,
         residual=stop.curve.residual(found.largest),
         largest=found.largest,

@@ -103,8 +103,8 @@ class Impact(NamedTuple):
     end: ImpactEnd = ImpactEnd.TIME
     impulse: float = 0.0
     """Of the spring [N.s]."""
-    lost: float = 0.0
-    """To yielding, damping and ringing [J]."""
+    dissipated: float = 0.0
+    """By plasticity, damping and ringing [J]."""
     peak: float = 0.0
     """Largest force of the site [N]."""
 
@@ -263,7 +263,7 @@ def _moved(contact: Contact, here: Impact, length: float, reached: _Four) -> Imp
         depth=_known(curve, depth, time),
         speed=speed,
         impulse=here.impulse + impulse,
-        lost=here.lost + damped,
+        dissipated=here.dissipated + damped,
         peak=max(here.peak, held),
     )
     if here.speed > 0.0 and speed == 0.0:
@@ -278,8 +278,8 @@ def _turned(contact: Contact, now: Impact) -> Impact:
     """At the deepest point: remember it, and rest if there is not the energy to come out."""
     curve, depth = contact.stop.curve, now.depth
     largest = max(now.largest, depth)
-    lost = curve.dissipated_work(largest) - curve.dissipated_work(now.largest)
-    now = now._replace(largest=largest, lost=now.lost + max(lost, 0.0))
+    work = curve.dissipated_work(largest) - curve.dissipated_work(now.largest)
+    now = now._replace(largest=largest, dissipated=now.dissipated + max(work, 0.0))
     out = curve.residual(largest)
 
     def stored(at: float) -> float:
@@ -291,4 +291,6 @@ def _turned(contact: Contact, now: Impact) -> Impact:
         return now
     rest = rest_depth(contact, largest, now.time, depth)
     ringing = max(stored(depth) - stored(rest), 0.0)
-    return now._replace(depth=rest, speed=0.0, lost=now.lost + ringing, end=ImpactEnd.REST)
+    return now._replace(
+        depth=rest, speed=0.0, dissipated=now.dissipated + ringing, end=ImpactEnd.REST
+    )

@@ -26,6 +26,7 @@ from contactkit.fmu.native.page import native_page  # noqa: E402
 from contactkit.fmu.native.ports import native_ports  # noqa: E402
 from contactkit.fmu.python.build import FMUS  # noqa: E402  # the packages must be there
 from contactkit.fmu.slaves.stiction_mass import PORTS, scene_of  # noqa: E402
+from contactkit.separation.effects.prepared import prepare_scene  # noqa: E402
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 XML = "terminalsAndIcons/terminalsAndIcons.xml"
@@ -223,7 +224,7 @@ def test_text_is_escaped():
 @pytest.mark.parametrize("fmi", ["2", "3"])
 def test_a_native_page_of_every_kind_of_scene(name, fmi):
     scene = SCENES[name]
-    ports = native_ports(scene, 0.0)
+    ports = native_ports(prepare_scene(scene), 0.0)
     text = native_page(scene, ports, {port.name: port.start for port in ports}, fmi=fmi)
     cells = read(text)
     assert {port.name for port in ports} <= set(cells)

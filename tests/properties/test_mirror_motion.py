@@ -201,7 +201,7 @@ def test_the_start_is_at_rest(scene, wet):
     """Forces balance at the start: nothing moves until a voltage changes."""
     mirror, (tilt, rate) = scene.mirror, scene.start
     volts = electrode_volts(mirror.waveform, 0.0)
-    force = scene.tips(wet)[0].read(root_height(mirror.tips, tilt, 1.0), 0.0)[1]
+    force = scene.tips(wet).plus.read(root_height(mirror.tips, tilt, 1.0), 0.0).force
     scale = acceleration(mirror, tilt, rate, volts, 0.0)
     assert abs(acceleration(mirror, tilt, rate, volts, force)) < 1e-9 * scale
     still = couple(mirror, scene.tips(wet), scene.loading.stiffness, scene.start, 1e-6, 5e-8)

@@ -42,7 +42,7 @@ __all__ = [
 Coupling = Literal[
     "jacobi",
     "gauss-seidel",
-    "end-point",
+    "implicit-force",
     "impulse",
     "impulse, adaptive",
     "mass inside, held",
@@ -63,7 +63,7 @@ _JUST_BEYOND = 1.002  # where a mass inside gets a steady pull, which leaves no 
 _LOOKS: dict[Coupling, tuple[str, str, str]] = {
     "jacobi": ("#D55E00", "o", "forces, explicit (Jacobi)"),
     "gauss-seidel": ("#E69F00", "s", "forces, explicit (Gauss-Seidel)"),
-    "end-point": ("#CC79A7", "v", "forces, implicit at the end point"),
+    "implicit-force": ("#CC79A7", "v", "forces, implicit"),
     "impulse": ("#56B4E9", "^", "impulses, fixed steps"),
     "impulse, adaptive": ("#0072B2", "D", "impulses, adaptive steps"),
     "mass inside, held": ("#999999", "P", "mass inside the FMU, pull held"),
@@ -198,7 +198,7 @@ def _settings(
         near = _JUST_BEYOND * exact
     from ...fmu.master.couple import AdaptiveSteps, FixedSteps
 
-    schemes: tuple[Scheme, ...] = ("jacobi", "gauss-seidel", "end-point", "impulse")
+    schemes: tuple[Scheme, ...] = ("jacobi", "gauss-seidel", "implicit-force", "impulse")
     for scheme in schemes:
         for n in (n for n in _COUNTS if n <= most):
             yield (
@@ -385,7 +385,7 @@ def _bands(ax: Any) -> None:
 def _names(ax: Any) -> None:
     """Name the schemes where their lines are far apart, on the stiffest film."""
     names: tuple[tuple[float, float, Coupling, str], ...] = (
-        (1.3, 1.3e3, "end-point", "implicit forces: lose their root"),
+        (1.3, 1.3e3, "implicit-force", "implicit forces: lose their root"),
         (1.3, 0.012, "impulse", "impulses,\nfixed steps"),
         (30.0, 3e-5, "impulse, adaptive", "impulses, adaptive steps"),
         (1.3, 1.5e-10, "mass inside", "mass inside the FMU"),

@@ -33,7 +33,7 @@ Progress = Callable[[float], None]
 _NAMES: dict[Scheme, str] = {
     "jacobi": "film by force, Jacobi",
     "gauss-seidel": "film by force, Gauss-Seidel",
-    "end-point": "film by force, implicit",
+    "implicit-force": "film by force, implicit",
     "impulse": "film by impulse, fixed step",
 }
 _STEPS = (50e-6, 20e-6, 10e-6, 5e-6, 2e-6, 1e-6)  # [s]

@@ -110,7 +110,7 @@ def _whole(scene: MicromirrorScene, mirror: Mirror, law: Plan, end: float, rtol:
 def _local(scene: MicromirrorScene, mirror: Mirror, law: Plan, end: float, step: float) -> Outcome:
     tips = scene.tips(law)
     motion = couple(mirror, tips, scene.loading.stiffness, scene.start, end, step)
-    return Outcome(_freed(tips[0].state.free_time), {"steps": motion.n_steps})
+    return Outcome(_freed(tips.plus.state.free_time), {"steps": motion.n_steps})
 
 
 def _fmus(scene: MicromirrorScene, mirror: Mirror, fmu: Path, end: float, step: float) -> Outcome:

@@ -129,10 +129,10 @@ static int show(ck_model *model) {
 typedef struct {
     double length, flux;
     int pauses;
-} way;
+} motion;
 
 /* Take the flux from one switch of the voltage to the next; 0 if it cannot follow. */
-static int carry(const ck_model *model, double time, way *gone) {
+static int carry(const ck_model *model, double time, motion *gone) {
     const ck_profile *profile = &model->drive.profile;
     double gap = model->state.values[CK_H], speed = model->state.values[CK_V], begin = time;
     double end = time + gone->length;
@@ -155,7 +155,7 @@ static int carry(const ck_model *model, double time, way *gone) {
     }
 }
 
-static int no_step(ck_model *model, double length, const way *gone) {
+static int no_step(ck_model *model, double length, const motion *gone) {
     char message[400];
     snprintf(message, sizeof message,
              "the flux of the coil did not follow a gap of %.6g m that moves at %.6g m/s for %.6g "
@@ -183,7 +183,7 @@ static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state, before = *state;
     double *v = state->values;
     forces begun = forces_at(model, v[CK_H], v[CK_V]);
-    way gone = {length, v[CK_FLUX], 0};
+    motion gone = {length, v[CK_FLUX], 0};
     int fine = carry(model, time, &gone);
     if (!fine) return no_step(model, length, &gone);
     /* What is remembered is where the spool was, not where it may be at the end of the step. */

@@ -101,7 +101,7 @@ static double force_at(const ck_faces *faces, double approach, double largest, d
     first = power(&faces->first, approach, slope);
     if (!faces->count || approach >= largest || largest <= faces->limit) return first;
     force = unloading_force(faces, approach, largest, &by_approach);
-    if (force > first) return first; /* mixed a little too high: no way gives more than it took */
+    if (force > first) return first; /* interpolated above the loading curve */
     *slope = by_approach;
     return force;
 }

@@ -71,7 +71,7 @@ typedef struct {
     double value, by_force, by_gap, by_shape;
 } ck_left;
 
-/* Impulses along the way between two gaps. */
+/* Impulses of the motion between two gaps. */
 typedef struct {
     double viscous, fixed;
 } ck_impulse;

@@ -141,7 +141,7 @@ static void apply_event(ck_model *model, double gap, int rising, double time) {
     else if (!rising && gap <= model->scene.recontact * (1.0 + SAME)) memory->detached = 0;
 }
 
-/* Go the way of the step from kink to kink. */
+/* Integrate over the motion of the step, from kink to kink. */
 static ck_impulse go(ck_model *model, double time, double step, double target) {
     ck_memory *memory = &model->state.memory;
     double begin = memory->gap, gap = begin, pace = step / (target - begin);
@@ -189,7 +189,7 @@ static void warn(ck_model *model, double step, double stable, double error) {
     model->say(model->host, CK_WARNING, "logCoupling", message);
 }
 
-/* Compare the force at the end with that on the way, and the step with m/c. */
+/* Compare the force at the end with that within the step, and the step with m/c. */
 static void doubt(ck_model *model, double step, double damping) {
     double *v = model->state.values, mass = v[CK_M_REF], gone = v[CK_F_MEAN];
     double scale = fmax(fmax(fabs(v[CK_F]), fabs(gone)), mass * fabs(v[CK_V]) / step);

@@ -231,7 +231,7 @@ static double highest(double first, const double stages[3], double *where) {
     int i;
     *where = 0.0;
     if (jumps(first, stages) && 2.0 * (stages[2] - first) > stages[0] - first) {
-        *where = 1.0; /* it stays up; on the way there the stages are not accurate */
+        *where = 1.0; /* it stays up; before that the stages are not accurate */
         return stages[2];
     }
     for (i = 0; i < 3; i++) {

@@ -56,10 +56,10 @@ def test_what_is_refused_would_have_been_wrong(film, release_cases, scheme):
     [
         ("jacobi", 1e-6, -1.1e-3),
         ("gauss-seidel", 1e-6, -3.6e-4),
-        ("end-point", 1e-6, -2.5e-3),
+        ("implicit-force", 1e-6, -2.5e-3),
         ("jacobi", 1e-5, -1.1e-2),
         ("gauss-seidel", 1e-5, -4.0e-3),
-        ("end-point", 1e-5, -2.5e-2),
+        ("implicit-force", 1e-5, -2.5e-2),
     ],
 )
 def test_stable_fixed_steps_have_the_errors_known_from_elsewhere(

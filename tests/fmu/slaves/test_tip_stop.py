@@ -269,8 +269,8 @@ def test_a_pair_of_fmus_bounces_as_the_monolithic_model(soft, tmp_path):
     assert minus["d_max"] == pytest.approx(1.16e-9, rel=0.02)
     lines, numbers = landing_numbers(soft, run)
     assert "landing sites: at most" in lines[0]
-    assert numbers["landing_blows"] == (2.0, "-")
-    assert numbers["landing_energy_lost"][0] == plus["W_land"] + minus["W_land"] > 0.0
+    assert numbers["landing_impacts"] == (2.0, "-")
+    assert numbers["landing_energy_dissipated"][0] == plus["W_land"] + minus["W_land"] > 0.0
 
 
 def test_it_starts_at_rest(soft):

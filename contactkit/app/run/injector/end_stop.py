@@ -23,11 +23,11 @@ class EndStopImpacts(NamedTuple):
     """Maximum approach of spool and end stop [m]."""
     approach: float
     """Maximum approach of the rough faces alone [m]."""
-    lost: float
+    dissipated: float
     """Energy dissipated by the first impact [J]."""
-    kept: float
+    restitution: float
     """Coefficient of restitution of the first impact [-]."""
-    yielded: float
+    plastic: float
     """Work of plastic deformation, all impacts [J]."""
 
 
@@ -44,10 +44,10 @@ def end_stop_impacts(scene: InjectorScene, run: InjectorRun) -> EndStopImpacts |
     depth = float(run.monolithic["gap"].max()) - stop.gap
     approach = in_series(curve, depth, 0.0, stop.stiffness, beyond=True)[1]
     # Magnet and spring push as much out as in: the gap is the same.
-    lost = 0.5 * (scene.loading.mass or 0.0) * (came * came - left * left)
-    taken = curve.dissipated_work(min(approach, curve.max_approach))
+    dissipated = 0.5 * (scene.loading.mass or 0.0) * (came * came - left * left)
+    plastic = curve.dissipated_work(min(approach, curve.max_approach))
     peak = float(run.coupled["F_stop"].max())
-    return EndStopImpacts(peak, depth, approach, lost, abs(left / came), taken)
+    return EndStopImpacts(peak, depth, approach, dissipated, abs(left / came), plastic)
 
 
 def end_stop_numbers(
@@ -67,15 +67,15 @@ def end_stop_numbers(
         lines.append(
             f"stop, {run.label}: at most {found.peak:.1f} N, {found.depth * 1e6:.3f} um deep, of "
             f"which the faces {found.approach * 1e9:.1f} nm{beyond}; the first impact dissipates "
-            f"{found.lost * 1e6:.1f} uJ, coefficient of restitution {found.kept:.3f}; plastic work "
-            f"{found.yielded * 1e6:.2f} uJ"
+            f"{found.dissipated * 1e6:.1f} uJ, coefficient of restitution "
+            f"{found.restitution:.3f}; plastic work {found.plastic * 1e6:.2f} uJ"
         )
         scalars |= {
             f"stop_peak_force_{key}": (found.peak, "N"),
             f"stop_depth_{key}": (found.depth, "m"),
             f"stop_faces_approach_{key}": (found.approach, "m"),
-            f"stop_energy_lost_{key}": (found.lost, "J"),
-            f"stop_speed_kept_{key}": (found.kept, "-"),
-            f"stop_yield_work_{key}": (found.yielded, "J"),
+            f"stop_energy_dissipated_{key}": (found.dissipated, "J"),
+            f"stop_restitution_{key}": (found.restitution, "-"),
+            f"stop_plastic_work_{key}": (found.plastic, "J"),
         }
     return ["", *lines], scalars

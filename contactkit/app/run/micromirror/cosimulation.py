@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ....errors import PlanError
 from ....fmu.slaves.tip_contact import tip_values
-from ....models.micromirror.coupling import FmuTip, Motion, couple
+from ....models.micromirror.coupling import FmuTip, Motion, TipSides, couple
 from ....models.micromirror.mirror import Mirror, root_height
 from ....models.micromirror.scene import MicromirrorScene
 from ....models.micromirror.tip_film import tip_law, tip_scene
@@ -111,7 +111,7 @@ def couple_fmus(
         begun = perf_counter()
         motion = couple(
             mirror,
-            (FmuTip(plus), FmuTip(minus)),
+            TipSides(FmuTip(plus), FmuTip(minus)),
             scene.loading.stiffness,
             scene.start,
             stop_time,

@@ -28,8 +28,8 @@ def landing_numbers(scene: MicromirrorScene, run: MirrorRun | FmuRun) -> Numbers
     return lines, {
         "landing_peak_force": (worst["F_max"], "N"),
         "landing_depth": (worst["d_max"], "m"),
-        "landing_blows": (impacts, "-"),
+        "landing_impacts": (impacts, "-"),
         "landing_energy_per_impact": (per_impact, "J"),
-        "landing_energy_lost": (sums["W_land"], "J"),
-        "landing_yield_work": (sums["W_plastic"], "J"),
+        "landing_energy_dissipated": (sums["W_land"], "J"),
+        "landing_plastic_work": (sums["W_plastic"], "J"),
     }
