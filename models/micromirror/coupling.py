@@ -82,7 +82,7 @@ class RootForce(NamedTuple):
 
 
 class TipSignals(NamedTuple):
-    """What is recorded of the tips of a side."""
+    """Signals of the tips of a side, as they are recorded."""
 
     gap: float
     """Under a tip [m]."""
