@@ -102,9 +102,7 @@ class DivisionResult:
 
     @property
     def _volumes(self) -> Floats:
-        volume = self.scene.meniscus.volume
-        assert volume is not None
-        return np.asarray(volume / self.counts)
+        return np.asarray(_volume(self.scene) / self.counts)
 
     def __str__(self) -> str:
         return (

@@ -15,6 +15,7 @@ from ..contact.effects.base import Contact
 from ..contact.effects.island_bridges import IslandBridges
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
+from ..liquids.liquid import LiquidState
 from ..scene.meniscus import Meniscus
 from ..scene.scenes import SeparationScene
 from ..separation.effects.asperities import AsperityMenisci
@@ -160,7 +161,7 @@ def humidity_curve(
     molar = meniscus.liquid.molar_volume(temperature)
     pressure = np.asarray(kelvin.laplace_pressure(molar, temperature, humidity))
     if isinstance(wetted, ContactResult):
-        name, points, area = _contact(wetted, pressure, law, tension)
+        name, points, area = _contact(wetted, pressure, law, liquid)
     else:
         name, points, area = _scene(wetted, pressure, gap, accuracy, tension)
     wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
@@ -262,14 +263,21 @@ def _sphere(scene: SeparationScene, pressure: Floats, gap: float, tension: float
 
 
 def _contact(
-    result: ContactResult, pressure: Floats, law: Law, tension: float
+    result: ContactResult, pressure: Floats, law: Law, liquid: LiquidState
 ) -> tuple[str, list[_Point], float | None]:
     plan = result.plan
-    contact = Contact(plan.scene, plan.grid, result.pressure, result.displacement, result.gap)
+    contact = Contact(
+        plan.scene,
+        plan.grid,
+        result.pressure,
+        result.displacement,
+        result.gap,
+        liquid_state=liquid,
+    )
     effect = plan.scene.effect(IslandBridges) or IslandBridges()
     effect = evolve(effect, film_thickness=None, meniscus_height=None)
     if law == "cross-cut":
-        found = [_cross_cut(effect, contact, p, tension) for p in pressure.tolist()]
+        found = [_cross_cut(effect, contact, p) for p in pressure.tolist()]
         return "cross-cut of the gap, Eq. (2.43)", found, None
     if law != "islands":
         raise DescriptionError("humidity_curve(law)", law, "be 'islands' or 'cross-cut'")
@@ -283,11 +291,11 @@ def _contact(
     return name, points, area
 
 
-def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float, tension: float) -> _Point:
+def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float) -> _Point:
     """Laplace pressure on every gap smaller than the meniscus height, Eq. (2.43)."""
     from ..capillary.film_islands import film_force, meniscus_area
 
-    meniscus = contact.scene.meniscus
+    meniscus, tension = contact.scene.meniscus, contact.liquid.surface_tension
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
     wetting = sum(map(math.cos, angles))
     if wetting <= 0.0:

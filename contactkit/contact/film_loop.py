@@ -42,7 +42,11 @@ _Attempt = Callable[[float, _Trial[Part] | None], _Trial[Part] | None]
 
 
 def pulled_together(
-    plan: ContactPlan, term: LoadTerm[Part], target: Target, counter: WorkCounter
+    plan: ContactPlan,
+    term: LoadTerm[Part],
+    mean_pressure: float,
+    target: Target,
+    counter: WorkCounter,
 ) -> Pulled[Part]:
     """Find the smallest load N on the contact with N = W + F(N), and look for further ones.
 
@@ -54,11 +58,7 @@ def pulled_together(
     equilibrium, and more than one means that the bodies snap in when pressed beyond the second.
     """
     area = plan.grid.area
-    assert plan.mean_pressure is not None
-    imposed = plan.mean_pressure * area
-    largest = imposed + term.largest_force(plan.scene, plan.grid)
-    if plan.hardness is not None:
-        largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
+    imposed = mean_pressure * area
 
     def attempt(load: float, start: _Trial[Part] | None) -> _Trial[Part] | None:
         near = target._replace(mean_pressure=load / area)
@@ -73,7 +73,16 @@ def pulled_together(
         part = term.observe(contact)
         return _Trial(load, imposed + term.force_of(part) - load, solved, contact, part)
 
-    found, is_settled = _smallest(plan, attempt, imposed, largest)
+    first = attempt(imposed, None)
+    if first is None:
+        raise InfeasibleError(
+            f"the bodies cannot carry the load of {imposed:.6g} N at the hardness that its "
+            "displacement leads to; lower the load"
+        )
+    largest = imposed + term.largest_force(first.contact)
+    if plan.hardness is not None:
+        largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
+    found, is_settled = _smallest(plan, attempt, first, largest)
     others = _further(attempt, found, largest)
     # At a step of the force the balance says how much of it acts.
     force = found.load - imposed if found.load > imposed else term.force_of(found.part)
@@ -105,16 +114,10 @@ def _unsettled(gap: float) -> str:
 
 
 def _smallest(
-    plan: ContactPlan, attempt: _Attempt[Part], imposed: float, largest: float
+    plan: ContactPlan, attempt: _Attempt[Part], first: _Trial[Part], largest: float
 ) -> tuple[_Trial[Part], bool]:
     """The smallest load that balances, and whether the iterations settled on it."""
     tolerance = max(plan.accuracy.outer_rtol, 1e-9)
-    first = attempt(imposed, None)
-    if first is None:
-        raise InfeasibleError(
-            f"the bodies cannot carry the load of {imposed:.6g} N at the hardness that its "
-            "displacement leads to; lower the load"
-        )
     low, high, top = first, None, largest
     before = None
     for _ in range(_MAX_ITERATIONS):

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..errors import InfeasibleError
-from .effects.base import Contact, FixedHardness, VaryingHardness
+from .effects.base import (
+    BoundedContact,
+    Contact,
+    FixedHardness,
+    FrictionalContact,
+    VaryingHardness,
+)
 from .friction_loop import Friction, Target, solve_bounded
 from .plan import ContactPlan
 from .solver.contact_solver import Solution
@@ -36,10 +42,13 @@ def contact_of(plan: ContactPlan, solved: Solved) -> Contact:
     """Show a solved contact to the effects."""
     solution, friction = solved.solution, solved.friction
     displacement = solution.displacement
+    frictional, bounded = None, None
     if friction is not None:
         displacement = displacement + friction.displacement
+        frictional = FrictionalContact(friction.displacement, friction.pressure_without)
     gap = displacement - plan.heights - solution.rigid_approach
-    overlap = np.maximum(-gap, 0.0) if solved.hardness is not None else None
+    if solved.hardness is not None:
+        bounded = BoundedContact(solved.hardness, np.maximum(-gap, 0.0))
     np.maximum(gap, 0.0, out=gap)
     return Contact(
         plan.scene,
@@ -48,10 +57,9 @@ def contact_of(plan: ContactPlan, solved: Solved) -> Contact:
         displacement,
         gap,
         plan.accuracy.threads,
-        overlap,
-        solved.hardness,
-        friction.displacement if friction is not None else None,
-        friction.pressure_without if friction is not None else None,
+        bounded,
+        frictional,
+        plan.liquid,
     )
 
 

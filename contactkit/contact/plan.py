@@ -10,6 +10,7 @@ from attrs import Factory, evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
+from ..liquids.liquid import LiquidState
 from ..scene.effect import EffectRegistry, check_listed
 from ..scene.loading import Approach, ContactLoading
 from ..scene.plan import ScenePlan
@@ -54,6 +55,13 @@ def _coupling(plan: ContactPlan) -> Once[Callable[[Map], Map]] | None:
     return Once(partial(term.prepare, plan.scene, plan.grid)) if term is not None else None
 
 
+def _liquid(plan: ContactPlan) -> LiquidState | None:
+    scene = plan.scene
+    if not any(effect.liquid_needs for effect in scene.effects):
+        return None
+    return scene.meniscus.liquid.at(scene.temperature)
+
+
 @frozen(eq=False)
 class ContactPlan(ScenePlan):
     """A checked contact scene on its grid, with everything prepared that the load does not change.
@@ -71,6 +79,8 @@ class ContactPlan(ScenePlan):
         Pixels of the window.
     hardness : FixedHardness, VaryingHardness or None
         Upper bound of the pressure; None where the scene lists none.
+    liquid : LiquidState or None
+        Properties of the liquid at the temperature of the scene; None where no effect needs them.
     """
 
     known_effects: ClassVar[EffectRegistry[ContactEffect[Any]]] = CONTACT_EFFECTS
@@ -79,6 +89,7 @@ class ContactPlan(ScenePlan):
     accuracy: Accuracy
     grid: Grid = field(repr=False)
     hardness: HardnessLaw | None = field(default=Factory(_hardness, takes_self=True), repr=False)
+    liquid: LiquidState | None = field(default=Factory(_liquid, takes_self=True), repr=False)
     _interface: Once[PreparedInterface] = field(
         default=Factory(_interface, takes_self=True), repr=False
     )
@@ -161,7 +172,7 @@ class ContactPlan(ScenePlan):
 
     def without_preparation(self) -> ContactPlan:
         """Return the plan without its preparation, which is repeated if it is solved."""
-        return ContactPlan(self.scene, self.accuracy, self.grid, self.hardness)
+        return ContactPlan(self.scene, self.accuracy, self.grid, self.hardness, self.liquid)
 
 
 def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
@@ -198,6 +209,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_effects(scene)
     accuracy = accuracy or Accuracy.standard
     made = ContactPlan(scene, accuracy, grid_of(scene, accuracy))
+    _check_liquid(made)
     _check_load(made)
     return made
 
@@ -245,6 +257,18 @@ def _check_effects(scene: ContactScene) -> None:
             for e in scene.effects
             if isinstance(e, DisplacementTerm)
         ]
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _check_liquid(made: ContactPlan) -> None:
+    """Refuse a liquid without the properties that the effects need."""
+    problems = [
+        f"{type(effect).__name__} needs interface.meniscus.{item}"
+        for effect in made.scene.effects
+        if made.liquid is not None
+        for item in made.liquid.missing(*effect.liquid_needs)
+    ]
     if problems:
         raise PlanError("; ".join(problems))
 

@@ -76,9 +76,7 @@ class PreparedInterface:
         self.grid, self._threads = grid, threads
         self.heights = combined_heights(scene, grid)
         self.heights.flags.writeable = False
-        elastic = scene.effect(Compliance)
-        assert elastic is not None  # plan_contact has checked the effects
-        self.compliances = elastic.prepare(scene, grid)
+        self.compliances = scene.demand(Compliance).prepare(scene, grid)
         self.solver = ContactSolver(
             grid.shape, grid.pixel_size, _sum(self.compliances), grid.periodic, threads=threads
         )

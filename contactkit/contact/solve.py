@@ -112,10 +112,10 @@ def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | 
 def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answer:
     """Solve the contact, with a force that adds to its load if there is one; run the effects."""
     parts: dict[type[ContactEffect[Any]], object] = {}
-    term = plan.scene.effect(LoadTerm)
-    if term is not None and term.self_consistent:
+    term, load = plan.scene.effect(LoadTerm), plan.mean_pressure
+    if term is not None and term.self_consistent and load is not None:
         begun = time.perf_counter()
-        solved, contact, parts[type(term)] = pulled_together(plan, term, target, counter)
+        solved, contact, parts[type(term)] = pulled_together(plan, term, load, target, counter)
         counter.clock(term.name, begun)
     else:
         solved = solve_with_hardness(plan, target, counter)

@@ -46,6 +46,22 @@ class Scene:
         """Return the effect of a kind; None if the scene does not call for it."""
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)
 
+    def demand(self, kind: type[_E]) -> _E:
+        """Return the effect of a kind; a scene that does not call for it is refused.
+
+        Raises
+        ------
+        PlanError
+            If no effect is of the kind.
+        """
+        found = self.effect(kind)
+        if found is None:
+            raise PlanError(
+                f"a {type(self).__name__} with these effects needs {kind.__name__} beside them: "
+                "add it to effects"
+            )
+        return found
+
     @property
     def meniscus(self) -> Meniscus:
         """The meniscus of the interface; a scene without one is refused."""

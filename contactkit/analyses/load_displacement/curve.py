@@ -66,6 +66,13 @@ class CurvePoint(NamedTuple):
     branch: Branch
 
 
+class ForceAt(NamedTuple):
+    """Force [N] and its slope over the approach [N/m]."""
+
+    force: float
+    stiffness: float
+
+
 class Unloading(NamedTuple):
     """A computed unloading curve, from its maximum to its residual approach.
 
@@ -358,21 +365,21 @@ class LoadDisplacementCurve:
         on = Branch.BEYOND if approach > self.max_approach * (1.0 + _SAME) else Branch.LOADING
         return CurvePoint(force, stiffness, area, plastic, on)
 
-    def force_at(self, approach: float, max_approach: float) -> tuple[float, float]:
-        """Force [N] and its slope [N/m] as in `at`, unchecked, along the tangent beyond the end."""
-        loading = self._loading(approach)
+    def force_at(self, approach: float, max_approach: float) -> ForceAt:
+        """Force and slope as in `at`, unchecked, along the tangent beyond the end."""
+        loading = ForceAt(*self._loading(approach))
         if approach >= min(max_approach, self.max_approach) or max_approach <= self.elastic_limit:
             return loading
         back = self._unloading_curve(min(max_approach, self.max_approach))
         fraction, force, slope = (approach - back.residual) / back.length, 0.0, 0.0
         if fraction <= 0.0:
-            return 0.0, 0.0
+            return ForceAt(0.0, 0.0)
         for weight, one in back.parts:
             value, rate = one.force(fraction)
             force, slope = force + weight * value, slope + weight * rate
-        if force * back.max_force > loading[0]:  # by interpolation only: no cycle gains energy
+        if force * back.max_force > loading.force:  # by interpolation only: no cycle gains energy
             return loading
-        return force * back.max_force, slope * back.max_force / back.length
+        return ForceAt(force * back.max_force, slope * back.max_force / back.length)
 
     def _unloading_curve(self, max_approach: float) -> UnloadingCurve:
         """Unloading curve from a maximum approach, interpolated between the computed ones."""

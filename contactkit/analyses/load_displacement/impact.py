@@ -111,8 +111,8 @@ def _faces(
     """Approach of the faces by bracketed Newton iterations: the sum of both rises with it."""
 
     def excess(faces: float) -> tuple[float, float]:
-        force, slope = curve.force_at(faces, max_approach)
-        return faces + force / stiffness - approach, 1.0 + slope / stiffness
+        at = curve.force_at(faces, max_approach)
+        return faces + at.force / stiffness - approach, 1.0 + at.stiffness / stiffness
 
     return newton_root(excess, 0.0, approach, near if near < approach else 0.5 * approach, _CLOSE)
 

@@ -240,15 +240,15 @@ def _unloadings(
     plan: ContactPlan, nodes: list[_Node], count: int, report: Progress
 ) -> tuple[Unloading, ...]:
     """Unloading curves from at most `count` of the plastic points."""
-    plastic = [node for node in nodes if node.overlap is not None]
-    if not plastic:
+    begins = next((i for i, node in enumerate(nodes) if node.overlap is not None), None)
+    if begins is None:
         return ()
-    begins = nodes.index(plastic[0])
     chosen = np.unique(np.linspace(begins, len(nodes) - 1, count).round().astype(int))
     found = []
     for i, at in enumerate(chosen):
-        if nodes[at].overlap is not None:
-            found.append(_unloading(plan, nodes[at]))
+        overlap = nodes[at].overlap
+        if overlap is not None:
+            found.append(_unloading(plan, nodes[at], overlap))
         report(0.5 + 0.5 * (i + 1) / len(chosen))
     return tuple(found)
 
@@ -282,11 +282,10 @@ def _error(approach: list[float], force: list[float]) -> float:
     return max(abs(coarse(d)[0] / f - 1.0) for d, f in pairs)
 
 
-def _unloading(plan: ContactPlan, node: _Node) -> Unloading:
+def _unloading(plan: ContactPlan, node: _Node, overlap: Map) -> Unloading:
     """Solve the elastic contact of the surface deformed plastically up to a point."""
-    assert node.overlap is not None
     accuracy, heights = plan.accuracy, plan.heights
-    deformed = heights - node.overlap
+    deformed = heights - overlap
     touch = float(deformed.max())
     residual = float(heights.max()) - touch
     length, pixel = node.approach - residual, plan.grid.pixel_area
@@ -319,5 +318,5 @@ def _unloading(plan: ContactPlan, node: _Node) -> Unloading:
             "solver; lower Accuracy.rtol, or begin with larger loads"
         )
     fractions, forces, areas = zip(*reversed(found), strict=True)
-    volume = float(node.overlap.sum()) * pixel
+    volume = float(overlap.sum()) * pixel
     return Unloading(node.approach, residual, fractions, forces, areas, volume)

@@ -15,12 +15,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
 
 from attrs import frozen
 
+from ...errors import PlanError
 from ...scene.effect import Effect
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ...liquids.liquid import LiquidState
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
 
@@ -29,11 +31,13 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Balance",
+    "BoundedContact",
     "Compliance",
     "Contact",
     "ContactEffect",
     "DisplacementTerm",
     "FixedHardness",
+    "FrictionalContact",
     "HardnessLaw",
     "LoadTerm",
     "Observer",
@@ -45,13 +49,28 @@ __all__ = [
 Part = TypeVar("Part")
 
 
+class BoundedContact(NamedTuple):
+    """Hardness [Pa], the bound of the pressure, and the overlap [m] of the elastic surfaces.
+
+    The overlap (ny, nx) is the depth for which plastic flow makes room.
+    """
+
+    hardness: Map | float
+    overlap: Map
+
+
+class FrictionalContact(NamedTuple):
+    """Normal displacement that friction causes [m], and the pressure [Pa] without it, (ny, nx)."""
+
+    displacement: Map
+    pressure_without: Map
+
+
 class Contact(NamedTuple):
     """A solved contact as the effects see it: maps (ny, nx) in SI units.
 
-    `overlap` is the depth by which the elastic surfaces would overlap [m], where plastic flow
-    makes room; `hardness` the bound of the pressure [Pa]. With friction coupling,
-    `friction_displacement` is the displacement that the traction causes and
-    `frictionless_pressure` the pressure without it.
+    `bounded` is there with a `PressureBound`, `frictional` with a `DisplacementTerm`, and the
+    properties of the `liquid` at the temperature of the scene where an effect needs them.
     """
 
     scene: ContactScene
@@ -60,10 +79,18 @@ class Contact(NamedTuple):
     displacement: Map
     gap: Map
     threads: int = 1
-    overlap: Map | None = None
-    hardness: Map | float | None = None
-    friction_displacement: Map | None = None
-    frictionless_pressure: Map | None = None
+    bounded: BoundedContact | None = None
+    frictional: FrictionalContact | None = None
+    liquid_state: LiquidState | None = None
+
+    @property
+    def liquid(self) -> LiquidState:
+        """Properties of the liquid; refused where no effect of the scene needs them."""
+        if self.liquid_state is None:
+            raise PlanError(
+                "no effect of this contact needs a liquid: add the effect to ContactScene.effects"
+            )
+        return self.liquid_state
 
 
 class FixedHardness(NamedTuple):
@@ -134,6 +161,9 @@ class ContactEffect(Effect, Generic[Part]):
         """Sources of what this choice computes for a scene; all of them, unless it depends."""
         return self.sources
 
+    liquid_needs: ClassVar[tuple[str, ...]] = ()
+    """Properties of the liquid that this effect uses."""
+
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
         return ()
@@ -160,6 +190,14 @@ class PressureBound(ContactEffect[Part]):
     def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
         """Do the work that does not depend on the pressure."""
 
+    @abc.abstractmethod
+    def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> Part:
+        """Return where and how the bound acts in a solved contact."""
+
+    def observe(self, contact: Contact) -> Part | None:
+        """See `ContactEffect.observe`."""
+        return self.observe_bounded(contact, contact.bounded) if contact.bounded else None
+
 
 @frozen(kw_only=True)
 class LoadTerm(ContactEffect[Part]):
@@ -171,8 +209,8 @@ class LoadTerm(ContactEffect[Part]):
         """Whether the force adds to the load that presses the bodies together."""
 
     @abc.abstractmethod
-    def largest_force(self, scene: ContactScene, grid: Grid) -> float:
-        """Return a bound of the force [N]: no contact of the scene has more."""
+    def largest_force(self, contact: Contact) -> float:
+        """Return a bound of the force [N]: none of the contacts of the scene has more."""
 
     @abc.abstractmethod
     def force_of(self, part: Part) -> float:
@@ -194,6 +232,14 @@ class DisplacementTerm(ContactEffect[Part]):
     @abc.abstractmethod
     def prepare(self, scene: ContactScene, grid: Grid) -> Callable[[Map], Map]:
         """Return the displacement into the lower body [m] as a function of the pressure [Pa]."""
+
+    @abc.abstractmethod
+    def observe_frictional(self, contact: Contact, frictional: FrictionalContact) -> Part:
+        """Return what the displacement changes in a solved contact."""
+
+    def observe(self, contact: Contact) -> Part | None:
+        """See `ContactEffect.observe`."""
+        return self.observe_frictional(contact, contact.frictional) if contact.frictional else None
 
 
 @frozen(kw_only=True)

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...scene.scenes import ContactScene
-    from ...scene.window import Grid
 
 __all__ = ["FilmMeniscus", "FilmPart"]
 
@@ -89,14 +88,14 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         """See `Effect.sources`."""
         return ("meniscus force of a thin film, Eq. (2.43) (Tian and Bhushan 1996)",)
 
+    liquid_needs: ClassVar[tuple[str, ...]] = ("surface_tension",)
+
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         meniscus = scene.interface.meniscus
         if meniscus is None:
             return ("interface.meniscus (the liquid and its contact angles)",)
         lacking = []
-        if meniscus.liquid.at(scene.temperature).missing("surface_tension"):
-            lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("a film thickness, not interface.meniscus.volume [m3]: leave that out")
         if scene.liquid_pressure is not None:
@@ -106,22 +105,22 @@ class FilmMeniscus(LoadTerm[FilmPart]):
             )
         return tuple(lacking)
 
-    def _force(self, scene: ContactScene, area: float) -> float:
+    def _force(self, contact: Contact, area: float) -> float:
         """Meniscus force [N] of an area [m2], Eq. (2.43)."""
         from ...capillary.film_islands import film_force
 
-        meniscus = scene.meniscus
-        tension = meniscus.liquid.at(scene.temperature).surface_tension
+        meniscus = contact.scene.meniscus
         angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+        tension = contact.liquid.surface_tension
         return float(film_force(area, tension, *angles, self._height))
 
     @property
     def _height(self) -> float:
         return self.meniscus_height if self.meniscus_height is not None else self.film_thickness
 
-    def largest_force(self, scene: ContactScene, grid: Grid) -> float:
+    def largest_force(self, contact: Contact) -> float:
         """See `LoadTerm.largest_force`: that of a film that fills the whole window."""
-        return self._force(scene, grid.area)
+        return self._force(contact, contact.grid.area)
 
     def force_of(self, part: FilmPart) -> float:
         """See `LoadTerm.force_of`."""
@@ -144,7 +143,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
             self.connectivity,
         )
         area = found.n_meniscus * contact.grid.pixel_area
-        force = self._force(contact.scene, area)
+        force = self._force(contact, area)
         load = float(contact.pressure.sum()) * contact.grid.pixel_area
         relative = force / load if load > 0.0 else math.inf
         return FilmPart(force, area, int(found.n_islands), found.meniscus, relative, (load,))

@@ -11,7 +11,7 @@ from attrs import field, frozen
 
 from ...units import si
 from ...validators import finite, fraction
-from .base import Contact, DisplacementTerm, Observer, Scalar
+from .base import Contact, DisplacementTerm, FrictionalContact, Observer, Scalar
 from .elasticity import layers_of
 
 if TYPE_CHECKING:
@@ -21,7 +21,20 @@ if TYPE_CHECKING:
     from ...scene.window import Grid
     from .base import Map
 
-__all__ = ["CouplingPart", "FrictionCoupling", "FrictionPart", "FrictionTraction"]
+__all__ = [
+    "CouplingPart",
+    "FrictionCoupling",
+    "FrictionPart",
+    "FrictionTraction",
+    "TractionRatio",
+]
+
+
+class TractionRatio(NamedTuple):
+    """Traction on the lower body along x and y per unit of pressure [-]."""
+
+    x: float
+    y: float
 
 
 class FrictionPart(NamedTuple):
@@ -73,17 +86,16 @@ class FrictionTraction(Observer[FrictionPart]):
         """See `Effect.sources`."""
         return ("traction mu p on the pressure without friction: Goodman 1962, Eq. (2.24)",)
 
-    def components(self) -> tuple[float, float]:
-        """Traction on the lower body along x and y per unit of pressure [-]."""
+    def components(self) -> TractionRatio:
+        """Traction on the lower body per unit of pressure."""
         along_x, along_y = math.cos(self.direction), math.sin(self.direction)
-        return self.coefficient * along_x, self.coefficient * along_y
+        return TractionRatio(self.coefficient * along_x, self.coefficient * along_y)
 
     def observe(self, contact: Contact) -> FrictionPart:
         """See `Observer.observe`."""
-        along_x, along_y = self.components()
-        load = float(contact.pressure.sum()) * contact.grid.pixel_area
-        pressure = contact.pressure
-        return FrictionPart(along_x * pressure, along_y * pressure, self.coefficient * load)
+        ratio, pressure = self.components(), contact.pressure
+        load = float(pressure.sum()) * contact.grid.pixel_area
+        return FrictionPart(ratio.x * pressure, ratio.y * pressure, self.coefficient * load)
 
 
 @frozen(kw_only=True)
@@ -115,9 +127,7 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
 
         from ...elasticity.stress.tractions import traction_coupling
 
-        friction = scene.effect(FrictionTraction)
-        assert friction is not None
-        along_x, along_y = friction.components()
+        ratio = scene.demand(FrictionTraction).components()
         bodies = (scene.interface.lower, 1.0), (scene.interface.upper, -1.0)
         signs = [sign for body, sign in bodies if body.stack is not None]
         couplings = [
@@ -134,20 +144,18 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
             total: Map = np.zeros(grid.shape)
             for sign, coupling in zip(signs, couplings, strict=True):
                 total += coupling(
-                    sign * along_x * pressure if along_x else None,
-                    sign * along_y * pressure if along_y else None,
+                    sign * ratio.x * pressure if ratio.x else None,
+                    sign * ratio.y * pressure if ratio.y else None,
                 )
             return total
 
         return displacement
 
-    def observe(self, contact: Contact) -> CouplingPart:
-        """See `ContactEffect.observe`: against the contact of the same load without coupling."""
-        without, displacement = contact.frictionless_pressure, contact.friction_displacement
-        assert without is not None
-        assert displacement is not None
+    def observe_frictional(self, contact: Contact, frictional: FrictionalContact) -> CouplingPart:
+        """See `DisplacementTerm.observe_frictional`: against the same load without coupling."""
+        without = frictional.pressure_without
         maximum = max(float(without.max()), sys.float_info.min)
         change = float(abs(contact.pressure - without).max()) / maximum
         n_without = max(int((without > 0.0).sum()), 1)
         area = int((contact.pressure > 0.0).sum()) / n_without - 1.0
-        return CouplingPart(displacement, change, area)
+        return CouplingPart(frictional.displacement, change, area)

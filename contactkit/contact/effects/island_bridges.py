@@ -29,6 +29,21 @@ if TYPE_CHECKING:
 __all__ = ["IslandBridges", "IslandPart", "bridges_of"]
 
 
+class _Wetting(NamedTuple):
+    """How islands hold liquid.
+
+    Surface tension [N/m], contact angles [rad], thickness of the film [m] (0 where liquid
+    condenses), pressure of the liquid [Pa] (None for a film), and the gap up to which an island
+    reaches [m].
+    """
+
+    tension: float
+    angles: tuple[float, float]
+    film_thickness: float
+    pressure: float | None
+    height: float
+
+
 class IslandPart(NamedTuple):
     """Meniscus force [N] of bridges on islands, and its contributions; arrays by island, (n,).
 
@@ -130,14 +145,14 @@ class IslandBridges(Observer[IslandPart]):
             "exact bridge on a sphere (Young-Laplace) on each, Orr, Scriven and Rivas 1975",
         )
 
+    liquid_needs: ClassVar[tuple[str, ...]] = ("surface_tension",)
+
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         meniscus = scene.interface.meniscus
         if meniscus is None:
             return ("interface.meniscus (the liquid and its contact angles)",)
         lacking = []
-        if meniscus.liquid.at(scene.temperature).missing("surface_tension"):
-            lacking.append("interface.meniscus.liquid.surface_tension [N/m]")
         if meniscus.volume is not None:
             lacking.append("interface.meniscus.volume [m3] left out: the islands set the volumes")
         if (scene.liquid_pressure is None) == (self.film_thickness is None):
@@ -171,54 +186,49 @@ def bridges_of(
     effect: IslandBridges, contact: Contact, pressure: float | None = None
 ) -> IslandPart:
     """Find the islands, put a bridge on each, and add up their forces."""
-    meniscus = contact.scene.meniscus
-    pressure = pressure if pressure is not None else contact.scene.liquid_pressure
-    tension = meniscus.liquid.at(contact.scene.temperature).surface_tension
-    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-    height = _height(effect, pressure, tension, angles)
-    wet = _wet(effect, contact, height, pressure)
+    wetting = _wetting(effect, contact, pressure)
+    wet = _wet(contact, wetting, effect.connectivity)
     names, n = islands(wet, contact.grid.periodic, effect.connectivity)
     touching, grid = contact.pressure > 0.0, contact.grid
     heights = contact.displacement - contact.gap  # undeformed, but for a constant
     found = kernel.measure_islands(names, n, contact.gap, touching, heights, grid.pixel_area)
-    curvature = kernel.curvature_of_area(found, height)
+    curvature = kernel.curvature_of_area(found, wetting.height)
     if effect.curvature == "summit":
         own = kernel.summit_curvature(heights, found.summit, grid.pixel_size, grid.periodic)
         # A pixel that is no summit, such as the edge of a ridge, has none of its own.
         curvature = np.where((own > 0.0) & np.isfinite(curvature), own, curvature)
-    volume = found.area * (effect.film_thickness or 0.0)
-    state = _bridges(
-        found.gap, volume, curvature, angles, None if pressure is None else pressure / tension
-    )
-    return _part(effect, contact, pressure, tension, wet & ~touching, found, curvature, state)
+    state = _bridges(found.gap, found.area * wetting.film_thickness, curvature, wetting)
+    return _part(effect, contact, wetting, wet & ~touching, found, curvature, state)
 
 
-def _height(
-    effect: IslandBridges, pressure: float | None, tension: float, angles: tuple[float, float]
-) -> float:
-    """Gap up to which an island reaches [m]."""
+def _wetting(effect: IslandBridges, contact: Contact, pressure: float | None) -> _Wetting:
+    meniscus, tension = contact.scene.meniscus, contact.liquid.surface_tension
+    angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
+    pressure = pressure if pressure is not None else contact.scene.liquid_pressure
+    thickness = effect.film_thickness or 0.0
     if effect.meniscus_height is not None:
-        return effect.meniscus_height
-    if pressure is None:
-        assert effect.film_thickness is not None
-        return effect.film_thickness
-    return float(meniscus_height(pressure, tension, math.cos(angles[0]) + math.cos(angles[1])))
+        height = effect.meniscus_height
+    elif pressure is None:
+        height = thickness
+    else:
+        cosines = math.cos(angles[0]) + math.cos(angles[1])
+        height = float(meniscus_height(pressure, tension, cosines))
+    return _Wetting(tension, angles, thickness, pressure, height)
 
 
-def _wet(effect: IslandBridges, contact: Contact, height: float, pressure: float | None) -> Mask:
+def _wet(contact: Contact, wetting: _Wetting, connectivity: Literal[4, 8]) -> Mask:
     """Pixels of islands that hold liquid, contact included."""
-    cut = np.asarray(contact.gap < height)
-    if pressure is not None:
+    cut = np.asarray(contact.gap < wetting.height)
+    if wetting.pressure is not None:
         return cut
-    assert effect.film_thickness is not None
     no_contact = np.zeros_like(cut)
     return meniscus_area(
         contact.gap,
-        effect.film_thickness,
-        height,
+        wetting.film_thickness,
+        wetting.height,
         no_contact,
         contact.grid.periodic,
-        effect.connectivity,
+        connectivity,
     ).meniscus
 
 
@@ -230,52 +240,47 @@ class _Bridges:
         self.force, self.radius, self.volume = np.zeros(n), np.zeros(n), np.zeros(n)
 
 
-def _bridges(
-    gap: Floats,
-    volume: Floats,
-    curvature: Floats,
-    angles: tuple[float, float],
-    pressure: float | None,
-) -> _Bridges:
+def _bridges(gap: Floats, volume: Floats, curvature: Floats, wetting: _Wetting) -> _Bridges:
     """Solve the bridges of all islands at once; over the surface tension."""
-    found = _Bridges(len(gap))
+    found, angles = _Bridges(len(gap)), wetting.angles
     room = np.flatnonzero(np.isfinite(curvature))
     if not len(room):
         return found
-    if pressure is None:
+    if wetting.pressure is None:
         from ...capillary.exact.bridge import bridge
 
         state = bridge(gap[room], volume[room], *angles, 0.0, curvature[room], beyond="nan")
     else:
         from ...capillary.condensed import condensed_bridges
 
-        state = condensed_bridges(gap[room], pressure, *angles, curvature[room])
+        over = wetting.pressure / wetting.tension
+        state = condensed_bridges(gap[room], over, *angles, curvature[room])
     stands = np.isfinite(state.force)
     there = room[stands]
     found.exists[there] = True
     found.force[there] = state.force[stands]
     found.radius[there] = np.maximum(state.radius_lower, state.radius_upper)[stands]
-    found.volume[there] = state.volume[stands] if pressure is not None else volume[there]
+    found.volume[there] = volume[there] if wetting.pressure is None else state.volume[stands]
     return found
 
 
 def _part(
     effect: IslandBridges,
     contact: Contact,
-    pressure: float | None,
-    tension: float,
+    wetting: _Wetting,
     is_meniscus: Mask,
     found: kernel.Islands,
     curvature: Floats,
     state: _Bridges,
 ) -> IslandPart:
-    grid, exists = contact.grid, state.exists
+    grid, exists, tension = contact.grid, state.exists, wetting.tension
     (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
     point: Floats = np.multiply(found.summit[exists] + 0.5, [dy, dx], dtype=np.float64)
     period = (ny * dy, nx * dx) if grid.periodic else None
     overlap = kernel.overlapping(point, state.radius[exists], period)
     force = tension * float(state.force.sum())
     load = float(contact.pressure.sum()) * grid.pixel_area
+    pressure = wetting.pressure
     liquid = "film gathered on it" if pressure is None else f"{pressure:.4g} Pa"
     return IslandPart(
         law=f"exact bridge on each island, {effect.curvature} curvature, {liquid}",

@@ -12,7 +12,15 @@ from attrs import Attribute, field, frozen
 from ...errors import DescriptionError
 from ...units import si
 from ...validators import choice, non_negative, positive
-from .base import Contact, FixedHardness, HardnessLaw, PressureBound, Scalar, VaryingHardness
+from .base import (
+    BoundedContact,
+    Contact,
+    FixedHardness,
+    HardnessLaw,
+    PressureBound,
+    Scalar,
+    VaryingHardness,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -157,8 +165,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
 
     def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
         """See `PressureBound.prepare`."""
-        if self.rule == "constant":
-            assert self.hardness is not None
+        if self.hardness is not None:  # with the rule "constant", see `lacks`
             return _constant(self.hardness, grid)
         stacks = scene.interface.stacks
         values = [[m.hardness or math.inf for m in stack.materials] for stack in stacks]
@@ -187,17 +194,15 @@ class HardnessLimit(PressureBound[PlasticPart]):
             return lambda u: kernel.effective_hardness_literal(u, *layered)
         return lambda u: kernel.effective_hardness(u, *layered, shift=self.shift)
 
-    def observe(self, contact: Contact) -> PlasticPart:
-        """See `ContactEffect.observe`: pixels at the hardness, to the round-off of the bound."""
+    def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> PlasticPart:
+        """See `PressureBound.observe_bounded`: pixels at the hardness, to round-off."""
         import numpy as np
 
-        assert contact.hardness is not None
-        assert contact.overlap is not None
-        at_bound = contact.pressure >= np.asarray(contact.hardness) * (1.0 - 1e-12)
+        at_bound = contact.pressure >= np.asarray(bounded.hardness) * (1.0 - 1e-12)
         is_plastic = at_bound & (contact.pressure > 0.0)
         area = float(is_plastic.sum()) * contact.grid.pixel_area
-        overlap = np.where(is_plastic, contact.overlap, 0.0)
-        return PlasticPart(is_plastic, area, contact.hardness, overlap)
+        overlap = np.where(is_plastic, bounded.overlap, 0.0)
+        return PlasticPart(is_plastic, area, bounded.hardness, overlap)
 
 
 def _constant(hardness: float | HardnessMap, grid: Grid) -> FixedHardness:

@@ -78,19 +78,20 @@ class _State:
         self.grid.displace(self.exact)
         self.scale = height_scale(self.same_rms, self.g, flat=1.0)
         loops.reduce_gap(self.g, self.h)
-        weight, weighted, free = loops.free_sums(self.p, self.g, self.upper)
+        free = loops.free_sums(self.p, self.g, self.upper)
         if self.problem.approach is not None:
             self.approach = self.problem.approach
-        elif free:
-            self.approach = weighted / weight
+        elif free.n_pixels:
+            self.approach = free.weighted_gap / free.pressure
         else:
             self.approach = free_approach(self.p, self.g, self.upper)
-        worst, energy, deepest = loops.violation(self.p, self.g, self.upper, self.approach)
+        found = loops.violation(self.p, self.g, self.upper, self.approach)
         total = float(self.p.sum())
+        energy = found.energy
         if self.load_fixed and not self.bounded:
-            energy = deepest * total
+            energy = found.deepest * total
         self.certificate = energy / (total * self.scale) if total > 0.0 else 0.0
-        self.relative = float(worst) / self.scale
+        self.relative = float(found.worst) / self.scale
         return self.relative
 
     def done(self) -> bool:
@@ -158,7 +159,8 @@ class _State:
 
     def _choose_free(self) -> None:
         """Choose the free pixels; without progress, only the worst of those that leave a bound."""
-        self.at, self.added = self.grid.loops.free_set(self.p, self.g, self.upper, self.approach)
+        free = self.grid.loops.free_set(self.p, self.g, self.upper, self.approach)
+        self.at, self.added = free.at, free.added
         if self.cautious and self.added:
             off = np.abs(self.g[self.at] - self.approach)
             between = self._between(self.at)

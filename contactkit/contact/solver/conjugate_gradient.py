@@ -61,7 +61,8 @@ def conjugate_gradient(
         z = system.precondition(r)
         rz = system.loops.next_direction(d, z, r, q, length, rz, system.load_fixed)
         system.apply(d, q)
-        length, rr = system.loops.step_along(x, r, d, q, system.load_fixed)
+        step = system.loops.step_along(x, r, d, q, system.load_fixed)
+        length = step.length
         system.take_step(length)
-        if rr <= stop:
+        if step.squared_residual <= stop:
             break

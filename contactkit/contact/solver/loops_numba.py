@@ -17,7 +17,7 @@ import numba
 import numpy as np
 from numba import prange
 
-from .loops_numpy import FactorRows, Ordering
+from .loops_numpy import FactorRows, FreeSet, FreeSums, LineStep, Ordering, Violation
 
 __all__ = ["compiled"]
 
@@ -38,7 +38,7 @@ def reduce_gap(u: Array, h: Array) -> None:
         u[k] -= h[k]
 
 
-def free_sums(p: Array, g: Array, upper: Array) -> tuple[float, float, int]:
+def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
     """Sums of p and p g over the pixels between the bounds, and the number of these."""
     many = 0 if upper.size == 1 else 1
     weight, weighted, free = 0.0, 0.0, 0
@@ -47,11 +47,11 @@ def free_sums(p: Array, g: Array, upper: Array) -> tuple[float, float, int]:
             weight += p[k]
             weighted += p[k] * g[k]
             free += 1
-    return weight, weighted, free
+    return FreeSums(weight, weighted, free)
 
 
-def violation(p: Array, g: Array, upper: Array, approach: float) -> tuple[float, float, float]:
-    """Largest violation of a contact condition, bound of the energy error, deepest penetration."""
+def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:
+    """Violation of the contact conditions by a pressure and its gap."""
     many = 0 if upper.size == 1 else 1
     worst, energy, deepest = 0.0, 0.0, 0.0
     for k in prange(p.size):
@@ -70,10 +70,10 @@ def violation(p: Array, g: Array, upper: Array, approach: float) -> tuple[float,
                 energy -= bound * off
             worst = max(worst, -off)
             deepest = max(deepest, -off)
-    return worst, energy, deepest
+    return Violation(worst, energy, deepest)
 
 
-def free_set(p: Array, g: Array, upper: Array, approach: float) -> tuple[Array, int]:
+def free_set(p: Array, g: Array, upper: Array, approach: float) -> FreeSet:
     """Free pixels, and how many of them leave a bound."""
     many = 0 if upper.size == 1 else 1
     at = np.empty(p.size, np.int32)
@@ -94,7 +94,7 @@ def free_set(p: Array, g: Array, upper: Array, approach: float) -> tuple[Array, 
             at[count] = k
             count += 1
             added += 1
-    return at[:count].astype(np.intp), added
+    return FreeSet(at[:count].astype(np.intp), added)
 
 
 def gather(full: Array, at: Array, out: Array) -> None:
@@ -161,8 +161,8 @@ def next_direction(
     return rz
 
 
-def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
-    """Step to the minimum along d; its length and the new squared residual."""
+def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> LineStep:
+    """Step to the minimum along d."""
     mean = 0.0
     if load_fixed:
         for a in prange(q.size):
@@ -175,13 +175,13 @@ def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tupl
         dq += d[a] * value
         rd += d[a] * r[a]
     if not dq > 0.0:
-        return 0.0, 0.0
+        return LineStep(0.0, 0.0)
     length, rr = rd / dq, 0.0
     for a in prange(q.size):
         x[a] += length * d[a]
         r[a] -= length * q[a]
         rr += r[a] * r[a]
-    return length, rr
+    return LineStep(length, rr)
 
 
 def add_scaled(change: Array, displacement: Array, length: float) -> None:

@@ -25,6 +25,12 @@ from numpy.typing import NDArray
 from ...numerics.fft import scale_spectrum
 
 __all__ = [
+    "FactorRows",
+    "FreeSet",
+    "FreeSums",
+    "LineStep",
+    "Ordering",
+    "Violation",
     "add_scaled",
     "add_block_values",
     "step_along",
@@ -49,20 +55,50 @@ Array = NDArray[Any]
 Index = NDArray[np.intp]
 
 
+class FreeSums(NamedTuple):
+    """Sums of p and of p g over the pixels between the bounds, and the number of these."""
+
+    pressure: float
+    weighted_gap: float
+    n_pixels: int
+
+
+class Violation(NamedTuple):
+    """Largest violation of a contact condition, bound of the energy error, deepest penetration."""
+
+    worst: float
+    energy: float
+    deepest: float
+
+
+class FreeSet(NamedTuple):
+    """Flat indices of the free pixels, and how many of these leave a bound."""
+
+    at: Index
+    added: int
+
+
+class LineStep(NamedTuple):
+    """Length of a step along a search direction, and the squared residual after it."""
+
+    length: float
+    squared_residual: float
+
+
 def reduce_gap(u: Array, h: Array) -> None:
     """Turn a displacement into the reduced gap, in place."""
     u -= h
 
 
-def free_sums(p: Array, g: Array, upper: Array) -> tuple[float, float, int]:
+def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
     """Sums of p and p g over the pixels between the bounds, and the number of these."""
     free = np.flatnonzero((p > 0.0) & (p < upper))
     weight = p[free]
-    return float(weight.sum()), float(weight @ g[free]), free.size
+    return FreeSums(float(weight.sum()), float(weight @ g[free]), free.size)
 
 
-def violation(p: Array, g: Array, upper: Array, approach: float) -> tuple[float, float, float]:
-    """Largest violation of a contact condition, bound of the energy error, deepest penetration."""
+def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:
+    """Violation of the contact conditions by a pressure and its gap."""
     touching = np.flatnonzero(p > 0.0)
     inside, weight = g[touching] - approach, p[touching]
     bound = np.broadcast_to(upper, p.shape)[touching]
@@ -77,10 +113,10 @@ def violation(p: Array, g: Array, upper: Array, approach: float) -> tuple[float,
     finite = np.isfinite(bound)
     energy += float(bound[finite] @ depth[finite])
     most = float(depth.max(initial=0.0))
-    return max(worst, most), energy, max(deepest, most)
+    return Violation(max(worst, most), energy, max(deepest, most))
 
 
-def free_set(p: Array, g: Array, upper: Array, approach: float) -> tuple[Index, int]:
+def free_set(p: Array, g: Array, upper: Array, approach: float) -> FreeSet:
     """Free pixels, and how many of them leave a bound.
 
     Those between the bounds, those out of contact that would be penetrated and those at the upper
@@ -94,7 +130,7 @@ def free_set(p: Array, g: Array, upper: Array, approach: float) -> tuple[Index, 
     if np.isfinite(upper).any():
         free |= (p >= upper) & (g > approach) & (p > 0.0)
     at = np.flatnonzero(free)
-    return at, at.size - inside
+    return FreeSet(at, at.size - inside)
 
 
 def gather(full: Array, at: Index, out: Array) -> None:
@@ -150,17 +186,17 @@ def next_direction(
     return rz
 
 
-def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> tuple[float, float]:
-    """Step to the minimum along d; its length and the new squared residual."""
+def step_along(x: Array, r: Array, d: Array, q: Array, load_fixed: bool) -> LineStep:
+    """Step to the minimum along d."""
     if load_fixed:
         q -= q.mean(dtype=np.float64)
     curvature = float(np.dot(d, q))
     if not curvature > 0.0:
-        return 0.0, 0.0
+        return LineStep(0.0, 0.0)
     length = float(np.dot(r, d)) / curvature
     x += length * d
     r -= length * q
-    return length, float(np.dot(r, r))
+    return LineStep(length, float(np.dot(r, r)))
 
 
 def add_scaled(change: Array, displacement: Array, length: float) -> None:
