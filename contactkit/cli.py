@@ -175,9 +175,11 @@ def _build(parsed: argparse.Namespace) -> None:
     if parsed.native:
         name, path = _build_native(parsed)
     else:
+        from .app.scenes import FmuStart
+
         what = parsed.what
-        name, start, *_ = (what, {}) if what in FMUS else _load(what).fmu_start()
-        path = build(name, parsed.out, start=start)
+        start = FmuStart(what, {}) if what in FMUS else _load(what).fmu_start()
+        name, path = start.name, build(start.name, parsed.out, start=start.values)
     problems = validate(path)
     print(
         f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")

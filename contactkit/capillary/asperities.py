@@ -97,9 +97,9 @@ def identical(
     """
     number = density * area
     one = float(thin_film_force(radius, separation, surface_tension, wetting, height))
-    share = max(1.0 - separation / height, 0.0)
-    wet = number if share > 0.0 else 0.0
-    coverage = 2.0 * math.pi * radius * density * height * share
+    immersed = max(1.0 - separation / height, 0.0)
+    wet = number if immersed > 0.0 else 0.0
+    coverage = 2.0 * math.pi * radius * density * height * immersed
     return AsperitySum(number * one, wet, number if separation <= 0.0 else 0.0, coverage)
 
 
@@ -147,10 +147,10 @@ def greenwood_williamson(
     (1.83411042, 11375, 675)
     """
     a, b = (separation - height) / rms_height, separation / rms_height
-    share = mean_tail(a, b)
+    immersed = mean_tail(a, b)
     number = density * area
-    force = 2.0 * math.pi * radius * surface_tension * wetting * number * share
-    coverage = 2.0 * math.pi * radius * density * height * share
+    force = 2.0 * math.pi * radius * surface_tension * wetting * number * immersed
+    coverage = 2.0 * math.pi * radius * density * height * immersed
     return AsperitySum(force, number * normal_tail(a), number * normal_tail(b), coverage)
 
 

@@ -179,9 +179,11 @@ def thin_film_force(
     >>> thin_film_force(1e-6, 2e-9, 0.072, 2.0, 1.5e-9)
     0.0
     """
-    share = 1.0 - gap / height
-    share = 0.5 * (share + abs(share))  # positive part, of a float or an array
-    return 2.0 * math.pi * sphere_radius * surface_tension * wetting * share
+    open_fraction = 1.0 - gap / height
+    open_fraction = 0.5 * (
+        open_fraction + abs(open_fraction)
+    )  # positive part, of a float or an array
+    return 2.0 * math.pi * sphere_radius * surface_tension * wetting * open_fraction
 
 
 def _log(relative_humidity: Any) -> Any:

@@ -152,10 +152,10 @@ def sphere_tension_truncated(
     >>> round(sphere_tension_truncated(1e9, 1e-3, 1e-6, 2e-6, 1e5) * 1e6, 6)
     628.318531
     """
-    open_share = 1.0 - gap / film_height
-    if newtonian_force <= 0.0 or open_share <= 0.0:
+    open_fraction = 1.0 - gap / film_height
+    if newtonian_force <= 0.0 or open_fraction <= 0.0:
         return newtonian_force
-    k = newtonian_force * gap / (2.0 * math.pi * radius * open_share**2)
+    k = newtonian_force * gap / (2.0 * math.pi * radius * open_fraction**2)
     per_height = 1.0 / film_height
     if k * (1.0 / gap - per_height) * (1.0 / gap + per_height) <= tension:
         return newtonian_force
@@ -187,11 +187,11 @@ def sphere_shear_limited(
     >>> sphere_shear_limited(1e-9, 1e-3, 1e-6, 2e-6, 1e6)
     1e-09
     """
-    open_share = 1.0 - gap / film_height
-    if newtonian_force == 0.0 or open_share <= 0.0:
+    open_fraction = 1.0 - gap / film_height
+    if newtonian_force == 0.0 or open_fraction <= 0.0:
         return newtonian_force
     # Wall shear is k*r/H^2 in the Newtonian film.
-    k = abs(newtonian_force) * gap / (2.0 * math.pi * radius**2 * open_share**2)
+    k = abs(newtonian_force) * gap / (2.0 * math.pi * radius**2 * open_fraction**2)
     rim = math.sqrt(2.0 * radius * (film_height - gap))
 
     def excess(r: float) -> float:

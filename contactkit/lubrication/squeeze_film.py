@@ -177,8 +177,8 @@ def sphere_force(radius: Any, gap: Any, film_height: Any, speed: Any, viscosity:
     >>> round(sphere_force(5e-3, 1e-9, 1e-3, 1e-3, 0.1), 9)
     47.123795556
     """
-    open_share = 1.0 - gap / film_height
-    return 6.0 * math.pi * viscosity * radius**2 * open_share**2 * speed / gap
+    open_fraction = 1.0 - gap / film_height
+    return 6.0 * math.pi * viscosity * radius**2 * open_fraction**2 * speed / gap
 
 
 def sphere_rim_height(gap: Any, rim_radius: Any, radius: Any) -> Any:

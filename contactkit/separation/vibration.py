@@ -146,9 +146,9 @@ def panels(
     edges = time_of(phase_of(corners))
     edges[0], edges[-1] = start, end
     # dt over the graded variable is as 1 - e cos(phase); a constant is integrated exactly.
-    share = weights * (1.0 - e * np.cos(inside))
-    share *= (np.diff(edges) / share.sum(axis=1))[:, None]
-    return edges, time_of(inside), share
+    fractions = weights * (1.0 - e * np.cos(inside))
+    fractions *= (np.diff(edges) / fractions.sum(axis=1))[:, None]
+    return edges, time_of(inside), fractions
 
 
 class _Cycle(NamedTuple):

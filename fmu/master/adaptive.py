@@ -60,10 +60,10 @@ class Walk:
         self._length = 1e-3 * (goal.stop_time - first.time)
         self._held = first.gap <= body.floor and first.speed <= 0.0
         self._tolerance = tolerance
-        self._share = 0.5 * tolerance
+        self._film_tolerance = 0.5 * tolerance
         self._control = StepSize(order=3, grow=5.0, unsolved=0.5)
         if film.has_limits:  # without extrapolation errors add up from step to step
-            self._share *= 0.5
+            self._film_tolerance *= 0.5
             self._control = self._control._replace(order=4)
 
     @property
@@ -136,7 +136,9 @@ class Walk:
 
     def _try(self, length: float) -> Doubled | None:
         attempt = forced if self.film.has_limits else doubled
-        return attempt(self.film, self.pull, self.body, self.points[-1], length, self._share)
+        return attempt(
+            self.film, self.pull, self.body, self.points[-1], length, self._film_tolerance
+        )
 
     def _judge(self, found: Doubled, length: float) -> float:
         """Error over tolerance: of the gap, and of the momentum against all that was given.
@@ -148,10 +150,10 @@ class Walk:
         size = point.given + abs(found.total - point.momentum) + abs(point.film.static) * length
         size += mass * abs(found.speed)
         if size == 0.0:  # nothing pulls, holds or moves
-            return found.gap_error / self._share
+            return found.gap_error / self._film_tolerance
         lasting = mass * found.speed_error / (1.0 + found.damping * length / mass)
         wrong = max(found.gap_error, found.total_error / size, lasting / size)
-        return wrong / self._share
+        return wrong / self._film_tolerance
 
     def _mark(self, point: Point, gap: float) -> float | None:
         """First gap on the way at which something happens."""

@@ -283,7 +283,7 @@ def cosimulate(
     return CoSimulation(np.array(times), columns, _ports(), log, len(times) - 1, seconds, rejected)
 
 
-def _nothing(share: float) -> None:
+def _nothing(fraction: float) -> None:
     """Report to nobody."""
 
 

@@ -79,10 +79,10 @@ class _Law(NamedTuple):
         gap_here, taken, damping, held, _ = self.here
         move = math.log(gap / gap_here)
         x = (self.power - 1.0) * move
-        share = -math.expm1(-x) / x if x else 1.0
+        damped = -math.expm1(-x) / x if x else 1.0
         return Known(
             gap,
-            taken + damping * gap_here * move * share,
+            taken + damping * gap_here * move * damped,
             damping * math.exp(-self.power * move),
             held + self.slope * (gap - gap_here),
             self.power,

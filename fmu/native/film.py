@@ -99,10 +99,10 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     """
     prepared = plan(scene, accuracy)
     interface, loading = scene.interface, scene.loading
-    shares = [1.0]
-    share = scene.meniscus.rewetting
-    if scene.meniscus.volume is not None and 0.0 < share < 1.0:
-        shares.append(share)
+    fractions = [1.0]
+    fraction = scene.meniscus.rewetting
+    if scene.meniscus.volume is not None and 0.0 < fraction < 1.0:
+        fractions.append(fraction)
     tension = scene.effect(TensionLimit)
     reynolds = tension is not None and tension.cavity == "reynolds"
     is_sphere = not interface.is_flat
@@ -112,11 +112,11 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         interface.sphere_radius,
         float(scene.meniscus.count),
         float(reynolds),
-        share,
+        fraction,
         float(max(accuracy.max_steps, 1)),
-        float(len(shares)),
+        float(len(fractions)),
     ]
-    for one in shares:
+    for one in fractions:
         numbers += _film(prepared, one, lowest)
     return FilmNumbers(numbers, lowest, prepared.prepared)
 

@@ -190,13 +190,13 @@ def _places(series: Any, a: float, b: float, rtol: float) -> Floats:
 
     rate, bend, count = series.deriv(), series.deriv(2), 1
     size = float(np.max(np.abs(series.coef))) or 1.0
-    shares = np.array([0.07, 0.25, 0.5, 0.75, 0.93])[:, None]
+    fractions = np.array([0.07, 0.25, 0.5, 0.75, 0.93])[:, None]
     while True:
         nodes = np.linspace(a, b, count + 1)
         width = (b - a) / count
-        places = nodes[:-1] + shares * width
+        places = nodes[:-1] + fractions * width
         values, slopes = _quintics(
-            shares, series(nodes), rate(nodes) * width, bend(nodes) * width**2
+            fractions, series(nodes), rate(nodes) * width, bend(nodes) * width**2
         )
         error = float(np.max(np.abs(values - series(places))))
         wrong = float(np.max(np.abs(slopes / width - rate(places))))

@@ -62,14 +62,14 @@ def travel(
     first : float, optional
         What does not depend on speed at the begin [N], if it is known already.
     """
-    share = 1.0
+    fraction = 1.0
     if end > film.end:
-        share = (film.end - begin) / (end - begin)
-        end, length = film.end, length * share
+        fraction = (film.end - begin) / (end - begin)
+        end, length = film.end, length * fraction
     first = film.static_force(begin) if first is None else first
     last = first if end == begin else film.static_force(end)
     static = length * _static_mean(film, begin, end, first, last)
-    return Travel(_viscous(film, begin, end, length), static, share, last)
+    return Travel(_viscous(film, begin, end, length), static, fraction, last)
 
 
 def _static_mean(film: Film, begin: float, end: float, first: float, last: float) -> float:

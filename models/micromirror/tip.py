@@ -336,8 +336,8 @@ def _rest(plan: Plan, stop: TipStop, before: TipState, root: Root, after: TipSta
     """Let the faces follow the spring while a tip rests; its impulse, by Simpson's rule."""
     contact, largest, depth = contact_of(plan, stop, before, root), before.largest, before.depth
     forces, state = [], after
-    for share in (0.0, 0.5, 1.0):
-        time = before.time + share * (after.time - before.time)
+    for fraction in (0.0, 0.5, 1.0):
+        time = before.time + fraction * (after.time - before.time)
         depth = rest_depth(contact, largest, time, depth)
         state = pressed(stop, state, depth, depth)
         largest = state.largest

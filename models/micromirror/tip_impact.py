@@ -223,10 +223,10 @@ def _accepted(
         end, error = _step(rates, time, state, length)
         swift = max(abs(state[1]), abs(end[1]), abs(end[1] - state[1]))
         far = max(abs(end[0] - state[0]), swift * length)
-        share = max(abs(error[1]) / swift, abs(error[0]) / far) / rtol if swift else 0.0
-        if share <= 1.0:
-            return length, end, _CONTROL.following(length, share)
-        length = _CONTROL.shorter(length, share)
+        ratio = max(abs(error[1]) / swift, abs(error[0]) / far) / rtol if swift else 0.0
+        if ratio <= 1.0:
+            return length, end, _CONTROL.following(length, ratio)
+        length = _CONTROL.shorter(length, ratio)
     raise ConvergenceError(f"no step of an impact of a tip meets {rtol:g} at {time:g} s", state)
 
 
@@ -243,8 +243,8 @@ def _shortened(
     else:
         return length, reached
 
-    def left(share: float) -> float:
-        return _step(rates, here.time, start, share * length)[0][what] - level
+    def left(fraction: float) -> float:
+        return _step(rates, here.time, start, fraction * length)[0][what] - level
 
     length *= bracketed_root(left, 0.0, 1.0, 1e-13)
     found = list(_step(rates, here.time, start, length)[0])

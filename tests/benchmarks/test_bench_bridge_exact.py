@@ -25,10 +25,10 @@ def test_200_gaps_between_flats(benchmark, angles, first):
 
 
 @pytest.mark.parametrize("bend", [(0.0, 1.0), (1.0, 1.0), (0.3, 1.0)], ids=str)
-@pytest.mark.parametrize("share", [0.9, 0.99])
-def test_200_gaps_between_curved_bodies(benchmark, bend, share):
+@pytest.mark.parametrize("fraction", [0.9, 0.99])
+def test_200_gaps_between_curved_bodies(benchmark, bend, fraction):
     fixed = (1e-3, 0.7, 0.7, *bend)
-    gaps = np.linspace(0.0, share * float(stability_limit(*fixed).gap), 200)
+    gaps = np.linspace(0.0, fraction * float(stability_limit(*fixed).gap), 200)
     assert np.all(np.isfinite(benchmark(bridge, gaps, *fixed).force))
 
 

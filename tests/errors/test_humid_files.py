@@ -57,7 +57,7 @@ def test_a_humidity_follows_the_temperature_of_the_scene(written):
 
 def test_the_command_line_reads_it_too(written, tmp_path):
     report = open_scene(str(written("relative_humidity = 0.9"))).run(
-        tmp_path / "out", lambda share: None
+        tmp_path / "out", lambda fraction: None
     )
     assert report.scalars
 

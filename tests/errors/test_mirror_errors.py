@@ -107,4 +107,4 @@ def test_cost_needs_a_pulse_that_releases(scene):
     weak = evolve(scene, mirror=evolve(scene.mirror, waveform=wave))
     weak = evolve(weak, study=evolve(weak.study, patience=1e-6))
     with pytest.raises(PlanError, match="cost needs a pulse that releases; 24 V do not"):
-        OpenedMicromirror(weak).cost(None, lambda share: None, 1e-6)
+        OpenedMicromirror(weak).cost(None, lambda fraction: None, 1e-6)

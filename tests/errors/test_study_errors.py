@@ -266,11 +266,11 @@ def saved(tmp_path_factory):
     return ck.save_result(result, tmp_path_factory.mktemp("saved") / "contact.npz")
 
 
-@pytest.mark.parametrize("share", [0.0, 0.01, 0.5, 0.9, 0.999])
-def test_a_result_that_was_cut_short_is_refused(tmp_path, saved, share):
+@pytest.mark.parametrize("fraction", [0.0, 0.01, 0.5, 0.9, 0.999])
+def test_a_result_that_was_cut_short_is_refused(tmp_path, saved, fraction):
     whole = saved.read_bytes()
     path = tmp_path / "cut.npz"
-    path.write_bytes(whole[: int(share * len(whole))])
+    path.write_bytes(whole[: int(fraction * len(whole))])
     refuses(lambda: ck.load_result(path), "file must be a result of contactkit", "cut.npz")
 
 

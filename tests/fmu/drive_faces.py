@@ -9,9 +9,11 @@ def rough(most=1e-6, limit=0.25, count=5):
     """Made-up elastic-plastic faces; elastic up to a fraction of the tables."""
     depths = [most * 2.0 ** (-i / 2.0) for i in range(16, -1, -1)]
     ends = [most * (limit + (1.0 - limit) * (k + 1) / count) for k in range(count)]
-    shares = (0.1, 0.3, 0.6, 1.0)
+    fractions = (0.1, 0.3, 0.6, 1.0)
     ways = [
-        Unloading(d, 0.4 * (d - limit * most), shares, tuple(s**1.7 for s in shares), shares, 0.0)
+        Unloading(
+            d, 0.4 * (d - limit * most), fractions, tuple(s**1.7 for s in fractions), fractions, 0.0
+        )
         for d in ends
     ]
     return LoadDisplacementCurve(

@@ -73,8 +73,8 @@ class Body(_Pulled):
         x, c, s = v["h"] - rest, math.cos(rate * step), math.sin(rate * step)
         v["h"], v["v"] = rest + x * c + v["v"] / rate * s, v["v"] * c - x * rate * s
         if v["t_release"] < 0.0 and v["h"] >= v["h_rel"]:
-            share = (v["h_rel"] - before) / (v["h"] - before)
-            v["t_release"] = time + share * step
+            fraction = (v["h_rel"] - before) / (v["h"] - before)
+            v["t_release"] = time + fraction * step
 
     def hidden_state(self) -> Mapping[str, Any]:
         return {}

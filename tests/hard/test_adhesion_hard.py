@@ -64,8 +64,8 @@ def test_a_radius_of_any_size_has_its_ring(a, transition):
 
 
 def test_jkr_to_the_last_gap():
-    for share in (1e-15, 1e-9, 1e-3, 0.5, 1.0):
-        gap = jkr.LAST_GAP * (1.0 - share)
+    for fraction in (1e-15, 1e-9, 1e-3, 0.5, 1.0):
+        gap = jkr.LAST_GAP * (1.0 - fraction)
         a = jkr.radius_at_gap(gap)
         assert a >= jkr.LAST_RADIUS
         assert -jkr.approach(a) == approx(gap, 1e-14)

@@ -25,8 +25,8 @@ def exact(gap, profile):
 
 
 @pytest.mark.parametrize("profile", ["arc", "as-published"])
-@pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.9, 0.99, 0.9999])
-def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, share):
+@pytest.mark.parametrize("fraction", [1e-6, 0.1, 0.5, 0.9, 0.99, 0.9999])
+def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, fraction):
     """As printed the force grows without bound as the neck closes; a plain spline rang there."""
     scene = film_scene(
         ck.MeniscusForce(profile=profile),
@@ -42,10 +42,10 @@ def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, share):
         final_gap=1e-3,
     )
     law = ck.plan(scene).film.laws[ck.MeniscusForce]
-    gap = share * law.end
+    gap = fraction * law.end
     # The curve is asked for 1e-9 of the largest force; near its end the arc pulls with little,
     # and the printed force is divided by the fraction that is left.
-    rel = 1e-8 + 1e-10 / (1.0 - share)
+    rel = 1e-8 + 1e-10 / (1.0 - fraction)
     assert law.force(gap, 0.0) == pytest.approx(exact(gap, profile), rel=rel, abs=1e-9 * 2e-3)
 
 

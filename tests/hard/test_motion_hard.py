@@ -218,7 +218,7 @@ def test_a_short_hop_ends_at_the_rest_gap_too(release_scene):
         assert state.gap >= 5e-6 * (1.0 - 1e-12)
 
 
-def cycle(release_scene, share):
+def cycle(release_scene, fraction):
     """Open beyond rupture, close again, come to rest."""
     scene = release_scene(
         "B",
@@ -227,7 +227,7 @@ def cycle(release_scene, share):
         rise_time=0.0,
         rest_gap=5e-6,
         stiffness=0.0,
-        meniscus={"rewetting": share},
+        meniscus={"rewetting": fraction},
     )
     made = ck.plan(scene)
     opened = walk(made, ck.Pull(40.0), 0.02, 1)
@@ -238,15 +238,15 @@ def cycle(release_scene, share):
     return made, closed
 
 
-@pytest.mark.parametrize("share", [0.5, 1.0])
-def test_a_film_that_wets_again_holds_with_its_fraction(release_scene, share):
-    made, closed = cycle(release_scene, share)
+@pytest.mark.parametrize("fraction", [0.5, 1.0])
+def test_a_film_that_wets_again_holds_with_its_fraction(release_scene, fraction):
+    made, closed = cycle(release_scene, fraction)
     assert not closed.broken
-    assert closed.volume_fraction == share
-    pull = made.film_with(share).static_force(5e-6)
+    assert closed.volume_fraction == fraction
+    pull = made.film_with(fraction).static_force(5e-6)
     assert outputs(made, closed, 0.0).static == pull
     # Half the volume: half the wetted area at the same gap, and a rim shorter by its root.
-    assert pull == approx(share * made.film.static_force(5e-6), 0.02)
+    assert pull == approx(fraction * made.film.static_force(5e-6), 0.02)
     again = walk(made, ck.Pull(40.0, time=closed.time), 0.02, 1, closed)
     assert again.n_breaks == 2
     assert again.n_releases == 2
@@ -254,8 +254,8 @@ def test_a_film_that_wets_again_holds_with_its_fraction(release_scene, share):
 
 def test_half_a_film_is_released_sooner(release_scene):
     times = []
-    for share in (0.5, 1.0):
-        made, closed = cycle(release_scene, share)
+    for fraction in (0.5, 1.0):
+        made, closed = cycle(release_scene, fraction)
         again = walk(made, ck.Pull(40.0, time=closed.time), 0.05, 1, closed)
         times.append(again.break_time - closed.time)
     # The viscous impulse goes with the square of the volume.

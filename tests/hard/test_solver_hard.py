@@ -92,12 +92,12 @@ def test_full_contact_is_that_of_the_spectrum(solver):
     np.testing.assert_allclose(s.pressure, full, rtol=1e-5)
 
 
-@pytest.mark.parametrize("share", [0.9, 0.99, 0.9999, 1.0 - 1e-9])
-def test_a_load_just_below_what_the_bound_carries(solver, share):
+@pytest.mark.parametrize("fraction", [0.9, 0.99, 0.9999, 1.0 - 1e-9])
+def test_a_load_just_below_what_the_bound_carries(solver, fraction):
     bound = 2e9
-    s = solver.solve(HEIGHTS, mean_pressure=share * bound, bound=bound)
+    s = solver.solve(HEIGHTS, mean_pressure=fraction * bound, bound=bound)
     assert s.converged
-    assert s.pressure.mean() == pytest.approx(share * bound, rel=1e-11)
+    assert s.pressure.mean() == pytest.approx(fraction * bound, rel=1e-11)
     assert s.pressure.max() <= bound * (1.0 + 1e-12)
 
 

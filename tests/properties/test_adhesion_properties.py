@@ -69,10 +69,10 @@ def test_the_pull_off_lies_between_jkr_and_dmt(transition):
 
 
 @given(transitions, st.floats(0.0, 0.999))
-def test_the_pull_on_the_branch_never_exceeds_the_pull_off(transition, share):
+def test_the_pull_on_the_branch_never_exceeds_the_pull_off(transition, fraction):
     bounds = maugis_dugdale.limits(transition)
     start, end = -bounds.pull_off.approach, -bounds.release.approach
-    gap = start + share * (end - start)
+    gap = start + fraction * (end - start)
     found = maugis_dugdale.at_gap(gap, transition, bounds)
     further = maugis_dugdale.at_gap(gap + 1e-3 * (end - gap), transition, bounds)
     assert bounds.pull_off.load <= found.load + 1e-12 <= further.load + 1e-9
@@ -88,10 +88,10 @@ def test_a_contact_under_a_load_lies_between_dmt_and_jkr(transition, load):
 
 
 @given(models, st.lists(st.floats(-0.7, 50.0), min_size=2, max_size=6, unique=True))
-def test_load_and_approach_rise_with_the_contact_radius(model, shares):
+def test_load_and_approach_rise_with_the_contact_radius(model, fractions):
     scene = sticky(model)
     force = scene.effects[0].numbers(prepare_scene(scene)).pull_off_force
-    found = ck.adhesion_curve(scene, np.sort(shares) * force)
+    found = ck.adhesion_curve(scene, np.sort(fractions) * force)
     assert (np.diff(found.contact_radius) >= 0.0).all()
     assert (np.diff(found.approach) >= 0.0).all()
     assert (found.cohesive_radius >= found.contact_radius).all()
@@ -167,9 +167,9 @@ def test_the_liquid_between_stiff_bodies_pulls_as_its_meniscus(pressure, angle):
     """2 pi R gamma (c1 + c2) (1 - D |p|/(gamma (c1 + c2))): the small meniscus of a pressure."""
     scene = wet(pressure, modulus=1e16, angle=angle)
     height = 2.0 * 0.072 * math.cos(angle) / -pressure
-    for share in (0.01, 0.5, 0.9):
-        expected = 2.0 * math.pi * 1e-6 * 2.0 * 0.072 * math.cos(angle) * (1.0 - share)
-        found = ck.plan(scene).film.static_force(share * height)
+    for fraction in (0.01, 0.5, 0.9):
+        expected = 2.0 * math.pi * 1e-6 * 2.0 * 0.072 * math.cos(angle) * (1.0 - fraction)
+        found = ck.plan(scene).film.static_force(fraction * height)
         assert found == approx(expected, 0.01)
 
 

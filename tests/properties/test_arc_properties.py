@@ -25,10 +25,10 @@ def close(one, two, rtol):
 
 
 @given(ANGLE, ANGLE, SHARE, st.floats(-9.0, 3.0))
-def test_lengths_scale_between_flats(lower, upper, share, power):
+def test_lengths_scale_between_flats(lower, upper, fraction, power):
     assume(abs(lower - upper) < HALF)
     limit = arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0)
-    gap, scale = share * min(limit, 10.0), 10.0**power
+    gap, scale = fraction * min(limit, 10.0), 10.0**power
     one, two = arc_bridge(gap, 1.0, lower, upper), arc_bridge(gap * scale, scale**3, lower, upper)
     width = abs(one.force) + one.neck  # a force may pass through zero
     np.testing.assert_allclose(two.force / scale, one.force, rtol=1e-11, atol=1e-11 * width)
@@ -37,9 +37,9 @@ def test_lengths_scale_between_flats(lower, upper, share, power):
 
 
 @given(ANGLE, ANGLE, VOLUME, st.floats(0.0, 0.3), BEND, st.floats(-9.0, 3.0))
-def test_lengths_scale_between_curved_bodies(lower, upper, volume, share, ratio, power):
+def test_lengths_scale_between_curved_bodies(lower, upper, volume, fraction, ratio, power):
     assume(abs(lower - upper) < HALF)
-    gap, scale = share * volume ** (1 / 3), 10.0**power
+    gap, scale = fraction * volume ** (1 / 3), 10.0**power
     one = arc_bridge(gap, volume, lower, upper, ratio, 1.0, beyond="nan")
     two = arc_bridge(
         gap * scale, volume * scale**3, lower, upper, ratio / scale, 1.0 / scale, beyond="nan"
@@ -50,9 +50,9 @@ def test_lengths_scale_between_curved_bodies(lower, upper, volume, share, ratio,
 
 
 @given(ANGLE, ANGLE, VOLUME, st.floats(0.0, 0.3), BEND, BEND)
-def test_bodies_may_be_swapped(lower, upper, volume, share, one_curved, two_curved):
+def test_bodies_may_be_swapped(lower, upper, volume, fraction, one_curved, two_curved):
     assume(abs(lower - upper) < HALF)
-    gap = max(share, 1e-3) * volume ** (1 / 3)
+    gap = max(fraction, 1e-3) * volume ** (1 / 3)
     one = arc_bridge(gap, volume, lower, upper, one_curved, two_curved, beyond="nan")
     two = arc_bridge(gap, volume, upper, lower, two_curved, one_curved, beyond="nan")
     size = np.maximum(abs(one.radius_lower), gap)
@@ -68,11 +68,11 @@ def test_bodies_may_be_swapped(lower, upper, volume, share, one_curved, two_curv
 
 
 @given(ANGLE, ANGLE, SHARE)
-def test_pressure_and_force_balance_in_the_plane(lower, upper, share):
+def test_pressure_and_force_balance_in_the_plane(lower, upper, fraction):
     """F = 2 pi x sin(phi) - pi x^2 P through the neck, the belly or the smaller circle."""
     assume(abs(lower - upper) < HALF)
     shape = arc_flat.shape(lower, upper)
-    gap = share * min(arc_flat.zero_neck_gap(shape, 1.0), 10.0)
+    gap = fraction * min(arc_flat.zero_neck_gap(shape, 1.0), 10.0)
     x = arc_flat.contact_radius(shape, gap, 1.0)
     plane = x + gap * shape.plane_offset
     pull = 2.0 * math.pi * plane * shape.plane_sine
@@ -82,10 +82,10 @@ def test_pressure_and_force_balance_in_the_plane(lower, upper, share):
 
 
 @given(ANGLE, ANGLE, SHARE)
-def test_volume_is_kept_and_radii_are_ordered(lower, upper, share):
+def test_volume_is_kept_and_radii_are_ordered(lower, upper, fraction):
     assume(abs(lower - upper) < HALF)
     shape = arc_flat.shape(lower, upper)
-    gap = share * min(arc_flat.zero_neck_gap(shape, 1.0), 10.0)
+    gap = fraction * min(arc_flat.zero_neck_gap(shape, 1.0), 10.0)
     x = arc_flat.contact_radius(shape, gap, 1.0)
     top = arc_flat.upper_contact_radius(shape, gap, x)
     assert arc_flat.volume(shape, gap, x) == pytest.approx(1.0, rel=1e-11)
@@ -94,11 +94,11 @@ def test_volume_is_kept_and_radii_are_ordered(lower, upper, share):
 
 
 @given(st.floats(0.05, math.pi - 0.05), st.floats(0.01, 0.9))
-def test_contact_radius_is_continuous_where_the_arc_is_straight(lower, share):
+def test_contact_radius_is_continuous_where_the_arc_is_straight(lower, fraction):
     """Across theta_1 + theta_2 = 180 deg, where the radius of the arc is infinite."""
     upper = math.pi - lower
     assume(abs(lower - upper) < HALF)
-    gap = share * min(arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0), 10.0)
+    gap = fraction * min(arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0), 10.0)
     radii = [
         arc_flat.contact_radius(arc_flat.shape(lower, upper + turn), gap, 1.0)
         for turn in (-1e-6, -1e-9, 0.0, 1e-9, 1e-6)
@@ -110,10 +110,10 @@ def test_contact_radius_is_continuous_where_the_arc_is_straight(lower, share):
 
 
 @given(ANGLE, ANGLE, st.floats(0.02, 0.9), st.sampled_from(["lower", "upper", "both"]))
-def test_weakly_curved_bodies_join_the_flats(lower, upper, share, which):
+def test_weakly_curved_bodies_join_the_flats(lower, upper, fraction, which):
     """Two kernels that share no formula for the volume meet as curvature vanishes."""
     assume(abs(lower - upper) < HALF)
-    gap = share * min(arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0), 3.0)
+    gap = fraction * min(arc_flat.zero_neck_gap(arc_flat.shape(lower, upper), 1.0), 3.0)
     flat = arc_bridge(gap, 1.0, lower, upper)
     size = abs(flat.force) + flat.bulge + flat.bulge**2 / gap
     for curvature in (1e-6, 1e-9, 1e-14):
@@ -121,7 +121,7 @@ def test_weakly_curved_bodies_join_the_flats(lower, upper, share, which):
         curved = arc_bridge(gap, 1.0, lower, upper, *bend)
         assert curved.force == pytest.approx(flat.force, abs=1e4 * curvature * size + 1e-10 * size)
         assert curved.radius_lower == pytest.approx(
-            flat.radius_lower, abs=1e4 * curvature * flat.bulge / share + 1e-10 * flat.bulge
+            flat.radius_lower, abs=1e4 * curvature * flat.bulge / fraction + 1e-10 * flat.bulge
         )
 
 
@@ -137,10 +137,10 @@ def test_arcs_exist_up_to_the_closed_neck_and_not_beyond(lower, upper, volume, c
     fixed = (volume, lower, upper, curvature, 1.0, profile)
     limit = arc_sphere.zero_neck_gap(*fixed)
     assume(math.isfinite(limit))
-    shares = np.array([0.0, 1e-6, 0.3, 0.9, 1.0 - 1e-6, 1.0 + 1e-6, 1.1, 3.0, 30.0])
-    state = arc_sphere.solve(shares * limit, *fixed)
-    np.testing.assert_array_equal(state.found, shares < 1.0)
-    np.testing.assert_array_equal(state.closed, shares > 1.0)
+    fractions = np.array([0.0, 1e-6, 0.3, 0.9, 1.0 - 1e-6, 1.0 + 1e-6, 1.1, 3.0, 30.0])
+    state = arc_sphere.solve(fractions * limit, *fixed)
+    np.testing.assert_array_equal(state.found, fractions < 1.0)
+    np.testing.assert_array_equal(state.closed, fractions > 1.0)
     assert state.neck[4] < 1e-3 * limit + state.neck[3]
 
 

@@ -14,16 +14,16 @@ from contactkit.capillary.exact.stability import stability_limit
 
 few = settings(max_examples=12)
 angles = st.floats(0.0, math.pi)
-shares = st.floats(0.02, 0.97)
+fractions = st.floats(0.02, 0.97)
 volumes = st.floats(-6.0, -1.0).map(lambda power: 10.0**power)
 bends = st.sampled_from([(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.3, 1.0)])
 
 
-def case_of(lower, upper, volume, bend, share):
+def case_of(lower, upper, volume, bend, fraction):
     """Arguments of a bridge at a fraction of its limit."""
     assume(abs(lower - upper) < 2.6)
     fixed = (volume, lower, upper, *bend)
-    return share * float(stability_limit(*fixed).gap), fixed
+    return fraction * float(stability_limit(*fixed).gap), fixed
 
 
 def energy(gap, fixed):
@@ -46,8 +46,8 @@ def energy(gap, fixed):
 
 @few
 @given(angles, angles, volumes, bends, st.floats(0.2, 0.8))
-def test_the_force_is_the_slope_of_the_energy(lower, upper, volume, bend, share):
-    gap, fixed = case_of(lower, upper, volume, bend, share)
+def test_the_force_is_the_slope_of_the_energy(lower, upper, volume, bend, fraction):
+    gap, fixed = case_of(lower, upper, volume, bend, fraction)
     step = 5e-3 * gap
     state = bridge(gap, *fixed)
     nodes, weights = (-2, -1, 1, 2), (1.0, -8.0, 8.0, -1.0)
@@ -58,9 +58,9 @@ def test_the_force_is_the_slope_of_the_energy(lower, upper, volume, bend, share)
 
 
 @few
-@given(angles, angles, volumes, bends, shares, st.floats(-30.0, 10.0))
-def test_scale(lower, upper, volume, bend, share, power):
-    gap, fixed = case_of(lower, upper, volume, bend, share)
+@given(angles, angles, volumes, bends, fractions, st.floats(-30.0, 10.0))
+def test_scale(lower, upper, volume, bend, fraction, power):
+    gap, fixed = case_of(lower, upper, volume, bend, fraction)
     size = 10.0**power
     one = bridge(gap, *fixed)
     other = bridge(gap * size, volume * size**3, lower, upper, *(k / size for k in bend))
@@ -72,9 +72,9 @@ def test_scale(lower, upper, volume, bend, share, power):
 
 
 @few
-@given(angles, angles, volumes, bends, shares)
-def test_mirror(lower, upper, volume, bend, share):
-    gap, fixed = case_of(lower, upper, volume, bend, share)
+@given(angles, angles, volumes, bends, fractions)
+def test_mirror(lower, upper, volume, bend, fraction):
+    gap, fixed = case_of(lower, upper, volume, bend, fraction)
     one = bridge(gap, *fixed)
     other = bridge(gap, volume, upper, lower, *bend[::-1])
     assert float(other.force) == pytest.approx(float(one.force), rel=1e-9, abs=1e-9)
@@ -84,19 +84,19 @@ def test_mirror(lower, upper, volume, bend, share):
 
 
 @few
-@given(angles, angles, volumes, bends, shares)
-def test_stiffness_is_the_slope_of_the_force(lower, upper, volume, bend, share):
-    gap, fixed = case_of(lower, upper, volume, bend, share)
-    step = 1e-4 * gap * (1.0 - share)
+@given(angles, angles, volumes, bends, fractions)
+def test_stiffness_is_the_slope_of_the_force(lower, upper, volume, bend, fraction):
+    gap, fixed = case_of(lower, upper, volume, bend, fraction)
+    step = 1e-4 * gap * (1.0 - fraction)
     ends = bridge([gap - step, gap + step], *fixed).force
     slope = float(bridge(gap, *fixed).stiffness)
     assert (ends[1] - ends[0]) / (2.0 * step) == pytest.approx(slope, rel=1e-5, abs=1e-6)
 
 
 @few
-@given(angles, angles, volumes, bends, shares)
-def test_one_force_through_every_cut(lower, upper, volume, bend, share):
-    gap, fixed = case_of(lower, upper, volume, bend, share)
+@given(angles, angles, volumes, bends, fractions)
+def test_one_force_through_every_cut(lower, upper, volume, bend, fraction):
+    gap, fixed = case_of(lower, upper, volume, bend, fraction)
     state = bridge(gap, *fixed)
     for x, angle, k in (
         (state.radius_lower, lower, bend[0]),
@@ -119,12 +119,12 @@ def test_the_limit_has_two_sides(lower, upper, volume, bend):
 
 
 @few
-@given(st.floats(0.0, 1.2), st.floats(0.0, 1.2), st.floats(0.5, 5.0), shares, st.booleans())
-def test_the_ensembles_agree(lower, upper, power, share, both):
+@given(st.floats(0.0, 1.2), st.floats(0.0, 1.2), st.floats(0.5, 5.0), fractions, st.booleans())
+def test_the_ensembles_agree(lower, upper, power, fraction, both):
     """A bridge of given pressure is the bridge of its volume, and takes up liquid with pressure."""
     fixed = (lower, upper, 1.0 if both else 0.0, 1.0)
     pressure = -(10.0**power)
-    gap = share * max_gap_at_pressure(pressure, *fixed)
+    gap = fraction * max_gap_at_pressure(pressure, *fixed)
     at = bridge_at_pressure(gap, pressure, *fixed)
     same = bridge(gap, float(at.volume), *fixed)
     assert float(same.force) == pytest.approx(float(at.force), rel=1e-9)

@@ -69,10 +69,15 @@ def test_a_jump_would_be_seen():
 
 
 @given(stacks(), SHIFT, st.floats(0.05, 0.95), st.integers(0, 4), st.floats(0.0, 1e3))
-def test_a_layer_cut_in_two_stays_the_layer_it_was(stack, shift, share, which, u):
+def test_a_layer_cut_in_two_stays_the_layer_it_was(stack, shift, fraction, which, u):
     young_modulus, hardness, thickness = stack
     k = which % len(thickness)
-    cut = [*thickness[:k], share * thickness[k], (1.0 - share) * thickness[k], *thickness[k + 1 :]]
+    cut = [
+        *thickness[:k],
+        fraction * thickness[k],
+        (1.0 - fraction) * thickness[k],
+        *thickness[k + 1 :],
+    ]
     doubled = [[*v[: k + 1], *v[k:]] for v in (young_modulus, hardness)]
     whole = effective_hardness(u, young_modulus, hardness, thickness, shift)
     np.testing.assert_allclose(effective_hardness(u, *doubled, cut, shift), whole, rtol=1e-11)

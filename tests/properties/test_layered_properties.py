@@ -37,8 +37,8 @@ def agree(found, expected, tolerance=4e-15):
 def test_a_layer_cut_in_two_is_the_same_layer(stack, data):
     E, nu, h = stack
     j = data.draw(st.integers(0, len(h) - 1))
-    share = data.draw(st.floats(0.01, 0.99))
-    cut = [*h[:j], h[j] * share, h[j] * (1 - share), *h[j + 1 :]]
+    fraction = data.draw(st.floats(0.01, 0.99))
+    cut = [*h[:j], h[j] * fraction, h[j] * (1 - fraction), *h[j + 1 :]]
     agree(
         compliance(ALPHA, [*E[:j], E[j], *E[j:]], [*nu[:j], nu[j], *nu[j:]], cut),
         compliance(ALPHA, E, nu, h),
@@ -109,7 +109,7 @@ def test_tractions_and_displacements_pass_through_interfaces(stack):
 
 
 @given(stacks(most=3), st.floats(0.05, 0.95))
-def test_the_states_obey_equilibrium_and_elasticity(stack, share):
+def test_the_states_obey_equilibrium_and_elasticity(stack, fraction):
     """Differences in depth against the equations of one wavenumber, which the code never solves.
 
     With x = alpha z and u, w, v = 2 G alpha (U, W), G alpha V: u' = 2 T - w, T' = (u - nu S)/
@@ -119,7 +119,7 @@ def test_the_states_obey_equilibrium_and_elasticity(stack, share):
     layer = len(h) - 1
     alpha = np.array([min(1.0 / h[-1], 20.0 / sum(h))])
     d = 2e-3 * alpha[0] * h[-1]
-    middle = sum(h[:-1]) + share * h[-1]
+    middle = sum(h[:-1]) + fraction * h[-1]
     z = middle + np.array([-2.0, -1.0, 0.0, 1.0, 2.0]) * d / alpha[0]
     states = list(plane_states(alpha, E, nu, h, z))
     n = nu[layer]

@@ -67,8 +67,8 @@ laws = st.one_of(
 within = st.floats(0.0, 1.0)
 
 
-def inside(law, share):
-    temperature = law.temperature_min + share * (law.temperature_max - law.temperature_min)
+def inside(law, fraction):
+    temperature = law.temperature_min + fraction * (law.temperature_max - law.temperature_min)
     return min(max(temperature, law.temperature_min), law.temperature_max)
 
 
@@ -97,7 +97,7 @@ def test_surface_tension_of_water_falls_as_it_warms(one, other):
 
 
 @given(oils(), within, st.floats(0.1, 10.0))
-def test_walther_knows_no_unit_of_temperature(law, share, scale):
+def test_walther_knows_no_unit_of_temperature(law, fraction, scale):
     # A - B log T: counting temperature in other degrees moves A only. Stated on the law in use:
     # scaling all its temperatures scales where it takes its values.
     scaled = law.temperature_1 * scale
@@ -110,15 +110,15 @@ def test_walther_knows_no_unit_of_temperature(law, share, scale):
         temperature_min=law.temperature_min * scale * 0.999,
         temperature_max=law.temperature_max * scale * 1.001,
     )
-    temperature = inside(law, share)
+    temperature = inside(law, fraction)
     assert math.isclose(other(temperature * scale), law(temperature), rel_tol=1e-9)
 
 
 @given(laws, within)
-def test_laws_are_silent_and_positive_within_their_range(law, share):
+def test_laws_are_silent_and_positive_within_their_range(law, fraction):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert 0.0 < law(inside(law, share)) < math.inf
+        assert 0.0 < law(inside(law, fraction)) < math.inf
 
 
 @given(laws, ANY)
@@ -173,8 +173,8 @@ def test_no_constants_make_walther_overflow(one, other, thick, thin, temperature
 
 
 @given(oils(), st.floats(500.0, 2000.0), within)
-def test_a_liquid_gives_what_its_laws_give(law, density, share):
-    temperature = inside(law, share)
+def test_a_liquid_gives_what_its_laws_give(law, density, fraction):
+    temperature = inside(law, fraction)
     state = Liquid(name="oil", kinematic_viscosity=law, density=density).at(temperature)
     assert state.viscosity == law(temperature) * density
     assert state.density == density

@@ -85,8 +85,8 @@ def test_lengths_and_heights_scale(ny, nx, seed, power, height_power, normalise)
 
 
 @given(SIDE, SIDE, PIXEL, st.floats(0.05, 1.0))
-def test_the_budget_of_variance_adds_up(ny, nx, pixel, share):
-    cutoff = share * max(ny * pixel[0], nx * pixel[1])
+def test_the_budget_of_variance_adds_up(ny, nx, pixel, fraction):
+    cutoff = fraction * max(ny * pixel[0], nx * pixel[1])
     found = random_surfaces.resolved_variance((ny, nx), pixel, (1.0, 3.0), cutoff)
     assert sum(found) == pytest.approx(1.0, abs=1e-14)
     assert found.resolved > 0.0

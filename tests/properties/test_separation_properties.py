@@ -159,10 +159,10 @@ def test_dividing_a_film_keeps_its_laplace_force_and_lengthens_its_rim(film, cou
     # At 0 degrees the rim does not pull.
     laplace = meniscus(0.0, 1)
     assert meniscus(0.0, count) == approx(laplace, 1e-12)
-    share = math.cos(film.angle)
-    rim = meniscus(film.angle, 1) - laplace * share
+    fraction = math.cos(film.angle)
+    rim = meniscus(film.angle, 1) - laplace * fraction
     # The rim is a difference of the two forces, so that it is known to their rounding.
-    assert meniscus(film.angle, count) - laplace * share == pytest.approx(
+    assert meniscus(film.angle, count) - laplace * fraction == pytest.approx(
         math.sqrt(count) * rim, abs=1e-12 * count * laplace
     )
 

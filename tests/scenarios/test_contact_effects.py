@@ -92,7 +92,7 @@ def test_every_effect_has_its_part_and_its_numbers(everything):
         "n_menisci",
         "island_force",
         "n_island_bridges",
-        "island_cover",
+        "island_coverage",
     }
     assert all(math.isfinite(value) for value, _ in numbers.values())
     for kind in CONTACT_EFFECTS[2:]:
@@ -219,8 +219,8 @@ def test_the_stress_below_a_rigid_flat_of_a_periodic_window_is_uniaxial():
     part = run.of(ck.SubsurfaceStress)
     for plane, layer in enumerate(part.layer):
         nu = (DLC, STEEL)[layer].poisson_ratio
-        share = nu / (1.0 - nu)
-        wanted = -3e7 * np.array([share, share, 1.0, 0.0, 0.0, 0.0])
+        fraction = nu / (1.0 - nu)
+        wanted = -3e7 * np.array([fraction, fraction, 1.0, 0.0, 0.0, 0.0])
         stress = part.planes[:, plane].reshape(6, -1)
         np.testing.assert_allclose(stress, np.repeat(wanted[:, None], 64, 1), atol=1e-2)
 

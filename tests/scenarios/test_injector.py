@@ -38,7 +38,7 @@ def short(device):
 
 @pytest.fixture(scope="module")
 def runs(short):
-    return cosimulate_cases(short.scene, None, lambda share: None)
+    return cosimulate_cases(short.scene, None, lambda fraction: None)
 
 
 @pytest.mark.slow
@@ -72,7 +72,7 @@ def test_the_viscous_film_holds_the_spool_and_the_limit_cuts_it_off(short, runs)
     run = next(run for run in runs if run.limited)
     first = cycles(run, short.scene)[0]
     assert first.viscous_impulse > 20.0 * first.meniscus_impulse > 0.0
-    assert 0.3 < first.limited_share < 0.9
+    assert 0.3 < first.limited_fraction < 0.9
     cap = math.pi * 3.175e-3**2 * 1e6
     assert 0.9 * cap < first.peak_force < 1.05 * cap
 

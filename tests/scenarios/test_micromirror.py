@@ -34,7 +34,7 @@ def short(device):
 
 @pytest.fixture(scope="module")
 def run(short):
-    return cosimulate_flips(short.scene, None, lambda share: None)
+    return cosimulate_flips(short.scene, None, lambda fraction: None)
 
 
 def test_what_is_stored_and_what_presses(device):
@@ -105,7 +105,7 @@ def test_the_smallest_pulse_is_a_threshold(device):
 
 
 def test_more_humidity_takes_more_voltage(short):
-    found = release_curve(short.scene, lambda share: None)
+    found = release_curve(short.scene, lambda fraction: None)
     dry, humid = found
     assert dry.adhesion.volume == 0.0
     assert dry.alone < 0.5e-6
@@ -138,7 +138,7 @@ def test_the_fmus_agree_with_the_monolithic_model(short, run):
 
 @pytest.mark.slow
 def test_the_report_and_its_figures(short, run, tmp_path):
-    made = report(short.scene, run, tmp_path, lambda share: None)
+    made = report(short.scene, run, tmp_path, lambda fraction: None)
     names = {path.name for path in made.files}
     assert names == {
         "signals.csv",

@@ -171,13 +171,13 @@ def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
     fresh = ck.load_displacement(rough_scene, approaches=between[-8:], unloadings=3, accuracy=GRID)
     for approach, force in zip(fresh.approach, fresh.force, strict=True):
         assert rough.at(approach).force == pytest.approx(force, rel=min(rough.error, 0.03))
-    for one, share in zip(fresh.unloading, (0.06, 0.01, 0.01), strict=True):
+    for one, fraction in zip(fresh.unloading, (0.06, 0.01, 0.01), strict=True):
         whole, residual = rough.at(one.max_approach).force, one.residual_approach
         assert rough.residual(one.max_approach) == pytest.approx(residual, rel=0.1)
         for way, force in zip(one.fractions, one.forces, strict=True):
             approach = residual + way * (one.max_approach - residual)
             found = rough.at(approach, one.max_approach).force / whole
-            assert found == pytest.approx(force, abs=share)
+            assert found == pytest.approx(force, abs=fraction)
 
 
 def test_the_dissipated_work_is_the_hardness_times_the_plastic_volume(rough):
@@ -190,8 +190,8 @@ def test_the_dissipated_work_is_the_hardness_times_the_plastic_volume(rough):
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
-def test_every_way_rises_and_lies_below_the_first_loading(rough, share, one, other):
-    largest = share * rough.max_approach
+def test_every_way_rises_and_lies_below_the_first_loading(rough, fraction, one, other):
+    largest = fraction * rough.max_approach
     low, high = sorted((one * largest, other * largest))
     below, above = rough.at(low, largest), rough.at(high, largest)
     assert below.force <= above.force * (1.0 + 1e-12)
@@ -200,9 +200,9 @@ def test_every_way_rises_and_lies_below_the_first_loading(rough, share, one, oth
     assert 0.0 <= rough.dissipated_work(largest) <= rough.work(largest)
 
 
-@pytest.mark.parametrize("share", [0.3, 0.62, 0.9, 1.0])
-def test_a_loop_is_closed_and_its_area_is_the_dissipated_work(rough, share):
-    largest = share * rough.max_approach
+@pytest.mark.parametrize("fraction", [0.3, 0.62, 0.9, 1.0])
+def test_a_loop_is_closed_and_its_area_is_the_dissipated_work(rough, fraction):
+    largest = fraction * rough.max_approach
     down = np.linspace(0.0, largest, 4001)
     out = np.array([rough.at(d, largest).force for d in down])
     there = np.array([rough.at(d).force for d in down])

@@ -232,16 +232,16 @@ def test_a_table_has_units_and_a_file_has_everything(tmp_path):
 
 def test_a_finished_point_is_not_solved_again(tmp_path):
     first = ck.study(contact(), {"loading.pressure": PRESSURES[:2]}, ACCURACY, store=tmp_path)
-    shares = []
+    fractions = []
     study = ck.study(
         contact(),
         {"loading.pressure": PRESSURES},
         ACCURACY,
         store=tmp_path,
-        progress=shares.append,
+        progress=fractions.append,
     )
     assert (first.n_solved, study.n_solved) == (2, 2)
-    assert shares == [0.5, 0.75, 1.0]
+    assert fractions == [0.5, 0.75, 1.0]
     assert study.column("energy")[:2].tolist() == first.column("energy").tolist()  # to the bit
     assert "2 points from the store" in study.table()
     again = ck.study(contact(), {"loading.pressure": PRESSURES}, ACCURACY, store=tmp_path)
@@ -322,13 +322,13 @@ def test_a_point_that_was_refused_is_tried_again(tmp_path):
 def test_workers_change_nothing(tmp_path):
     """One chain in two pieces, with a point that has no answer; progress by points."""
     scene = contact(ck.HardnessLimit(rule="material"))
-    vary, shares = {"loading.pressure": [1e7, 2e7, 3e10, 4e7]}, []
+    vary, fractions = {"loading.pressure": [1e7, 2e7, 3e10, 4e7]}, []
     one = ck.study(scene, vary, ACCURACY)
     two = ck.study(
-        scene, vary, ACCURACY, workers=2, progress=shares.append, keep_maps=True, store=tmp_path
+        scene, vary, ACCURACY, workers=2, progress=fractions.append, keep_maps=True, store=tmp_path
     )
     assert same(one, two)
-    assert shares == [0.25, 0.5, 0.75, 1.0]
+    assert fractions == [0.25, 0.5, 0.75, 1.0]
     assert two.results[3].load == pytest.approx(4e-5)
     assert ck.study(scene, vary, ACCURACY, store=tmp_path, keep_maps=True).n_solved == 0
 
@@ -443,7 +443,7 @@ def ended(study):
 
 
 def test_an_interruption_reaches_the_caller(tmp_path):
-    def stop(share):
+    def stop(fraction):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -45,7 +45,7 @@ def client():
 
 
 def test_a_cluster_changes_nothing(client, tmp_path):
-    vary, shares = {"loading.pressure": [*PRESSURES, 3e10]}, []
+    vary, fractions = {"loading.pressure": [*PRESSURES, 3e10]}, []
     here = ck.study(scene(), vary, ACCURACY)
     there = ck.study(
         scene(),
@@ -54,13 +54,13 @@ def test_a_cluster_changes_nothing(client, tmp_path):
         client=client,
         keep_maps=True,
         store=tmp_path,
-        progress=shares.append,
+        progress=fractions.append,
     )
     assert [p.status for p in there.points] == ["converged"] * 4 + ["infeasible"]
     for name in ("contact_area", "max_pressure", "approach"):
         assert there.column(name) == pytest.approx(here.column(name), rel=1e-5, nan_ok=True)
     assert there.results[2].load == pytest.approx(4e-5)
-    assert shares == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0])
+    assert fractions == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0])
     assert ck.study(scene(), vary, ACCURACY, store=tmp_path, keep_maps=True).n_solved == 0
 
 

@@ -158,8 +158,8 @@ def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progre
     """Measure the closures of all bridges: a table, numbers, and a picture and a CSV file."""
     curves = [_curve(case, scene.gaps, scene.reach) for case in scene.bridges]
     progress(0.3)
-    forces = force_points(curves, lambda share: progress(0.3 + 0.5 * share))
-    ruptures = rupture_points(curves, lambda share: progress(0.8 + 0.2 * share))
+    forces = force_points(curves, lambda done: progress(0.3 + 0.5 * done))
+    ruptures = rupture_points(curves, lambda done: progress(0.8 + 0.2 * done))
     lines: list[str] = []
     scalars: dict[str, tuple[float, str]] = {}
     for found in (forces, ruptures):

@@ -42,7 +42,7 @@ _AREAS = {
     "pixel count": "contact_area",
     "edge-corrected area": "corrected_contact_area",
 }
-_SHARES = (0.25, 0.375, 0.5, 0.7, 0.85, 1.0, 1.4)  # of the grid asked for
+_FRACTIONS = (0.25, 0.375, 0.5, 0.7, 0.85, 1.0, 1.4)  # of the grid asked for
 
 
 def contact_cost(
@@ -206,7 +206,7 @@ def grid_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> W
         return None
     exact = _solved(bare, finest).corrected_contact_area
     near = _solved(bare, evolve(accuracy, grid=n)).corrected_contact_area
-    sizes = sorted({next_fast_len(round(n * share), real=True) for share in _SHARES})
+    sizes = sorted({next_fast_len(round(n * fraction), real=True) for fraction in _FRACTIONS})
     grids = [evolve(accuracy, grid=size) for size in sizes]
     settings = [
         Setting(method, f"{one.grid} x {one.grid}", partial(_area, bare, one, name))

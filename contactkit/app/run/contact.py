@@ -44,9 +44,11 @@ def run_contact(
     from ...contact.solve import solve
 
     result = solve(plan(scene, accuracy))
-    share = 0.5 if vary else 1.0
-    progress(share)
-    studies = _studies(scene, accuracy, vary, lambda done: progress(share + (1.0 - share) * done))
+    fraction = 0.5 if vary else 1.0
+    progress(fraction)
+    studies = _studies(
+        scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
+    )
     scalars: dict[str, tuple[Any, str]] = dict(result.scalars())
     files = _write(result, studies, out) if out is not None else ()
     return Report(scalars, _text(result, studies), files)
@@ -72,8 +74,8 @@ def _studies(
     done: list[tuple[str, Study]] = []
     for label, variant in variants:
 
-        def shared(share: float, before: int = len(done)) -> None:
-            progress((before + share) / len(variants))
+        def shared(fraction: float, before: int = len(done)) -> None:
+            progress((before + fraction) / len(variants))
 
         done.append((label, study(variant, vary, accuracy, progress=shared)))
     return tuple(done)
@@ -133,7 +135,7 @@ def _figures(
     if result.plan.has(SubsurfaceStress):
         made, ax = plot.figure(size=(8.0, 5.5))
         contact_plot.von_mises_section(result, ax)
-        plot.title(ax, f"{title}: under the largest pressure")
+        plot.title(ax, f"{title}: under the maximum pressure")
         files.append(plot.save(made, out / "stress"))
     files.append(_stacks(result.plan, out))
     if studies:

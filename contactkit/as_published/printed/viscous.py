@@ -66,9 +66,9 @@ def viscous_flat_3_19(
     >>> round(viscous_flat_3_19(100e-9, 2e-9, math.inf, 1e-7, 0.89e-3) * 1e9, 6)
     524.253274
     """
-    share = gap_start / gap_end
+    ratio = gap_start / gap_end
     open_ended = 0.75 * math.pi * viscosity * radius**4 / (separation_time * gap_start**2)
-    return open_ended * (1.0 - share) * (1.0 + share)
+    return open_ended * (1.0 - ratio) * (1.0 + ratio)
 
 
 def viscous_divided_3_34(
@@ -100,8 +100,10 @@ def viscous_sphere_3_22(
     1.5
     """
     _open(gap, "3.22")
-    share = (film_height - gap) / film_height
-    return 6.0 * math.pi * viscosity * sphere_radius**2 * share * share * speed / gap
+    open_fraction = (film_height - gap) / film_height
+    return (
+        6.0 * math.pi * viscosity * sphere_radius**2 * open_fraction * open_fraction * speed / gap
+    )
 
 
 def viscous_sphere_3_26(

@@ -291,17 +291,17 @@ def acceptable(problem: Problem, one: Array, two: Array, profile: str) -> Flags:
     )
 
 
-def _stage(problem: Problem, share: Array) -> Problem:
+def _stage(problem: Problem, stage: Array) -> Problem:
     """Point of a continuation path from a small volume between touching bodies to the problem.
 
     First the volume grows (parameter 0 to 1), then the gap (1 to 2), so that the neck stays open.
     """
     bend = problem.curvature_lower + problem.curvature_upper
     film = np.minimum(problem.gap, 0.1 * np.sqrt(bend * problem.volume))
-    volume = problem.volume * 1e-6 ** np.maximum(1.0 - share, 0.0)
-    rise = np.clip(share - 1.0, 0.0, 1.0)
+    volume = problem.volume * 1e-6 ** np.maximum(1.0 - stage, 0.0)
+    rise = np.clip(stage - 1.0, 0.0, 1.0)
     gap = film ** (1.0 - rise) * problem.gap**rise
-    return problem._replace(gap=np.where(share > 1.0, gap, 0.0), volume=volume)
+    return problem._replace(gap=np.where(stage > 1.0, gap, 0.0), volume=volume)
 
 
 def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
@@ -310,12 +310,12 @@ def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
     Failed steps are halved. Returns the two distances, whether the end was reached with an open
     neck, and whether the neck closed along the path. One body at least must be curved.
     """
-    share, step = np.zeros_like(problem.gap), np.full_like(problem.gap, 0.1)
-    one, two, good = iterate(_stage(problem, share), profile)
+    stage, step = np.zeros_like(problem.gap), np.full_like(problem.gap, 0.1)
+    one, two, good = iterate(_stage(problem, stage), profile)
     closed = np.zeros_like(good)
     live = np.flatnonzero(good)
     while live.size:
-        target = np.minimum(share[live] + step[live], np.where(share[live] < 1.0, 1.0, 2.0))
+        target = np.minimum(stage[live] + step[live], np.where(stage[live] < 1.0, 1.0, 2.0))
         part = _stage(problem.at(live), target)
         new1, new2, good = iterate(part, profile, (one[live], two[live]))
         with np.errstate(all="ignore"):
@@ -325,8 +325,8 @@ def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
             good &= abs(new1 - one[live]) + abs(new2 - two[live]) < size
             shut = good & ~(outline(part, below, above).neck > 0.0)
         moved = live[good]
-        one[moved], two[moved], share[moved] = new1[good], new2[good], target[good]
+        one[moved], two[moved], stage[moved] = new1[good], new2[good], target[good]
         closed[live[shut]] = True
         step[live] = np.where(good, step[live], 0.5 * step[live])
         live = live[~shut & (target < 2.0) & (step[live] > 1e-4) | (~good & (step[live] > 1e-4))]
-    return one, two, (share == 2.0) & ~closed, closed
+    return one, two, (stage == 2.0) & ~closed, closed

@@ -122,7 +122,7 @@ class IslandBridges(Observer[IslandPart]):
         Scalar("island_area", "m2", attrgetter("area")),
         Scalar("n_island_bridges", "-", attrgetter("n_menisci")),
         Scalar("n_dry_islands", "-", attrgetter("n_dry")),
-        Scalar("island_cover", "-", attrgetter("coverage")),
+        Scalar("island_coverage", "-", attrgetter("coverage")),
         Scalar("n_overlapping", "-", attrgetter("n_overlapping")),
     )
 

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define SHARE 1e-5 /* of a value, by which it is moved */
+#define STEP 1e-5 /* of a value, by which it is moved */
 
 static int refuse(ck_model *model, int unknown, int known, const char *why) {
     char message[300];
@@ -34,7 +34,7 @@ static int moved(ck_model *model, int unknown, const ck_port *known, double at, 
 }
 
 static int difference(ck_model *model, int unknown, const ck_port *known, double *slope) {
-    double at = model->state.values[known->id], step = SHARE * (at != 0.0 ? fabs(at) : 1.0);
+    double at = model->state.values[known->id], step = STEP * (at != 0.0 ? fabs(at) : 1.0);
     double up, down, high = at + step, low = at - step;
     if (!moved(model, unknown, known, high, &up)) {
         high = at;

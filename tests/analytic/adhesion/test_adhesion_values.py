@@ -56,10 +56,10 @@ def test_a_sphere_on_a_half_space_is_a_pile_of_discs(gap):
 
 
 def test_derjaguins_force_is_off_by_the_ratio_of_gap_and_radius():
-    for share in (1e-6, 1e-3, 1e-2):
-        near = van_der_waals.sphere_force(share, A, 1.0)
-        whole = van_der_waals.hamaker_sphere_force(share, A, 0.0, 1.0)
-        assert near / whole == approx((1.0 + 0.5 * share) ** 2, 1e-12)
+    for fraction in (1e-6, 1e-3, 1e-2):
+        near = van_der_waals.sphere_force(fraction, A, 1.0)
+        whole = van_der_waals.hamaker_sphere_force(fraction, A, 0.0, 1.0)
+        assert near / whole == approx((1.0 + 0.5 * fraction) ** 2, 1e-12)
 
 
 def test_the_pressure_between_flats_is_the_slope_of_their_energy():
@@ -106,8 +106,8 @@ def test_a_far_adhesion_is_that_of_dmt(transition):
     bounds = maugis_dugdale.limits(transition)
     assert -bounds.pull_off.load == approx(dmt.PULL_OFF_FORCE, abs=0.1 * transition)
     assert -bounds.release.approach == approx(dmt.reach(transition), transition)
-    for share in (0.01, 0.5, 0.99):
-        gap = share * dmt.reach(transition)
+    for fraction in (0.01, 0.5, 0.99):
+        gap = fraction * dmt.reach(transition)
         found = maugis_dugdale.at_gap(gap, transition, bounds)
         assert -found.load == approx(dmt.force_before_touch(gap, transition), 3.0 * transition)
     assert maugis_dugdale.at_load(6.0, transition, bounds).contact_radius == approx(2.0, transition)

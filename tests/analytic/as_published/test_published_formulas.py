@@ -124,9 +124,9 @@ def test_3_26_keeps_its_digits():
     )
     assert force == pytest.approx(case["impulse_inf_Ns"], rel=RTOL)
     # a film thicker than the gap by a part in 2^30: log1p keeps what a logarithm of 1 loses
-    share = 2.0**-30
-    force = published.viscous_sphere_3_26(1.0, 1.0, 1.0 + share, math.inf, 1.0, 1.0)
-    assert force == pytest.approx(6.0 * math.pi * share**2 / (4.0 * (1.0 + share)), rel=RTOL)
+    fraction = 2.0**-30
+    force = published.viscous_sphere_3_26(1.0, 1.0, 1.0 + fraction, math.inf, 1.0, 1.0)
+    assert force == pytest.approx(6.0 * math.pi * fraction**2 / (4.0 * (1.0 + fraction)), rel=RTOL)
 
 
 def test_opening_flats_by_stefan():

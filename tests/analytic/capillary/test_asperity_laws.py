@@ -45,14 +45,14 @@ def test_the_sum_is_that_of_its_summits_one_by_one(separation, height):
     """Quadrature over the heights z of the summits, of the force on each."""
     spread = 1e-9
 
-    def share(x):  # x = D/sigma of a summit that does not touch
+    def fraction(x):  # x = D/sigma of a summit that does not touch
         return (1.0 - x * spread / height) * stats.norm.pdf(separation / spread - x)
 
     last = height / spread
     peak = min(max(separation / spread, 0.0), last)
     points = sorted({0.0, max(peak - 9.0, 0.0), peak, min(peak + 9.0, last), last})
     open_ones = sum(
-        integrate.quad(share, a, b, epsabs=0.0, epsrel=1e-11, limit=400)[0]
+        integrate.quad(fraction, a, b, epsabs=0.0, epsrel=1e-11, limit=400)[0]
         for a, b in itertools.pairwise(points)
     )
     expected = open_ones + stats.norm.sf(separation / spread)

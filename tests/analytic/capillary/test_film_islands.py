@@ -135,9 +135,9 @@ def test_a_row_of_ridges_has_the_area_of_its_strips():
     x = np.arange(nx) * (2.0 * math.pi / nx) * 4.0
     gap = np.broadcast_to(1.0 - np.cos(x), (3, nx))
     found = meniscus_area(gap, 0.1, height, gap < dry, periodic=True)
-    share = (math.acos(1.0 - height) - math.acos(1.0 - dry)) / math.pi
+    fraction = (math.acos(1.0 - height) - math.acos(1.0 - dry)) / math.pi
     # Two edges on each side of four ridges, each off by one pixel at most.
-    assert found.n_meniscus / gap.size == pytest.approx(share, abs=16 / nx)
+    assert found.n_meniscus / gap.size == pytest.approx(fraction, abs=16 / nx)
     assert found.n_islands == 4
 
 

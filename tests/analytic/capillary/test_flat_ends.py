@@ -43,12 +43,12 @@ def integrated(lower, upper, gap, radius, pressure):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("pair", "share"), [((180, 180), 0.9), ((179.9, 179.9), 0.9999), ((180, 90), 0.99)], ids=str
+    ("pair", "fraction"), [((180, 180), 0.9), ((179.9, 179.9), 0.9999), ((180, 90), 0.99)], ids=str
 )
-def test_force_is_that_of_an_integrated_meridian(pair, share):
+def test_force_is_that_of_an_integrated_meridian(pair, fraction):
     lower, upper = radians(pair)
     law = flat_law(lower, upper)
-    gap = share * law.end
+    gap = fraction * law.end
     near = bridge(gap, 1.0, lower, upper)  # where to start
     expected = integrated(lower, upper, gap, float(near.radius_lower), float(near.pressure))
     assert law.force(gap) == pytest.approx(expected, rel=1e-9, abs=1e-11)

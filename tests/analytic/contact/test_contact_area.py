@@ -61,10 +61,10 @@ def test_the_edges_are_counted_along_both_axes_and_round_the_window(periodic):
         loading=ck.Pressing(pressure=1e5),
     )
     rows, columns = run.contact.sum(0).max(), run.contact.sum(1).max()
-    share = (np.pi - 1.0 + np.log(2.0)) / 24.0
+    fraction = (np.pi - 1.0 + np.log(2.0)) / 24.0
     if periodic:
         edges = 2 * rows
-        area = run.contact_area - share * edges * (1e-6 / 64) ** 2
+        area = run.contact_area - fraction * edges * (1e-6 / 64) ** 2
         assert run.corrected_contact_area == pytest.approx(area)
     else:
         assert run.corrected_contact_area < run.contact_area

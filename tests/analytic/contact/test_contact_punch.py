@@ -85,8 +85,8 @@ def test_a_punch_on_the_point_of_yielding_is_the_patch_of_love(ny, nx, dy, dx):
     shape = (ny + 2 * margin, nx + 2 * margin)
     heights = np.full(shape, -1.0)
     heights[margin : margin + ny, margin : margin + nx] = 0.0
-    share = ny * nx / (shape[0] * shape[1])
-    pressure = hardness * share * (1.0 - 1e-9)
+    fraction = ny * nx / (shape[0] * shape[1])
+    pressure = hardness * fraction * (1.0 - 1e-9)
     run = ck.press(heights, (dy, dx), UNIT, pressure, hardness=hardness, periodic=False)
     pressed = heights == 0.0
     np.testing.assert_allclose(run.pressure[pressed], hardness, rtol=1e-6)

@@ -162,19 +162,19 @@ def test_a_limited_stress_is_newtonian_at_first_and_never_more(law):
 
 
 @pytest.mark.parametrize(
-    ("factor", "share"),
+    ("factor", "fraction"),
     [
         (1.0, lambda a: 0.0 if math.cos(a) > 0.0 else 1.0),  # at once
         (2.0 / math.pi, lambda a: abs(a) / math.pi),  # linear along the line
         (0.25 * math.pi, lambda a: 0.5 * (1.0 - math.cos(a))),  # linear along the motion
     ],
 )
-def test_the_shape_factor_is_the_integral_around_the_line(factor, share):
-    """Tension times cos(theta) around a round line; `share` is that of the receding cosine."""
+def test_the_shape_factor_is_the_integral_around_the_line(factor, fraction):
+    """Tension times cos(theta) around a round line; `fraction` is that of the receding cosine."""
     advancing, receding, x = 1.2, 0.7, 0.5
 
     def pull(a):
-        cosine = math.cos(advancing) + share(a) * (math.cos(receding) - math.cos(advancing))
+        cosine = math.cos(advancing) + fraction(a) * (math.cos(receding) - math.cos(advancing))
         return -cosine * math.cos(a) * x
 
     right = 0.5 * math.pi

@@ -78,7 +78,7 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
 
 
 @pytest.mark.parametrize(
-    ("beta", "n", "share"),
+    ("beta", "n", "fraction"),
     [
         (0.5e-6, 256, 0.89),
         (0.5e-6, 1024, 0.97),
@@ -88,13 +88,13 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
         (0.05e-6, 8192, 0.96),
     ],
 )
-def test_the_cutoff_takes_the_fraction_of_the_notes(beta, n, share):
+def test_the_cutoff_takes_the_fraction_of_the_notes(beta, n, fraction):
     pixel, cutoff = (SCAN / 256, SCAN / 256), 2.0 * SCAN / n
     found = random_surfaces.resolved_variance((256, 256), pixel, beta, cutoff)
-    assert 1.0 - found.cutoff == pytest.approx(share, abs=6e-3)
+    assert 1.0 - found.cutoff == pytest.approx(fraction, abs=6e-3)
     assert sum(found) == pytest.approx(1.0, abs=1e-12)
     if n == 256:
-        assert found.resolved == pytest.approx(share, abs=6e-3)
+        assert found.resolved == pytest.approx(fraction, abs=6e-3)
 
 
 def test_the_cutoff_of_a_surface_with_a_lay_agrees_with_an_integral():
@@ -125,9 +125,9 @@ def test_the_standard_deviation_is_what_it_says(normalise):
     if normalise == "sample":
         np.testing.assert_allclose(variance, 1.0, rtol=1e-12)
     else:
-        share = random_surfaces.resolved_variance(recipe[0], recipe[1], 6e-9, 4e-9).resolved
-        assert 0.5 < share < 0.95
-        expected = 1.0 if normalise == "expected" else share
+        fraction = random_surfaces.resolved_variance(recipe[0], recipe[1], 6e-9, 4e-9).resolved
+        assert 0.5 < fraction < 0.95
+        expected = 1.0 if normalise == "expected" else fraction
         assert float(variance.mean()) == pytest.approx(expected, abs=4.0 * noise)
 
 

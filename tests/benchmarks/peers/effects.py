@@ -105,10 +105,10 @@ def _single(job, given, fast):
     press = _press(job, symbol_maker(given.periodic), fast)
     plain, elastic, _ = _good(press, given)
     bounded, found, kkt = _good(press, given, bound=CAP)
-    share = float((found.pressure >= CAP).sum() / (found.pressure > 0.0).sum())
+    fraction = float((found.pressure >= CAP).sum() / (found.pressure > 0.0).sum())
     seconds, reference = _best(bounded, plain, job)
     counts = found.n_applications, elastic.n_applications
-    rows = [_row(job, fast, "hardness", seconds, reference, counts, kkt, 2.0, plastic=share)]
+    rows = [_row(job, fast, "hardness", seconds, reference, counts, kkt, 2.0, plastic=fraction)]
     for name, stack in STACKS.items():
         maker = _layered_maker(stack, given.periodic)
         begun = time.process_time()

@@ -130,10 +130,10 @@ def test_nothing_is_left_behind(pair, tmp_path, monkeypatch):
 
 
 def test_progress_is_reported(pair):
-    shares = []
-    cosimulate(*pair, 5e-3, 1e-5, progress=shares.append)
-    assert shares == sorted(shares)
-    assert 0.0 <= shares[0] < shares[-1] < 1.0
+    fractions = []
+    cosimulate(*pair, 5e-3, 1e-5, progress=fractions.append)
+    assert fractions == sorted(fractions)
+    assert 0.0 <= fractions[0] < fractions[-1] < 1.0
 
 
 def test_events_reach_the_log(pair):

@@ -344,8 +344,10 @@ def test_a_rough_stop_remembers_as_the_python_fmu_does(curve, tmp_path, open_fmu
     host = open_fmu(build_native_drive(tmp_path / "x.fmu", curve=curve, **ONE)).start(**values)
     python = slave(curve, **values)
     most, seen = curve.max_approach, set()
-    for n, share in enumerate([-1.0, 1e-9, 0.1, 0.5, 0.4, 0.2, 0.6, 1.1, 0.9, 0.3, 1.9, 1.2, 0.7]):
-        gap, speed = 2.5e-5 + 1.3 * share * most, 0.2 * (-1) ** n
+    for n, fraction in enumerate(
+        [-1.0, 1e-9, 0.1, 0.5, 0.4, 0.2, 0.6, 1.1, 0.9, 0.3, 1.9, 1.2, 0.7]
+    ):
+        gap, speed = 2.5e-5 + 1.3 * fraction * most, 0.2 * (-1) ** n
         host.set(h=gap, v=speed)
         python.set_real([1, 2], [gap, speed])
         python.get_real([3])
@@ -369,10 +371,10 @@ def test_faces_without_yield_are_one_curve(tmp_path, open_fmu):
     )
     assert face_numbers(curve)[2] == 0.0
     host = open_fmu(build_native_drive(tmp_path / "x.fmu", curve=curve, **ONE)).start()
-    for share in (0.3, 0.8, 0.3):  # as stiff bodies: the depth is that of the faces
-        host.set(h=2.5e-5 + share * curve.max_approach)
+    for fraction in (0.3, 0.8, 0.3):  # as stiff bodies: the depth is that of the faces
+        host.set(h=2.5e-5 + fraction * curve.max_approach)
         force = host.get("F_stop")
-        approach = share * curve.max_approach - force / 1e8
+        approach = fraction * curve.max_approach - force / 1e8
         assert force == pytest.approx(curve.at(approach).force, rel=1e-10)
         assert host.step(1e-7) == OK
 

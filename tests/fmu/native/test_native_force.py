@@ -191,8 +191,8 @@ def test_solids_hold_on_after_the_film_broke(native, open_fmu):
     alone = film.remaining(broken=True, detached=False)
     move(host, 1e-6, 1.5 * max(film.end, film.release))
     assert (host.get("n_break"), host.get("state"), host.get("F")) == (1, FilmStatus.BROKEN, 0.0)
-    share = (film.end - gap) / (1.5 * max(film.end, film.release) - gap)
-    assert host.get("t_break") == pytest.approx(share * 1e-6, rel=1e-6)
+    fraction = (film.end - gap) / (1.5 * max(film.end, film.release) - gap)
+    assert host.get("t_break") == pytest.approx(fraction * 1e-6, rel=1e-6)
     assert host.get("h_below") == pytest.approx(max(gap, film.recontact))
     if alone is not None and film.recontact > gap:
         move(host, 1e-6, 0.5 * (gap + film.recontact))
@@ -318,12 +318,12 @@ def test_directional_derivatives_are_those_of_the_force(name, native, open_fmu):
     assert found["F_m", "v"] == 0.0
     assert found["F_m", "h"] + found["F_v", "h"] == pytest.approx(there["k"], rel=1e-12)
     for a, b in found:
-        at, share = {"h": gap, "v": speed}, 1e-4
+        at, fraction = {"h": gap, "v": speed}, 1e-4
         answers = []
         for k in (-2, -1, 1, 2):
-            host.set(**(at | {b: at[b] * (1.0 + k * share)}))
+            host.set(**(at | {b: at[b] * (1.0 + k * fraction)}))
             answers.append(host.get(a))
-        weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * share * at[b])
+        weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * fraction * at[b])
         size = abs(there["F"]) / at[b]
         assert found[a, b] == pytest.approx(weights @ answers, rel=1e-6, abs=1e-7 * size)
     host.set(h=gap, v=speed)

@@ -78,10 +78,10 @@ def kernel_forces(probe, film, folder, gaps, speeds, tension=0.0, strength=0.0):
     return np.array([[float(word) for word in line.split()] for line in said.splitlines()]).T
 
 
-def slope(function, gap, share=4e-4):
+def slope(function, gap, fraction=4e-4):
     """Central difference of order 6, as a slope by the logarithm of the gap."""
-    f = [function(gap * math.exp(k * share)) for k in (-3, -2, -1, 1, 2, 3)]
-    return (45.0 * (f[3] - f[2]) - 9.0 * (f[4] - f[1]) + f[5] - f[0]) / (60.0 * share)
+    f = [function(gap * math.exp(k * fraction)) for k in (-3, -2, -1, 1, 2, 3)]
+    return (45.0 * (f[3] - f[2]) - 9.0 * (f[4] - f[1]) + f[5] - f[0]) / (60.0 * fraction)
 
 
 @pytest.mark.parametrize("name", quick(SCENES, 0, 2, 4, 6, 8, 10, 12))
@@ -159,17 +159,17 @@ def test_slopes_under_a_sphere_are_differences_of_the_kernel_itself(
     tension, strength, ratio, probe, numbers, tmp_path
 ):
     """With a limiting shear strength, which the scenes do not have under a sphere."""
-    gap, share = ratio * SCENES["sphere"].loading.initial_gap, 1e-4
+    gap, fraction = ratio * SCENES["sphere"].loading.initial_gap, 1e-4
     places = (-2, -1, 1, 2)
     for speed in (-0.3, 1e-3, 0.3):
-        gaps = [gap] + [gap * (1.0 + k * share) for k in places] + [gap] * 4
-        speeds = [speed] * 5 + [speed * (1.0 + k * share) for k in places]
+        gaps = [gap] + [gap * (1.0 + k * fraction) for k in places] + [gap] * 4
+        speeds = [speed] * 5 + [speed * (1.0 + k * fraction) for k in places]
         found = kernel_forces(
             probe, numbers("sphere").numbers, tmp_path, gaps, speeds, tension, strength
         )
         if len(set(found[5])) > 1:
             continue  # the limit sets in within the difference
-        weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * share)
+        weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * fraction)
         size = abs(found[2][0])
         assert found[3][0] * gap == pytest.approx(weights @ found[2][1:5], abs=3e-7 * size)
         assert found[4][0] * speed == pytest.approx(weights @ found[2][5:], abs=3e-7 * size)

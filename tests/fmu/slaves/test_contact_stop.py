@@ -77,15 +77,15 @@ def test_it_gives_what_the_curve_gives(host, curve):
     host.start()
     assert host.get("state") == Branch.FREE
     largest = 0.0
-    for share in (-1.0, 0.0, 1e-6, 0.3, 0.7, 0.5, 0.2, 0.6, 0.9, 1.0, 0.95, 0.4, -0.1):
-        depth = share * curve.max_approach
+    for fraction in (-1.0, 0.0, 1e-6, 0.3, 0.7, 0.5, 0.2, 0.6, 0.9, 1.0, 0.95, 0.4, -0.1):
+        depth = fraction * curve.max_approach
         assert press(host, depth) == OK
         depth = host.get("d")  # after the rounding of h
-        assert depth == pytest.approx(share * curve.max_approach, abs=1e-20)
+        assert depth == pytest.approx(fraction * curve.max_approach, abs=1e-20)
         point = curve.at(depth, largest)
         largest = max(largest, depth)
         for name, value in zip(("F", "k", "contact_area", "plastic_area"), point, strict=False):
-            assert host.get(name) == pytest.approx(value, rel=1e-12), (share, name)
+            assert host.get(name) == pytest.approx(value, rel=1e-12), (fraction, name)
         assert host.get("state") == point.branch
         assert host.get("d_max") == largest
         assert host.get("d_res") == curve.residual(largest)

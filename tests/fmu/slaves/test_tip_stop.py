@@ -35,9 +35,11 @@ def hertz(factor=1.0, most=4e-9, yields=True):
     depths = [most * 2.0 ** (-i / 2.0) for i in range(16, -1, -1)]
     force = [k * d**1.5 for d in depths]
     area = [math.pi * 1e-7 * d for d in depths]
-    shares = [0.1, 0.3, 0.6, 1.0]
+    fractions = [0.1, 0.3, 0.6, 1.0]
     ways = [
-        Unloading(d, 0.2 * d, tuple(shares), tuple(s**1.5 for s in shares), tuple(shares), 0.0)
+        Unloading(
+            d, 0.2 * d, tuple(fractions), tuple(s**1.5 for s in fractions), tuple(fractions), 0.0
+        )
         for d in depths[4:]
     ]
     return LoadDisplacementCurve(

@@ -28,7 +28,7 @@ class Cycle(NamedTuple):
     peak_force: float
     viscous_impulse: float
     meniscus_impulse: float
-    limited_share: float
+    limited_fraction: float
 
 
 def cycles(run: InjectorRun, scene: InjectorScene) -> list[Cycle]:

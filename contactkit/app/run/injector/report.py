@@ -31,9 +31,9 @@ def _held_by(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
     viscous = first.viscous_impulse / total if total > 0.0 else 0.0
     name = "viscous film" if viscous >= 0.5 else "meniscus"
     text = f"{name} ({100 * max(viscous, 1.0 - viscous):.0f} % of the impulse)"
-    if first.limited_share > 0.0:
+    if first.limited_fraction > 0.0:
         cap = _tension(run) * math.pi * run.plan.scene.interface.rim_radius**2
-        text += f", cut off near {cap:.1f} N {100 * first.limited_share:.0f} % of the time"
+        text += f", cut off near {cap:.1f} N {100 * first.limited_fraction:.0f} % of the time"
     if not math.isnan(first.delay) and first.delay < 1.1 * dry:
         text += "; hardly: mostly mass and coil"
     return text
