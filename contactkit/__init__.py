@@ -16,7 +16,7 @@ Examples
 ... )
 >>> print(ck.plan(scene))
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
-  on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower')
+  on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower', radius='arc')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
   on   tension-limit       the liquid cannot be pulled below a given pressure (tension=1000000.0, ambient_pressure=101325.0, cavity='truncated')
   off  shear-limit         wall shear stress bounded by a limiting shear strength

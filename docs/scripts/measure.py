@@ -59,7 +59,11 @@ def scene(case: dict[str, Any]) -> ck.SeparationScene:
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
         loading=loading,
-        effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce(), *limit),
+        effects=(
+            ck.MeniscusForce(profile="as-published", radius="disc"),
+            ck.ViscousForce(),
+            *limit,
+        ),
     )
 
 

@@ -216,7 +216,13 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
             "h_min", values["h_min"], f"not exceed h0 = {values['h0']!r} m", unit="m"
         )
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
-    return write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
+    made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
+    # The law PUBLISHED is that of an upright disc, as documented.
+    effects = (
+        evolve(e, radius="disc") if isinstance(e, MeniscusForce) and e.takes_printed() else e
+        for e in made.effects
+    )
+    return evolve(made, effects=tuple(effects))
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -266,7 +272,7 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     effects: list[SeparationEffect] = []
     for effect in scene.effects:
         if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
-            effects.append(evolve(effect, pulled="lower"))
+            effects.append(evolve(effect, pulled="lower", radius="arc"))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)
     interface = evolve(

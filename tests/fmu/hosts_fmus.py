@@ -51,7 +51,7 @@ def native_fmu(folder, model, name, fmi=2, **changes):
         final=case["h_rel"],
         stiffness=start["k_s"],
         effects=(
-            ck.MeniscusForce(profile="as-published"),
+            ck.MeniscusForce(profile="as-published", radius="disc"),
             ck.ViscousForce(),
             *((ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()),
         ),

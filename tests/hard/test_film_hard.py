@@ -13,7 +13,8 @@ from contactkit.lubrication import squeeze_film as squeeze
 # Most of these films are outside the range of their models, and say so.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-ARC, PUBLISHED = ck.MeniscusForce(), ck.MeniscusForce(profile="as-published")
+ARC = ck.MeniscusForce()
+PUBLISHED = ck.MeniscusForce(profile="as-published", radius="disc")
 VISCOUS = ck.ViscousForce()
 SIXTY = math.pi / 3.0
 

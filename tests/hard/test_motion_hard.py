@@ -13,7 +13,8 @@ from contactkit.separation.motion.state import Pull, outputs, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-PUBLISHED, VISCOUS = ck.MeniscusForce(profile="as-published"), ck.ViscousForce()
+PUBLISHED = ck.MeniscusForce(profile="as-published", radius="disc")
+VISCOUS = ck.ViscousForce()
 FORCES = (PUBLISHED, VISCOUS)
 FACE = 3.175e-3
 FILM = math.pi * FACE**2 * 5e-6  # volume of the film of case B [m3]

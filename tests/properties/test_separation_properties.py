@@ -25,7 +25,7 @@ def approx(value, rel):
     return pytest.approx(value, rel=rel, abs=0.0)
 
 
-FORCES = (ck.MeniscusForce(profile="as-published"), ck.ViscousForce())
+FORCES = (ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce())
 LIMITED = (*FORCES, ck.TensionLimit(tension=1e5), ck.ShearLimit(strength=1e6))
 
 

@@ -65,7 +65,7 @@ OWNED = {
     ck.MeniscusForce(): {"flats": EXACT_FLAT, "sphere": EXACT_SPHERE},
     ck.MeniscusForce(profile="arc"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
     ck.MeniscusForce(profile="as-published"): {
-        "flats": {PRINTED, "capillary.arc.shape.*"},
+        "flats": {PRINTED, *ARC_FLAT},
         "sphere": {PRINTED, *ARC_SPHERE},
     },
     ck.ViscousForce(): SQUEEZE,

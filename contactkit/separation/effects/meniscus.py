@@ -17,7 +17,7 @@ from ...scene.validity import ValidityNumber
 from ...validators import choice
 from .base import ForceLaw, SeparationForce
 from .film_shape import needs_extent
-from .meniscus_flat import arc_law, exact_law
+from .meniscus_flat import arc_law, exact_law, printed_law, printed_radius
 
 if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
@@ -42,7 +42,12 @@ class MeniscusForce(SeparationForce):
         (3.12) on a sphere as printed, known to be wrong (their errata are listed by
         `plan.cite()`), for reproduction only.
     pulled : {"lower", "upper"}
-        Body whose contact angle enters the line tension of Eq. (3.11); as-published only.
+        Body whose contact circle and contact angle enter Eq. (3.11); as-published only.
+    radius : {"arc", "disc"}
+        Radius in Eq. (3.11) of a volume; as-published only. ``"arc"``: that of the contact circle
+        of the arc of Eqs. (3.38) to (3.40), as the source has it, up to the gap at which its neck
+        closes. ``"disc"``: that of an upright disc, which is near the other for films much wider
+        than high, and is what the law ``PUBLISHED`` of the FMU ``stiction-mass`` takes.
 
     Notes
     -----
@@ -66,6 +71,7 @@ class MeniscusForce(SeparationForce):
         default="exact", validator=choice("exact", "arc", "as-published")
     )
     pulled: Literal["lower", "upper"] = field(default="lower", validator=choice("lower", "upper"))
+    radius: Literal["arc", "disc"] = field(default="arc", validator=choice("arc", "disc"))
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -129,7 +135,7 @@ class MeniscusForce(SeparationForce):
 
             return sphere_law(prepared, self.profile)
         if self.profile == "as-published":
-            return self._printed(prepared)
+            return printed_law(prepared, self.pulled, self.radius)
         return exact_law(prepared) if self.profile == "exact" else arc_law(prepared)
 
     def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
@@ -138,23 +144,13 @@ class MeniscusForce(SeparationForce):
 
         return contact_radius(prepared, self.profile, gap)
 
-    def _printed(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
-        film, tension, angles = prepared.film, prepared.liquid.surface_tension, prepared.angles
-        n, radius, pulled = film.menisci, film.radius, self.pulled
-
-        def force(gap: float, speed: float) -> float:
-            return n * float(printed.meniscus_flat_3_11(radius(gap), gap, tension, *angles, pulled))
-
-        kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
-        return ForceLaw(force, kinks)
-
     def equations(self, scene: SeparationScene) -> str:
         """See `SeparationEffect.equations`."""
         return "as-published" if self.takes_printed() else "consistent"
 
     def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
         """See `SeparationEffect.errata`: the force of all menisci."""
-        return (_erratum(plan, self.pulled),) if self.takes_printed() else ()
+        return (_erratum(plan, self),) if self.takes_printed() else ()
 
     def validity(
         self, plan: Plan, path: Sequence[tuple[float, float]]
@@ -178,7 +174,7 @@ class MeniscusForce(SeparationForce):
         return tuple(found)
 
 
-def _erratum(plan: Plan, pulled: str) -> PublishedValue:
+def _erratum(plan: Plan, effect: MeniscusForce) -> PublishedValue:
     from ...as_published.lookup import published
 
     prepared, gap = plan.prepared, plan.scene.loading.initial_gap
@@ -190,14 +186,15 @@ def _erratum(plan: Plan, pulled: str) -> PublishedValue:
         "angle_upper": angles.upper,
     }
     if not plan.scene.interface.is_flat:
-        one = published("3.12", sphere_radius=film.sphere_radius, volume=film.volume, **given)
-        made = one.times(film.menisci)
+        lifted = published("3.12", sphere_radius=film.sphere_radius, volume=film.volume, **given)
+        made = lifted.times(film.menisci)
     else:
         several = film.menisci > 1
         number, more = ("3.33", {"number": film.menisci}) if several else ("3.11", {})
-        radius = film.radius(gap) * math.sqrt(film.menisci)
-        made = published(number, radius=radius, pulled=pulled, **given, **more)
-        if gap >= film.full_gap:
+        one, is_pinned = printed_radius(prepared, effect.pulled, effect.radius, gap)
+        radius = one * math.sqrt(film.menisci)
+        made = published(number, radius=radius, pulled=effect.pulled, **given, **more)
+        if not is_pinned:
             made = _against_exact(made, prepared)
     return made._replace(name=f"{MeniscusForce.name}, {made.name}")
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from ...as_published.printed import common as printed
 from ...capillary.arc import flat as arc_flat
 from ...capillary.flats import force_law as flat_law
 from ...numerics.roots import bracketed_root
@@ -16,8 +17,16 @@ if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from .prepared import PreparedScene
 
-__all__ = ["arc_law", "exact_end", "exact_law"]
+__all__ = [
+    "PrintedRadius",
+    "arc_law",
+    "exact_end",
+    "exact_law",
+    "printed_law",
+    "printed_radius",
+]
 
+Body = Literal["lower", "upper"]
 Curve = Callable[[float], float]
 
 
@@ -76,38 +85,93 @@ def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
 
 
 def arc_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
-    """Force of the arc, which ends where its neck closes."""
-    film = prepared.film
+    """Force of the arc through its neck or belly, which ends where its neck closes."""
     arc = arc_flat.shape(*prepared.angles)
+    both = _arcs(prepared, lambda gap, circle: arc_flat.force(arc, gap, circle))
+    return _law(both, prepared.film, prepared.liquid.surface_tension)
+
+
+def printed_law(
+    prepared: PreparedScene[SeparationScene], pulled: Body, radius: Literal["arc", "disc"]
+) -> ForceLaw:
+    """Force of Eq. (3.11) with the contact circle of the arc on the pulled body, or of a disc."""
+    film, angles, tension = prepared.film, prepared.angles, prepared.liquid.surface_tension
+    if radius == "disc":
+
+        def upright(gap: float, speed: float) -> float:
+            found = printed.meniscus_flat_3_11(film.radius(gap), gap, tension, *angles, pulled)
+            return film.menisci * float(found)
+
+        kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
+        return ForceLaw(upright, kinks)
+
+    def force(gap: float, circle: float) -> float:
+        circle = _circle_on(pulled, prepared, gap, circle)
+        return float(printed.meniscus_flat_3_11(circle, gap, 1.0, *angles, pulled))
+
+    return _law(_arcs(prepared, force), film, tension)
+
+
+class PrintedRadius(NamedTuple):
+    """Radius in Eq. (3.11) at a gap [m], and whether the film is pinned at the rim there."""
+
+    radius: float
+    is_pinned: bool
+
+
+def printed_radius(
+    prepared: PreparedScene[SeparationScene],
+    pulled: Body,
+    radius: Literal["arc", "disc"],
+    gap: float,
+) -> PrintedRadius:
+    """Radius that `printed_law` takes at a gap [m]."""
+    film = prepared.film
+    if radius == "disc":
+        return PrintedRadius(film.radius(gap), gap < film.full_gap)
+    both = _arcs(prepared, lambda gap, circle: _circle_on(pulled, prepared, gap, circle))
+    is_pinned = gap < _pinned_to(both, film)
+    return PrintedRadius((both.pinned if is_pinned else both.free)(gap), is_pinned)
+
+
+def _circle_on(
+    pulled: Body, prepared: PreparedScene[SeparationScene], gap: float, circle: float
+) -> float:
+    """Radius of the contact circle [m] on a body, from that on the lower one."""
+    if pulled == "lower":
+        return circle
+    return arc_flat.upper_contact_radius(arc_flat.shape(*prepared.angles), gap, circle)
+
+
+def _arcs(
+    prepared: PreparedScene[SeparationScene], force: Callable[[float, float], float]
+) -> _Film:
+    """Force over surface tension [m] of arcs, from the gap and the lower contact circle [m]."""
+    film, arc = prepared.film, arc_flat.shape(*prepared.angles)
     volume, rim = film.volume, film.rim
     free, pinned = math.isfinite(volume), math.isfinite(rim)
 
     def free_force(gap: float) -> float:
-        return float(arc_flat.force(arc, gap, arc_flat.contact_radius(arc, gap, volume)))
+        return force(gap, arc_flat.contact_radius(arc, gap, volume))
 
     def pinned_force(gap: float) -> float:
-        return float(arc_flat.force(arc, gap, arc_flat.rim_contact_radius(arc, gap, rim)))
+        return force(gap, arc_flat.rim_contact_radius(arc, gap, rim))
 
     def pinned_volume(gap: float) -> float:
         return float(arc_flat.volume(arc, gap, arc_flat.rim_contact_radius(arc, gap, rim)))
 
-    both = _Film(
+    return _Film(
         free_force,
         pinned_force,
         pinned_volume,
         float(arc_flat.zero_neck_gap(arc, volume)) if free else math.inf,
         arc_flat.zero_neck_gap_at_rim(arc, rim) if pinned else math.inf,
     )
-    return _law(both, film, prepared.liquid.surface_tension)
 
 
 def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
     """Join both states where the liquid just reaches the rim."""
-    n = film.menisci
-    free, pinned = math.isfinite(film.volume), math.isfinite(film.rim)
-    full_gap = _full_gap(both, film) if free and pinned else 0.0
-    if not free:
-        full_gap = math.inf
+    n, full_gap = film.menisci, _pinned_to(both, film)
     end = both.pinned_end if full_gap >= both.pinned_end else both.free_end
     last = end * (1.0 - 1e-12)  # a trial step may look beyond the end: the force stays as there
 
@@ -117,6 +181,13 @@ def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
 
     kinks = (full_gap,) if 0.0 < full_gap < end else ()
     return ForceLaw(force, kinks, end)
+
+
+def _pinned_to(both: _Film, film: FilmShape) -> float:
+    """Gap [m] below which a film reaches the rim of the faces; 0 for never, inf for always."""
+    if math.isinf(film.volume):
+        return math.inf
+    return _full_gap(both, film) if math.isfinite(film.rim) else 0.0
 
 
 def _full_gap(both: _Film, film: FilmShape) -> float:

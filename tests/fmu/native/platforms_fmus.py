@@ -28,7 +28,7 @@ def case_scene(name):
         mass=case["m"],
         final=case["h_rel"],
         stiffness=case["k_s"],
-        effects=(ck.MeniscusForce(profile="as-published"), ck.ViscousForce()),
+        effects=(ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce()),
     )
 
 
