@@ -31,8 +31,11 @@ CONVENTIONS = (
     "All values are in SI units, angles in radians; the unit in the third column is only for "
     "showing. A gap is the distance of the bodies, a speed is positive while it opens the gap; "
     "the sign of each force stands in its description. Times of events are those of the host's "
-    "clock, -1 before there was one. The variables that cross the interface are one terminal, "
-    "flange, in terminalsAndIcons/terminalsAndIcons.xml."
+    "clock, -1 before there was one."
+)
+_TERMINAL = (
+    " The variables that cross the interface are one terminal, flange, in "
+    "terminalsAndIcons/terminalsAndIcons.xml."
 )
 
 _STEP = "2 sqrt(m/k)"
@@ -178,7 +181,7 @@ def index_page(about: Page) -> str:
         _text(f"FMI {about.fmi}.0 for co-simulation, written by contactkit {__version__}."),
         _text(about.needs),
         "<h2>Conventions</h2>",
-        _text(CONVENTIONS),
+        _text(CONVENTIONS + (_TERMINAL if about.fmi == "3" else "")),
         "<h2>Variables</h2>",
         _table(_HEAD, variables),
         "<h2>How to couple it</h2>",

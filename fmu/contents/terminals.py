@@ -1,8 +1,8 @@
 """Terminals and icon of an FMU, for tools that draw and connect.
 
 A terminal says which variables belong together, so that a tool draws one line where there are
-four connections. FMI 3.0 knows terminals; FMI 2.0 does not forbid the file, and some tools that
-read FMI 2.0 look for it.
+four connections. Terminals are of FMI 3.0: inside an FMU of FMI 2.0 the file, whose version is that
+of FMI 3.0, is a fatal error for FMILibrary 3 and all that is built on it.
 """
 
 from __future__ import annotations
@@ -54,30 +54,14 @@ def flange_of(ports: Iterable[Port]) -> Flange | None:
     return next((f for f in _FLANGES if names.issuperset(f.members.values())), None)
 
 
-def terminals_xml(ports: Sequence[Port], *, fmi: str = "2") -> bytes | None:
-    """File ``terminalsAndIcons/terminalsAndIcons.xml`` by the schema of FMI 3.0.
-
-    Parameters
-    ----------
-    ports : sequence of Port
-        Variables of the FMU.
-    fmi : {"2", "3"}
-        Version of FMI; the icon is an entry of this file only in version 3.
-
-    Returns
-    -------
-    bytes or None
-        None for an FMU without a flange, in version 2.
-    """
+def terminals_xml(ports: Sequence[Port]) -> bytes:
+    """File ``terminalsAndIcons/terminalsAndIcons.xml`` by the schema of FMI 3.0."""
     flange = flange_of(ports)
-    if flange is None and fmi == "2":
-        return None
     root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
-    if fmi == "3":
-        picture = SubElement(root, "GraphicalRepresentation")
-        corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
-        SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
-        SubElement(picture, "Icon", corners)
+    picture = SubElement(root, "GraphicalRepresentation")
+    corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
+    SubElement(picture, "Icon", corners)
     if flange is not None:
         terminal = SubElement(
             SubElement(root, "Terminals"),
@@ -108,17 +92,18 @@ def terminal_files(ports: Sequence[Port], *, fmi: str = "2") -> dict[str, bytes]
     ports : sequence of Port
         Variables of the FMU.
     fmi : {"2", "3"}
-        Version of FMI, which decides where the icon lies.
+        Version of FMI: 2.0 has an icon and no terminals.
 
     Examples
     --------
     >>> from contactkit.fmu.slaves.stiction_mass import PORTS
     >>> sorted(terminal_files(PORTS))
-    ['model.png', 'terminalsAndIcons/terminalsAndIcons.xml']
+    ['model.png']
     """
-    if fmi == "3":
-        files = {f"{_PLACE}icon.png": icon_png(), f"{_PLACE}icon.svg": icon_svg().encode()}
-    else:
-        files = {"model.png": icon_png()}
-    text = terminals_xml(ports, fmi=fmi)
-    return files if text is None else files | {f"{_PLACE}terminalsAndIcons.xml": text}
+    if fmi == "2":
+        return {"model.png": icon_png()}
+    return {
+        f"{_PLACE}icon.png": icon_png(),
+        f"{_PLACE}icon.svg": icon_svg().encode(),
+        f"{_PLACE}terminalsAndIcons.xml": terminals_xml(ports),
+    }

@@ -133,6 +133,8 @@ static slot *slot_of(int kind, const void *handle) {
     return LOAD(found->content) ? found : NULL;
 }
 
+int ck_is_place(const void *place) { return place && !((uintptr_t)place & 1u); }
+
 void *ck_handle_new(int kind, void *content) {
     uint32_t i;
     void *handle = NULL;

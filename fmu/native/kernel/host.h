@@ -17,6 +17,7 @@ void ck_double_percents(const char *message, char *safe, size_t size);
    given out, is recognised; freeing twice does no harm. */
 enum { CK_INSTANCES = 0, CK_STATES = 1 };
 
+int ck_is_place(const void *place); /* for a handle; 0 for NULL, or a handle, which is no address */
 void *ck_handle_new(int kind, void *content); /* NULL if there are too many */
 void *ck_handle_content(int kind, const void *handle);
 void *ck_handle_free(int kind, const void *handle); /* content, or NULL if it was no handle */

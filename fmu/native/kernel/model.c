@@ -387,7 +387,8 @@ static int keep(ck_model *model, const ck_state *content, void **state) {
 }
 
 int ck_saved_take(ck_model *model, void **state) {
-    if (!state) return ck_model_fail(model, "getFMUstate: the argument is missing");
+    if (!ck_is_place(state))
+        return ck_model_fail(model, "getFMUstate: give the address of a state; reset the FMU");
     return keep(model, &model->state, state);
 }
 
@@ -397,9 +398,10 @@ int ck_saved_restore(ck_model *model, const void *state) {
 }
 
 int ck_saved_free(void **state) {
+    int is_place = ck_is_place(state);
     if (!state) return CK_OK;
-    free(ck_handle_free(CK_STATES, *state));
-    *state = NULL;
+    free(ck_handle_free(CK_STATES, is_place ? *state : (void *)state));
+    if (is_place) *state = NULL;
     return CK_OK;
 }
 
@@ -426,7 +428,7 @@ int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state)
     const char *from = (const char *)bytes;
     ck_state content;
     uint64_t sum;
-    if (!from || !state || size < SIZE || memcmp(from, "CKSTATE1", 8) != 0)
+    if (!from || !ck_is_place(state) || size < SIZE || memcmp(from, "CKSTATE1", 8) != 0)
         return ck_model_fail(model, "deSerializeFMUstate: these are no bytes of an FMU state; give those that "
                                     "serializeFMUstate wrote, unchanged");
     memcpy(&sum, from + 8, 8);

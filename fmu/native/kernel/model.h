@@ -129,7 +129,7 @@ int ck_model_restore(ck_model *model, const ck_state *state);
 /* States of the host: taken, restored, freed, and as bytes. */
 int ck_saved_take(ck_model *model, void **state);
 int ck_saved_restore(ck_model *model, const void *state);
-int ck_saved_free(void **state);
+int ck_saved_free(void **state); /* or of the state itself: hosts leave out the & */
 int ck_saved_size(ck_model *model, const void *state, size_t *size);
 int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size);
 int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state);

@@ -289,7 +289,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
     void *found = NULL;
     fmi2Status status;
     OWN(c);
-    NEEDS(state, "getFMUstate");
+    NEEDS(ck_is_place(state), "getFMUstate");
     status = inner_GetFMUstate(own->inner, &found);
     return keep(own, status, found, state);
 }
@@ -302,10 +302,11 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
     void *found;
+    int is_place = ck_is_place(state); /* some hosts leave out the & and give the state itself */
     OWN(c);
-    if (!state || !*state) return fmi2OK;
-    found = ck_handle_free(CK_STATES, *state);
-    *state = NULL;
+    if (!state) return fmi2OK;
+    found = ck_handle_free(CK_STATES, is_place ? *state : (void *)state);
+    if (is_place) *state = NULL;
     return found ? pass(own, inner_FreeFMUstate(own->inner, &found)) : fmi2OK;
 }
 
@@ -333,7 +334,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
     void *found = NULL;
     fmi2Status status;
     OWN(c);
-    NEEDS(bytes && state, "deSerializeFMUstate");
+    NEEDS(bytes && ck_is_place(state), "deSerializeFMUstate");
     status = inner_DeSerializeFMUstate(own->inner, bytes, size, &found);
     return keep(own, status, found, state);
 }

@@ -533,6 +533,23 @@ def state_freed_twice(lab):
     return {"statuses": statuses, "first": first, "again": again}
 
 
+def state_in_place_of_its_address(lab):
+    """`fmi2FreeFMUstate(c, state)`, as hosts write it that leave out the `&`."""
+    instance = lab.bring(lab.open())
+    _, state = instance.take()
+    spare = c.c_void_p(state.value)
+    freed = [instance.call(instance._state("FreeFMUstate"), state) for _ in range(2)]
+    content = c.create_string_buffer(b"x" * 99)
+    statuses = [
+        instance.restore(spare),
+        instance.call(instance._state("GetFMUstate"), spare),
+        instance.call(instance._state("DeSerializeFMUstate"), content, c.c_size_t(99), spare),
+    ]
+    again = lab.again(instance)
+    instance.free()
+    return {"freed": freed, "statuses": statuses, "again": again}
+
+
 def nameless(lab):
     found = [Instance(lab.library, **{key: None}).pointer for key in ("name", "guid", "resources")]
     return {"none": [not pointer for pointer in found]}
@@ -587,6 +604,7 @@ HARD = [
     null_arguments,
     null_states,
     state_freed_twice,
+    state_in_place_of_its_address,
     nameless,
     odd_path,
     deaf,

@@ -208,6 +208,12 @@ def a_state_freed_twice_is_gone_once(hard):
 
 
 @hard_judge
+def a_state_in_place_of_its_address_is_recognised(hard):
+    found = hard["state_in_place_of_its_address"]
+    assert found == {"freed": [OK, OK], "statuses": [ERROR] * 3, "again": True}
+
+
+@hard_judge
 def odd_paths_and_deaf_hosts(hard):
     """A path with a blank, an umlaut, # and %; and no function to log with."""
     assert hard["odd_path"]["same"]
