@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,10 +24,17 @@ _MAX_NODES = 2049
 _SPAN = 80.0  # of the square of a normal variable: exp(-40) is neglected
 
 
+class ForceCurve(NamedTuple):
+    """Force over surface tension [m] of a bridge over the gap [m], up to its maximum gap [m]."""
+
+    force: Callable[[Floats], Floats]
+    reach: float
+
+
 def force_curve(
     pressure: float, angles: tuple[float, float], curvature: float, rtol: float
-) -> tuple[Callable[[Floats], Floats], float]:
-    """Force over surface tension [m] of a bridge of given pressure [1/m], and its maximum gap [m].
+) -> ForceCurve:
+    """Force of a bridge of given pressure, over the surface tension [1/m], as a curve.
 
     The curve is in the square root of the distance to the maximum gap, where the slope of the force
     is infinite; nodes are doubled until the curve agrees with the bridge at the midpoints.
@@ -52,7 +60,11 @@ def force_curve(
     if error > max(rtol, 1e-6):
         raise ConvergenceError(f"the meniscus force at an asperity is rough: {error:.1e} off")
     fine = CubicSpline(left, value)
-    return lambda gap: np.asarray(fine(np.sqrt(np.maximum(1.0 - gap / reach, 0.0)))), reach
+
+    def curve(gap: Floats) -> Floats:
+        return np.asarray(fine(np.sqrt(np.maximum(1.0 - gap / reach, 0.0))))
+
+    return ForceCurve(curve, reach)
 
 
 def gaussian_average(

@@ -95,7 +95,14 @@ def meniscus_area(
     )
 
 
-def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> tuple[Labels, int]:
+class Islands(NamedTuple):
+    """Connected components of a mask: the label of each pixel from 1, 0 outside; their number."""
+
+    names: Labels
+    number: int
+
+
+def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> Islands:
     """Connected components of a mask, labelled from 1, and their number.
 
     Parameters
@@ -105,26 +112,24 @@ def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> tupl
 
     Returns
     -------
-    names : ndarray of int (ny, nx)
-        Label of the island of each pixel, 0 outside.
-    n : int
-        Number of islands.
+    Islands
+        ``names`` is an ndarray of int (ny, nx).
 
     Examples
     --------
     >>> islands(np.array([[True, False, True]]), periodic=True)
-    (array([[1, 0, 1]]), 1)
+    Islands(names=array([[1, 0, 1]]), number=1)
     """
     reach = ndimage.generate_binary_structure(2, 1 if connectivity == 4 else 2)
     labels, n = ndimage.label(mask, reach)
     names: Labels = np.asarray(labels).astype(np.int64)
     if not periodic or n == 0:
-        return names, int(n)
+        return Islands(names, int(n))
     pairs = np.concatenate([_across(names, connectivity), _across(names.T, connectivity)], axis=1)
     joined = coo_array((np.ones(pairs.shape[1]), tuple(pairs)), shape=(n + 1, n + 1))
     n_found, renamed = connected_components(joined, directed=False)
     # The outside, 0, is a component of its own, and the first one.
-    return np.asarray(renamed[names], dtype=np.int64), int(n_found) - 1
+    return Islands(np.asarray(renamed[names], dtype=np.int64), int(n_found) - 1)
 
 
 def film_force(

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
-__all__ = ["first_crossing", "step_to_event"]
+__all__ = ["EventStep", "first_crossing", "step_to_event"]
 
 S = TypeVar("S")
 _MOST_TRIALS = 60
@@ -31,6 +31,13 @@ def first_crossing(events: Iterable[float], begin: float, end: float, same: floa
     return max([place for place in events if end <= place < behind], default=None)
 
 
+class EventStep(NamedTuple, Generic[S]):
+    """A step that ends at an event, and its length [s]."""
+
+    taken: S
+    length: float
+
+
 def step_to_event(
     attempt: Callable[[float], S | None],
     miss: Callable[[S], float],
@@ -38,8 +45,8 @@ def step_to_event(
     taken: S,
     length: float,
     enough: float,
-) -> tuple[S, float]:
-    """Step that ends at an event, and its length: secants, kept inside the bracket.
+) -> EventStep[S]:
+    """Step that ends at an event: secants, kept inside the bracket.
 
     Parameters
     ----------
@@ -76,9 +83,9 @@ def step_to_event(
         while again is None:
             guess = 0.5 * (low + high)
             if guess in (low, high):
-                return taken, length
+                return EventStep(taken, length)
             again = attempt(guess)
             high = high if again is not None else guess
         last, missed_last = length, missed
         taken, length, missed = again, guess, miss(again)
-    return taken, length
+    return EventStep(taken, length)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ...errors import ConvergenceError
-from ...numerics.events import first_crossing, step_to_event
+from ...numerics.events import EventStep, first_crossing, step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
 from .force_step import forced
@@ -162,7 +162,7 @@ class Walk:
             events.append(self.goal.release_gap)
         return first_crossing(events, point.gap, gap, _SAME)
 
-    def _locate(self, found: Doubled, length: float, mark: float) -> tuple[Doubled, float]:
+    def _locate(self, found: Doubled, length: float, mark: float) -> EventStep[Doubled]:
         """Step that ends at a gap."""
         point = self.points[-1]
         travel = math.log(found.gap / point.gap)
@@ -178,7 +178,7 @@ class Walk:
             raise ConvergenceError(
                 f"no step leads from {point.gap:g} m at {point.time:g} s to the gap of {mark:g} m"
             )
-        return found, length
+        return EventStep(found, length)
 
     def _accept(self, found: Doubled, length: float, end: float, mark: float | None) -> None:
         point = self.points[-1]

@@ -93,10 +93,11 @@ def forced(
             kinds.add(film.limit())
         gap_error, speed_error = taken.gap_error, taken.speed_error
         if len(kinds) > 1:  # the slope of the force jumps inside: no estimate sees that
-            errors = against_halves(problem, taken, length)
-            if errors is None:
+            halves = against_halves(problem, taken, length)
+            if halves is None:
                 return None
-            gap_error, speed_error = max(gap_error, errors[0]), max(speed_error, errors[1])
+            gap_error = max(gap_error, halves.gap_error)
+            speed_error = max(speed_error, halves.speed_error)
         one, two, end = taken.stages
         seen = length * sum(
             w * pulling(t) for w, (t, *_) in zip(WEIGHTS, taken.stages, strict=True)

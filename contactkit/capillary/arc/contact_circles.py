@@ -226,13 +226,25 @@ def equations(problem: Problem, one: Array, two: Array, profile: str) -> Equatio
     return Equations(tilt, excess, t1, t2, v1, v2, height, turn, -b.d_slope, t.d_slope)
 
 
-def iterate(
-    problem: Problem, profile: str, start: tuple[Array, Array] | None = None
-) -> tuple[Array, Array, Flags]:
-    """Newton iteration on all points at once; converged points are frozen and dropped.
+class Roots(NamedTuple):
+    """The distances of the lower and the upper contact circle, and whether they converged."""
 
-    Returns the two distances and whether they converged.
-    """
+    lower: Array
+    upper: Array
+    settled: Flags
+
+
+class Followed(NamedTuple):
+    """End of a continuation: both distances, and whether the neck was open, or had closed."""
+
+    lower: Array
+    upper: Array
+    reached: Flags
+    closed: Flags
+
+
+def iterate(problem: Problem, profile: str, start: tuple[Array, Array] | None = None) -> Roots:
+    """Newton iteration on all points at once; converged points are frozen and dropped."""
     settled = np.zeros(problem.gap.shape, dtype=np.bool_)
     with np.errstate(all="ignore"):  # diverging points overflow and count as not converged
         one, two = _start(problem, profile) if start is None else (start[0].copy(), start[1].copy())
@@ -257,7 +269,7 @@ def iterate(
             active = active[~done & np.isfinite(longest)]
             if not active.size:
                 break
-    return one, two, settled
+    return Roots(one, two, settled)
 
 
 def outline(problem: Problem, below: Circle, above: Circle) -> Outline:
@@ -304,11 +316,10 @@ def _stage(problem: Problem, stage: Array) -> Problem:
     return problem._replace(gap=np.where(stage > 1.0, gap, 0.0), volume=volume)
 
 
-def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
+def follow(problem: Problem, profile: str) -> Followed:
     """Follow the open-neck branch by continuation, for points where the cold start failed.
 
-    Failed steps are halved. Returns the two distances, whether the end was reached with an open
-    neck, and whether the neck closed along the path. One body at least must be curved.
+    Failed steps are halved. One body at least must be curved.
     """
     stage, step = np.zeros_like(problem.gap), np.full_like(problem.gap, 0.1)
     one, two, good = iterate(_stage(problem, stage), profile)
@@ -329,4 +340,4 @@ def follow(problem: Problem, profile: str) -> tuple[Array, Array, Flags, Flags]:
         closed[live[shut]] = True
         step[live] = np.where(good, step[live], 0.5 * step[live])
         live = live[~shut & (target < 2.0) & (step[live] > 1e-4) | (~good & (step[live] > 1e-4))]
-    return one, two, (stage == 2.0) & ~closed, closed
+    return Followed(one, two, (stage == 2.0) & ~closed, closed)

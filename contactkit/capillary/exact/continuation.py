@@ -135,7 +135,7 @@ def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = 
     leaves = [body.cosine[0] == -1.0 for body in (bodies.limiting, bodies.second)]
     limit = np.inf
     if any(leaves) and pressure is None:
-        limit = sessile_drop(bodies.second if leaves[0] else bodies.limiting)[1]
+        limit = sessile_drop(bodies.second if leaves[0] else bodies.limiting).height
     sign = np.sign(np.linalg.det(here.jacobian[0]))
     direction = tangent(here)
     direction = direction if direction[4] > 0.0 else -direction

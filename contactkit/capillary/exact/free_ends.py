@@ -90,10 +90,15 @@ def _at(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> Free:
     return Free(x, rows[:, 0].real, jacobian, volumes[0].real, gaps[0].real, np.stack((r1, r2)))
 
 
-def newton(
-    bodies: Pair, x: Array, gap: Array, pressure: float | None
-) -> tuple[Free, NDArray[np.bool_]]:
-    """Newton iteration from `x`, and which of the bridges converged."""
+class FreeRoots(NamedTuple):
+    """Bridges at the end of the iteration, and which of them converged."""
+
+    at: Free
+    settled: NDArray[np.bool_]
+
+
+def newton(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> FreeRoots:
+    """Newton iteration from `x`."""
     bodies = bodies.at(np.zeros(gap.size, dtype=np.intp))
     for _ in range(12):
         at = _at(bodies, x, gap, pressure)
@@ -111,7 +116,7 @@ def newton(
     scale = np.maximum(abs(x[1]), 1.0)
     good = (abs(at.residual).max(axis=0) < 1e-9 * scale) & (size < 1e-6)
     found: NDArray[np.bool_] = np.logical_and(good, (at.radii > 0.0).all(axis=0))
-    return at, found
+    return FreeRoots(at, found)
 
 
 def tangent(at: Free, i: int = 0) -> Array:

@@ -26,21 +26,16 @@ _SETTLED = 1e-8  # Newton step; the error after it is of the order of its square
 
 
 class Problem(NamedTuple):
-    """Gap and either volume or pressure (the other is None) of bridges between two bodies."""
+    """Gap and what is given, volume or pressure, of bridges between two bodies."""
 
     gap: Array
-    volume: Array | None
-    pressure: Array | None
+    given: Array
+    at_pressure: bool
     bodies: Pair
 
     def at(self, index: NDArray[np.intp] | Flags) -> Problem:
         """Select points."""
-        return Problem(
-            self.gap[index],
-            None if self.volume is None else self.volume[index],
-            None if self.pressure is None else self.pressure[index],
-            self.bodies.at(index),
-        )
+        return Problem(self.gap[index], self.given[index], self.at_pressure, self.bodies.at(index))
 
 
 class Solution(NamedTuple):
@@ -86,15 +81,27 @@ class Solution(NamedTuple):
 
 def problem(
     gap: Array,
-    volume: Array | None,
-    pressure: Array | None,
+    given: Array,
     angles: tuple[Array, Array],
     curvatures: tuple[Array, Array],
+    *,
+    at_pressure: bool = False,
 ) -> Problem:
-    """Problem for bodies given by contact angles [rad] and curvatures, lower and upper."""
+    """Problem of given volumes, or pressures, between bodies of given shape.
+
+    Contact angles [rad] and curvatures are those of the lower and the upper body.
+    """
     lower, upper = solids(angles[0], curvatures[0]), solids(angles[1], curvatures[1])
     symmetric = (angles[0] == angles[1]) & (curvatures[0] == curvatures[1])
-    return Problem(gap, volume, pressure, pair(lower, upper, symmetric))
+    return Problem(gap, given, at_pressure, pair(lower, upper, symmetric))
+
+
+class Ends(NamedTuple):
+    """Bodies, that of the limiting end first; whether it is the upper one; zeta there."""
+
+    bodies: Pair
+    flipped: Flags
+    chart: Array
 
 
 def reorder_ends(
@@ -105,7 +112,7 @@ def reorder_ends(
     chart: Array,
     *,
     always: bool = False,
-) -> tuple[Pair, Flags, Array]:
+) -> Ends:
     """Make the end of larger phase the limiting one, where neither is beyond a right angle.
 
     With `always` the ends are exchanged wherever possible.
@@ -123,24 +130,23 @@ def reorder_ends(
         wide = (1.0 + ks[1]) / np.where(flip, rests[1], 1.0)
         chart = np.where(flip, np.arccosh(np.maximum(wide, 1.0)), chart)
         bodies = bodies.swapped(flip)
-    return bodies, flipped ^ flip, chart
+    return Ends(bodies, flipped ^ flip, chart)
 
 
 def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]:
     """Second residual and its derivatives: volume or pressure."""
-    if given.volume is not None:
-        ratio = at.volume / given.volume
-        full = ratio > 0.0
-        logarithm = np.log(np.where(full, ratio, 1.0))
-        scale = np.where(full, at.volume, given.volume)
-        return (
-            np.where(full, logarithm, ratio - 1.0),
-            at.volume_by_neck / scale,
-            at.volume_by_chart / scale,
-        )
-    assert given.pressure is not None
-    target = a * given.pressure
-    return at.ends.pressure - target, -at.shape_by_neck - target, -at.shape_by_chart
+    if given.at_pressure:
+        target = a * given.given
+        return at.ends.pressure - target, -at.shape_by_neck - target, -at.shape_by_chart
+    ratio = at.volume / given.given
+    full = ratio > 0.0
+    logarithm = np.log(np.where(full, ratio, 1.0))
+    scale = np.where(full, at.volume, given.given)
+    return (
+        np.where(full, logarithm, ratio - 1.0),
+        at.volume_by_neck / scale,
+        at.volume_by_chart / scale,
+    )
 
 
 def solve(
@@ -172,9 +178,7 @@ def solve(
     return Solution(bodies, flipped, log_neck, chart, settled, point(bodies, log_neck, chart))
 
 
-def _reordered(
-    bodies: Pair, flipped: Flags, log_neck: Array, chart: Array
-) -> tuple[Pair, Flags, Array]:
+def _reordered(bodies: Pair, flipped: Flags, log_neck: Array, chart: Array) -> Ends:
     k = bodies.limiting.curvature * np.exp(log_neck)
     shape = (bodies.limiting.cosine - k) * np.cosh(chart) / (1.0 + k)
     return reorder_ends(bodies, flipped, log_neck, shape, chart)

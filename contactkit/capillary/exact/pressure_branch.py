@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,11 +58,18 @@ def _film(gap: Array, pressure: Array, angles: Two, curvatures: Two) -> tuple[Ar
     return radius, wet
 
 
-def from_film(given: Problem, angles: Two, curvatures: Two) -> tuple[Solution, Flags]:
-    """Newton iteration from a thin film, and whether such a film exists."""
-    assert given.pressure is not None
-    radius, wet = _film(given.gap, given.pressure, angles, curvatures)
-    return from_neck(given, np.log(radius), 1.0 - radius * given.pressure), wet
+class FromFilm(NamedTuple):
+    """Bridge at the end of the iteration from a thin film, and whether such a film exists."""
+
+    found: Solution
+    wet: Flags
+
+
+def from_film(gap: Array, pressure: Array, angles: Two, curvatures: Two) -> FromFilm:
+    """Newton iteration from a thin film of given pressure."""
+    given = problem(gap, pressure, angles, curvatures, at_pressure=True)
+    radius, wet = _film(gap, pressure, angles, curvatures)
+    return FromFilm(from_neck(given, np.log(radius), 1.0 - radius * pressure), wet)
 
 
 @lru_cache(maxsize=512)
@@ -77,18 +85,18 @@ def branch_at_pressure(
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
 
     def given(level: float) -> Problem:
-        return problem(np.zeros(1), None, np.array([level]), angles, curvatures)
+        return problem(np.zeros(1), np.array([level]), angles, curvatures, at_pressure=True)
 
     with np.errstate(all="ignore"):
         sharp = max(curvature_lower, curvature_upper)
         drop, level = 0.0, pressure
-        found, _ = from_film(given(level), angles, curvatures)
+        found, _ = from_film(np.zeros(1), np.array([level]), angles, curvatures)
         while not holds(found)[0]:
             drop = max(4.0 * drop, sharp, abs(pressure))
             if drop > 1e9 * (sharp + abs(pressure)):
                 raise InfeasibleError(_DRY)
             level = pressure - drop
-            found, _ = from_film(given(level), angles, curvatures)
+            found, _ = from_film(np.zeros(1), np.array([level]), angles, curvatures)
         ratio = 0.5
         while drop > 0.0:
             trial = drop * ratio if drop > 1e-3 * (sharp + abs(pressure)) else 0.0

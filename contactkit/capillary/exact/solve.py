@@ -37,9 +37,9 @@ class BeyondLimitError(Exception):
 
 def _given(key: Key, gap: Array, pressure: float | None) -> Problem:
     lower, upper, below, above = (np.full(gap.size, value) for value in key)
-    volume = np.ones(gap.size) if pressure is None else None
-    level = None if pressure is None else np.full(gap.size, pressure)
-    return problem(gap, volume, level, (lower, upper), (below, above))
+    given = np.full(gap.size, 1.0 if pressure is None else pressure)
+    at_pressure = pressure is not None
+    return problem(gap, given, (lower, upper), (below, above), at_pressure=at_pressure)
 
 
 def _on_curve(curve: Branch, given: Problem, gap: Array) -> Solution:
@@ -122,11 +122,10 @@ def _first_try(points: list[Array], pressure: Array | None) -> tuple[Columns, Fl
     gap, lower, upper, below, above = points
     angles, curvatures = (lower, upper), (below, above)
     if pressure is None:
-        given = problem(gap, np.ones(gap.size), None, angles, curvatures)
+        given = problem(gap, np.ones(gap.size), angles, curvatures)
         found = from_arc(given, angles, curvatures)
         return from_chart(found), found.good
-    given = problem(gap, None, pressure, angles, curvatures)
-    found, wet = from_film(given, angles, curvatures)
+    found, wet = from_film(gap, pressure, angles, curvatures)
     return from_chart(found, at_pressure=True), holds(found) & wet
 
 

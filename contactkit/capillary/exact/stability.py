@@ -93,7 +93,7 @@ def contact(
     angles = np.array([[angle_lower], [angle_upper]])
     curvatures = np.array([[curvature_lower], [curvature_upper]])
     zero, one = np.zeros(1), np.ones(1)
-    given = problem(zero, one, None, (angles[0], angles[1]), (curvatures[0], curvatures[1]))
+    given = problem(zero, one, (angles[0], angles[1]), (curvatures[0], curvatures[1]))
     found = from_arc(given, (angles[0], angles[1]), (curvatures[0], curvatures[1]))
     if found.good[0]:
         return found
@@ -104,13 +104,13 @@ def contact(
         if factor > 1e9:
             raise ConvergenceError("no bridge was found between touching bodies")
         scaled_curvature = (factor * curvatures[0], factor * curvatures[1])
-        given = problem(zero, one, None, (angles[0], angles[1]), scaled_curvature)
+        given = problem(zero, one, (angles[0], angles[1]), scaled_curvature)
         found = from_arc(given, (angles[0], angles[1]), scaled_curvature)
     ratio = 0.5
     while factor > 1.0:
         trial = max(factor * ratio, 1.0)
         given = problem(
-            zero, one, None, (angles[0], angles[1]), (trial * curvatures[0], trial * curvatures[1])
+            zero, one, (angles[0], angles[1]), (trial * curvatures[0], trial * curvatures[1])
         )
         bodies = given.bodies.swapped(found.flipped)
         new = solve(given._replace(bodies=bodies), found.log_neck, found.chart, found.flipped)
@@ -161,9 +161,9 @@ def _free_branch(lower: float, upper: float, below: float, above: float) -> Free
         if len(lost) == _MAX_FAILED:
             break
         more = (factor * curvatures[0], factor * curvatures[1])
-        found = from_arc(problem(np.array([gap]), one, None, angles, more), angles, more)
+        found = from_arc(problem(np.array([gap]), one, angles, more), angles, more)
         if found.good[0]:
-            bodies = problem(np.array([gap]), one, None, angles, curvatures).bodies
+            bodies = problem(np.array([gap]), one, angles, curvatures).bodies
             try:
                 start = found.unknowns[:, 0]
                 return march_free(bodies, relax_curvature(bodies, factor, start, gap), gap)
@@ -182,7 +182,7 @@ def _start(
     angles = np.array([angle_lower]), np.array([angle_upper])
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
     for gap in _STARTS:
-        given = problem(np.array([gap]), np.ones(1), None, angles, curvatures)
+        given = problem(np.array([gap]), np.ones(1), angles, curvatures)
         found = from_arc(given, angles, curvatures)
         if found.good[0] and found.found.volume_by_neck[0] > 0.0:
             return found

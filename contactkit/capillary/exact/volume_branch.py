@@ -31,8 +31,16 @@ __all__ = [
 ]
 
 
-def sessile_drop(body: Body) -> tuple[float, float, float]:
-    """Radius, height and contact radius of a sessile drop of unit volume on one body."""
+class SessileDrop(NamedTuple):
+    """A sessile drop of unit volume on one body."""
+
+    radius: float
+    height: float
+    contact_radius: float
+
+
+def sessile_drop(body: Body) -> SessileDrop:
+    """Sessile drop of unit volume on one body."""
     angle = math.atan2(float(body.sine[0]), float(body.cosine[0]))
     curvature = float(body.curvature[0])
 
@@ -55,7 +63,7 @@ def sessile_drop(body: Body) -> tuple[float, float, float]:
         high += 1.0
     radius = math.exp(bracketed_root(excess, low, high))
     height, _, contact = shape(radius)
-    return radius, radius * height, radius * contact
+    return SessileDrop(radius, radius * height, radius * contact)
 
 
 Array = NDArray[np.float64]
@@ -92,7 +100,7 @@ class Branch(NamedTuple):
         ends = point(self.bodies, self.log_neck[-1:], self.chart[-1:]).ends
         first, last = a * float(ends.limiting.radius[0]), a * float(ends.second.radius[0])
         if self.kind == DETACHMENT:  # the formulas fail for a contact radius of zero
-            first, last = 0.0, sessile_drop(self.bodies.second)[2]
+            first, last = 0.0, sessile_drop(self.bodies.second).contact_radius
         return (a, float(ends.shape[0]), *((last, first) if self.flipped else (first, last)))
 
     @property

@@ -43,6 +43,13 @@ class FlatLaw(NamedTuple):
     volume: Callable[[float], float]
 
 
+class FlatEnd(NamedTuple):
+    """Maximum gap of a law, over the reference length, and the volume there, over its cube."""
+
+    gap: float
+    volume: float
+
+
 @lru_cache(maxsize=64)
 def flat_law(
     angle_lower: float, angle_upper: float, *, pinned: bool = False, rtol: float = 1e-9
@@ -110,22 +117,20 @@ def flat_law(
 
 
 @lru_cache(maxsize=64)
-def flat_end(
-    angle_lower: float, angle_upper: float, *, pinned: bool = False
-) -> tuple[float, float]:
+def flat_end(angle_lower: float, angle_upper: float, *, pinned: bool = False) -> FlatEnd:
     """Maximum gap of a law and the volume there; arguments as in `flat_law`.
 
     Examples
     --------
-    >>> round(flat_end(math.pi / 2, math.pi / 2)[0] ** 3 / math.pi, 12)
+    >>> round(flat_end(math.pi / 2, math.pi / 2).gap ** 3 / math.pi, 12)
     1.0
     """
     refuse_spreading(angle_lower, angle_upper)
     if max(abs(math.cos(angle_lower)), abs(math.cos(angle_upper))) < _RIGHT_CLOSE:
         law = _cylinder(pinned)
-        return law.end, law.volume(law.end)
+        return FlatEnd(law.end, law.volume(law.end))
     last = last_member(angle_lower, angle_upper, pinned)
-    return last.gap, last.volume
+    return FlatEnd(last.gap, last.volume)
 
 
 class _Measure(NamedTuple):

@@ -77,11 +77,11 @@ def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
     """Gap [m] at which the exact bridge loses stability, without the forces on the way."""
     film, angles = prepared.film, prepared.angles
     if math.isinf(film.rim):
-        return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
+        return flat_law.flat_end(*angles).gap * math.cbrt(film.volume)
     longest, volume = flat_law.flat_end(*angles, pinned=True)
     if film.volume >= volume * film.rim**3:
         return longest * film.rim
-    return flat_law.flat_end(*angles)[0] * math.cbrt(film.volume)
+    return flat_law.flat_end(*angles).gap * math.cbrt(film.volume)
 
 
 def arc_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from ...numerics.quadrature import gauss_legendre
 from .radau import NODES, WEIGHTS, Point, Step, coordinate
@@ -30,8 +31,15 @@ def _jumps(first: float, stages: Sequence[float]) -> bool:
     return stages[0] - first > 0.9 * (max(values) - min(values))
 
 
-def peak(first: float, stages: Sequence[float]) -> tuple[float, float]:
-    """Highest value on a step, and where (0 start, 1 end), from its start and its three stages.
+class Peak(NamedTuple):
+    """Highest value on a step, and where it is: 0 at the start, 1 at the end."""
+
+    value: float
+    where: float
+
+
+def peak(first: float, stages: Sequence[float]) -> Peak:
+    """Highest value on a step, from its start and its three stages.
 
     Examples
     --------
@@ -40,14 +48,14 @@ def peak(first: float, stages: Sequence[float]) -> tuple[float, float]:
     (0.25, 0.5)
     """
     if _jumps(first, stages) and 2.0 * (stages[2] - first) > stages[0] - first:
-        return stages[2], 1.0  # it stays up; on the way there the stages are not accurate
+        return Peak(stages[2], 1.0)  # it stays up; on the way there the stages are not accurate
     nodes, values = (0.0, *NODES), (first, *stages)
     best = max(range(4), key=values.__getitem__)
     value, where = values[best], nodes[best]
     a, b, c, d = _cubic(first, stages)
     inside = c * c - 3.0 * b * d
     if inside < 0.0:
-        return value, where
+        return Peak(value, where)
     # Of the two extrema, the maximum is where the second derivative is negative.
     q = -(c + math.copysign(math.sqrt(inside), c))
     for root in (q / (3.0 * d) if d else math.nan, b / q if q else math.nan):
@@ -56,7 +64,7 @@ def peak(first: float, stages: Sequence[float]) -> tuple[float, float]:
             # A cubic swings away from smooth stretches; trust only a small rise above the nodes.
             if value < at <= value + 0.25 * (value - min(values)):
                 value, where = at, root
-    return value, where
+    return Peak(value, where)
 
 
 def work(start: Point, taken: Step, first: float, values: Sequence[float]) -> float:

@@ -387,11 +387,11 @@ def relative_error(problem: Problem, taken: Step, length: float, missed: float =
     return max(taken.gap_error, wrong / momentum, 0.1 * of_speed) / problem.rtol
 
 
-def against_halves(problem: Problem, taken: Step, length: float) -> tuple[float, float] | None:
-    """Difference of a step from the same in two halves: logarithm of the gap [-], speed [m/s].
+def against_halves(problem: Problem, taken: Step, length: float) -> Step | None:
+    """Step with its errors found from the same in two halves; None if a half cannot be solved.
 
     For a step in which a limit sets in or ceases: no estimate sees where the slope of the force
-    jumps. None if a half cannot be solved.
+    jumps.
     """
     half = step(problem, 0.5 * length)
     if half is None:
@@ -402,4 +402,5 @@ def against_halves(problem: Problem, taken: Step, length: float) -> tuple[float,
     if again is None:
         return None
     end, other = taken.stages[2], again.stages[2]
-    return abs(math.log(other.gap / end.gap)), abs(other.speed - end.speed)
+    gap_error, speed_error = abs(math.log(other.gap / end.gap)), abs(other.speed - end.speed)
+    return taken._replace(gap_error=gap_error, speed_error=speed_error)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 
 from ...errors import ConvergenceError, DescriptionError
-from ...numerics.events import step_to_event
+from ...numerics.events import EventStep, step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
 from ..effects.viscous import ViscousForce
@@ -261,11 +261,8 @@ def _error(plan: Plan, state: MotionState, problem: Problem, taken: Step, length
     if all(forces.limit is problem.first.limit for forces in taken.forces):
         return error
     # Where a limit sets in or ceases, the slope of the force jumps: compare with two half steps.
-    errors = against_halves(problem, taken, length)
-    if errors is None:
-        return _TOO_LONG
-    seen = taken._replace(gap_error=errors[0], speed_error=errors[1])
-    return max(error, relative_error(problem, seen, length))
+    seen = against_halves(problem, taken, length)
+    return _TOO_LONG if seen is None else max(error, relative_error(problem, seen, length))
 
 
 def _missed_impulse(problem: Problem, length: float) -> float:
@@ -283,8 +280,8 @@ def _missed_impulse(problem: Problem, length: float) -> float:
     return length * (seen - (first + 4.0 * middle + last) / 6.0)
 
 
-def _step_to_gap(problem: Problem, taken: Step, length: float, gap: float) -> tuple[Step, float]:
-    """Step that ends at a gap, and its length."""
+def _step_to_gap(problem: Problem, taken: Step, length: float, gap: float) -> EventStep[Step]:
+    """Step that ends at a gap."""
     rising = gap > problem.begin.gap
 
     def beyond(one: Step) -> float:
@@ -325,7 +322,7 @@ def _peak(state: MotionState, problem: Problem, taken: Step, length: float) -> t
     totals = [forces.static + forces.viscous for forces in taken.forces]
     top = max(first, *totals)
     if top + 0.25 * (top - min(first, *totals)) > state.peak_force:  # the most `peak` can find
-        value, where = peak(first, totals)
-        if value > state.peak_force:
-            return value, state.time + where * length
+        highest = peak(first, totals)
+        if highest.value > state.peak_force:
+            return highest.value, state.time + highest.where * length
     return state.peak_force, state.peak_time
