@@ -28,7 +28,7 @@ from ..native.ports import MODELS, check_start
 from ..slaves.valve_drive import check_drive
 from .guard import protect
 from .integrity import RECORD, content_hash, package_name
-from .vendor import Closure, fallback_attrs, find_closure
+from .vendor import Closure, find_closure
 
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
@@ -49,14 +49,6 @@ BAKERS = dict.fromkeys(("contact-stop", "valve-drive", "tip-contact"), "contents
 
 _SCRIPT = '''\
 """Main script of this FMU: contactkit wrote it, pythonfmu loads it."""
-
-import sys
-from pathlib import Path
-
-try:
-    import attrs
-except ImportError:  # a bare interpreter gets the copy in this FMU
-    sys.path.append(str(Path(__file__).parent / "vendor"))
 
 from {package}.fmu.python.integrity import verify
 from {package}.fmu.slaves.{module} import {class_name} as Model
@@ -191,8 +183,6 @@ def _pack(
     main = f"{module}_{identity[:12]}.py"
     files = {f"{package_name(identity)}/{path}": text for path, text in closure.sources.items()}
     files |= {main: script.encode(), RECORD: json.dumps(record, sort_keys=True).encode()}
-    if closure.requires & {"attr", "attrs"}:
-        files |= {f"vendor/{path}": text for path, text in fallback_attrs().items()}
     _write(folder / "resources", files)
     _write(folder / "documentation", _documentation(slave, name, baked, closure))
     top = sorted({path.partition("/")[0] for path in files} - {main})
@@ -205,7 +195,7 @@ def _documentation(
     start = slave.start_values() | dict(baked)
     # What is imported only when called for, such as numpy by a sphere, this model does without.
     needed = find_closure(slave.__module__, at_once=True).requires
-    requires = (closure.requires & needed) - {"attr", "attrs"}
+    requires = closure.requires & needed
     later = closure.requires - needed
     page = Page.of_python(
         requires,

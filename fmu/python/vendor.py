@@ -3,6 +3,9 @@
 Inside contactkit all imports are relative, so copies of the modules work under another package
 name. A package's own ``__init__`` is carried only if something is imported from it; otherwise an
 empty one takes its place, and with it all that the real one would import stays out of the FMU.
+
+attrs is carried inside that package, and imported from there: whatever attrs the host has, older or
+newer or imported already, neither sees the other.
 """
 
 from __future__ import annotations
@@ -18,8 +21,10 @@ from attrs import field, frozen
 
 from ...errors import ContactkitError
 
-__all__ = ["Closure", "fallback_attrs", "find_closure"]
+__all__ = ["Closure", "bundled_attrs", "find_closure"]
 
+_ATTRS = frozenset({"attr", "attrs"})
+_BUNDLED = "bundled"  # package of an FMU that holds attrs
 _EMPTY_INIT = b'"""Part of the code this FMU runs; the original is in contactkit."""\n'
 
 
@@ -64,7 +69,8 @@ def find_closure(*modules: str, at_once: bool = False) -> Closure:
         spec = _find(name)
         if spec is None or spec.origin is None:
             raise ContactkitError(f"the FMU needs module {name}, which does not exist")
-        closure.sources[_path_in_package(name, spec)] = Path(spec.origin).read_bytes()
+        path = _path_in_package(name, spec)
+        closure.sources[path] = _with_bundled_attrs(path, Path(spec.origin).read_bytes())
         inner, outer = _imports(name, spec, at_once)
         waiting += inner
         closure.requires.update(outer)
@@ -73,6 +79,9 @@ def find_closure(*modules: str, at_once: bool = False) -> Closure:
             f"a module that {modules[0]} needs imports {root!r} by name; make the import relative, "
             "so that an FMU can carry it under another name"
         )
+    if closure.requires & _ATTRS:
+        closure.requires.difference_update(_ATTRS)
+        closure.sources.update(bundled_attrs())
     for path in list(closure.sources):
         for folder in list(Path(path).parents):
             closure.sources.setdefault((folder / "__init__.py").as_posix(), _EMPTY_INIT)
@@ -133,12 +142,32 @@ def _statements(tree: ast.AST, at_once: bool) -> Iterator[ast.Import | ast.Impor
         yield from _statements(child, at_once)
 
 
-def fallback_attrs() -> dict[str, bytes]:
-    """Read the sources of attrs, with paths as in ``site-packages``, for a bare interpreter."""
+def bundled_attrs() -> dict[str, bytes]:
+    """Sources of attrs as a part of the package of an FMU, by their path in it."""
     files = {}
-    for package in ("attr", "attrs"):
+    for package in sorted(_ATTRS):
         spec = importlib.util.find_spec(package)
         for folder in (spec and spec.submodule_search_locations) or []:
             for path in Path(folder).glob("*.py"):
-                files[f"{package}/{path.name}"] = path.read_bytes()
+                place = f"{_BUNDLED}/{package}/{path.name}"
+                files[place] = _with_bundled_attrs(place, path.read_bytes())
     return files
+
+
+def _with_bundled_attrs(path: str, source: bytes) -> bytes:
+    """Source of a module at a path in the package, with attrs imported from that package."""
+    lines = source.decode().splitlines(keepends=True)
+    bundled = "." * (path.count("/") + 1) + _BUNDLED
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import) and {a.name for a in node.names} & _ATTRS:
+            former, own = "import ", f"from {bundled} import "
+        elif isinstance(node, ast.ImportFrom) and _is_of_attrs(node):
+            former, own = "from ", f"from {bundled}."
+        else:
+            continue
+        lines[node.lineno - 1] = lines[node.lineno - 1].replace(former, own, 1)
+    return "".join(lines).encode()
+
+
+def _is_of_attrs(node: ast.ImportFrom) -> bool:
+    return node.level == 0 and (node.module or "").partition(".")[0] in _ATTRS

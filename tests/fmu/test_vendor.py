@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import sys
 
 import pytest
 
 from contactkit.errors import ContactkitError
-from contactkit.fmu.python.vendor import fallback_attrs, find_closure
+from contactkit.fmu.python.vendor import bundled_attrs, find_closure
 
 
 def test_only_what_the_slave_imports_is_carried(toy_module):
     closure = find_closure("contactkit.fmu.slaves.toy_slave")
-    assert set(closure.sources) == {
+    assert {path for path in closure.sources if not path.startswith("bundled/")} == {
         "__init__.py",
         "errors.py",
         "fmu/__init__.py",
@@ -28,7 +29,7 @@ def test_only_what_the_slave_imports_is_carried(toy_module):
         "units.py",
         "validators.py",
     }
-    assert closure.requires == {"attrs"}
+    assert closure.requires == set()
     assert b"import" not in closure.sources["__init__.py"]
 
 
@@ -87,7 +88,10 @@ def test_closure_refuses_what_cannot_be_carried(package):
         find_closure("pack.broken")
 
 
-def test_fallback_is_all_of_attrs():
-    files = fallback_attrs()
-    assert {"attr/__init__.py", "attr/_make.py", "attrs/__init__.py"} <= set(files)
-    assert all(path.endswith(".py") for path in files)
+def test_all_of_attrs_is_in_the_package_and_imports_itself_only():
+    files = bundled_attrs()
+    assert {f"bundled/{path}" for path in ("attr/_make.py", "attrs/__init__.py")} <= set(files)
+    closure = find_closure("contactkit.fmu.slaves.toy_slave")
+    assert files.items() <= closure.sources.items()
+    for path, source in closure.sources.items():
+        assert not re.search(rb"^\s*(from|import) attrs?\b", source, re.MULTILINE), path
