@@ -10,7 +10,14 @@ from typing import Any, NamedTuple
 
 from ..errors import DescriptionError
 
-__all__ = ["ARGUMENTS", "Argument", "PublishedFormula", "PublishedValue", "checked_arguments"]
+__all__ = [
+    "ARGUMENTS",
+    "Argument",
+    "PublishedFormula",
+    "PublishedValue",
+    "checked_arguments",
+    "numbered",
+]
 
 
 class Argument(NamedTuple):
@@ -154,7 +161,7 @@ class PublishedValue(NamedTuple):
 
     def __str__(self) -> str:
         unit = "" if self.unit == "-" else f" {self.unit}"
-        lines = [f"{_numbered(self.number)} {self.name}: {self.value:.6g}{unit} as printed"]
+        lines = [f"{numbered(self.number)} {self.name}: {self.value:.6g}{unit} as printed"]
         if self.corrected is None:
             lines.append(f"  no corrected value: {self.corrected_by}")
         else:
@@ -166,7 +173,8 @@ class PublishedFormula(NamedTuple):
     """A printed equation: formula, arguments, and correction.
 
     `right` computes the corrected value from the same arguments, or is None where the printed
-    equation is correct; `by` names the correction.
+    equation is correct; `by` names the correction. With `any_film` that holds for a film under a
+    sphere however wide; with `may_be_infinite` an infinite value is an answer.
     """
 
     number: str
@@ -178,6 +186,8 @@ class PublishedFormula(NamedTuple):
     right: Callable[..., Any] | None = None
     by: str = "as printed, which is correct"
     errata: tuple[str, ...] = ()
+    any_film: bool = False
+    may_be_infinite: bool = False
 
     @property
     def signature(self) -> str:
@@ -187,16 +197,17 @@ class PublishedFormula(NamedTuple):
         return ", ".join(f"{name} [{unit}]" if unit else name for name, unit in pairs)
 
     def __str__(self) -> str:
-        return f"{_numbered(self.number)} {self.name} [{self.unit}]: {self.equation}"
+        return f"{numbered(self.number)} {self.name} [{self.unit}]: {self.equation}"
 
 
-def _numbered(number: str) -> str:
+def numbered(number: str) -> str:
+    """Equation as it is called in messages."""
     return number if " " in number else f"Eq. ({number})"
 
 
 def checked_arguments(formula: PublishedFormula, given: Mapping[str, Any]) -> dict[str, Any]:
     """Arguments of an equation in its order, validated."""
-    owner = f"published {_numbered(formula.number)}"
+    owner = f"published {numbered(formula.number)}"
     unknown = [name for name in given if name not in formula.arguments]
     if unknown:
         raise DescriptionError(

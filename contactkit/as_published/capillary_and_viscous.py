@@ -218,6 +218,7 @@ _CAPILLARY = (
         right.printed_break_gap,
         right.break_gap,
         "stability limit of the exact bridge",
+        may_be_infinite=True,  # between two right angles the neck never closes
     ),
 )
 
@@ -229,6 +230,7 @@ _VISCOUS = (
         ("gap", "radius", "position", "speed", "viscosity"),
         "Pa",
         films.pressure_3_16,
+        viscous.pressure_inside,
     ),
     Row(
         "3.17",

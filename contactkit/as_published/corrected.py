@@ -7,6 +7,8 @@ the stability limit of a bridge, InfeasibleError states why. Imports are deferre
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 from ..errors import InfeasibleError
 
@@ -26,6 +28,8 @@ __all__ = [
     "printed_film_volume",
     "printed_rough",
     "printed_sphere",
+    "pressure_inside",
+    "refuse_wide_film",
     "sphere_height",
     "viscous_divided",
     "viscous_far",
@@ -170,15 +174,32 @@ def meniscus_touching(
     return _exact(0.0, volume, surface_tension, angle_lower, angle_upper, sphere_radius)
 
 
-def _asperity_film(
-    radius: float, gap: float, film_height: float, lower: float, upper: float
-) -> tuple[float, float]:
-    """Contact circle [m] and volume [m3] of the arc under a paraboloid wetted up to a height."""
-    from ..capillary.arc import sphere as arc_sphere
+def refuse_wide_film(given: Mapping[str, Any]) -> None:
+    """Refuse a film under a paraboloid that is wider than the sphere it stands for.
 
-    circle = math.sqrt(2.0 * radius * (film_height - gap))
-    shape = (lower, upper, 0.0, 1.0 / radius)
-    return circle, arc_sphere.volume(gap, circle, *shape, profile="parabola")
+    Of N asperities side by side each has the room of its own sphere, of radius R/n.
+
+    Raises
+    ------
+    InfeasibleError
+        If the film is wider; says how high, or how finely divided, it may be.
+    """
+    if not {"sphere_radius", "film_height"} <= set(given):
+        return
+    radius, number = given["sphere_radius"], given.get("number", 1.0)
+    gap = given.get("gap", given.get("gap_start", given.get("height")))
+    depth, room = given["film_height"] - gap, radius / math.sqrt(number)
+    if 2.0 * depth <= room * (1.0 + 1e-12):
+        return
+    if number > 1.0 and 2.0 * depth <= radius:
+        raise InfeasibleError(
+            f"menisci of neighbouring asperities overlap: keep n = sqrt(number) below "
+            f"R/(2 (s - D)) = {radius / (2.0 * depth):.4g}"
+        )
+    raise InfeasibleError(
+        f"the film would be wider than the sphere of radius {radius:g} m; keep its height at the "
+        f"rim below {gap + 0.5 * radius:.4g} m"
+    )
 
 
 def printed_rough(
@@ -193,7 +214,7 @@ def printed_rough(
     """Eq. (3.14) [N] of N asperities of radius R/n, each by Eq. (3.12)."""
     small = sphere_radius / math.sqrt(number)
     angles = (angle_lower, angle_upper)
-    _, volume = _asperity_film(small, gap, film_height, *angles)
+    volume = film_volume(small, gap, film_height, *angles)
     return number * printed_sphere(small, gap, volume, surface_tension, *angles)
 
 
@@ -208,13 +229,7 @@ def meniscus_rough(
 ) -> float:
     """Exact force [N] of N asperities of radius R/n with separate menisci."""
     small = sphere_radius / math.sqrt(number)
-    circle, volume = _asperity_film(small, gap, film_height, angle_lower, angle_upper)
-    if number > 1.0 and circle > small:
-        max_split = max(sphere_radius / (2.0 * (film_height - gap)), 1.0)
-        raise InfeasibleError(
-            f"menisci of neighbouring asperities overlap: keep n = sqrt(number) below "
-            f"R/(2 (s - D)) = {max_split:.4g}"
-        )
+    volume = film_volume(small, gap, film_height, angle_lower, angle_upper)
     one = _exact(gap, volume, surface_tension, angle_lower, angle_upper, small)
     return number * one
 
@@ -231,8 +246,12 @@ def printed_film_volume(
 def film_volume(
     sphere_radius: float, gap: float, film_height: float, angle_lower: float, angle_upper: float
 ) -> float:
-    """Volume of revolution [m3] of the arc."""
-    return _asperity_film(sphere_radius, gap, film_height, angle_lower, angle_upper)[1]
+    """Volume of revolution [m3] of the arc under a paraboloid wetted up to a height."""
+    from ..capillary.arc import sphere as arc_sphere
+
+    circle = math.sqrt(2.0 * sphere_radius * (film_height - gap))
+    shape = (angle_lower, angle_upper, 0.0, 1.0 / sphere_radius)
+    return float(arc_sphere.volume(gap, circle, *shape, profile="parabola"))
 
 
 def kelvin_radius(
@@ -279,6 +298,20 @@ def break_gap(
 
     bodies = (curvature_lower, curvature_upper)
     return float(stability_limit(volume, angle_lower, angle_upper, *bodies).gap)
+
+
+def pressure_inside(
+    gap: float, radius: float, position: float, speed: float, viscosity: float
+) -> float:
+    """Pressure [Pa] over ambient between opening flats, which ends at the rim of the film."""
+    from .printed.films import pressure_3_16
+
+    if position > radius:
+        raise InfeasibleError(
+            f"no film at {position:g} m from the axis: it ends at {radius:g} m, with the ambient "
+            f"pressure"
+        )
+    return float(pressure_3_16(gap, radius, position, speed, viscosity))
 
 
 def viscous_flat(

@@ -7,13 +7,15 @@ specifies ``"as-published"``.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import warnings
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from ..errors import ConvergenceError, DescriptionError, InfeasibleError
-from .arguments import PublishedFormula, PublishedValue, checked_arguments
+from .arguments import PublishedFormula, PublishedValue, checked_arguments, numbered
 from .capillary_and_viscous import ROWS
+from .corrected import refuse_wide_film
 from .printed.errata import ERRATA
 from .sliding import SLIDING_ROWS
 
@@ -131,12 +133,13 @@ def _formula(number: str) -> PublishedFormula:
 
 def _printed(formula: PublishedFormula, given: Mapping[str, Any]) -> float:
     try:
-        value = float(formula.printed(*given.values()))
-    except (ZeroDivisionError, OverflowError):
-        value = math.nan
-    if math.isnan(value):
+        value = _value(formula.printed, given)
+    except (ConvergenceError, InfeasibleError) as reason:
+        text = f"{numbered(formula.number)} has no value: {reason}"
+        raise InfeasibleError(str(reason) if formula.number in str(reason) else text) from None
+    if not (math.isfinite(value) or (formula.may_be_infinite and value == math.inf)):
         named = ", ".join(f"{name} = {value}" for name, value in given.items())
-        raise InfeasibleError(f"Eq. ({formula.number}) has no finite value for {named}")
+        raise InfeasibleError(f"{numbered(formula.number)} has no finite value for {named}")
     return value
 
 
@@ -144,9 +147,22 @@ def _corrected(
     formula: PublishedFormula, given: Mapping[str, Any], value: float
 ) -> tuple[float | None, str]:
     """Corrected value, or None with the reason why the consistent model has none."""
-    if formula.right is None:
-        return value, formula.by
     try:
-        return float(formula.right(*given.values())), formula.by
-    except (ConvergenceError, InfeasibleError) as reason:
-        return None, str(reason)
+        if not formula.any_film:
+            refuse_wide_film(given)
+        found = value if formula.right is None else _value(formula.right, given)
+    except (ConvergenceError, DescriptionError, InfeasibleError) as reason:
+        return None, str(reason)  # also of a volume that is too large to be held
+    if not (math.isfinite(found) or (formula.may_be_infinite and found == math.inf)):
+        return None, f"no finite value of the model for these arguments ({formula.by})"
+    return found, formula.by
+
+
+def _value(function: Callable[..., Any], given: Mapping[str, Any]) -> float:
+    """Value of a function; nan where it divides by zero or a number is too large to be held."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # of numpy, which returns inf or nan
+        try:
+            return float(function(*given.values()))
+        except (ZeroDivisionError, OverflowError):
+            return math.nan

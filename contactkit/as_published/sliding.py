@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+from ..errors import InfeasibleError
 from .arguments import PublishedFormula as Row
 from .printed import sliding as printed
 
@@ -31,6 +32,16 @@ def _wetted_radius(sphere_radius: float, gap: float, film_height: float) -> floa
     return math.sqrt(2.0 * sphere_radius * (film_height - gap))
 
 
+def _circle_on_sphere(sphere_radius: float, gap: float, film_height: float) -> float:
+    depth = film_height - gap
+    if depth > sphere_radius:
+        raise InfeasibleError(
+            f"the film covers the equator of the sphere: keep its height below "
+            f"{gap + sphere_radius:.4g} m"
+        )
+    return math.sqrt(depth * (2.0 * sphere_radius - depth))
+
+
 def _impulse_flat(radius: float, gap: float, viscosity: float) -> float:
     return float(printed.sliding_flat_3_53(radius, gap, 1.0, viscosity))
 
@@ -46,6 +57,11 @@ def _mean_sphere(
 ) -> float:
     from ..lubrication.couette_sphere import sphere_impulse
 
+    if gap == 0.0:
+        raise InfeasibleError(
+            "at a gap of zero the drag is infinite: it grows as ln(s/D); give a gap above zero, "
+            "such as the roughness or 0.2 to 0.3 nm"
+        )
     return float(sphere_impulse(sphere_radius, gap, film_height, viscosity)) / separation_time
 
 
@@ -147,6 +163,9 @@ SLIDING_ROWS: tuple[Row, ...] = (
         ("sphere_radius", "gap", "film_height"),
         "m",
         _wetted_radius,
+        _circle_on_sphere,
+        "circle on the sphere itself",
+        any_film=True,
     ),
     Row(
         "3.56",

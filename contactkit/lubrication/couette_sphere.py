@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -75,7 +75,8 @@ def sphere_drag(
     Returns
     -------
     ndarray, shape (...)
-        Force [N]; 0 from L = 2x on. Relative error below 1e-12 for s/D from 1 + 1e-9 to 1e6.
+        Force [N]; 0 from L = 2x on; inf at D = 0 up to L = x if the stress has no bound. Relative
+        error below 1e-12 for s/D from 1 + 1e-9 to 1e300.
 
     Notes
     -----
@@ -97,20 +98,27 @@ def sphere_drag(
     near = np.abs(x - moved)
     inner = np.maximum(x - moved, 0.0)
     at_kink = min(max(2.0 * sphere_radius * (kink - gap), 0.0), x * x) ** 0.5
+    touching = gap == 0.0
+    if touching:
+        gap = 1e-290 * film_height  # so thin a film has no area on which a bounded stress acts
+    film = _Film(sphere_radius, gap, x)
 
-    def ring(r: Any) -> Any:
-        return r * stress(gap + r * r / (2.0 * sphere_radius))
-
-    t, weight, rest = _DOUBLE_EXPONENTIAL
     total = np.zeros(moved.shape[:-1])
     for low, high in _pieces(np.zeros_like(inner), inner, at_kink):
-        span = high - low
-        total = total + 2.0 * math.pi * np.sum(span * weight * ring(low + span * t), axis=-1)
+        rings = film.rings(low, high)
+        flow = rings.height * stress(rings.height)
+        total = total + 2.0 * math.pi * np.sum(rings.weight * flow, axis=-1)
     for low, high in _pieces(near, np.full_like(near, x), at_kink):
-        span = high - low
-        r, past, left = low + span * t, (low - near) + span * t, (x - high) + span * rest
+        rings = film.rings(low, high)
+        r, past, left = rings.radius, rings.past + (low - near), rings.left + (x - high)
         half = _half_angle(x, moved, r, past, left)
-        total = total + 2.0 * np.sum(span * weight * half * ring(r), axis=-1)
+        flow = rings.height * stress(rings.height)
+        total = total + 2.0 * np.sum(half * rings.weight * flow, axis=-1)
+    if touching:
+        with np.errstate(divide="ignore"):
+            is_bounded = bool(np.all(np.isfinite(stress(np.zeros(1)))))
+        if not is_bounded:
+            total = np.where(moved[..., 0] <= x, math.inf, total)
     return total
 
 
@@ -141,7 +149,7 @@ def sphere_impulse(
     Returns
     -------
     ndarray, shape (...)
-        Impulse [N.s]; constant beyond L = 2x.
+        Impulse [N.s]; constant beyond L = 2x, inf at D = 0: it grows as ln(s/D).
 
     Notes
     -----
@@ -158,24 +166,60 @@ def sphere_impulse(
     """
     from scipy.special import ellipe, ellipeinc
 
-    x = float(wetted_radius(sphere_radius, gap, film_height))
+    film = _Film(sphere_radius, gap, float(wetted_radius(sphere_radius, gap, film_height)))
+    x = film.rim
     moved = np.minimum(np.asarray(travel, dtype=np.float64), 2.0 * x)[..., None]
+    if gap == 0.0:
+        return np.where(moved[..., 0] > 0.0, math.inf, 0.0)
     near = np.abs(x - moved)
-    t, weight, rest = _DOUBLE_EXPONENTIAL
-
-    def ring(r: Any) -> Any:
-        return r / (gap + r * r / (2.0 * sphere_radius))
 
     # Rings not cut by the other circle: overlapped all the way, or by all of the other circle.
-    r = near * t
-    whole = np.where(moved < x, math.pi * moved, 2.0 * x * ellipe((r / x) ** 2))
-    total = np.sum(near * weight * ring(r) * whole, axis=-1)
-    span = x - near
-    r = near + span * t
-    half, m = _half_angle(x, moved, r, span * t, span * rest), (r / x) ** 2
+    rings = film.rings(np.zeros_like(near), near)
+    whole = np.where(moved < x, math.pi * moved, 2.0 * x * ellipe((rings.radius / x) ** 2))
+    total = np.sum(rings.weight * whole, axis=-1)
+    rings = film.rings(near, np.full_like(near, x))
+    r = rings.radius
+    half, m = _half_angle(x, moved, r, rings.past, rings.left), (r / x) ** 2
     lasting = half * moved - r * np.sin(half) + x * (2.0 * ellipe(m) - ellipeinc(half, m))
-    total = total + np.sum(span * weight * ring(r) * lasting, axis=-1)
+    total = total + np.sum(rings.weight * lasting, axis=-1)
     return 2.0 * viscosity * total
+
+
+class _Rings(NamedTuple):
+    """Rings of a film: radius and height [m], weight of r dr/h [m], distances to both ends [m]."""
+
+    radius: Any
+    height: Any
+    weight: Any
+    past: Any
+    left: Any
+
+
+class _Film(NamedTuple):
+    """Film under a sphere: its radius, the gap under the apex and the radius of the rim [m]."""
+
+    sphere_radius: float
+    gap: float
+    rim: float
+
+    def rings(self, low: Any, high: Any) -> _Rings:
+        r"""Nodes between two radii, in which :math:`r\,dr/h` is even, however thin the film is.
+
+        They are even in the logarithm of the film height, :math:`R\,d\ln h = r\,dr/h`, so that a
+        gap of 1e-300 has nodes at all heights up to the rim.
+        """
+        t, weight, rest = _DOUBLE_EXPONENTIAL
+        double = 2.0 * self.sphere_radius
+        height = self.gap + low * low / double
+        span = np.log1p((high - low) * (high + low) / (double * height))
+        grown = double * height * np.expm1(span * t)  # r^2 less that of the inner end
+        short = -double * (height * np.exp(span)) * np.expm1(-span * rest)
+        radius = np.minimum(np.sqrt(low * low + grown), high)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            past = np.where(radius > 0.0, grown / (radius + low), 0.0)
+            left = np.where(high > 0.0, short / (high + radius), 0.0)
+        heights = height * np.exp(span * t)
+        return _Rings(radius, heights, self.sphere_radius * span * weight, past, left)
 
 
 def _pieces(low: Any, high: Any, cut: float) -> list[tuple[Any, Any]]:

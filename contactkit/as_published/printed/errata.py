@@ -59,6 +59,8 @@ ERRATA: Mapping[str, str] = MappingProxyType(
         "3.51": "Its D should read L, the offset of the two circles.",
         "3.53": "It is the impulse over the separation time, not a force at rupture: the drag has "
         "its maximum at the start, 3 pi / 4 times as large, and falls with the overlap.",
+        "3.55": "A paraboloid replaces the sphere: the circle is 15 % too wide at s - D = R/2, "
+        "41 % at R, and grows on beyond.",
         "3.56": "It takes the film thickness for that at the rim everywhere: 1 - D/s instead of "
         "ln(s/D), which is correct for shear alone and diverges for a closed gap.",
         "3.59": "N (R / sqrt(N))^(3/2) is N^(1/4), not N^(-1/2): at a given separation time the "
