@@ -5,33 +5,75 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
 
-from .errors import ContactkitError
+from .errors import ContactkitError, DescriptionError, MissingExtraError, PlanError
+from .extras import missing_extra
 
 __all__ = ["main"]
 
 Progress = Callable[[float], None]
 
 
+_NOT_OURS, _INTERRUPTED, _BUG = 2, 130, 70  # exit statuses; 70 as in sysexits.h
+
+
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command line and return its exit status."""
+    """Run the command line and return its exit status.
+
+    Whatever goes wrong is reported in one line: 2 for what the user can mend, 70 for a defect of
+    contactkit, whose traceback ``--traceback`` shows.
+    """
     parsed = _parser().parse_args(arguments)
     try:
-        return int(parsed.command(parsed) or 0)
-    except ContactkitError as error:
-        print(f"contactkit: {error}", file=sys.stderr)
-        return 2
+        with warnings.catch_warnings():
+            warnings.showwarning = _show_warning
+            return int(parsed.command(parsed) or 0)
     except BrokenPipeError:  # the reader of a pipe, such as head, has closed it
         sys.stderr.close()
         return 0
     except KeyboardInterrupt:
-        print("contactkit: interrupted; no incomplete files are left", file=sys.stderr)
-        return 130
+        _report("interrupted; no incomplete files are left")
+        return _INTERRUPTED
+    except Exception as error:
+        if parsed.traceback:
+            raise
+        return _reported(error)
+
+
+def _reported(error: Exception) -> int:
+    """Report an error in one line; return the exit status."""
+    if isinstance(error, ImportError):
+        error = missing_extra(error, "this command") or error
+    if isinstance(error, ContactkitError):
+        _report(str(error))
+        return _NOT_OURS
+    if isinstance(error, OSError):  # no space, no permission, a folder in place of a file
+        _report(f"{error.strerror or error}: {error.filename or 'a file'}")
+        return _NOT_OURS
+    if isinstance(error, MemoryError):
+        _report("out of memory; take a coarser grid or fewer planes")
+        return _NOT_OURS
+    _report(
+        f"a defect of contactkit, {type(error).__name__}: {error}; please report it with what "
+        "the same command prints with --traceback"
+    )
+    return _BUG
+
+
+def _report(text: str) -> None:
+    print(f"contactkit: {text}", file=sys.stderr)
+
+
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
+    """A warning in one line, without the line of code that issued it."""
+    _report(f"warning: {message}")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -41,7 +83,7 @@ def _parser() -> argparse.ArgumentParser:
         "wetted ones.",
     )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
-    parser.set_defaults(command=_version)
+    parser.set_defaults(command=_version, traceback=False)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     for name, command, text in (
         ("run", _run, "run a scene, print its numbers, write its curves and figures"),
@@ -50,7 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     ):
         one = commands.add_parser(name, help=text, description=text)
         one.add_argument("scene", help="a scene file, or the name of a scene of contactkit")
-        one.set_defaults(command=command)
+        _set_command(one, command)
         if name != "plan":
             one.add_argument("--out", type=Path, help="folder to write curves and figures to")
             one.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
@@ -87,7 +129,7 @@ def _add_build(fmu: Any) -> None:
         help="model of a native FMU: a mass with its film, the film alone, or the valve",
     )
     build.add_argument("--fmi", choices=("2", "3"), default="2", help="version of FMI")
-    build.set_defaults(command=_build)
+    _set_command(build, _build)
 
 
 def _add_system(fmu: Any) -> None:
@@ -101,12 +143,19 @@ def _add_system(fmu: Any) -> None:
     system.add_argument(
         "--native", action="store_true", help="both FMUs in C, which need no Python to run"
     )
-    system.set_defaults(command=_system)
+    _set_command(system, _system)
     text = "write reference files for native FMUs in the format of the FMI cross-check"
     check = fmu.add_parser("crosscheck", help=text, description=text)
     check.add_argument("--out", type=Path, required=True, help="folder to write to")
     check.add_argument("--no-fmu", action="store_true", help="the tables only; needs no compiler")
-    check.set_defaults(command=_crosscheck)
+    _set_command(check, _crosscheck)
+
+
+def _set_command(parser: argparse.ArgumentParser, command: Callable[..., int | None]) -> None:
+    """What a parser runs, with the option that all commands have."""
+    text = "show the traceback of an error, for a report of a defect"
+    parser.add_argument("--traceback", action="store_true", help=text)
+    parser.set_defaults(command=command)
 
 
 def _version(parsed: argparse.Namespace) -> int:
@@ -150,7 +199,22 @@ def _load(name: str) -> Any:
     return open_scene(name)
 
 
+def _check_folder(folder: Path | None) -> None:
+    """Refuse a folder that cannot be written to before the work, not after it."""
+    if folder is None:
+        return
+    nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())
+    if not nearest.is_dir():
+        hint = f"{nearest} is a file"
+    elif not os.access(nearest, os.W_OK):
+        hint = f"{nearest} is not writable"
+    else:
+        return
+    raise DescriptionError("--out", str(folder), "be a folder that can be written to", hint=hint)
+
+
 def _run(parsed: argparse.Namespace) -> None:
+    _check_folder(parsed.out)
     device = _load(parsed.scene)
     with _progress(f"run {device.name}") as progress:
         report = device.run(parsed.out, progress)
@@ -162,6 +226,7 @@ def _plan(parsed: argparse.Namespace) -> None:
 
 
 def _cost(parsed: argparse.Namespace) -> None:
+    _check_folder(parsed.out)
     device = _load(parsed.scene)
     with _progress(f"cost of {device.name}") as progress:
         report = device.cost(parsed.out, progress, parsed.error)
@@ -180,10 +245,11 @@ def _build(parsed: argparse.Namespace) -> None:
         what = parsed.what
         start = FmuStart(what, {}) if what in FMUS else _load(what).fmu_start()
         name, path = start.name, build(start.name, parsed.out, start=start.values)
-    problems = validate(path)
-    print(
-        f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, " + ("; ".join(problems) or "valid")
-    )
+    print(f"{path}: {name}, {path.stat().st_size / 1024:.0f} KiB, ", end="", flush=True)
+    try:
+        print("; ".join(validate(path)) or "valid")
+    except MissingExtraError as error:
+        print(f"not checked: {error}")
 
 
 def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
@@ -209,7 +275,6 @@ def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
 def _drive_start(what: str) -> Mapping[str, Any]:
     """Start values of the drive of a scene; none for a drive built by its name."""
     from .app.run.injector.cosimulation import drive_start
-    from .errors import PlanError
     from .fmu.python.build import FMUS
 
     if what == "valve-drive":
@@ -224,8 +289,6 @@ def _drive_start(what: str) -> Mapping[str, Any]:
 
 def _check_build(parsed: argparse.Namespace) -> None:
     """Refuse contradictory options before anything is built."""
-    from .errors import DescriptionError, PlanError
-
     if parsed.fmi != "2" and not parsed.native:
         raise PlanError(
             "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
@@ -247,12 +310,14 @@ def _check_build(parsed: argparse.Namespace) -> None:
         )
     if parsed.out.suffix != ".fmu":
         raise DescriptionError("--out", str(parsed.out), "end in .fmu")
+    _check_folder(parsed.out.parent)
 
 
 def _system(parsed: argparse.Namespace) -> None:
     from .app.system import write_system
 
     out = parsed.out or Path(f"{Path(parsed.scene).stem}.ssp")
+    _check_folder(out.parent)
     path = write_system(parsed.scene, out, native=parsed.native)
     kind = "both in C" if parsed.native else "both in Python"
     print(f"{path}: drive and mass, {kind}, {path.stat().st_size / 1024:.0f} KiB")
@@ -261,17 +326,35 @@ def _system(parsed: argparse.Namespace) -> None:
 def _crosscheck(parsed: argparse.Namespace) -> None:
     from .app.crosscheck import write_crosscheck
 
+    _check_folder(parsed.out)
     paths = write_crosscheck(parsed.out, fmus=not parsed.no_fmu)
     print("written: " + ", ".join(str(path) for path in paths))
 
 
 def _show(report: Any, as_json: bool) -> None:
+    """Print the numbers and the files that are there, then draw the pictures."""
     if as_json:
-        print(json.dumps(_scalars(report.scalars), indent=2))
+        print(json.dumps(_scalars(report.scalars), indent=2), flush=True)
+    else:
+        print(report.text)
+        _print_files("written", report.files)
+    if report.draw is None:
         return
-    print(report.text)
-    if report.files:
-        print("written: " + ", ".join(str(path) for path in report.files))
+    try:
+        drawn = report.draw()
+    except ImportError as error:
+        missing = missing_extra(error, "drawing the pictures")
+        if missing is None:
+            raise
+        _report(str(missing))
+        return
+    if not as_json:
+        _print_files("drawn", drawn)
+
+
+def _print_files(what: str, files: Sequence[Path]) -> None:
+    if files:
+        print(f"{what}: " + ", ".join(map(str, files)), flush=True)
 
 
 def _scalars(scalars: Mapping[str, tuple[Any, str]]) -> dict[str, dict[str, Any]]:

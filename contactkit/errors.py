@@ -9,6 +9,7 @@ __all__ = [
     "ConvergenceError",
     "DescriptionError",
     "InfeasibleError",
+    "MissingExtraError",
     "NotSimulatedError",
     "PlanError",
     "ValidityWarning",
@@ -88,6 +89,10 @@ class ConvergenceError(ContactkitError, RuntimeError):
 
 class NotSimulatedError(ContactkitError, LookupError):
     """A quantity of an effect that the scene does not include."""
+
+
+class MissingExtraError(ContactkitError, ImportError):
+    """An optional package is not installed; the message names the extra that installs it."""
 
 
 class ValidityWarning(UserWarning):

@@ -401,7 +401,7 @@ def _read_instrument(
             "HeightMap.path",
             str(file),
             f"end in .npy, .xyz, {', '.join(_MATRICES)}",
-            hint="files of instruments need pip install 'contactkit[maps]'",
+            hint="files of instruments need pip install contactkit[maps]",
         ) from error
     try:
         with warnings.catch_warnings():

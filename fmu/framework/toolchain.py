@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import ContactkitError, DescriptionError
+from ...errors import ContactkitError, DescriptionError, MissingExtraError
 
 __all__ = ["PLATFORMS", "compile_kernel", "fmi_headers", "has_zig", "kernel_sources", "local"]
 
@@ -105,7 +105,10 @@ def fmi_headers(fmi: int = 2) -> dict[str, bytes]:
     """
     found = importlib.util.find_spec("fmpy")
     if found is None or found.origin is None:
-        raise ContactkitError('building a native FMU needs fmpy: pip install "contactkit[fmu]"')
+        raise MissingExtraError(
+            "building a native FMU needs fmpy, which is not installed: pip install contactkit[fmu]",
+            name="fmpy",
+        )
     folder = Path(found.origin).parent / "c-code"
     try:
         return {name: (folder / name).read_bytes() for name in _HEADERS[fmi]}
@@ -176,13 +179,11 @@ def _driver(name: str, compiler: str) -> list[str]:
     if compiler != "cc" and has_zig():
         return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[name].target]
     if compiler == "zig" or name != local():
-        raise ContactkitError(
-            f'compiling for {name} needs ziglang: pip install "contactkit[native]"'
-        )
+        raise ContactkitError(f"compiling for {name} needs ziglang: pip install contactkit[native]")
     own = os.environ.get("CC", "cc").split()
     if not own or shutil.which(own[0]) is None:
         raise ContactkitError(
-            'a native FMU needs a C compiler: set CC, or pip install "contactkit[native]"'
+            "a native FMU needs a C compiler: set CC, or pip install contactkit[native]"
         )
     return own
 

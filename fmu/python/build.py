@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
-import importlib.util
 import json
 import os
 import subprocess
@@ -20,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...errors import ContactkitError, DescriptionError
+from ...extras import require
 from ..contents.document import Page, external_dependencies, index_page, license_text
 from ..contents.packing import write_archive
 from ..contents.terminals import terminal_files
@@ -130,21 +130,16 @@ def build(
 
 def validate(path: str | os.PathLike[str]) -> list[str]:
     """Problems that fmpy finds in an FMU; none if it is fine."""
-    _require("fmpy", "checking an FMU")
+    require("fmpy", "checking an FMU")
     from fmpy.validation import validate_fmu
 
     return [str(problem) for problem in validate_fmu(os.fspath(path))]
 
 
-def _require(package: str, purpose: str) -> None:
-    if importlib.util.find_spec(package) is None:
-        raise ContactkitError(f'{purpose} needs {package}: pip install "contactkit[fmu]"')
-
-
 def _slave_class(name: str) -> type[PortSlave]:
     if name not in FMUS:
         raise DescriptionError("FMU", name, "be one of " + ", ".join(FMUS))
-    _require("pythonfmu", "building an FMU")
+    require("pythonfmu", "building an FMU")
     module, class_name = FMUS[name]
     slave: type[PortSlave] = getattr(
         importlib.import_module(f"..{module}", __package__), class_name

@@ -102,10 +102,11 @@ def test_momentum_balances_over_the_first_opening(short, runs):
 @pytest.mark.slow
 def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
     made = report(short.scene, runs, tmp_path)
-    names = {path.name for path in made.files}
+    files = (*made.files, *made.draw())
+    names = {path.name for path in files}
     assert {"release-zoom.png", "delay-against-temperature.png", "tension-limit.png"} <= names
     assert {"force-balance_minus20degC.png", "signals_80degC.csv", "signals_80degC.npz"} <= names
-    assert all(path.stat().st_size > 1000 for path in made.files)
+    assert all(path.stat().st_size > 1000 for path in files)
     assert "coupling" in made.text
     assert "never" in made.text
     assert made.scalars["release_delay_80degC_limited"][1] == "s"

@@ -139,7 +139,8 @@ def test_the_fmus_agree_with_the_monolithic_model(short, run):
 @pytest.mark.slow
 def test_the_report_and_its_figures(short, run, tmp_path):
     made = report(short.scene, run, tmp_path, lambda fraction: None)
-    names = {path.name for path in made.files}
+    files = (*made.files, *made.draw())
+    names = {path.name for path in files}
     assert names == {
         "signals.csv",
         "signals.npz",
@@ -151,7 +152,7 @@ def test_the_report_and_its_figures(short, run, tmp_path):
         "release-against-humidity.png",
         "force-gap.png",
     }
-    assert all(path.stat().st_size > 100 for path in made.files)
+    assert all(path.stat().st_size > 100 for path in files)
     for word in ("it is the force that fails", "spring alone", "pulls in at", "OUT OF RANGE"):
         assert word in made.text
     assert made.scalars["smallest_reset_90_percent"][1] == "V"

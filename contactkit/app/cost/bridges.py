@@ -169,8 +169,11 @@ def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progre
             key = f"{found.quantity} / {p.method} / {p.label}"
             scalars |= {f"{key} / error": (p.error, "-"), f"{key} / seconds": (p.seconds, "s")}
         lines.append(_advice(found, error))
-    files = _write((forces, ruptures), scene, out) if out is not None else ()
-    return Report(scalars, "\n".join(lines), files)
+    text = "\n".join(lines)
+    if out is None:
+        return Report(scalars, text)
+    both = (forces, ruptures)
+    return Report(scalars, text, _write(both, out), partial(_draw, both, scene, out))
 
 
 def _rows(found: WorkPrecision) -> list[str]:
@@ -202,17 +205,9 @@ def _advice(found: WorkPrecision, error: float) -> str:
     )
 
 
-def _write(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Path, ...]:
+def _write(found: Sequence[WorkPrecision], out: Path) -> tuple[Path, ...]:
     from ...files.scenes import write_whole
-    from ...plot import separation as plot
 
-    made, axes = plot.figure(1, 2, size=(10.5, 5.0))
-    names = [case.label for case in scene.bridges]
-    for one, ax in zip(found, axes, strict=True):
-        plot.closures(one, ax, names)
-    plot.title(axes[0], f"{scene.name}: force, up to {scene.reach:g} of the limit")
-    plot.title(axes[1], "rupture distance")
-    plot.shared_legend(made, axes[0])
     table = out / "cost.csv"
     rows = [
         f'"{one.quantity}","{p.method}","{p.label}",{p.error!r},{p.seconds!r}'
@@ -222,4 +217,17 @@ def _write(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[P
     head = "quantity,closure,bridge,error [-],seconds for each gap or bridge [s]"
     with write_whole(table) as temporary:
         temporary.write_text("\n".join([head, *rows, ""]))
-    return plot.save(made, out / "cost"), table
+    return (table,)
+
+
+def _draw(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Path, ...]:
+    from ...plot import separation as plot
+
+    made, axes = plot.figure(1, 2, size=(10.5, 5.0))
+    names = [case.label for case in scene.bridges]
+    for one, ax in zip(found, axes, strict=True):
+        plot.closures(one, ax, names)
+    plot.title(axes[0], f"{scene.name}: force, up to {scene.reach:g} of the limit")
+    plot.title(axes[1], "rupture distance")
+    plot.shared_legend(made, axes[0])
+    return (plot.save(made, out / "cost"),)

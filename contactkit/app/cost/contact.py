@@ -72,8 +72,11 @@ def contact_cost(
             scalars[f"{key} / seconds"] = (point.seconds, "s")
             scalars |= {f"{key} / {k}": (v, "-") for k, v in point.counts.items()}
     scalars |= {f"effects up to {e.name} / seconds": (e.seconds, "s") for e in effects}
-    files = _write(solvers, grids, effects, out, scene.name or "contact") if out is not None else ()
-    return Report(scalars, "\n".join(text), files)
+    if out is None:
+        return Report(scalars, "\n".join(text))
+    files = _write(solvers, grids, effects, out)
+    draw = partial(_draw, solvers, grids, effects, out, scene.name or "contact")
+    return Report(scalars, "\n".join(text), files, draw)
 
 
 def _advice(found: WorkPrecision, error: float) -> str:
@@ -230,9 +233,27 @@ def _write(
     grids: WorkPrecision | None,
     effects: tuple[EffectCost, ...],
     out: Path,
-    name: str,
 ) -> tuple[Path, ...]:
     from ...files.scenes import write_whole
+
+    table = out / "cost.csv"
+    rows = ["method,setting,error [-],seconds [s]"]
+    for found in (solvers, grids):
+        points = found.points if found is not None else ()
+        rows += [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in points]
+    rows += [f'"effects up to","{e.name}",,{e.seconds!r}' for e in effects]
+    with write_whole(table) as temporary:
+        temporary.write_text("\n".join([*rows, ""]))
+    return (table,)
+
+
+def _draw(
+    solvers: WorkPrecision,
+    grids: WorkPrecision | None,
+    effects: tuple[EffectCost, ...],
+    out: Path,
+    name: str,
+) -> tuple[Path, ...]:
     from ...plot import separation as plot
 
     made, axes = plot.figure(1, 2 if grids is None else 3, size=(15.0 if grids else 10.0, 4.6))
@@ -245,12 +266,4 @@ def _write(
         [e.name for e in effects], [e.seconds for e in effects], axes[-1], "seconds of the solve"
     )
     plot.title(axes[-1], "effects, one after another")
-    table = out / "cost.csv"
-    rows = ["method,setting,error [-],seconds [s]"]
-    for found in (solvers, grids):
-        points = found.points if found is not None else ()
-        rows += [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in points]
-    rows += [f'"effects up to","{e.name}",,{e.seconds!r}' for e in effects]
-    with write_whole(table) as temporary:
-        temporary.write_text("\n".join([*rows, ""]))
-    return plot.save(made, out / "cost"), table
+    return (plot.save(made, out / "cost"),)

@@ -6,7 +6,7 @@ The error is that of the first release against a monolithic solution at a tight 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -45,11 +45,16 @@ def injector_cost(
 ) -> Report:
     """Measure the injector: a table, numbers, and pictures of it and of the coupling schemes."""
     found = cost_report(injector_sweep(scene, progress), out, error, scene.name)
-    if out is None:
+    if out is None or found.draw is None:
         return found
+    return found._replace(draw=partial(_draw, found.draw, out))
+
+
+def _draw(cost_picture: Callable[[], Sequence[Path]], out: Path) -> tuple[Path, ...]:
+    """The picture of the costs, then that of the coupling schemes, which are run for it."""
     from .coupling import coupling_picture
 
-    return found._replace(files=(*found.files, coupling_picture(out)))
+    return (*cost_picture(), coupling_picture(out))
 
 
 def injector_sweep(scene: InjectorScene, progress: Progress) -> WorkPrecision:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,19 +28,26 @@ def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str)
         key = f"{point.method} / {point.label}"
         scalars |= {f"{key} / error": (point.error, "-"), f"{key} / seconds": (point.seconds, "s")}
         scalars |= {f"{key} / {count}": (value, "-") for count, value in point.counts.items()}
-    files = _write(found, out, name) if out is not None else ()
-    return Report(scalars, f"{found.table()}\n{advice}", files)
+    text = f"{found.table()}\n{advice}"
+    if out is None:
+        return Report(scalars, text)
+    return Report(scalars, text, _write(found, out), partial(_draw, found, out, name))
 
 
-def _write(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
+def _write(found: WorkPrecision, out: Path) -> tuple[Path, ...]:
     from ...files.scenes import write_whole
+
+    table = out / "cost.csv"
+    with write_whole(table) as temporary:
+        rows = [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in found.points]
+        temporary.write_text("\n".join(["method,setting,error [-],seconds [s]", *rows, ""]))
+    return (table,)
+
+
+def _draw(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
     from ...plot import separation as plot
 
     made, ax = plot.figure(size=(8.0, 5.2))
     plot.work_precision(found, ax, "osD^vP*X<>hdp")
     plot.title(ax, f"{name}: what accuracy costs")
-    table = out / "cost.csv"
-    with write_whole(table) as temporary:
-        rows = [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in found.points]
-        temporary.write_text("\n".join(["method,setting,error [-],seconds [s]", *rows, ""]))
-    return plot.save(made, out / "cost"), table
+    return (plot.save(made, out / "cost"),)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -50,8 +51,11 @@ def run_contact(
         scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
     )
     scalars: dict[str, tuple[Any, str]] = dict(result.scalars())
-    files = _write(result, studies, out) if out is not None else ()
-    return Report(scalars, _text(result, studies), files)
+    text = _text(result, studies)
+    if out is None:
+        return Report(scalars, text)
+    files = _write(result, studies, out)
+    return Report(scalars, text, files, partial(_figures, result, studies, out))
 
 
 def _studies(
@@ -112,7 +116,6 @@ def _write(
     for label, made in studies:
         name = "load-curve" if len(studies) == 1 else f"load-curve-{_slug(label)}"
         files.append(made.save_csv(out / name))
-    files += _figures(result, studies, out)
     return tuple(files)
 
 

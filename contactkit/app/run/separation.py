@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,8 +30,10 @@ def run_separation(
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
         result = simulate(made, progress=progress)
     scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
-    files = _write(result, out) if out is not None else ()
-    return Report(scalars, _text(made, result), files)
+    text = _text(made, result)
+    if out is None:
+        return Report(scalars, text)
+    return Report(scalars, text, _write(result, out), partial(_draw, result, out))
 
 
 def _text(made: Plan, result: SeparationResult) -> str:
@@ -48,13 +51,18 @@ def _text(made: Plan, result: SeparationResult) -> str:
 
 def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
     from ...files.results import save_csv, save_result
-    from ...plot import separation as plot
 
     headings = {name: column.heading for name, column in result.plan.columns.items()}
-    files = [
+    return (
         save_result(result, out / "result"),
         save_csv(out / "result", result.columns, headings),
-    ]
+    )
+
+
+def _draw(result: SeparationResult, out: Path) -> tuple[Path, ...]:
+    from ...plot import separation as plot
+
+    files = []
     if any(force.name in result.columns for force in result.plan.forces):
         made, ax = plot.figure()
         plot.forces(result, ax)

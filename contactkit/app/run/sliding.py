@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,8 +29,9 @@ def run_sliding(scene: SlidingScene, out: Path | None, progress: Progress) -> Re
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
         result = simulate(plan_sliding(scene), progress=progress)
     scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
-    files = _write(result, out) if out is not None else ()
-    return Report(scalars, _text(result), files)
+    if out is None:
+        return Report(scalars, _text(result))
+    return Report(scalars, _text(result), _write(result, out), partial(_draw, result, out))
 
 
 def _text(result: SlidingResult) -> str:
@@ -47,14 +49,18 @@ def _text(result: SlidingResult) -> str:
 
 def _write(result: SlidingResult, out: Path) -> tuple[Path, ...]:
     from ...files.results import save_csv, save_result
-    from ...plot import separation as plot
 
     headings = {name: column.heading for name, column in result.plan.columns.items()}
-    made, ax = plot.figure()
-    plot.slide(result, ax)
-    plot.title(ax, result.plan.scene.name)
     return (
         save_result(result, out / "result"),
         save_csv(out / "result", result.columns, headings),
-        plot.save(made, out / "forces"),
     )
+
+
+def _draw(result: SlidingResult, out: Path) -> tuple[Path, ...]:
+    from ...plot import separation as plot
+
+    made, ax = plot.figure()
+    plot.slide(result, ax)
+    plot.title(ax, result.plan.scene.name)
+    return (plot.save(made, out / "forces"),)

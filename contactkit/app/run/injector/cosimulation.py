@@ -10,8 +10,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ....errors import PlanError
-from ....fmu.slaves.stiction_mass import mass_values
-from ....fmu.slaves.valve_drive import drive_values
 from ....models.injector.scene import InjectorScene, end_stop_faces
 from ....models.injector.valve import Valve
 from ....separation.effects.registry import TensionLimit
@@ -79,6 +77,7 @@ def build_fmus(scene: InjectorScene, folder: Path) -> InjectorFmus:
         If an FMU is not valid.
     """
     from ....fmu.python.build import build, validate
+    from ....fmu.slaves.stiction_mass import mass_values
 
     start = mass_values(scene.separation(scene.temperature))
     drive = build("valve-drive", folder / "valve-drive.fmu", start=drive_start(scene.valve))
@@ -91,6 +90,8 @@ def build_fmus(scene: InjectorScene, folder: Path) -> InjectorFmus:
 
 def drive_start(valve: Valve) -> dict[str, Any]:
     """Start values of the FMU ``valve-drive``, with the curve of rough end-stop faces."""
+    from ....fmu.slaves.valve_drive import drive_values
+
     curve = end_stop_faces(valve)
     return drive_values(valve) | ({} if curve is None else {"curve": curve})
 
@@ -103,6 +104,7 @@ def _cosimulate(
     progress: Progress,
 ) -> InjectorRun:
     from ....fmu.master.injector import Fmu, cosimulate
+    from ....fmu.slaves.stiction_mass import mass_values
     from ....models.injector.monolithic import simulate
 
     film = scene.separation(temperature, limited=limited)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -119,8 +120,11 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
     impacts, numbers = end_stop_numbers(scene, runs, keys)
     scalars |= numbers
     lines += [*spread, *impacts, *_validity(runs)]
-    files = _write(scene, runs, out, dry) if out is not None else ()
-    return Report(scalars, "\n".join(lines), files)
+    text = "\n".join(lines)
+    if out is None:
+        return Report(scalars, text)
+    files = _write(scene, runs, out)
+    return Report(scalars, text, files, partial(_draw, scene, runs, out, dry))
 
 
 def _limited(run: InjectorRun) -> str:
@@ -157,11 +161,7 @@ def _validity(runs: Sequence[InjectorRun]) -> list[str]:
     return lines
 
 
-def _write(
-    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
-) -> tuple[Path, ...]:
-    from .figures import draw
-
+def _write(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> tuple[Path, ...]:
     files = []
     for run in runs:
         limit = "" if run.limited else "_without_tension_limit"
@@ -175,4 +175,12 @@ def _write(
             "units": {n: p.unit for n, p in run.coupled.ports.items()} | {"time": "s"},
         }
         files += [save_csv(file, columns, headings), save_npz(file, columns, header)]
-    return (*files, *draw(scene, runs, out, dry))
+    return tuple(files)
+
+
+def _draw(
+    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
+) -> tuple[Path, ...]:
+    from .figures import draw
+
+    return draw(scene, runs, out, dry)

@@ -9,7 +9,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ....errors import PlanError
-from ....fmu.slaves.tip_contact import tip_values
 from ....models.micromirror.coupling import FmuTip, Motion, TipSides, couple
 from ....models.micromirror.mirror import Mirror, root_height
 from ....models.micromirror.scene import MicromirrorScene
@@ -71,6 +70,8 @@ def tip_start(scene: MicromirrorScene, humidity: float) -> dict[str, Any]:
     PlanError
         If the FMU cannot represent the scene; says what stands against it.
     """
+    from ....fmu.slaves.tip_contact import tip_values
+
     tips, stop = scene.mirror.tips, scene.stop
     values = tip_values(tip_scene(scene.tip, humidity))
     values |= {"N": tips.per_side, "c": tips.damping}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -84,8 +85,11 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
     }
     for one in found:
         scalars |= _scalars(scene, one)
-    files = _write(scene, run, found, out) if out is not None else ()
-    return Report(scalars, "\n".join(lines), files)
+    text = "\n".join(lines)
+    if out is None:
+        return Report(scalars, text)
+    files = _write(scene, run, found, out)
+    return Report(scalars, text, files, partial(_draw, scene, run, found, out))
 
 
 def _landed_text(scene: MicromirrorScene, landed: Landing) -> list[str]:
@@ -237,8 +241,6 @@ def _scalars(scene: MicromirrorScene, one: Release) -> dict[str, tuple[Any, str]
 def _write(
     scene: MicromirrorScene, run: MirrorRun, found: Sequence[Release], out: Path
 ) -> tuple[Path, ...]:
-    from .figures import draw
-
     columns = dict(run.coupled.signals)
     units = dict(zip(SIGNALS, UNITS, strict=True))
     headings = {name: f"{name} [{unit}]" for name, unit in units.items()}
@@ -272,5 +274,12 @@ def _write(
         save_csv(out / "signals", columns, headings),
         save_npz(out / "signals", columns, header),
         save_csv(out / "release", table, heads),
-        *draw(scene, run, found, out),
     )
+
+
+def _draw(
+    scene: MicromirrorScene, run: MirrorRun, found: Sequence[Release], out: Path
+) -> tuple[Path, ...]:
+    from .figures import draw
+
+    return draw(scene, run, found, out)
