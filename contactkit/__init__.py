@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from .analyses.humidity_curve import humidity_curve
     from .analyses.load_displacement.solve import load_displacement
     from .as_published.lookup import PUBLISHED, published
+    from .contact.discretisation import discretisation_error
     from .contact.effects.elasticity import HalfSpace, LayeredHalfSpace
     from .contact.effects.film import FilmMeniscus
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
@@ -183,6 +184,7 @@ _HOMES = {
     "load_result": "files.results",
     "load_scene": "files.scenes",
     "plan": "planning",
+    "discretisation_error": "contact.discretisation",
     "press": "contact.press",
     "published": "as_published.lookup",
     "save_result": "files.results",
@@ -261,6 +263,7 @@ __all__ = [
     "adhesion_curve",
     "advance",
     "critical_meniscus",
+    "discretisation_error",
     "divide_meniscus",
     "divide_sliding",
     "humidity_curve",

@@ -5,9 +5,14 @@ grid           Heights of surfaces on a grid, and the grid of a scene.
 prepared       Preparation of a plan, done once: heights, compliance and solver.
 plan           Plan of a contact: checked and prepared.
 solve          Solve a planned contact, and run the effects that observe it.
+validity       Ranges of validity: resolution, small slopes, small strains.
+pixel_edges    Edges between the pixels in and out of contact.
+companion      A coarser companion of a contact, on fewer pixels.
+discretisation Error of the grid, estimated from a coarser companion.
 friction_loop  Displacement caused by friction, until it agrees with the pressure.
 hardness_loop  Hardness that depends on the displacement, until they agree.
 film_loop      Load that includes the force of a film: equilibria.
+film_estimate  Size of a film force that is reported only, were it in balance.
 effects        The physics a contact scene may list.
 solver         Contact solver: active set on nested grids.
 work           Counts and seconds of a solve.

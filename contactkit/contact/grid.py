@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["combined_heights", "grid_of", "realise"]
+__all__ = ["ShortWave", "combined_heights", "grid_of", "realise", "short_waves"]
 
 
 def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
@@ -109,6 +110,76 @@ def _read(surface: Measured, changed: int) -> Heights:
     return Heights(heights=-heights if surface.flipped else heights, pixel_size=found.pixel_size)
 
 
+class ShortWave(NamedTuple):
+    """A wave that a surface states: the field with its length [m], and the pixel along it [m]."""
+
+    field: str
+    length: float
+    pixel: float
+
+
+def short_waves(surface: Surface, grid: Grid) -> tuple[ShortWave, ...]:
+    """Shortest waves that a surface states, those of its parts each; none of a height map."""
+    if isinstance(surface, CombinedSurface):
+        return tuple(wave for part in surface.parts for wave in short_waves(part, grid))
+    dy, dx = grid.pixel_size
+    if isinstance(surface, GaussianRoughness | SelfAffineRoughness):
+        name = f"{type(surface).__name__}.cutoff"
+        return (ShortWave(name, surface.cutoff, max(dy, dx)),)
+    if isinstance(surface, Wave):
+        along_x = ShortWave("Wave.wavelength", surface.wavelength, dx)
+        if surface.wavelength_y is None:
+            return (along_x,)
+        return (along_x, ShortWave("Wave.wavelength_y", surface.wavelength_y, dy))
+    return ()
+
+
+def _check_surface(surface: Surface, grid: Grid) -> None:
+    """Refuse a surface that does not fit the grid, before any heights are made."""
+    for wave in short_waves(surface, grid):
+        if wave.length < 2.0 * wave.pixel * (1.0 - 1e-12):
+            raise DescriptionError(
+                wave.field,
+                wave.length,
+                f"be at least two pixels, {2.0 * wave.pixel:g} m",
+                unit="m",
+                hint="a finer Accuracy.grid, or a longer wave",
+            )
+    if isinstance(surface, Wave) and grid.periodic:
+        _check_period(surface, grid)
+    if isinstance(surface, Sphere):
+        _check_reach(surface, grid)
+
+
+def _check_period(surface: Wave, grid: Grid) -> None:
+    (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
+    lengths = (
+        ("wavelength", surface.wavelength, nx * dx),
+        ("wavelength_y", surface.wavelength_y, ny * dy),
+    )
+    for name, length, size in lengths:
+        if length is not None and abs(size / length - round(size / length)) > 1e-9 * size / length:
+            raise DescriptionError(
+                f"Wave.{name}",
+                length,
+                f"fit a whole number of times into the periodic window of {size:g} m",
+                unit="m",
+            )
+
+
+def _check_reach(surface: Sphere, grid: Grid) -> None:
+    (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
+    reach = 0.5 * math.hypot(ny * dy, nx * dx)
+    if reach >= surface.radius:
+        raise DescriptionError(
+            "Sphere.radius",
+            surface.radius,
+            f"exceed half the diagonal of the window, {reach:g} m",
+            unit="m",
+            hint="use a smaller window, or Paraboloid",
+        )
+
+
 def combined_heights(scene: ContactScene, grid: Grid) -> Map:
     """Sum of the heights of both bodies [m], (ny, nx)."""
     lower, upper = scene.interface.lower.surface, scene.interface.upper.surface
@@ -133,6 +204,7 @@ def realise(surface: Surface, grid: Grid) -> Map:
     """
     import numpy as np
 
+    _check_surface(surface, grid)
     if isinstance(surface, CombinedSurface):
         total = np.zeros(grid.shape)
         for part in surface.parts:
@@ -159,48 +231,19 @@ def _round(surface: Paraboloid | Sphere, grid: Grid) -> Map:
     if isinstance(surface, Paraboloid):
         second = surface.radius_y if surface.radius_y is not None else surface.radius
         return elementary.paraboloid(grid.shape, grid.pixel_size, surface.radius, second)
-    reach = (
-        0.5
-        * float(
-            (grid.shape[0] * grid.pixel_size[0]) ** 2 + (grid.shape[1] * grid.pixel_size[1]) ** 2
-        )
-        ** 0.5
-    )
-    if reach >= surface.radius:
-        raise DescriptionError(
-            "Sphere.radius",
-            surface.radius,
-            f"exceed half the diagonal of the window, {reach:g} m",
-            unit="m",
-            hint="use a smaller window, or Paraboloid",
-        )
     return elementary.sphere(grid.shape, grid.pixel_size, surface.radius)
 
 
 def _wave(surface: Wave, grid: Grid) -> Map:
     from ..roughness import elementary
 
-    sizes = (grid.shape[1] * grid.pixel_size[1], grid.shape[0] * grid.pixel_size[0])
     lengths = (surface.wavelength, surface.wavelength_y)
-    names, pixels = ("wavelength", "wavelength_y"), grid.pixel_size[::-1]
-    for name, size, length, pixel in zip(names, sizes, lengths, pixels, strict=True):
-        if length is None:
-            continue
-        _resolved(f"Wave.{name}", length, pixel)
-        if grid.periodic and abs(size / length - round(size / length)) > 1e-9 * size / length:
-            raise DescriptionError(
-                f"Wave.{name}",
-                length,
-                f"fit a whole number of times into the periodic window of {size:g} m",
-                unit="m",
-            )
     return elementary.wave(grid.shape, grid.pixel_size, surface.amplitude, *lengths)
 
 
 def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
     from ..roughness import random_surfaces
 
-    _resolved(f"{type(surface).__name__}.cutoff", surface.cutoff, max(grid.pixel_size))
     if isinstance(surface, GaussianRoughness):
         return random_surfaces.gaussian_exponential(
             grid.shape,
@@ -217,14 +260,3 @@ def _rough(surface: GaussianRoughness | SelfAffineRoughness, grid: Grid) -> Map:
         random_surfaces.SelfAffineSpectrum(surface.hurst, surface.rolloff, surface.cutoff),
         surface.seed,
     )
-
-
-def _resolved(name: str, length: float, pixel: float) -> None:
-    if length < 2.0 * pixel * (1.0 - 1e-12):
-        raise DescriptionError(
-            name,
-            length,
-            f"be at least two pixels, {2.0 * pixel:g} m",
-            unit="m",
-            hint="a finer Accuracy.grid, or a longer wave",
-        )

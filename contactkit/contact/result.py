@@ -12,8 +12,10 @@ from attrs import field, frozen
 
 from ..errors import NotSimulatedError
 from ..scene.result import Result
+from ..scene.validity import ValidityNumber
 from .effects.base import ContactEffect
 from .effects.plasticity import HardnessLimit
+from .pixel_edges import pixel_edges
 from .plan import ContactPlan
 from .work import ContactWork
 
@@ -53,6 +55,8 @@ class ContactResult(Result):
         Counts and seconds.
     parts : mapping of effect class to its part
         The parts of all effects; `of` gives one of them.
+    validity : tuple of ValidityNumber
+        Whether grid and models were inside their ranges.
     """
 
     plan: ContactPlan = field(repr=False)
@@ -67,6 +71,7 @@ class ContactResult(Result):
     energy: float
     work: ContactWork
     parts: Mapping[type[ContactEffect[Any]], object] = field(repr=False)
+    validity: tuple[ValidityNumber, ...] = field(repr=False)
 
     @property
     def columns(self) -> Mapping[str, Map]:
@@ -94,9 +99,8 @@ class ContactResult(Result):
         Anciaux and Molinari 2017). Spots should be several pixels wide; the result is at least 0.
         """
         touching, (dy, dx) = self.contact, self.plan.grid.pixel_size
-        along_x = _edges(touching, 1, self.plan.grid.periodic)
-        along_y = _edges(touching, 0, self.plan.grid.periodic)
-        excess = (math.pi - 1.0 + math.log(2.0)) / 24.0 * (along_x + along_y) * dx * dy
+        edges = pixel_edges(touching, self.plan.grid.periodic).total
+        excess = (math.pi - 1.0 + math.log(2.0)) / 24.0 * edges * dx * dy
         return max(self.contact_area - excess, 0.0)
 
     @property
@@ -175,11 +179,3 @@ class ContactResult(Result):
             read = ((scalar, scalar.read(part)) for scalar in kind.scalars)
             found |= {one.name: (value, one.unit) for one, value in read if value is not None}
         return found | {"residual": (self.residual, "-"), "energy": (self.energy, "J")}
-
-
-def _edges(touching: NDArray[np.bool_], axis: int, periodic: bool) -> int:
-    """Number of edges between pixels in and out of contact that are neighbours along an axis."""
-    if periodic:
-        return int((touching ^ np.roll(touching, 1, axis)).sum())
-    inner = int(np.diff(touching, axis=axis).sum())
-    return inner + int(touching.take([0, -1], axis).sum())

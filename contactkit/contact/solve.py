@@ -8,13 +8,16 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ConvergenceError, DescriptionError
+from ..scene.validity import warn
 from .effects.base import Contact, ContactEffect, LoadTerm
 from .effects.plasticity import HardnessLimit
+from .film_estimate import self_consistent_force
 from .film_loop import pulled_together
 from .friction_loop import Target
 from .hardness_loop import Solved, contact_of, solve_with_hardness
 from .plan import ContactPlan
 from .result import ContactResult
+from .validity import check_contact
 from .work import WorkCounter
 
 if TYPE_CHECKING:
@@ -23,7 +26,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["solve"]
+__all__ = ["solve", "solve_unwarned"]
 
 
 class _Answer(NamedTuple):
@@ -56,7 +59,7 @@ def solve(
     Returns
     -------
     ContactResult
-        Maps, numbers, residual and cost.
+        Maps, numbers, residual, validity and cost.
 
     Raises
     ------
@@ -64,6 +67,11 @@ def solve(
         If the tolerance is not reached; carries the result so far.
     InfeasibleError
         If the bodies cannot carry the load.
+
+    Warns
+    -----
+    ValidityWarning
+        For each number of `ContactResult.validity` that is out of its range.
 
     Examples
     --------
@@ -83,6 +91,18 @@ def solve(
     >>> f"{result.max_pressure / 1e9:.2f} GPa, approach {result.approach * 1e9:.1f} nm"
     '1.27 GPa, approach 75.0 nm'
     """
+    result = solve_unwarned(plan, start=start, throw=throw)
+    warn(result.validity)
+    return result
+
+
+def solve_unwarned(
+    plan: ContactPlan,
+    *,
+    start: ContactResult | Sequence[ContactResult] | None = None,
+    throw: bool = True,
+) -> ContactResult:
+    """Solve a contact as `solve` does; the caller reports the validity of the result."""
     counter = WorkCounter()
     target = _target(plan, start)
     answer = _solve_all(plan, target, counter)
@@ -123,6 +143,8 @@ def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answ
     for effect in plan.scene.effects:
         begun = time.perf_counter()
         if type(effect) not in parts and (part := effect.observe(contact)) is not None:
+            if isinstance(effect, LoadTerm) and effect.needs_balance(contact, part):
+                part = effect.estimated(part, self_consistent_force(plan, effect))
             parts[type(effect)] = part
             counter.clock(effect.name, begun)
     return _Answer(solved, contact, parts)
@@ -151,4 +173,5 @@ def _result(plan: ContactPlan, answer: _Answer, counter: WorkCounter) -> Contact
         energy=solution.energy,
         work=counter.work(),
         parts=MappingProxyType(parts),
+        validity=check_contact(contact, plan.heights, parts),
     )

@@ -11,9 +11,11 @@ import attrs
 import numpy as np
 
 from ..accuracy import Accuracy
+from ..contact.effects.base import Contact
 from ..contact.effects.registry import CONTACT_EFFECTS
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
+from ..contact.validity import check_contact
 from ..contact.work import ContactWork
 from ..scene.scenes import ContactScene
 from ..scene.window import Grid
@@ -67,18 +69,20 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     (ny, nx), (dy, dx), periodic = header["grid"]
     grid, work = Grid((ny, nx), (dy, dx), periodic), header["work"]
     accuracy = Accuracy(**header["accuracy"])
+    maps = {name: arrays[name] for name in _MAPS}
+    parts = {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}
+    contact = Contact(scene, grid, maps["pressure"], maps["displacement"], maps["gap"])
     return ContactResult(
         plan=ContactPlan(scene, accuracy, grid),
         status=header["status"],
         message=header["message"],
-        **{name: arrays[name] for name in _MAPS},
+        **maps,
         rigid_approach=header["rigid_approach"],
         residual=header["residual"],
         energy=header["energy"],
         work=ContactWork(**work | {"stages": MappingProxyType(work["stages"])}),
-        parts=MappingProxyType(
-            {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}
-        ),
+        parts=MappingProxyType(parts),
+        validity=check_contact(contact, maps["heights"], parts),
     )
 
 

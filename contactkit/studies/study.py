@@ -241,9 +241,11 @@ def _warn(points: list[StudyPoint]) -> None:
     ]
     if outside:
         n = sum(any(note in outside for note in p.notes) for p in points)
+        texts = [note.partition(": ")[2] for note in outside]
+        names = list(dict.fromkeys(text.partition(" = ")[0] for text in texts))
+        also = f" (also: {', '.join(names[1:])})" if names[1:] else ""
         warnings.warn(
-            f"{n} of {len(points)} points are outside the range of a model: "
-            + outside[0].partition(": ")[2],
+            f"{n} of {len(points)} points are outside the range of a model: {texts[0]}{also}",
             ValidityWarning,
             stacklevel=4,
         )

@@ -141,9 +141,20 @@ class Study:
 
     def _remarks(self) -> list[str]:
         failed = [f"point {i}: {p.message}" for i, p in enumerate(self.points) if p.has_failed]
-        notes = [f"point {i}: {note}" for i, p in enumerate(self.points) for note in p.notes]
+        notes = self._notes()
         stored = len(self.points) - self.n_solved
         return [*failed, *notes, *([f"{stored} points from the store"] if stored else [])]
+
+    def _notes(self) -> list[str]:
+        """Notes of the points, those that differ in their number only once."""
+        first: dict[str, str] = {}
+        places: dict[str, list[int]] = {}
+        for i, point in enumerate(self.points):
+            for note in point.notes:
+                kind = note.partition(" = ")[0]
+                first.setdefault(kind, note)
+                places.setdefault(kind, []).append(i)
+        return [f"{_points(places[kind])}: {note}" for kind, note in first.items()]
 
     def save_csv(self, path: str | Path) -> Path:
         """Write all columns to a CSV file, headed by name and unit, atomically.
@@ -165,6 +176,11 @@ class Study:
                 cells = [_text(_number(point, n), digits=10) for n in names]
                 writer.writerow([*cells, point.status, point.message])
         return path
+
+
+def _points(places: list[int]) -> str:
+    more = len(places) - 1
+    return f"point {places[0]}" + (f" and {more} more" if more else "")
 
 
 def _number(point: StudyPoint, name: str) -> Any:

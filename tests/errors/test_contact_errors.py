@@ -25,6 +25,8 @@ import contactkit as ck
 from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.scene.effect import as_written
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
 BARE = ck.Material(name="bare", young_modulus=1e9, poisson_ratio=0.3)
 FILM = ck.Layer(material=BARE, thickness=1e-9)

@@ -11,6 +11,8 @@ import contactkit as ck
 from contactkit.files import contact_results as contact_archive
 from contactkit.studies import run as study_run
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
 ACCURACY = ck.Accuracy(grid=16, rtol=1e-4)
 

@@ -11,6 +11,8 @@ import pytest
 import contactkit as ck
 from contactkit.contact.solver.optimality import height_scale
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 E, NU = 1e9, 0.3
 SOLID = ck.Material(young_modulus=E, poisson_ratio=NU, hardness=5e7)
 ROUGH = ck.GaussianRoughness(rms=1e-9, correlation_length=1e-7, cutoff=6e-8, seed=3)

@@ -15,6 +15,8 @@ from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.result import ContactResult
 from contactkit.files.results import from_bytes, to_bytes
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 
 def decades(low, high):
     return st.floats(low, high).map(lambda exponent: 10.0**exponent)

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 import contactkit as ck
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 few = settings(max_examples=12)
 E, NU = 1e9, 0.3
 SOLID = ck.Material(young_modulus=E, poisson_ratio=NU)

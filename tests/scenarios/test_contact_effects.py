@@ -12,6 +12,8 @@ import pytest
 import contactkit as ck
 from contactkit.contact.effects.registry import CONTACT_EFFECTS
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
 DLC = ck.Material(name="dlc", young_modulus=140e9, poisson_ratio=0.25, hardness=20e9)
 COATED = ck.Stack(layers=(ck.Layer(material=DLC, thickness=5e-9),), substrate=STEEL)

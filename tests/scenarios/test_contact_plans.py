@@ -15,6 +15,8 @@ from contactkit.contact.effects.friction import FrictionCoupling
 from contactkit.contact.effects.plasticity import HardnessLimit
 from contactkit.contact.plan import unprepared_plan
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 STEEL = ck.Material(young_modulus=210e9, poisson_ratio=0.3, hardness=7.5e9)
 HARD = ck.Material(young_modulus=210e9, poisson_ratio=0.2, hardness=2e10)
 FILM = ck.Layer(

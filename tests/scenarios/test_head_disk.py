@@ -12,6 +12,8 @@ import contactkit as ck
 from contactkit.app.scenes import open_scene
 from contactkit.cli import main
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 SMALL = """
 name = "small contact"
 

@@ -19,6 +19,8 @@ from contactkit.app.scenes import open_scene
 from contactkit.models.micromirror.landing import land, tip_faces
 from contactkit.numerics.monotone_cubic import monotone_curve, monotone_slopes, power_curve
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 HARDNESS = 7.5e9
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=HARDNESS)
 ROUGH = ck.SelfAffineRoughness(rms=0.2e-6, hurst=0.8, rolloff=30e-6, cutoff=6e-6, seed=1)

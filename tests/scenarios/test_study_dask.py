@@ -10,7 +10,10 @@ import pytest
 
 import contactkit as ck
 
-pytestmark = pytest.mark.slow  # a cluster of processes
+pytestmark = [
+    pytest.mark.slow,  # a cluster of processes
+    pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning"),
+]
 
 ACCURACY = ck.Accuracy(grid=32, rtol=1e-8)
 PRESSURES = [1e7, 2e7, 4e7, 8e7]

@@ -19,11 +19,12 @@ from ...contact.effects.base import Compliance, DisplacementTerm, LoadTerm, Pres
 from ...contact.effects.plasticity import HardnessLimit
 from ...contact.plan import ContactPlan, plan_contact
 from ...contact.result import ContactResult
-from ...contact.solve import solve
+from ...contact.solve import solve_unwarned
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
 from ...numerics.monotone_cubic import power_curve
 from ...scene.loading import Approach, ContactLoading, Pressing
 from ...scene.scenes import ContactScene
+from ...scene.validity import warn
 from .curve import HERTZ, LoadDisplacementCurve, Unloading
 
 if TYPE_CHECKING:
@@ -112,6 +113,11 @@ def load_displacement(
     volume. A hardness that depends on the load is that at the maximum approach. Left out: pile-up
     around a plastic spot, residual stress, hardening, and time.
 
+    Warns
+    -----
+    ValidityWarning
+        For each number of `ContactResult.validity` out of its range under the largest load.
+
     Examples
     --------
     Hertz: 4/3 E* sqrt(R) d^1.5.
@@ -141,7 +147,7 @@ def load_displacement(
     # With a pressure bound, nested grids are a better start than the loads before.
     is_bounded = plan.hardness is not None
     for i, value in enumerate(values):
-        result = solve(plan.with_loading(_loading(key, value)), start=before or None)
+        result = solve_unwarned(plan.with_loading(_loading(key, value)), start=before or None)
         before = [] if is_bounded else [result, *before][:_MAX_BEFORE]
         if result.load > 0.0:
             nodes.append(_node(result, nodes))
@@ -150,6 +156,7 @@ def load_displacement(
         raise InfeasibleError(
             f"only {len(nodes)} of {len(values)} points touch; impose larger loads or approaches"
         )
+    warn(result.validity)  # at the largest load; under a light one a spot is a pixel
     computed = _unloadings(plan, nodes, n_unloadings, report)
     return _tables(plan, nodes, computed, result.approach_datum)
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ...contact.discretisation import DiscretisationError
     from ...contact.result import ContactResult
 
 __all__ = ["contact_cost", "grid_sweep", "solver_sweep"]
@@ -51,10 +52,12 @@ def contact_cost(
     """Measure solvers, grids and effects of a scene: a table, numbers, and a picture."""
     solvers = solver_sweep(scene, accuracy, lambda done: progress(0.5 * done))
     grids = grid_sweep(scene, accuracy, lambda done: progress(0.5 + 0.3 * done))
+    discretised = _discretised(scene, accuracy)
     effects = effect_costs(scene, accuracy, lambda done: progress(0.8 + 0.2 * done))
     text = [solvers.table(), _advice(solvers, error), ""]
     if grids is not None:
         text += [grids.table(), ""]
+    text += [str(discretised or "discretisation error: needs even numbers of pixels"), ""]
     text.append(f"{'effects up to':24s} {'seconds':>9s} {'adds':>9s}  operator applications")
     before = 0.0
     for one in effects:
@@ -71,12 +74,24 @@ def contact_cost(
             scalars[f"{key} / error"] = (point.error, "-")
             scalars[f"{key} / seconds"] = (point.seconds, "s")
             scalars |= {f"{key} / {k}": (v, "-") for k, v in point.counts.items()}
+    errors = discretised.errors if discretised is not None else {}
+    scalars |= {f"discretisation error / {name}": (e, "-") for name, e in errors.items()}
     scalars |= {f"effects up to {e.name} / seconds": (e.seconds, "s") for e in effects}
     if out is None:
         return Report(scalars, "\n".join(text))
     files = _write(solvers, grids, effects, out)
     draw = partial(_draw, solvers, grids, effects, out, scene.name or "contact")
     return Report(scalars, "\n".join(text), files, draw)
+
+
+def _discretised(scene: ContactScene, accuracy: Accuracy) -> DiscretisationError | None:
+    """Errors of the contact alone on its own grid; None where its pixels cannot be halved."""
+    from ...contact.discretisation import discretisation_error
+
+    try:
+        return discretisation_error(_solved(_bare(scene), accuracy))
+    except DescriptionError:
+        return None
 
 
 def _advice(found: WorkPrecision, error: float) -> str:
@@ -172,9 +187,9 @@ class _Patience:
 
 
 def _solved(scene: ContactScene, accuracy: Accuracy) -> ContactResult:
-    from ...contact.solve import solve
+    from ...contact.solve import solve_unwarned
 
-    return solve(plan(scene, accuracy))
+    return solve_unwarned(plan(scene, accuracy))
 
 
 def _judged(scene: ContactScene, accuracy: Accuracy, exact: NDArray[np.float64]) -> Outcome:

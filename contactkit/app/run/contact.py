@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
@@ -12,6 +13,7 @@ from attrs import evolve
 from ...accuracy import Accuracy
 from ...contact.effects.film import FilmMeniscus
 from ...contact.effects.stress import SubsurfaceStress
+from ...errors import ValidityWarning
 from ...planning import plan
 from ...scene.scenes import ContactScene
 from ..report import Report
@@ -42,14 +44,16 @@ def run_contact(
     progress: Progress,
 ) -> Report:
     """Solve a contact and the studies of its file, and write maps and figures to a folder."""
-    from ...contact.solve import solve
+    from ...contact.solve import solve_unwarned
 
-    result = solve(plan(scene, accuracy))
+    result = solve_unwarned(plan(scene, accuracy))
     fraction = 0.5 if vary else 1.0
     progress(fraction)
-    studies = _studies(
-        scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
-    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
+        studies = _studies(
+            scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
+        )
     scalars: dict[str, tuple[Any, str]] = dict(result.scalars())
     text = _text(result, studies)
     if out is None:
@@ -96,6 +100,7 @@ def _text(result: ContactResult, studies: tuple[tuple[str, Study], ...]) -> str:
         shown = f"{value:.6g}" + ("" if unit == "-" else f" {unit}")
         lines.append(f"  {name.replace('_', ' '):34s} {shown}")
     lines.append(f"  approach and displacement from {result.approach_datum}")
+    lines += ["validity:", *(f"  {number}" for number in result.validity)]
     work = result.work
     lines.append(
         f"  {work.n_solves} solves, {work.n_operator_applications} operator applications, "

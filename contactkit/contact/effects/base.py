@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import ContactScene
+    from ...scene.validity import ValidityNumber
     from ...scene.window import Grid
 
     Map = NDArray[np.float64]
@@ -172,6 +173,10 @@ class ContactEffect(Effect, Generic[Part]):
         """Return what this effect adds to the result; None if it has no part of its own."""
         return None
 
+    def validity(self, contact: Contact, part: Any) -> tuple[ValidityNumber, ...]:
+        """Whether the model is in its range in a solved contact; `part` is that of the effect."""
+        return ()
+
 
 @frozen(kw_only=True)
 class Compliance(ContactEffect[None]):
@@ -215,6 +220,14 @@ class LoadTerm(ContactEffect[Part]):
     @abc.abstractmethod
     def force_of(self, part: Part) -> float:
         """Return the force [N] of a part."""
+
+    @abc.abstractmethod
+    def needs_balance(self, contact: Contact, part: Part) -> bool:
+        """Whether the force is left out of the load and too large for that."""
+
+    @abc.abstractmethod
+    def estimated(self, part: Part, force: float | None) -> Part:
+        """Return the part with an estimate of the force [N] that balances."""
 
     @abc.abstractmethod
     def balanced(self, part: Part, balance: Balance) -> Part:

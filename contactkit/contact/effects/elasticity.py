@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from attrs import frozen
 
+from ...scene.validity import ValidityNumber
 from .base import Compliance
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
-    from .base import Map, SymbolMaker
+    from .base import Contact, Map, SymbolMaker
 
 __all__ = ["HalfSpace", "LayeredHalfSpace", "layers_of"]
 
@@ -79,6 +80,23 @@ class LayeredHalfSpace(Compliance):
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
         """See `Compliance.prepare`."""
         return tuple(_maker(stack, grid.periodic) for stack in scene.interface.stacks)
+
+    def validity(self, contact: Contact, part: None) -> tuple[ValidityNumber, ...]:
+        """See `ContactEffect.validity`."""
+        layers = [layer for s in contact.scene.interface.stacks for layer in s.layers]
+        thinnest = min(layers, key=lambda layer: layer.thickness, default=None)
+        if thinnest is None:
+            return ()
+        return (
+            ValidityNumber(
+                name="layer thickness over pixel",
+                value=thinnest.thickness / max(contact.grid.pixel_size),
+                low=1.0,
+                detail=f"the pressure under a pixel cannot follow {thinnest.material.name} of "
+                f"{thinnest.thickness:g} m: it acts on long waves only; use a finer Accuracy.grid, "
+                "or a smaller window",
+            ),
+        )
 
 
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
+from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import optional, part, positive, refuse
 from .base import Balance, Contact, LoadTerm, Scalar
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...scene.scenes import ContactScene
+
+_WEAK = 0.1  # force over load up to which a film does not change the contact much
 
 __all__ = ["FilmMeniscus", "FilmPart"]
 
@@ -28,7 +31,9 @@ class FilmPart(NamedTuple):
     without a load. `equilibria` are the loads [N] on the contact at which load, film and elastic
     bodies are in balance: one where the force does not act back on the contact or does so mildly;
     with more, the bodies snap in beyond the second. `imbalance` is the imbalance over the load [-]
-    that remains at a step of the force, which is a sum over pixels.
+    that remains at a step of the force, which is a sum over pixels. `self_consistent_force` [N] is
+    an estimate of what the film would pull with if it added to the load, where it pulls so hard
+    that this matters; else None.
     """
 
     force: float
@@ -38,6 +43,19 @@ class FilmPart(NamedTuple):
     relative_force: float
     equilibria: tuple[float, ...] = ()
     imbalance: float = 0.0
+    self_consistent_force: float | None = None
+
+
+def _size(part: FilmPart, force: float) -> str:
+    """A force [N], alone and over the load."""
+    (load,) = part.equilibria
+    return f"{force:.2g} N" + (f", {force / load:.2g} times the load" if load > 0.0 else "")
+
+
+def _is_only_reported(effect: FilmMeniscus, contact: Contact) -> bool:
+    """Whether the film leaves alone a load that it adds to; an imposed approach is no load."""
+    load = contact.scene.loading.mean_pressure(contact.grid.area)
+    return load is not None and not effect.self_consistent
 
 
 def _connectivity(owner: object, attribute: Attribute[int], value: int) -> None:
@@ -74,6 +92,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         Scalar("meniscus_area", "m2", attrgetter("area")),
         Scalar("n_menisci", "-", attrgetter("n_menisci")),
         Scalar("n_equilibria", "-", lambda part: len(part.equilibria)),
+        Scalar("self_consistent_force", "N", attrgetter("self_consistent_force")),
     )
 
     film_thickness: float = field(validator=positive, metadata=si("m"))
@@ -125,6 +144,30 @@ class FilmMeniscus(LoadTerm[FilmPart]):
     def force_of(self, part: FilmPart) -> float:
         """See `LoadTerm.force_of`."""
         return part.force
+
+    def needs_balance(self, contact: Contact, part: FilmPart) -> bool:
+        """See `LoadTerm.needs_balance`."""
+        return _is_only_reported(self, contact) and part.relative_force > _WEAK
+
+    def estimated(self, part: FilmPart, force: float | None) -> FilmPart:
+        """See `LoadTerm.estimated`."""
+        return part._replace(self_consistent_force=force)
+
+    def validity(self, contact: Contact, part: FilmPart) -> tuple[ValidityNumber, ...]:
+        """See `ContactEffect.validity`."""
+        if not _is_only_reported(self, contact):
+            return ()
+        estimate = part.self_consistent_force
+        size = "" if estimate is None else f"; then it is about {_size(part, estimate)}"
+        return (
+            ValidityNumber(
+                name="film force over load",
+                value=part.relative_force,
+                high=_WEAK,
+                detail="as published, the film is reported and does not press the bodies together; "
+                f"use FilmMeniscus(self_consistent=True){size}",
+            ),
+        )
 
     def balanced(self, part: FilmPart, balance: Balance) -> FilmPart:
         """See `LoadTerm.balanced`."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 from attrs import Attribute, field, frozen
 
 from ...errors import DescriptionError
+from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, non_negative, positive
 from .base import (
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from .base import Map
+
+_MOST_PLASTIC = 0.5
 
 __all__ = ["HardnessLimit", "HardnessMap", "PlasticPart"]
 
@@ -203,6 +206,21 @@ class HardnessLimit(PressureBound[PlasticPart]):
         area = float(is_plastic.sum()) * contact.grid.pixel_area
         overlap = np.where(is_plastic, bounded.overlap, 0.0)
         return PlasticPart(is_plastic, area, bounded.hardness, overlap)
+
+    def validity(self, contact: Contact, part: PlasticPart) -> tuple[ValidityNumber, ...]:
+        """See `ContactEffect.validity`."""
+        touching = int((contact.pressure > 0.0).sum())
+        return (
+            ValidityNumber(
+                name="fraction of the contact at the hardness",
+                value=int(part.is_plastic.sum()) / touching if touching else None,
+                high=_MOST_PLASTIC,
+                detail="the volume that plastic flow displaces is left out, and elasticity carries "
+                "the rest of the load; lower the load, or take the area as load over hardness"
+                if touching
+                else "there is no contact",
+            ),
+        )
 
 
 def _constant(hardness: float | HardnessMap, grid: Grid) -> FixedHardness:

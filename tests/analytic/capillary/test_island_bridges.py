@@ -13,6 +13,8 @@ from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.film_islands import film_force, islands
 from contactkit.files.results import load_result, save_result
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 LIQUID = ck.Liquid(name="oil", surface_tension=0.03, density=900.0, molar_mass=0.4)
 RIGID = ck.Material(young_modulus=1e16, poisson_ratio=0.3)
 SOFT = ck.Material(young_modulus=2e9, poisson_ratio=0.3)

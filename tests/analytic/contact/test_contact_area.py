@@ -7,6 +7,8 @@ import pytest
 
 import contactkit as ck
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 SOFT = ck.Material(young_modulus=1e9, poisson_ratio=0.0)
 
 

@@ -11,6 +11,8 @@ import pytest
 import contactkit as ck
 from contactkit.reference import flat_punch, love_patch
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 NU = 0.3
 UNIT = ck.Material(young_modulus=1.0 - NU**2, poisson_ratio=NU)  # E* = 1 [Pa]
 LOAD = 1e-3

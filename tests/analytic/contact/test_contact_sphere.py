@@ -14,6 +14,8 @@ from selection import quick
 import contactkit as ck
 from contactkit.reference import hamilton, hertz
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 CASES = json.loads((Path(__file__).parents[2] / "data" / "contact.json").read_text("utf-8"))
 SPHERES = {case["name"]: case for case in CASES["spheres"]}
 

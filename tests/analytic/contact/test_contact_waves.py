@@ -12,6 +12,8 @@ import pytest
 import contactkit as ck
 from contactkit.reference import layered_wave, product_wave, westergaard
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 CASES = json.loads((Path(__file__).parents[2] / "data" / "contact.json").read_text("utf-8"))
 WAVES, LAYERED = CASES["waves"]["homogeneous"], CASES["waves"]["layered"]
 NU = 0.3

@@ -24,6 +24,8 @@ from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.contact_stop import ContactStop
 from contactkit.fmu.slaves.valve_drive import drive_values
 
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 OK, DISCARD = 0, 2
 STEP = 1e-6
 TOUCH = 25e-6

@@ -1,0 +1,40 @@
+"""Size of the film force of a contact whose film is reported only, were it to pull as well."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from attrs import evolve
+
+from ..accuracy import Accuracy
+from ..errors import InfeasibleError
+from .companion import coarser, largest_factor
+from .effects.base import Compliance, LoadTerm, PressureBound
+from .film_loop import pulled_together
+from .friction_loop import Target
+from .plan import ContactPlan
+from .work import WorkCounter
+
+__all__ = ["self_consistent_force"]
+
+_FEWEST = 96  # pixels along a side
+_ACCURACY = Accuracy(rtol=1e-3)
+
+
+def self_consistent_force(plan: ContactPlan, term: LoadTerm[Any]) -> float | None:
+    """Estimate the force [N] at the smallest balance of load, film and bodies.
+
+    Solved without friction, to a tenth of the load, on a companion of about a hundred pixels along
+    a side. None if the bodies cannot carry that load, or none is imposed.
+    """
+    coarse = coarser(plan, plan.heights, largest_factor(plan, _FEWEST), _ACCURACY)
+    kept = tuple(e for e in coarse.scene.effects if isinstance(e, Compliance | PressureBound))
+    coarse = evolve(coarse, scene=evolve(coarse.scene, effects=kept))
+    load = coarse.mean_pressure
+    if load is None:
+        return None
+    try:
+        found = pulled_together(coarse, term, load, Target(load, None), WorkCounter())
+    except InfeasibleError:
+        return None
+    return term.force_of(found.part)

@@ -1,0 +1,43 @@
+"""Edges between the pixels in and out of contact: the perimeter of the spots on the grid."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["PixelEdges", "pixel_edges"]
+
+
+class PixelEdges(NamedTuple):
+    """Numbers of edges crossed along x and along y."""
+
+    along_x: int
+    along_y: int
+
+    @property
+    def total(self) -> int:
+        """Number of edges."""
+        return self.along_x + self.along_y
+
+
+def pixel_edges(touching: NDArray[np.bool_], periodic: bool) -> PixelEdges:
+    """Count the edges between pixels in and out of contact; outside an isolated one there is none.
+
+    Examples
+    --------
+    >>> pixel_edges(np.array([[True, False], [True, False]]), periodic=False)
+    PixelEdges(along_x=4, along_y=2)
+    """
+    return PixelEdges(_edges(touching, 1, periodic), _edges(touching, 0, periodic))
+
+
+def _edges(touching: NDArray[np.bool_], axis: int, periodic: bool) -> int:
+    """Number of edges between pixels in and out of contact that are neighbours along an axis."""
+    if periodic:
+        return int((touching ^ np.roll(touching, 1, axis)).sum())
+    inner = int(np.diff(touching, axis=axis).sum())
+    return inner + int(touching.take([0, -1], axis).sum())

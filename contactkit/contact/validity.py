@@ -1,0 +1,143 @@
+"""Ranges of validity of a solved contact: resolution, small slopes, small strains."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..scene.validity import ValidityNumber
+from .effects.base import Contact, ContactEffect
+from .grid import short_waves
+from .pixel_edges import pixel_edges
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = ["check_contact"]
+
+_FEWEST_PER_WAVE = 8.0
+_FEWEST_PER_SPOT = 4.0
+_HIGHEST_PRESSURE = 0.2
+_STEEPEST = 0.3
+_HIGHEST_JUMP = 2.0
+
+
+def check_contact(
+    contact: Contact, heights: Map, parts: Mapping[type[ContactEffect[Any]], object]
+) -> tuple[ValidityNumber, ...]:
+    """Evaluate the numbers of a solved contact: its own, then those of its effects.
+
+    Parameters
+    ----------
+    contact : Contact
+        The solved contact.
+    heights : ndarray (ny, nx)
+        Heights of both bodies together [m].
+    parts : mapping of effect class to its part
+        What the effects computed.
+    """
+    found = [
+        _pixels_per_wave(contact),
+        _pixels_per_spot(contact),
+        _peak_pressure(contact),
+        _slope(contact, heights),
+    ]
+    if contact.grid.periodic:
+        found.append(_jump(heights))
+    effects = contact.scene.effects
+    own = [one for e in effects for one in e.validity(contact, parts.get(type(e)))]
+    return (*found, *own)
+
+
+def _pixels_per_wave(contact: Contact) -> ValidityNumber:
+    bodies = contact.scene.interface.bodies
+    waves = [wave for body in bodies for wave in short_waves(body.surface, contact.grid)]
+    shortest = min(waves, key=lambda wave: wave.length / wave.pixel, default=None)
+    return ValidityNumber(
+        name="pixels per shortest wave",
+        value=None if shortest is None else shortest.length / shortest.pixel,
+        low=_FEWEST_PER_WAVE,
+        detail="no surface states its shortest wave; see the pixels across a contact spot"
+        if shortest is None
+        else f"below, the maximum pressure is up to a quarter off (at 3 pixels) and stress more; "
+        f"use a finer Accuracy.grid, or a longer {shortest.field}",
+        source="measured, docs/accuracy.md, Contact",
+    )
+
+
+def _pixels_per_spot(contact: Contact) -> ValidityNumber:
+    """Diameter of discs with the same ratio of area to length of edge, in pixels."""
+    touching = contact.pressure > 0.0
+    area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.periodic)
+    diameter = 16.0 / math.pi * area / edges.total if edges.total else math.inf
+    return ValidityNumber(
+        name="pixels across a contact spot",
+        value=diameter if area else None,
+        low=_FEWEST_PER_SPOT,
+        detail="below, area and maximum pressure of the spots are those of the grid: more than a "
+        "tenth off; use a finer Accuracy.grid, or a smaller window"
+        if area
+        else "there is no contact",
+        source="16/pi x area/edges; measured, docs/accuracy.md, Contact",
+    )
+
+
+def _peak_pressure(contact: Contact) -> ValidityNumber:
+    surfaces = [stack.materials[0] for stack in contact.scene.interface.stacks]
+    modulus = 1.0 / sum(1.0 / material.plane_strain_modulus for material in surfaces)
+    return ValidityNumber(
+        name="peak pressure over E*",
+        value=float(contact.pressure.max()) / modulus,
+        high=_HIGHEST_PRESSURE,
+        detail=f"linear elasticity takes strains to be small; E* = {modulus:.3g} Pa; check the "
+        "units of heights and load, lower the load, or list HardnessLimit",
+        source="Johnson 1985, sections 4.1 and 6.1",
+    )
+
+
+def _slope(contact: Contact, heights: Map) -> ValidityNumber:
+    """Of all heights; in a window that is not periodic, of the rectangle around the contact."""
+    shown = heights if contact.grid.periodic else heights[_around(contact.pressure > 0.0)]
+    squares = 0.0
+    for axis, size in enumerate(contact.grid.pixel_size):
+        squares += float(np.square(np.diff(shown, axis=axis) / size).mean())
+    return ValidityNumber(
+        name="rms slope",
+        value=math.sqrt(squares),
+        high=_STEEPEST,
+        detail="a half-space takes slopes to be small; check the units of heights and pixel size",
+        source="Johnson 1985, section 4.1",
+    )
+
+
+def _around(touching: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """Rectangle of the contact with the pixels next to it; everything if nothing touches."""
+    if not touching.any():
+        return slice(None), slice(None)
+    ranges = []
+    for axis in (1, 0):
+        lines = np.flatnonzero(touching.any(axis=axis))
+        ranges.append(slice(max(int(lines[0]) - 1, 0), int(lines[-1]) + 2))
+    return ranges[0], ranges[1]
+
+
+def _jump(heights: Map) -> ValidityNumber:
+    """Step from the last line to the first over the largest step inside, rms along the line."""
+    worst = 0.0
+    for axis in (0, 1):
+        wrapped = heights.take(0, axis) - heights.take(-1, axis)
+        inside = np.sqrt(np.square(np.diff(heights, axis=axis)).mean(axis=1 - axis)).max()
+        step = math.sqrt(float(np.square(wrapped).mean()))
+        worst = max(worst, step / float(inside) if inside > 0.0 else (math.inf if step else 0.0))
+    return ValidityNumber(
+        name="jump at the edge of the periodic window",
+        value=worst,
+        high=_HIGHEST_JUMP,
+        detail="rms step of the heights across the edge over the largest inside: the edges do not "
+        "fit together and make a ridge; use Window(periodic=False), or a map that repeats",
+    )

@@ -1,0 +1,311 @@
+"""Every contact states whether its grid and its models are inside their ranges."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+import contactkit as ck
+from contactkit.contact.effects.base import Contact
+from contactkit.contact.validity import check_contact
+
+STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
+E_STAR = 210e9 / (1.0 - 0.3**2)
+
+
+def rough(cutoff=0.25e-6, rms=1e-9):
+    return ck.SelfAffineRoughness(rms=rms, hurst=0.8, rolloff=0.8e-6, cutoff=cutoff)
+
+
+ELASTIC = (ck.HalfSpace(),)
+
+
+def scene(surface=None, pressure=20e6, solid=STEEL, effects=ELASTIC, **window):
+    liquid = ck.load_liquid("water")
+    meniscus = ck.Meniscus(liquid=liquid, contact_angle_lower=1.0, contact_angle_upper=1.0)
+    return ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=solid), upper=surface or rough(), meniscus=meniscus
+        ),
+        window=ck.Window(**({"width": 2e-6} | window)),
+        loading=ck.Pressing(pressure=pressure),
+        effects=effects,
+    )
+
+
+def solved(given, grid=64):
+    """Result of a scene, and the names of the numbers it warns of."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = ck.solve(ck.plan(given, ck.Accuracy(grid=grid)))
+    assert {w.category for w in caught} <= {ck.ValidityWarning}
+    texts = [str(w.message) for w in caught]
+    out = [number for number in result.validity if number.is_valid is False]
+    assert texts == [str(number) for number in out]
+    return result, {number.name for number in out}
+
+
+def numbers(result):
+    return {number.name: number for number in result.validity}
+
+
+GOOD = scene(pressure=200e6)
+
+
+def test_a_contact_inside_all_ranges_warns_of_nothing():
+    result, out = solved(GOOD)
+    assert out == set()
+    assert all(number.is_valid for number in result.validity)
+
+
+@pytest.mark.parametrize(
+    ("given", "grid", "name", "value"),
+    [
+        (scene(rough(0.1e-6)), 64, "pixels per shortest wave", 3.2),
+        (scene(ck.Wave(amplitude=1e-8, wavelength=2e-6)), (4, 4), "pixels per shortest wave", 4.0),
+        (
+            scene(
+                ck.Wave(amplitude=1e-8, wavelength=2e-6, wavelength_y=0.25e-6),
+            ),
+            (32, 64),
+            "pixels per shortest wave",
+            4.0,
+        ),
+        (scene(pressure=1e3), 64, "pixels across a contact spot", 16.0 / np.pi / 4.0),
+        (scene(rough(rms=1e-6)), 64, "rms slope", None),
+        (scene(rough(rms=1e-6)), 64, "peak pressure over E*", None),
+        (
+            scene(effects=(ck.HalfSpace(), ck.HardnessLimit(rule="constant", hardness=25e6))),
+            64,
+            "fraction of the contact at the hardness",
+            None,
+        ),
+        (
+            scene(
+                solid=ck.Stack(layers=(ck.Layer(material=STEEL, thickness=5e-9),), substrate=STEEL),
+                effects=(ck.LayeredHalfSpace(),),
+            ),
+            64,
+            "layer thickness over pixel",
+            5e-9 / (2e-6 / 64),
+        ),
+        (
+            scene(effects=(ck.HalfSpace(), ck.FilmMeniscus(film_thickness=3e-9))),
+            64,
+            "film force over load",
+            None,
+        ),
+    ],
+    ids=lambda one: one if isinstance(one, str) else "",
+)
+def test_each_number_has_a_case_that_is_out_of_its_range(given, grid, name, value):
+    result, out = solved(given, grid)
+    assert name in out
+    number = numbers(result)[name]
+    if value is not None:
+        assert number.value == pytest.approx(value, rel=1e-12)
+    bound = number.low if np.isinf(number.high) else number.high
+    assert f"{bound:g}" in str(number)
+    assert any(cure in number.detail for cure in ("use ", "check ", "lower "))
+
+
+def test_the_peak_pressure_is_over_the_modulus_of_both_surfaces():
+    soft = ck.Material(young_modulus=70e9, poisson_ratio=0.5)
+    coated = ck.Stack(layers=(ck.Layer(material=soft, thickness=1e-6),), substrate=STEEL)
+    both = ck.Interface(lower=ck.Body(solid=coated), upper=ck.Body(surface=rough(), solid=STEEL))
+    result, _ = solved(evolve(GOOD, interface=both, effects=(ck.LayeredHalfSpace(),)))
+    modulus = 1.0 / (1.0 / E_STAR + (1.0 - 0.25) / 70e9)
+    found = numbers(result)["peak pressure over E*"].value
+    assert found == pytest.approx(result.max_pressure / modulus, rel=1e-12)
+
+
+def test_only_what_the_scene_calls_for_is_evaluated():
+    names = set(numbers(solved(GOOD)[0]))
+    assert names == {
+        "pixels per shortest wave",
+        "pixels across a contact spot",
+        "peak pressure over E*",
+        "rms slope",
+        "jump at the edge of the periodic window",
+    }
+    isolated, _ = solved(evolve(GOOD, window=ck.Window(width=2e-6, periodic=False)))
+    assert set(numbers(isolated)) == names - {"jump at the edge of the periodic window"}
+
+
+def test_without_contact_the_spots_are_not_evaluated():
+    result, out = solved(evolve(GOOD, loading=ck.Pressing(pressure=0.0)))
+    assert numbers(result)["pixels across a contact spot"].value is None
+    assert out == set()
+
+
+def test_full_contact_has_no_spots_to_resolve():
+    result, _ = solved(scene(ck.Wave(amplitude=1e-12, wavelength=2e-6), pressure=1e9))
+    assert result.contact_fraction == 1.0
+    assert numbers(result)["pixels across a contact spot"].value == np.inf
+
+
+def test_the_slope_is_that_of_the_heights():
+    wave = ck.Wave(amplitude=2e-8, wavelength=2e-6)
+    result, _ = solved(scene(wave), grid=256)
+    slope = 2.0 * np.pi * 2e-8 / 2e-6 / np.sqrt(2.0)
+    assert numbers(result)["rms slope"].value == pytest.approx(slope, rel=5e-3)
+
+
+def test_the_slope_of_a_tip_is_that_of_where_it_touches():
+    """Far from the contact of a paraboloid slopes are large and matter to nothing."""
+    tip = ck.Paraboloid(radius=100e-9)
+    given = scene(tip, pressure=5e6, width=200e-9, periodic=False)
+    result, out = solved(given, grid=128)
+    assert out == set()
+    assert numbers(result)["rms slope"].value < 0.1
+
+
+def press(heights, **more):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = ck.press(heights, 2e-6 / 64, STEEL, 20e6, **more)
+    assert {w.category for w in caught} <= {ck.ValidityWarning}
+    return result, {str(w.message).partition(" = ")[0] for w in caught}
+
+
+HEIGHTS = np.asarray(ck.plan(GOOD, ck.Accuracy(grid=64)).heights)
+
+
+def test_heights_in_another_unit_are_noticed():
+    assert press(HEIGHTS)[1] <= {"pixels across a contact spot"}
+    assert {"rms slope", "peak pressure over E*"} <= press(HEIGHTS * 1e6)[1]
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_tilted_map_does_not_fit_a_periodic_window(axis):
+    ramp = np.linspace(-5e-9, 5e-9, 64)
+    tilted = HEIGHTS + (ramp[:, None] if axis == 0 else ramp)
+    jump = "jump at the edge of the periodic window"
+    assert jump in press(tilted)[1]
+    assert jump not in press(tilted, periodic=False)[1]
+    assert jump not in press(HEIGHTS)[1]
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("axis", [0, 1])
+def test_the_edge_of_a_surface_that_repeats_is_like_any_line(seed, axis):
+    surface = evolve(rough(), seed=seed)
+    heights = np.asarray(ck.plan(scene(surface), ck.Accuracy(grid=64)).heights)
+    for shift in (0, 7, 31):
+        rolled = np.roll(heights, shift, axis)
+        grid = ck.plan(GOOD, ck.Accuracy(grid=64)).grid
+        contact = Contact(GOOD, grid, np.ones((64, 64)), np.zeros((64, 64)), np.zeros((64, 64)))
+        found = {n.name: n for n in check_contact(contact, rolled, {})}
+        assert found["jump at the edge of the periodic window"].value < 1.5
+
+
+def test_part_of_a_map_does_not_repeat():
+    jump = "jump at the edge of the periodic window"
+    assert jump in press(HEIGHTS[:33, :41])[1]
+
+
+def test_a_saved_result_states_the_same(tmp_path):
+    film = ck.FilmMeniscus(film_thickness=3e-9)
+    limit = ck.HardnessLimit(rule="constant", hardness=2e9)
+    result, _ = solved(evolve(GOOD, effects=(ck.HalfSpace(), limit, film)))
+    again = ck.load_result(result.save(tmp_path / "contact"))
+    assert again.validity == result.validity
+
+
+# A film as published ------------------------------------------------------------------------
+
+
+def filmed(pressure, self_consistent=False):
+    film = ck.FilmMeniscus(film_thickness=2e-9, self_consistent=self_consistent)
+    return solved(scene(pressure=pressure, effects=(ck.HalfSpace(), film)), grid=128)
+
+
+def test_a_film_that_pulls_more_than_the_load_says_what_it_would_pull_in_balance():
+    reported, out = filmed(1e5)
+    part = reported.of(ck.FilmMeniscus)
+    assert part.relative_force > 1.0
+    assert "film force over load" in out
+    number = numbers(reported)["film force over load"]
+    assert f"{part.self_consistent_force:.2g} N" in number.detail
+    balanced, out = filmed(1e5, self_consistent=True)
+    assert "film force over load" not in out
+    force = balanced.of(ck.FilmMeniscus).force
+    assert force > 2.0 * part.force
+    assert part.self_consistent_force == pytest.approx(force, rel=0.3)
+    assert balanced.of(ck.FilmMeniscus).self_consistent_force is None
+
+
+def test_a_weak_film_is_not_estimated():
+    reported, out = filmed(3e9)
+    part = reported.of(ck.FilmMeniscus)
+    assert part.relative_force < 0.1
+    assert part.self_consistent_force is None
+    assert "film force over load" not in out
+
+
+def test_an_imposed_approach_is_no_load_that_a_film_could_add_to():
+    film = ck.FilmMeniscus(film_thickness=2e-9)
+    given = scene(effects=(ck.HalfSpace(), film))
+    given = evolve(given, loading=ck.Approach(approach=1e-10))
+    result, _ = solved(given)
+    assert "film force over load" not in numbers(result)
+
+
+# Discretisation error -----------------------------------------------------------------------
+
+
+def sphere(grid):
+    ball = ck.Paraboloid(radius=1e-3)
+    given = scene(ball, pressure=4.5e7, width=60e-6, periodic=False)
+    return ck.solve(ck.plan(given, ck.Accuracy(grid=grid)))
+
+
+@pytest.mark.parametrize("grid", [48, 64, 96])
+def test_the_estimate_bounds_the_error_of_a_sphere(grid):
+    result = sphere(grid)
+    peak = (6.0 * result.load * E_STAR**2 / (np.pi**3 * 1e-3**2)) ** (1.0 / 3.0)
+    area = np.pi * (0.75 * result.load * 1e-3 / E_STAR) ** (2.0 / 3.0)
+    found = ck.discretisation_error(result)
+    assert abs(result.max_pressure / peak - 1.0) < found.errors["max_pressure"] + 1e-3 < 0.05
+    assert abs(result.corrected_contact_area / area - 1.0) < 0.02
+    assert abs(result.contact_area / area - 1.0) < 2.0 * found.errors["contact_area"] + 0.02
+    assert found.coarse.plan.grid.shape == (grid // 2, grid // 2)
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+def test_the_estimate_of_a_rough_contact_is_the_change_to_fewer_pixels():
+    result, _ = solved(scene(pressure=200e6, effects=(ck.HalfSpace(), ck.SubsurfaceStress())))
+    found = ck.discretisation_error(result)
+    half = ck.solve(
+        ck.plan(
+            scene(
+                ck.Heights(heights=result.heights[::2, ::2], pixel_size=2e-6 / 32),
+                pressure=200e6,
+                width=None,
+            )
+        )
+    )
+    change = abs(half.max_pressure / result.max_pressure - 1.0)
+    assert found.errors["max_pressure"] == pytest.approx(change, rel=1e-5)
+    assert "max_von_mises" in found.errors
+    assert not {"load", "mean_pressure", "residual"} & found.errors.keys()
+    assert "max_pressure" in str(found)
+    assert "32 x 32" in str(found)
+
+
+def test_a_hardness_map_goes_with_the_pixels():
+    hardness = ck.HardnessMap(np.full((64, 64), 5e8))
+    limit = ck.HardnessLimit(rule="constant", hardness=hardness)
+    result, _ = solved(scene(effects=(ck.HalfSpace(), limit)))
+    found = ck.discretisation_error(result)
+    assert found.errors["max_pressure"] < 0.2
+    assert found.coarse.of(ck.HardnessLimit).is_plastic.shape == (32, 32)
+
+
+def test_an_odd_number_of_pixels_has_no_companion():
+    result, _ = solved(GOOD, grid=63)
+    with pytest.raises(ck.DescriptionError, match=r"Accuracy.grid .*multiples of 2"):
+        ck.discretisation_error(result)
