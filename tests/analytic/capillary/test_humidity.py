@@ -218,6 +218,7 @@ def test_a_narrow_population_is_identical_and_a_wide_one_a_mean_of_spheres():
 # A solved contact ---------------------------------------------------------------------------
 
 
+@pytest.mark.filterwarnings("ignore:pixels across:contactkit.errors.ValidityWarning")
 def test_a_smooth_ball_in_contact_is_one_island_with_the_bridge_of_its_sphere():
     solid = ck.Material(young_modulus=1e15, poisson_ratio=0.3)
     radius = 2e-6
@@ -248,6 +249,7 @@ def test_a_smooth_ball_in_contact_is_one_island_with_the_bridge_of_its_sphere():
         cut.coverage  # noqa: B018
 
 
+@pytest.mark.filterwarnings("ignore:pixels across:contactkit.errors.ValidityWarning")
 def test_the_cross_cut_is_that_of_the_film_islands():
     rng = np.random.default_rng(1)
     heights = ck.Heights(heights=2e-9 * rng.normal(size=(24, 24)), pixel_size=5e-8)

@@ -275,6 +275,7 @@ def test_a_pair_of_fmus_bounces_as_the_monolithic_model(soft, tmp_path):
     assert numbers["landing_energy_dissipated"][0] == plus["W_land"] + minus["W_land"] > 0.0
 
 
+@pytest.mark.filterwarnings("ignore:fraction of the contact:contactkit.errors.ValidityWarning")
 def test_it_starts_at_rest(soft):
     plan = tip_law(soft.tip, 0.0, 1e-7)
     still = evolve(soft.mirror, waveform=evolve(soft.mirror.waveform, start_delay=1.0))
@@ -324,6 +325,7 @@ def test_on_a_rigid_site_there_is_nothing_to_damp(scene, open_fmu, tmp_path):
 # Scene files --------------------------------------------------------------------------------
 
 
+@pytest.mark.filterwarnings("ignore:fraction of the contact:contactkit.errors.ValidityWarning")
 def test_a_scene_names_its_faces(soft):
     table = unstructure(soft)["mirror"]["tips"]
     assert table["faces"]["contact"] == hertz_scene()
