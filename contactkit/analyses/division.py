@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from attrs import field, frozen
+from attrs import astuple, field, frozen
 
 from ..capillary import many_menisci as menisci
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..scene.scenes import SeparationScene
+    from ..separation.effects.base import SeparationForce
 
     Floats = NDArray[np.float64]
 
@@ -63,22 +64,26 @@ class DivisionResult:
     best_force: float
     limit_gap: Floats = field(repr=False)
     contact_radius: Floats = field(repr=False)
-    _forces: DivisionLaw = field(repr=False)
+    _meniscus_force: Floats | None = field(repr=False)
+    _viscous_force: Floats | None = field(repr=False)
 
     @property
     def meniscus_force(self) -> Floats:
         """Force of all menisci together at the initial gap [N]; positive resists."""
-        return self._forces.demand(MeniscusForce)(self._volumes, self.counts.astype(float))
+        return _listed(MeniscusForce, self._meniscus_force)
 
     @property
     def viscous_force(self) -> Floats:
         """Mean viscous force of all over the opening [N]: impulse over its duration."""
-        return self._forces.demand(ViscousForce)(self._volumes, self.counts.astype(float))
+        return _listed(ViscousForce, self._viscous_force)
 
     @property
     def total_force(self) -> Floats:
         """Sum of the forces in the scene [N]."""
-        return self._forces.total(self._volumes, self.counts.astype(float))
+        one, other = self._meniscus_force, self._viscous_force
+        if one is None or other is None:
+            return _listed(MeniscusForce, one if other is None else other)
+        return one + other
 
     @property
     def coverage(self) -> Floats:
@@ -99,10 +104,6 @@ class DivisionResult:
     def sources(self) -> tuple[str, ...]:
         """Sources of the equations of the law."""
         return (SOURCES[self.law],)
-
-    @property
-    def _volumes(self) -> Floats:
-        return np.asarray(_volume(self.scene) / self.counts)
 
     def __str__(self) -> str:
         return (
@@ -185,11 +186,22 @@ def divide_meniscus(
         force,
         made.limit(volumes),
         made.radius(volumes),
-        made,
+        None if made.meniscus is None else made.meniscus(volumes, stable.astype(float)),
+        None if made.viscous is None else made.viscous(volumes, stable.astype(float)),
     )
-    for array in (found.counts, found.limit_gap, found.contact_radius):
-        array.flags.writeable = False
+    for array in astuple(found, recurse=False):
+        if isinstance(array, np.ndarray):
+            array.flags.writeable = False
     return found
+
+
+def _listed(kind: type[SeparationForce], force: Floats | None) -> Floats:
+    """Return a force, or refuse one that the scene does not list."""
+    if force is None:
+        raise NotSimulatedError(
+            f"the scene does not call for it: add {kind.__name__}() to its effects"
+        )
+    return force
 
 
 def _volume(scene: SeparationScene) -> float:

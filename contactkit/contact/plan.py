@@ -174,6 +174,10 @@ class ContactPlan(ScenePlan):
         """Return the plan without its preparation, which is repeated if it is solved."""
         return ContactPlan(self.scene, self.accuracy, self.grid, self.hardness, self.liquid)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the scene on its grid; what is prepared is prepared again where it is used."""
+        return ContactPlan, (self.scene, self.accuracy, self.grid)
+
 
 def plan_contact(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan:
     """Check a contact scene and prepare its solve.

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 from attrs import field, frozen
 
 from ..errors import NotSimulatedError
+from ..frozen import FrozenDict
 from ..scene.result import Result
 from ..scene.validity import ValidityNumber
 from .effects.base import ContactEffect
@@ -77,7 +77,7 @@ class ContactResult(Result):
     def columns(self) -> Mapping[str, Map]:
         """The maps by their names; ``result["gap"]`` is one of them."""
         names = ("pressure", "gap", "displacement", "heights")
-        return MappingProxyType({name: getattr(self, name) for name in names})
+        return FrozenDict({name: getattr(self, name) for name in names})
 
     @property
     def contact(self) -> NDArray[np.bool_]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ConvergenceError, DescriptionError
+from ..frozen import FrozenDict
 from ..scene.validity import warn
 from .effects.base import Contact, ContactEffect, LoadTerm
 from .effects.plasticity import HardnessLimit
@@ -172,6 +172,6 @@ def _result(plan: ContactPlan, answer: _Answer, counter: WorkCounter) -> Contact
         residual=solution.kkt,
         energy=solution.energy,
         work=counter.work(),
-        parts=MappingProxyType(parts),
+        parts=FrozenDict(parts),
         validity=check_contact(contact, plan.heights, parts),
     )

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import NamedTuple
 
+from ..frozen import FrozenDict
 from .solver.contact_solver import Solution
 
 __all__ = ["ContactWork", "WorkCounter"]
@@ -56,5 +56,5 @@ class WorkCounter:
             **self._solutions,
             has_fallen_back=self._has_fallen_back,
             seconds=time.perf_counter() - self._begun,
-            stages=MappingProxyType(dict(self._stages)),
+            stages=FrozenDict(dict(self._stages)),
         )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import attrs
@@ -17,6 +16,7 @@ from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.validity import check_contact
 from ..contact.work import ContactWork
+from ..frozen import FrozenDict
 from ..scene.scenes import ContactScene
 from ..scene.window import Grid
 from .structure import structure, unstructure, with_arrays
@@ -80,8 +80,8 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
         rigid_approach=header["rigid_approach"],
         residual=header["residual"],
         energy=header["energy"],
-        work=ContactWork(**work | {"stages": MappingProxyType(work["stages"])}),
-        parts=MappingProxyType(parts),
+        work=ContactWork(**work | {"stages": FrozenDict(work["stages"])}),
+        parts=FrozenDict(parts),
         validity=check_contact(contact, maps["heights"], parts),
     )
 
@@ -116,7 +116,7 @@ def _decode(value: Any, arrays: Arrays) -> Any:
         fields = {n: _decode(v, arrays) for n, v in value["fields"].items()}
         return _record(value["record"])(**fields)
     if "mapping" in value:
-        return MappingProxyType({k: _decode(v, arrays) for k, v in value["mapping"].items()})
+        return FrozenDict({k: _decode(v, arrays) for k, v in value["mapping"].items()})
     if "tuple" in value:
         return tuple(_decode(v, arrays) for v in value["tuple"])
     return float(value["float"])

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from attrs import fields
+
 from ..errors import DescriptionError
 from .effect import Effect
 from .plan import ScenePlan
@@ -89,8 +91,32 @@ class Result(abc.ABC):
 
         return save_result(self, path)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the fields; arrays are read-only again in the copy."""
+        kind: Any = type(self)  # an attrs class, as every result is
+        return _restored, (kind, [getattr(self, a.name) for a in fields(kind)])
+
     def __str__(self) -> str:
         numbers = self.scalars()
         width = max(map(len, numbers), default=0)
         lines = [f"  {name:{width}s}  {v:.6g} {unit}" for name, (v, unit) in numbers.items()]
         return "\n".join([f"{self.status}: {self.message}", *lines])
+
+
+def _restored(kind: type[Result], values: list[Any]) -> Result:
+    """Result of its fields, read from a pickle or copied."""
+    for value in values:
+        _lock(value)
+    return kind(*values)
+
+
+def _lock(value: Any) -> None:
+    """Make the arrays in a value read-only, as they were before they were pickled or copied."""
+    if getattr(value, "ndim", 0):
+        value.flags.writeable = False
+    elif isinstance(value, Mapping):
+        for one in value.values():
+            _lock(one)
+    elif isinstance(value, tuple):
+        for one in value:
+            _lock(one)

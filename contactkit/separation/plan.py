@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from attrs import evolve, field, frozen
 
@@ -103,6 +103,10 @@ class Plan(ScenePlan):
     def title(self) -> str:
         """See `ScenePlan.title`."""
         return f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the scene, of which the same plan is made again: laws are functions."""
+        return plan, (self.scene, self.accuracy)
 
 
 def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:

@@ -32,6 +32,7 @@ from scipy.optimize import minimize_scalar
 
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import ConvergenceError, DescriptionError, PlanError
+from ...frozen import FrozenDict
 from ...separation.motion.state import MotionState, outputs
 from ...separation.plan import Film, Plan
 from ..ode_events import crossing, slopes_of, watch
@@ -181,7 +182,7 @@ def read(
     for column in columns.values():
         column.flags.writeable = False
     return MonolithicResult(
-        columns=MappingProxyType(columns),
+        columns=FrozenDict(columns),
         cycles=_cycles(plan, drive, pieces, events),
         events=tuple(events),
         n_steps=counts[0],

@@ -13,7 +13,7 @@ FOLDERS = {"contactkit": "contactkit", "contactkit.fmu": "fmu", "contactkit.mode
 
 # From the ground up. Rooms on one floor do not know each other.
 FLOORS = [
-    ["reference", "errors", "_lazy"],
+    ["reference", "errors", "frozen", "_lazy"],
     ["units", "extras"],
     ["validators", "work_precision", "numerics"],
     ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],

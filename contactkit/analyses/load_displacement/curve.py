@@ -14,10 +14,11 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
+from functools import partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from attrs import evolve, field, frozen
+from attrs import evolve, field, fields, frozen
 
 from ...errors import DescriptionError, InfeasibleError
 from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
@@ -287,6 +288,11 @@ class LoadDisplacementCurve:
         self._keep(_normalized=self._normalized_unloading())
         self._keep(_ends=tuple(one.max_approach for one in self._normalized))
         self._keep(_last=UnloadingCurve(), _dissipated=(-1.0, 0.0))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the tables, of which the same curve is made again: its splines are functions."""
+        given = {a.name: getattr(self, a.name) for a in fields(type(self)) if a.init}
+        return partial(type(self), **given), ()
 
     def _keep(self, **made: Any) -> None:
         for name, value in made.items():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from attrs import evolve, field, frozen
 
@@ -94,6 +94,10 @@ class SlidingPlan(ScenePlan):
         return (
             f"{self.scene.name or 'sliding'}: {self.scene.loading.summary}, travel {self.end:g} m"
         )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the scene, of which the same plan is made again: laws are functions."""
+        return plan_sliding, (self.scene, self.accuracy)
 
 
 def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> SlidingPlan:
