@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 from attrs import Attribute, field, frozen
 
 from .units import si
-from .validators import as_pair, choice, count, refuse
+from .validators import Described, as_pair, choice, count, refuse
 
 __all__ = ["Accuracy"]
 
@@ -28,7 +28,7 @@ def _grid(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 @frozen(kw_only=True)
-class Accuracy:
+class Accuracy(Described):
     """Numerical settings of a plan; the first three apply to separation, the others to contact.
 
     Parameters

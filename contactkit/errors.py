@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 __all__ = [
@@ -13,7 +14,23 @@ __all__ = [
     "NotSimulatedError",
     "PlanError",
     "ValidityWarning",
+    "nearest",
 ]
+
+
+def nearest(name: object, known: Iterable[str]) -> str:
+    """Suggest the nearest of the known names, or list them.
+
+    Examples
+    --------
+    >>> nearest("viscus_force", ["gap", "viscous_force"])
+    "did you mean 'viscous_force'?"
+    """
+    import difflib  # for this alone
+
+    names = list(known)
+    close = difflib.get_close_matches(str(name), names, n=1, cutoff=0.55)
+    return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(names)}"
 
 
 class ContactkitError(Exception):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, overload
 
 from .accuracy import Accuracy
+from .scene.plan import check_scene
 from .scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .separation.plan import Plan
 from .separation.plan import plan as plan_separation
@@ -52,6 +53,7 @@ def plan(
     InfeasibleError
         If the scene has no answer.
     """
+    check_scene(scene, (ContactScene, SeparationScene, SlidingScene))
     if isinstance(scene, ContactScene):
         from .contact.plan import plan_contact
 

@@ -47,13 +47,15 @@ cSt = 1e-6
 deg = math.pi / 180.0
 
 _ZERO_CELSIUS = 273.15
+_CELSIUS = ("degC", "°C", "℃", "C")
 
 _PREFIXES = {
     "": 1.0,
     "p": 1e-12,
     "n": 1e-9,
     "u": 1e-6,
-    "µ": 1e-6,
+    "µ": 1e-6,  # the micro sign
+    "μ": 1e-6,  # the Greek letter
     "m": 1e-3,
     "c": 1e-2,
     "k": 1e3,
@@ -71,11 +73,13 @@ _SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
     "mol": (1.0, {"mol": 1}, True),
     "rad": (1.0, {"rad": 1}, True),
     "deg": (deg, {"rad": 1}, False),
+    "°": (deg, {"rad": 1}, False),
     "N": (1.0, {"kg": 1, "m": 1, "s": -2}, True),
     "J": (1.0, {"kg": 1, "m": 2, "s": -2}, True),
     "W": (1.0, {"kg": 1, "m": 2, "s": -3}, True),
     "Pa": (1.0, {"kg": 1, "m": -1, "s": -2}, True),
     "bar": (1e5, {"kg": 1, "m": -1, "s": -2}, True),
+    "psi": (4.4482216152605 / 0.0254**2, {"kg": 1, "m": -1, "s": -2}, False),
     "V": (1.0, {"kg": 1, "m": 2, "s": -3, "A": -1}, True),
     "ohm": (1.0, {"kg": 1, "m": 2, "s": -3, "A": -2}, True),
     "H": (1.0, {"kg": 1, "m": 2, "s": -2, "A": -2}, True),
@@ -83,6 +87,11 @@ _SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
     "T": (1.0, {"kg": 1, "s": -2, "A": -1}, True),
     "Hz": (1.0, {"s": -1}, True),
     "L": (1e-3, {"m": 3}, True),
+    "l": (1e-3, {"m": 3}, True),
+    # Products as they are often written, without the dot.
+    "Nm": (1.0, {"kg": 1, "m": 2, "s": -2}, True),
+    "Ns": (1.0, {"kg": 1, "m": 1, "s": -1}, True),
+    "Pas": (1.0, {"kg": 1, "m": -1, "s": -1}, True),
     "St": (1e-4, {"m": 2, "s": -1}, True),
     "min": (60.0, {"s": 1}, False),
     "h": (3600.0, {"s": 1}, False),
@@ -143,7 +152,7 @@ def parse_unit(text: str) -> Unit:
     if text in ("-", ""):
         return Unit(1.0, MappingProxyType({}))
     factor, dimension = 1.0, dict[str, int]()
-    first, *rest = re.split(r"([./*])", text.replace(" ", ""))
+    first, *rest = re.split(r"([./*·⋅])", text.replace(" ", ""))
     for sign, part in [("", first), *zip(rest[::2], rest[1::2], strict=True)]:
         match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d+))?", part)
         found = _symbol(match[1]) if match else None
@@ -167,6 +176,15 @@ def _scaled(number: str, factor: float) -> float:
     if math.isclose(factor, 10.0**power, rel_tol=1e-14) and "inf" not in number:
         return float(Decimal(number).scaleb(power))
     return float(number) * factor
+
+
+def _cure(text: str) -> str:
+    """Cure of a number that is written in another way than here; empty if none is known."""
+    if comma := re.match(r"[-+]?\d+,\d+", text):
+        return f"a decimal comma? write {comma[0].replace(',', '.')}{text[comma.end() :]}"
+    if pair := re.fullmatch(r"(\d+)\s*[xX*\u00d7]\s*(\d+)", text):
+        return f"two numbers? write [{pair[1]}, {pair[2]}]"
+    return ""
 
 
 def parse_quantity(value: object, unit: str, field: str = "value") -> float:
@@ -202,12 +220,11 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
         if unit not in ("-", "rad", "K")
         else {"rad": "60 deg", "K": "20 degC"}.get(unit, "2.5")
     )
-    if match is None:
-        raise DescriptionError(
-            field, value, "be a number and a unit", unit=unit, hint=f"for example {example!r}"
-        )
+    if match is None or _cure(text):
+        cure = _cure(text) or f"for example {example!r}"
+        raise DescriptionError(field, value, "be a number and a unit", unit=unit, hint=cure)
     number, symbol = float(match[1]), match[2]
-    if symbol in ("degC", "°C") and unit == "K":
+    if symbol in _CELSIUS and unit == "K":
         return celsius(number)
     if not symbol:
         if parse_unit(unit).dimension:

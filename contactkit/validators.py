@@ -6,11 +6,13 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from attrs import Attribute
+from attrs import Attribute, fields
 
-from .errors import DescriptionError
+from .errors import DescriptionError, nearest
+from .units import parse_quantity
 
 __all__ = [
+    "Described",
     "angle",
     "as_pair",
     "as_tuple",
@@ -35,7 +37,40 @@ def refuse(
     """Return the error that names owner, field, unit and value."""
     unit = attribute.metadata.get("unit", "")
     name = f"{type(owner).__name__}.{attribute.name}"
+    if isinstance(value, str) and unit and not hint:
+        hint = _number_of(value, unit)
     return DescriptionError(name, value, expected, unit="" if unit == "-" else unit, hint=hint)
+
+
+def _number_of(text: str, unit: str) -> str:
+    """Number to write in Python for a quantity as scene files have it; empty for other texts."""
+    try:
+        number = parse_quantity(text, unit)
+    except DescriptionError as error:
+        return error.hint if error.hint.endswith("]") else ""
+    return f"a text with a unit is for files and studies; in Python write {number!r}"
+
+
+class Described:
+    """Base class of scene objects: an argument that one does not have is refused with its cure."""
+
+    __slots__ = ()
+
+    if not TYPE_CHECKING:  # which reads the arguments off the fields
+
+        def __new__(cls, *args: Any, **given: Any) -> Any:
+            """Check the names of the arguments; ``__init__`` takes them."""
+            known = {a.alias: a for a in fields(cls) if a.init}
+            if args and all(a.kw_only for a in known.values()):
+                first = next(iter(known), "field")
+                raise TypeError(f"{cls.__name__}() takes its fields by name: {first}=...")
+            for key in given:
+                if key not in known:
+                    cure = nearest(key, known)
+                    raise TypeError(
+                        f"{cls.__name__}() got an unexpected keyword argument {key!r}; {cure}"
+                    )
+            return super().__new__(cls)
 
 
 def _is_number(value: object) -> bool:
@@ -69,12 +104,13 @@ def fraction(owner: object, attribute: Attribute[Any], value: Any) -> None:
 def angle(owner: object, attribute: Attribute[Any], value: Any) -> None:
     """Refuse an angle outside 0 to pi; the hint suggests degrees for a value that may be some."""
     if not (_is_number(value) and 0.0 <= value <= math.pi):
-        degrees = _is_number(value) and math.pi < value <= 180.0
-        hint = (
-            f"was it meant in degrees? then write {value!r}*deg, or '{value:g} deg' in a file"
-            if degrees
-            else ""
-        )
+        hint = ""
+        if _is_number(value) and math.pi < value <= 180.0:
+            hint = (
+                f"was it meant in degrees? then write {value!r}*deg, or '{value:g} deg' in a file"
+            )
+        if _is_number(value) and math.pi < value <= 2.0 * math.pi:
+            hint = f"in radians it is {math.degrees(value):g} deg, beyond 180 deg; {hint}"
         raise refuse(owner, attribute, value, "lie between 0 and pi", hint)
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..errors import DescriptionError
-from ..files.structure import nearest
+from ..errors import DescriptionError, nearest
 
 __all__ = ["bundled_scene"]
 

@@ -9,6 +9,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
 from ..separation.effects.prepared import checked_liquid, prepare_scene
 from ..separation.effects.registry import AdhesiveContact
@@ -81,6 +82,7 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> Ad
     >>> (curve.contact_radius * 1e9).round(1), f"{curve.numbers.pull_off_force:.4g} N"
     (array([413.5, 439.7]), '2.356e-06 N')
     """
+    check_scene(scene, SeparationScene)
     effect = scene.effect(AdhesiveContact)
     if effect is None:
         raise PlanError(

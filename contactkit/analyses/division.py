@@ -12,13 +12,14 @@ from attrs import astuple, field, frozen
 from ..capillary import many_menisci as menisci
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
 from ..numerics.roots import bracketed_root
+from ..scene.plan import check_scene
+from ..scene.scenes import SeparationScene
 from ..separation.effects.registry import MeniscusForce, ViscousForce
 from .division_laws import SOURCES, DivisionLaw, Name, law_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..scene.scenes import SeparationScene
     from ..separation.effects.base import SeparationForce
 
     Floats = NDArray[np.float64]
@@ -164,6 +165,7 @@ def divide_meniscus(
     >>> print(divide_meniscus(scene, law="as-published"))
     division by the as-published law: best 285 menisci, 4.159e-05 N in total; at most 23108052 are stable
     """  # noqa: E501
+    check_scene(scene, SeparationScene)
     volume = _volume(scene)
     made = law_of(scene, law, volume)
     max_count = menisci.max_stable_count(made.gap, float(made.limit(np.asarray(volume))))
@@ -276,6 +278,7 @@ def critical_meniscus(scene: SeparationScene, *, law: Name | None = None) -> Cri
     >>> round(critical_meniscus(scene, law="as-published").area * 1e12, 4)
     0.0694
     """
+    check_scene(scene, SeparationScene)
     gap = scene.loading.initial_gap
     made = law_of(scene, law, gap**3 if gap > 0.0 else 1.0)
     meniscus, viscous = made.demand(MeniscusForce), made.demand(ViscousForce)

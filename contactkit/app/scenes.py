@@ -9,9 +9,8 @@ from typing import Any, NamedTuple, Protocol
 from attrs import field, frozen
 
 from ..accuracy import Accuracy
-from ..errors import DescriptionError, PlanError
+from ..errors import DescriptionError, PlanError, nearest
 from ..files.scenes import (
-    nearest,
     read_contact,
     read_tables,
     scene_kind,

@@ -14,6 +14,7 @@ from ..scene.materials import Material, Stack
 from ..scene.rough_surfaces import Heights
 from ..scene.scenes import ContactScene
 from ..scene.window import Window
+from ..units import parse_quantity
 from .effects.base import ContactEffect
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
 from .effects.plasticity import HardnessLimit, HardnessMap
@@ -29,15 +30,17 @@ __all__ = ["press"]
 
 def press(
     heights: ArrayLike,
-    pixel_size: float | tuple[float, float],
+    pixel_size: float | str | tuple[float | str, float | str],
     stack: Stack | Material,
-    mean_pressure: float,
-    hardness: float | NDArray[np.float64] | None = None,
+    mean_pressure: float | str,
+    hardness: float | str | NDArray[np.float64] | None = None,
     periodic: bool = True,
     rtol: float = 1e-8,
     threads: int = 1,
 ) -> ContactResult:
     """Press a rigid rough body on a flat solid.
+
+    A number may be a text with its unit: ``"100 MPa"``.
 
     Parameters
     ----------
@@ -89,22 +92,29 @@ def press(
         LayeredHalfSpace() if isinstance(stack, Stack) and stack.layers else HalfSpace()
     ]
     if hardness is not None:
-        given = float(hardness) if np.ndim(hardness) == 0 else HardnessMap(hardness)
+        is_map = np.ndim(hardness) > 0
+        given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")
         effects.append(HardnessLimit(rule="constant", hardness=given))
     scene = ContactScene(
         interface=Interface(
             lower=Body(solid=stack),
-            upper=Body(surface=Heights(heights=heights, pixel_size=_floats(pixel_size))),
+            upper=Body(surface=Heights(heights=heights, pixel_size=_size(pixel_size))),
         ),
         window=Window(periodic=periodic),
-        loading=Pressing(pressure=float(mean_pressure)),
+        loading=Pressing(pressure=_number(mean_pressure, "Pa", "mean_pressure")),
         effects=tuple(effects),
     )
     return solve(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
 
 
-def _floats(size: float | tuple[float, float]) -> float | tuple[float, float]:
-    """Take numbers of numpy as well as Python's."""
-    if np.ndim(size) == 0:
-        return float(size)  # type: ignore[arg-type]
-    return tuple(float(item) for item in size)  # type: ignore[return-value, union-attr]
+def _number(given: Any, unit: str, name: str) -> float:
+    """Take numbers of numpy as well as Python's, and texts with a unit."""
+    value = given if isinstance(given, str) else float(given)
+    return parse_quantity(value, unit, f"press({name})")
+
+
+def _size(given: Any) -> float | tuple[float, float]:
+    """Size of a pixel [m], or of (dy, dx)."""
+    if np.ndim(given) == 0:
+        return _number(given, "m", "pixel_size")
+    return tuple(_number(one, "m", "pixel_size") for one in given)  # type: ignore[return-value]

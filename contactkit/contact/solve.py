@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ConvergenceError, DescriptionError
 from ..frozen import FrozenDict
+from ..scene.plan import check_plan
 from ..scene.validity import warn
 from .effects.base import Contact, ContactEffect, LoadTerm
 from .effects.plasticity import HardnessLimit
@@ -91,6 +92,7 @@ def solve(
     >>> f"{result.max_pressure / 1e9:.2f} GPa, approach {result.approach * 1e9:.1f} nm"
     '1.27 GPa, approach 75.0 nm'
     """
+    check_plan(plan, ContactPlan)
     result = solve_unwarned(plan, start=start, throw=throw)
     warn(result.validity)
     return result

@@ -8,7 +8,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, TypeVar, overload
 
 import attrs
 import numpy as np
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     Arrays = dict[str, NDArray[Any]]
 
 AnyResult = SeparationResult | SlidingResult | ContactResult
+R = TypeVar("R", bound=Result)
 
 __all__ = [
     "AnyResult",
@@ -89,17 +90,42 @@ def save_result(result: Result, path: str | Path) -> Path:
     return save_npz(path, columns, header)
 
 
-def load_result(path: str | Path) -> AnyResult:
+@overload
+def load_result(path: str | Path) -> AnyResult: ...
+
+
+@overload
+def load_result(path: str | Path, kind: type[R]) -> R: ...
+
+
+def load_result(path: str | Path, kind: type[Result] = Result) -> Result:
     """Read a result written by `save_result`.
 
     A `ContactResult` answers ``of`` and ``scalars`` as the one that was saved did. What it was
     made from, such as the file of a measured surface, need not be there.
 
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    kind : type, optional
+        Kind of result that is wanted, such as ``ContactResult``; others are refused, and a type
+        checker knows what is returned.
+
     Raises
     ------
     DescriptionError
-        If the file is none of ours, or is cut short.
+        If the file is none of ours, is cut short, or holds another kind.
     """
+    result = _load(path)
+    if not isinstance(result, kind):
+        raise DescriptionError(
+            "file", str(path), f"hold a {kind.__name__}", hint=f"it is a {type(result).__name__}"
+        )
+    return result
+
+
+def _load(path: str | Path) -> AnyResult:
     try:
         # Opened here, as numpy does not close a file that it cannot read.
         with Path(path).open("rb") as file:

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, overload
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..scene.loading import ContactLoading, Sliding
-from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
+from ..scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
 from .structure import (
     FileError,
     load_liquid,
     load_material,
-    nearest,
     structure,
     unstructure,
 )
@@ -28,7 +28,6 @@ __all__ = [
     "load_liquid",
     "load_material",
     "load_scene",
-    "nearest",
     "ContactFile",
     "read_contact",
     "read_tables",
@@ -38,6 +37,9 @@ __all__ = [
     "unstructure",
     "write_whole",
 ]
+
+
+S = TypeVar("S", bound=Scene)
 
 
 class ContactFile(NamedTuple):
@@ -80,9 +82,17 @@ def read_tables(path: str | Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise DescriptionError("file", str(path), "exist") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FileError(path.name, f"not TOML: {error}") from None
+        comma = re.search(r"= *-?\d+,\d+ *$", _line_of(path, str(error)))
+        cure = "; a decimal comma? write a point" if comma else ""
+        raise FileError(path.name, f"not TOML: {error}{cure}") from None
     except OSError as error:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
+
+
+def _line_of(path: Path, problem: str) -> str:
+    """Line of a file that a parser's message names; empty if it names none."""
+    at = re.search(r"at line (\d+)", problem)
+    return path.read_text(encoding="utf-8").splitlines()[int(at[1]) - 1] if at else ""
 
 
 def scene_kind(
@@ -98,7 +108,15 @@ def scene_kind(
     return SlidingScene if issubclass(kind, Sliding) else SeparationScene
 
 
-def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScene:
+@overload
+def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScene: ...
+
+
+@overload
+def load_scene(path: str | Path, kind: type[S]) -> S: ...
+
+
+def load_scene(path: str | Path, kind: type[Scene] = Scene) -> Scene:
     """Read a scene from a TOML file.
 
     Parameters
@@ -106,6 +124,9 @@ def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScen
     path : str or Path
         The file; its tables are the fields of the scene that the kind of its ``loading`` belongs
         to. Quantities may carry a unit.
+    kind : type, optional
+        Kind of scene that is wanted, such as `ContactScene`; others are refused, and a type
+        checker knows what is returned.
 
     Raises
     ------
@@ -113,7 +134,12 @@ def load_scene(path: str | Path) -> SeparationScene | SlidingScene | ContactScen
         Listing every mistake in the file and where it is.
     """
     tables = read_tables(path)
-    return structure(tables, scene_kind(tables), Path(path).name)
+    scene: Scene = structure(tables, scene_kind(tables), Path(path).name)
+    if not isinstance(scene, kind):
+        raise DescriptionError(
+            "file", str(path), f"hold a {kind.__name__}", hint=f"it is a {type(scene).__name__}"
+        )
+    return scene
 
 
 def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str | Path) -> Path:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import tomllib
 from collections.abc import Callable, Mapping
 from importlib import resources
@@ -16,7 +15,7 @@ from .. import data
 from ..contact.effects.base import ContactEffect
 from ..contact.effects.plasticity import HardnessMap
 from ..contact.effects.registry import CONTACT_EFFECTS
-from ..errors import DescriptionError
+from ..errors import DescriptionError, nearest
 from ..liquids.liquid import Liquid
 from ..liquids.temperature_laws import TemperatureLaw
 from ..scene.effect import EffectRegistry
@@ -41,7 +40,6 @@ __all__ = [
     "field_value",
     "load_liquid",
     "load_material",
-    "nearest",
     "renamed",
     "structure",
     "unstructure",
@@ -49,12 +47,6 @@ __all__ = [
 ]
 
 _T = TypeVar("_T")
-
-
-def nearest(name: object, known: list[str]) -> str:
-    """Suggest the nearest of the known names, or list them."""
-    close = difflib.get_close_matches(str(name), known, n=1, cutoff=0.5)
-    return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
 
 
 # Keys of earlier files, and their replacements.
@@ -66,8 +58,23 @@ _RENAMED = {
 
 
 def renamed(key: str) -> str:
-    """Name the replacement of a key of earlier files; empty if it never was one."""
-    return f"it is now {_RENAMED[key]}" if key in _RENAMED else ""
+    """Name the replacement of a key of earlier files, or nearly so; empty if it never was one."""
+    import difflib  # for this alone
+
+    former = difflib.get_close_matches(key, _RENAMED, n=1, cutoff=0.85)
+    if not former:
+        return ""
+    return f"{'it' if former[0] == key else former[0]} is now {_RENAMED[former[0]]}"
+
+
+def _owners(kind: type, key: str) -> str:
+    """Name the kinds beside one, of the same family, that have a key; empty if none has."""
+    effects = (SEPARATION_EFFECT_KINDS.by_name, CONTACT_EFFECTS.by_name)
+    for family in (SURFACE_KINDS, LAW_KINDS, *effects):
+        if kind in family.values():
+            names = [name for name, one in family.items() if key in _keys(one)]
+            return f"it belongs to {' or '.join(names)}; " if names else ""
+    return ""
 
 
 def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callable[[Any, Any], Any]:
@@ -173,7 +180,7 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
                     f"{kind.__name__}.{key}",
                     value[key],
                     "be a known key",
-                    hint=renamed(key) or nearest(key, known),
+                    hint=renamed(key) or _owners(kind, key) + nearest(key, known),
                 )
         return inner(value, target)
 

@@ -8,7 +8,7 @@ from attrs import Attribute, field, fields, fields_dict, frozen
 
 from ..errors import DescriptionError
 from ..units import si
-from ..validators import optional, positive, refuse
+from ..validators import Described, optional, positive, refuse
 from .temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw, celsius_hint
 from .viscosity import MAX_KINEMATIC_VISCOSITY, VogelViscosity, WaltherViscosity, centistokes_hint
 from .water import IapwsSurfaceTension, KellWaterDensity
@@ -119,7 +119,7 @@ def _molar(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 @frozen(kw_only=True)
-class Liquid:
+class Liquid(Described):
     """A Newtonian liquid; properties that no effect needs may be omitted.
 
     Parameters

@@ -16,7 +16,7 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError, ValidityWarning
 from ..units import si
-from ..validators import finite, positive
+from ..validators import Described, finite, positive
 
 __all__ = [
     "SUSPECT_CELSIUS",
@@ -42,7 +42,7 @@ def celsius_hint(temperature: float) -> str:
 
 
 @frozen(kw_only=True)
-class TemperatureLaw(ABC):
+class TemperatureLaw(Described, ABC):
     """One property of a liquid as a function of temperature.
 
     Parameters

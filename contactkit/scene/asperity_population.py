@@ -5,13 +5,13 @@ from __future__ import annotations
 from attrs import field, frozen
 
 from ..units import si
-from ..validators import non_negative, positive
+from ..validators import Described, non_negative, positive
 
 __all__ = ["AsperityPopulation"]
 
 
 @frozen(kw_only=True)
-class AsperityPopulation:
+class AsperityPopulation(Described):
     """Spherical summits of one radius on a flat face, of one height or of normal heights.
 
     Parameters

@@ -10,12 +10,13 @@ from typing import Any, ClassVar, Generic, TypeVar
 from attrs import NOTHING, fields, frozen
 
 from ..errors import PlanError
+from ..validators import Described
 
 __all__ = ["Effect", "EffectRegistry", "as_written", "check_listed", "choices"]
 
 
 @frozen(kw_only=True)
-class Effect(abc.ABC):
+class Effect(Described, abc.ABC):
     """A piece of physics a scene may list. Subclasses are final and hold choices only."""
 
     name: ClassVar[str]

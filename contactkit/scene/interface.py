@@ -15,7 +15,7 @@ import math
 from attrs import field, frozen
 
 from ..errors import PlanError
-from ..validators import optional, part
+from ..validators import Described, optional, part
 from .materials import Material, Stack
 from .meniscus import Meniscus
 from .surfaces import Flat, Surface
@@ -24,7 +24,7 @@ __all__ = ["Body", "Interface"]
 
 
 @frozen(kw_only=True)
-class Body:
+class Body(Described):
     """A surface, and the solid below it.
 
     Parameters
@@ -50,7 +50,7 @@ def as_body(value: Body | Surface) -> Body:
 
 
 @frozen(kw_only=True)
-class Interface:
+class Interface(Described):
     """Two bodies, and the meniscus between them.
 
     Parameters

@@ -14,7 +14,7 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..units import si
-from ..validators import finite, non_negative, optional, part, positive, refuse
+from ..validators import Described, finite, non_negative, optional, part, positive, refuse
 
 __all__ = [
     "CONTACT_LOADINGS",
@@ -34,7 +34,7 @@ __all__ = [
 
 
 @frozen(kw_only=True)
-class Loading(abc.ABC):
+class Loading(Described, abc.ABC):
     """A loading of two bodies; its kind is its name in files."""
 
     kind: ClassVar[str]
@@ -93,7 +93,7 @@ class SeparationLoading(Loading):
 
 
 @frozen(kw_only=True)
-class Vibration:
+class Vibration(Described):
     r"""A vibration of the gap, on top of an imposed opening speed.
 
     .. math:: h = h_0 + v t + a \sin(2\pi f t + \varphi)

@@ -7,7 +7,7 @@ from typing import Any
 from attrs import Attribute, field, frozen
 
 from ..units import si
-from ..validators import as_tuple, optional, part, positive, refuse
+from ..validators import Described, as_tuple, optional, part, positive, refuse
 
 __all__ = ["Layer", "Material", "Stack"]
 
@@ -19,7 +19,7 @@ def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 @frozen(kw_only=True)
-class Material:
+class Material(Described):
     """An isotropic elastic material; with a hardness, elastic-perfectly plastic in contact.
 
     Parameters
@@ -52,7 +52,7 @@ class Material:
 
 
 @frozen(kw_only=True)
-class Layer:
+class Layer(Described):
     """A layer bonded to what lies below it.
 
     Parameters
@@ -74,7 +74,7 @@ def _all_layers(owner: object, attribute: Attribute[Any], value: tuple[Any, ...]
 
 
 @frozen(kw_only=True)
-class Stack:
+class Stack(Described):
     """Layers on a substrate without end.
 
     Parameters

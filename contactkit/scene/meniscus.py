@@ -13,7 +13,7 @@ from attrs import Attribute, field, frozen
 from ..errors import DescriptionError
 from ..liquids.liquid import Liquid
 from ..units import si
-from ..validators import angle, count, fraction, optional, part, positive, refuse
+from ..validators import Described, angle, count, fraction, optional, part, positive, refuse
 
 __all__ = ["Meniscus"]
 
@@ -35,7 +35,7 @@ def _humidity(owner: object, attribute: Attribute[float], value: float) -> None:
 
 
 @frozen(kw_only=True)
-class Meniscus:
+class Meniscus(Described):
     """The liquid that joins the two bodies: how much, and how it wets them.
 
     Parameters

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import abc
+from os import PathLike
 from typing import Any, ClassVar, Protocol
 
 from ..accuracy import Accuracy
-from ..errors import NotSimulatedError
+from ..errors import NotSimulatedError, PlanError
 from .effect import Effect, EffectRegistry, as_written, choices
+from .scenes import Scene
 
-__all__ = ["ScenePlan"]
+__all__ = ["ScenePlan", "check_plan", "check_scene"]
 
 
 class _Scene(Protocol):
     @property
     def effects(self) -> tuple[Effect, ...]: ...
+
+    @property
+    def run_by(self) -> str: ...
 
 
 class ScenePlan(abc.ABC):
@@ -78,3 +83,50 @@ class ScenePlan(abc.ABC):
                 *(f"  off  {kind.name:{width}s} {kind.summary}" for kind in off),
             ]
         )
+
+
+def check_plan(given: object, kinds: type[ScenePlan] | tuple[type[ScenePlan], ...]) -> None:
+    """Refuse to run a scene that is not planned, or a plan of another kind of scene.
+
+    Raises
+    ------
+    PlanError
+        With the call that runs it.
+    """
+    if isinstance(given, kinds):
+        return
+    if isinstance(given, Scene):
+        cure = f"plan the scene first: ck.{given.run_by}(ck.plan(scene))"
+    elif isinstance(given, ScenePlan):
+        cure = f"its plan is run by ck.{given.scene.run_by}(plan)"
+    else:
+        cure = "give the plan of a scene, ck.plan(scene)"
+    known = kinds if isinstance(kinds, tuple) else (kinds,)
+    raise PlanError(f"{_names(known)} can be run here, got {_name(given)}; {cure}")
+
+
+def check_scene(given: object, kinds: type[Scene] | tuple[type[Scene], ...]) -> None:
+    """Refuse what is no scene of some kinds.
+
+    Raises
+    ------
+    PlanError
+        With the cure.
+    """
+    if isinstance(given, kinds):
+        return
+    cure = ""
+    if isinstance(given, ScenePlan):
+        cure = "; it is a plan already, whose scene is plan.scene"
+    elif isinstance(given, str | PathLike):
+        cure = "; a scene file is read by ck.load_scene(path)"
+    known = kinds if isinstance(kinds, tuple) else (kinds,)
+    raise PlanError(f"{_names(known)} is needed here, got {_name(given)}{cure}")
+
+
+def _names(kinds: tuple[type, ...]) -> str:
+    return "a " + " or a ".join(kind.__name__ for kind in kinds)
+
+
+def _name(given: object) -> str:
+    return "None" if given is None else f"a {type(given).__name__}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import abc
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from attrs import fields
 
@@ -77,12 +77,32 @@ class Result(abc.ABC):
         columns = self.columns
         if name not in columns:
             self._refuse(name)
-            raise DescriptionError("column", name, f"be one of {', '.join(columns)}")
+            cure = self._meant(name)
+            raise DescriptionError("column", name, f"be one of {', '.join(columns)}", hint=cure)
         return columns[name]
 
     @abc.abstractmethod
     def _refuse(self, name: str) -> None:
         """Refuse a column that only another scene has, and name what that would have to list."""
+
+    if not TYPE_CHECKING:  # which knows what a result has; here only the refusal is worded
+
+        def __getattr__(self, name: str) -> NoReturn:
+            kind = type(self).__name__
+            if name.startswith("__") or hasattr(type(self), name):  # a field that is not set yet
+                raise AttributeError(f"{kind} has no attribute {name!r}")
+            cure = self._meant(name) or 'a column is result["name"], a number result.scalars()'
+            raise AttributeError(f"{kind} has no attribute {name!r}; {cure}")
+
+    def _meant(self, name: str) -> str:
+        """Suggest what a result has in place of a name; empty if nothing is near."""
+        import difflib  # for this alone
+
+        known = {n: f"result.scalars()[{n!r}]" for n in self.scalars()}
+        known |= {n: f"result[{n!r}]" for n in self.columns}
+        known |= {n: f"result.{n}" for n in dir(type(self)) if not n.startswith("_")}
+        close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
+        return f"did you mean {known[close[0]]}?" if close else ""
 
     def save(self, path: str | Path) -> Path:
         """Write the result to an npz file without pickle; `load_result` reads it."""

@@ -8,7 +8,7 @@ from attrs import field, frozen
 
 from ..errors import PlanError
 from ..units import celsius, si
-from ..validators import as_tuple, part, positive
+from ..validators import Described, as_tuple, part, positive
 from .effect import Effect
 from .interface import Interface
 from .loading import (
@@ -33,7 +33,7 @@ _E = TypeVar("_E", bound=Effect)
 
 
 @frozen(kw_only=True)
-class Scene:
+class Scene(Described):
     """Two bodies, their loading, and the effects to simulate: the base class of all scenes."""
 
     name: str = ""
@@ -41,6 +41,11 @@ class Scene:
     interface: Interface = field(validator=part(Interface))
     loading: Loading = field(validator=part(Loading))
     effects: tuple[Effect, ...] = field(converter=as_tuple)
+
+    @property
+    def run_by(self) -> str:
+        """Name of the function that runs the plan of such a scene."""
+        return "simulate"
 
     def effect(self, kind: type[_E]) -> _E | None:
         """Return the effect of a kind; None if the scene does not call for it."""
@@ -101,6 +106,11 @@ class ContactScene(Scene):
     window: Window = field(factory=Window, validator=part(Window))
     loading: ContactLoading = field(validator=part(*CONTACT_LOADINGS))
     effects: tuple[ContactEffect[Any], ...] = field(converter=as_tuple)
+
+    @property
+    def run_by(self) -> str:
+        """See `Scene.run_by`."""
+        return "solve"
 
 
 @frozen(kw_only=True)

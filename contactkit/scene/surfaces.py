@@ -8,13 +8,13 @@ from typing import ClassVar
 from attrs import field, frozen
 
 from ..units import si
-from ..validators import optional, positive
+from ..validators import Described, optional, positive
 
 __all__ = ["Flat", "Paraboloid", "Sphere", "Surface", "Wave"]
 
 
 @frozen(kw_only=True)
-class Surface(abc.ABC):
+class Surface(Described, abc.ABC):
     """The surface of a body, smooth or rough. Its kind is its name in files, under ``shape``."""
 
     kind: ClassVar[str]

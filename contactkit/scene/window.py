@@ -7,13 +7,13 @@ from typing import NamedTuple
 from attrs import field, frozen
 
 from ..units import si
-from ..validators import optional, part, positive
+from ..validators import Described, optional, part, positive
 
 __all__ = ["Grid", "Window"]
 
 
 @frozen(kw_only=True)
-class Window:
+class Window(Described):
     """The part of the interface that is looked at.
 
     Parameters

@@ -7,8 +7,9 @@ import time as clock
 from collections.abc import Callable
 from typing import TYPE_CHECKING, overload
 
-from ..errors import ConvergenceError, PlanError
+from ..errors import ConvergenceError, InfeasibleError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
+from ..scene.plan import check_plan
 from ..scene.validity import warn
 from .curve_result import Work
 from .effects.registry import ViscousForce
@@ -70,6 +71,7 @@ def simulate(
     ConvergenceError
         If no step of time meets the tolerance; carries the result so far.
     """
+    check_plan(plan, (Plan, SlidingPlan))
     begun = clock.perf_counter()
     if isinstance(plan, SlidingPlan):
         slid = slide(plan, begun)
@@ -95,6 +97,11 @@ def simulate(
 def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) -> SeparationResult:
     """Motion of a mass under a pull, one internal step at a time, to its release."""
     loading = plan.scene.imposed_force
+    if loading.force < 0.0 and loading.initial_speed <= 0.0:
+        raise InfeasibleError(
+            f"loading.force is {loading.force:g} N and never opens the gap: a force that opens is "
+            f"positive, force = {-loading.force:g} N"
+        )
     pull = pull_law(plan)
     states = [start(plan)]
     problem = None

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from attrs import evolve
 
@@ -24,9 +24,54 @@ from .store import Store, StudyPoint
 from .table import Study
 
 if TYPE_CHECKING:
+    from ..contact.result import ContactResult
     from ..files.results import AnyResult
+    from ..separation.results import SeparationResult
+    from ..separation.sliding.result import SlidingResult
 
 __all__ = ["Study", "StudyPoint", "study"]
+
+
+@overload
+def study(
+    scene: ContactScene,
+    vary: Mapping[str, Iterable[Any]],
+    accuracy: Accuracy | None = ...,
+    *,
+    store: str | Path | None = ...,
+    workers: int = ...,
+    client: Any = ...,
+    progress: Callable[[float], None] | None = ...,
+    keep_maps: bool = ...,
+) -> Study[ContactResult]: ...
+
+
+@overload
+def study(
+    scene: SeparationScene,
+    vary: Mapping[str, Iterable[Any]],
+    accuracy: Accuracy | None = ...,
+    *,
+    store: str | Path | None = ...,
+    workers: int = ...,
+    client: Any = ...,
+    progress: Callable[[float], None] | None = ...,
+    keep_maps: bool = ...,
+) -> Study[SeparationResult]: ...
+
+
+@overload
+def study(
+    scene: SlidingScene,
+    vary: Mapping[str, Iterable[Any]],
+    accuracy: Accuracy | None = ...,
+    *,
+    store: str | Path | None = ...,
+    workers: int = ...,
+    client: Any = ...,
+    progress: Callable[[float], None] | None = ...,
+    keep_maps: bool = ...,
+) -> Study[SlidingResult]: ...
 
 
 def study(
@@ -39,7 +84,7 @@ def study(
     client: Any = None,
     progress: Callable[[float], None] | None = None,
     keep_maps: bool = False,
-) -> Study:
+) -> Study[Any]:
     """Solve a scene for every combination of parameter values.
 
     Parameters
@@ -216,7 +261,7 @@ class _Run:
         if maps is not None:
             self.results[place] = from_bytes(maps)
 
-    def finish(self) -> Study:
+    def finish(self) -> Study[Any]:
         """Assemble the points; each gets every column, nan where it has no value."""
         points = [self.points[i] for i in range(len(self.tasks))]
         if all(point.status == "refused" for point in points):

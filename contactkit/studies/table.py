@@ -6,28 +6,30 @@ import csv
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from attrs import field, frozen
 
-from ..errors import DescriptionError, NotSimulatedError
+from ..errors import DescriptionError, NotSimulatedError, nearest
 from ..files.scenes import write_whole
-from ..files.structure import nearest
+from ..scene.result import Result
 from .store import StudyPoint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..files.results import AnyResult
 
 __all__ = ["Study"]
 
 _MAX_COLUMNS = 6  # of a table without named columns
 
 
+R_co = TypeVar("R_co", bound=Result, covariant=True)
+
+
 @frozen(eq=False)
-class Study:
+class Study(Generic[R_co]):
     """Points of a study, in the order of the product of the parameters, the last one fastest.
 
     Attributes
@@ -45,10 +47,10 @@ class Study:
     points: tuple[StudyPoint, ...] = field(repr=False)
     shape: tuple[int, ...]
     units: Mapping[str, str] = field(repr=False)
-    _results: tuple[AnyResult | None, ...] | None = field(repr=False)
+    _results: tuple[R_co | None, ...] | None = field(repr=False)
 
     @property
-    def results(self) -> tuple[AnyResult | None, ...]:
+    def results(self) -> tuple[R_co | None, ...]:
         """Complete results with maps or curves; None where a point failed.
 
         Raises

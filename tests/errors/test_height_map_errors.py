@@ -187,7 +187,7 @@ def test_a_file_that_is_not_there(tmp_path, read):
 
 def test_files_of_instruments_need_an_extra(write, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
-    with pytest.raises(DescriptionError, match=r"end in \.npy.*pip install 'contactkit\[maps\]'"):
+    with pytest.raises(DescriptionError, match=r"end in \.npy.*pip install contactkit\[maps\]"):
         read_height_map(write("a.sur", b"DIGITAL SURF"))
 
 

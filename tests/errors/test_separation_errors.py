@@ -718,7 +718,7 @@ def test_a_saved_result_comes_back_the_same(tmp_path, viscous_only):
 # Units --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("text", ["1 foo", "1 m/foo", "1 xm", "1 kbar.foo", "1,5 m", "1e m"])
+@pytest.mark.parametrize("text", ["1 foo", "1 m/foo", "1 xm", "1 kbar.foo", "1e m"])
 def test_an_unknown_symbol_is_named(text):
     refuses(lambda: parse_quantity(text, "m"), "unit must be made of known symbols")
 

@@ -192,7 +192,8 @@ def handed_out():
             module = inspect.getmodule(function)
             names = [part.strip() for part in str(returned).split("|")]
             found |= {getattr(module, one) for one in names if hasattr(module, one)}
-    return {kind for kind in found if isinstance(kind, type) and attrs.has(kind)}
+    classes = (one for one in found if isinstance(one, type) and attrs.has(one))
+    return {one for one in classes if not one.__subclasses__()}
 
 
 def _leaves(kind):

@@ -23,6 +23,7 @@ from ...contact.solve import solve_unwarned
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
 from ...numerics.monotone_cubic import power_curve
 from ...scene.loading import Approach, ContactLoading, Pressing
+from ...scene.plan import check_scene
 from ...scene.scenes import ContactScene
 from ...scene.validity import warn
 from .curve import HERTZ, LoadDisplacementCurve, Unloading
@@ -136,6 +137,7 @@ def load_displacement(
     >>> f"{curve.at(50e-9).force:.4f} N, Hertz {4 / 3 * 2.3077e11 * 1e-3**0.5 * 50e-9**1.5:.4f} N"
     '0.1088 N, Hertz 0.1088 N'
     """
+    check_scene(scene, ContactScene)
     scene = _without_observers(scene)
     key, values = _series(scene, loads, approaches, points, decades)
     n_unloadings = _count("unloadings", unloadings, 1)

@@ -64,7 +64,7 @@ def run_contact(
 
 def _studies(
     scene: ContactScene, accuracy: Accuracy, vary: Mapping[str, list[Any]], progress: Progress
-) -> tuple[tuple[str, Study], ...]:
+) -> tuple[tuple[str, Study[ContactResult]], ...]:
     """The sweep of the file, as it is and, where a film is listed, with its pull added."""
     from ...studies.study import study
 
@@ -79,7 +79,7 @@ def _studies(
         variants.append(("wet, film pulls too", evolve(light, effects=effects)))
         if film.self_consistent:
             variants = [(variants[1][0], variants[0][1]), (variants[0][0], variants[1][1])]
-    done: list[tuple[str, Study]] = []
+    done: list[tuple[str, Study[ContactResult]]] = []
     for label, variant in variants:
 
         def shared(fraction: float, before: int = len(done)) -> None:
@@ -93,7 +93,7 @@ def _without(scene: ContactScene, kind: type) -> ContactScene:
     return evolve(scene, effects=tuple(e for e in scene.effects if not isinstance(e, kind)))
 
 
-def _text(result: ContactResult, studies: tuple[tuple[str, Study], ...]) -> str:
+def _text(result: ContactResult, studies: tuple[tuple[str, Study[ContactResult]], ...]) -> str:
     """Say the numbers, each with its unit, and the tables of the sweeps."""
     lines = [str(result.plan), "", result.message]
     for name, (value, unit) in result.scalars().items():
@@ -113,7 +113,7 @@ def _text(result: ContactResult, studies: tuple[tuple[str, Study], ...]) -> str:
 
 
 def _write(
-    result: ContactResult, studies: tuple[tuple[str, Study], ...], out: Path
+    result: ContactResult, studies: tuple[tuple[str, Study[ContactResult]], ...], out: Path
 ) -> tuple[Path, ...]:
     from ...files.results import save_result
 
@@ -129,7 +129,7 @@ def _slug(label: str) -> str:
 
 
 def _figures(
-    result: ContactResult, studies: tuple[tuple[str, Study], ...], out: Path
+    result: ContactResult, studies: tuple[tuple[str, Study[ContactResult]], ...], out: Path
 ) -> list[Path]:
     from ...plot import contact as contact_plot
     from ...plot import separation as plot
@@ -171,7 +171,9 @@ def _stacks(made_plan: ContactPlan, out: Path) -> Path:
     return plot.save(made, out / "stack")
 
 
-def _load_curves(studies: tuple[tuple[str, Study], ...], title: str, out: Path) -> Path:
+def _load_curves(
+    studies: tuple[tuple[str, Study[ContactResult]], ...], title: str, out: Path
+) -> Path:
     from ...plot import contact as contact_plot
     from ...plot import separation as plot
 
