@@ -167,7 +167,20 @@ class OpenedContact:
         """See `OpenedScene.plan_text`."""
         from ..planning import plan
 
-        return _with_sources(plan(self.scene, self.accuracy))
+        text = _with_sources(plan(self.scene, self.accuracy))
+        return "\n".join([text, *self._study_text()])
+
+    def _study_text(self) -> list[str]:
+        """Check the study of the file, and say what it varies."""
+        from ..studies.study import check_study
+        from .run.contact import study_variants
+
+        if not self.vary:
+            return []
+        for variant in study_variants(self.scene):
+            varied = check_study(variant.scene, self.vary, self.accuracy)
+        n = [f"  {', '.join(axis.paths)}: {len(axis.values)} values" for axis in varied]
+        return ["study, the last path fastest:", *n]
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `OpenedScene.run`."""

@@ -26,7 +26,13 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["ShortWave", "combined_heights", "grid_of", "realise", "short_waves"]
+__all__ = [
+    "ShortWave",
+    "combined_heights",
+    "grid_of",
+    "realise",
+    "short_waves",
+]
 
 
 def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
@@ -61,14 +67,29 @@ def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
                 accuracy.grid,
                 f"be that of the height map, {shape}, or left out",
             )
-        return Grid(shape, pixel, window.periodic)
+        return Grid(shape, pixel, _is_periodic(scene))
     if window.width is None:
         raise DescriptionError(
             "Window.width", None, "be given where no surface is measured", unit="m"
         )
     ny, nx = accuracy.shape
     height = window.height if window.height is not None else window.width
-    return Grid((ny, nx), (height / ny, window.width / nx), window.periodic)
+    return Grid((ny, nx), (height / ny, window.width / nx), _is_periodic(scene))
+
+
+def _is_periodic(scene: ContactScene) -> bool:
+    """Whether the surfaces of a scene repeat: by its window, else unless one states otherwise."""
+    if scene.window.periodic is not None:
+        return scene.window.periodic
+    return all(_may_repeat(body.surface) for body in scene.interface.bodies)
+
+
+def _may_repeat(surface: Surface) -> bool:
+    if isinstance(surface, CombinedSurface):
+        return all(_may_repeat(part) for part in surface.parts)
+    if isinstance(surface, Measured):
+        surface = _measured(surface)
+    return not (isinstance(surface, Heights) and surface.is_periodic is False)
 
 
 def _own_grids(surface: Surface) -> list[tuple[tuple[int, int], tuple[float, float]]]:
@@ -107,7 +128,11 @@ def _read(surface: Measured, changed: int) -> Heights:
         checksum=surface.checksum,
     )
     heights = detrended(found.heights, surface.detrend)
-    return Heights(heights=-heights if surface.flipped else heights, pixel_size=found.pixel_size)
+    return Heights(
+        heights=-heights if surface.flipped else heights,
+        pixel_size=found.pixel_size,
+        is_periodic=found.is_periodic,
+    )
 
 
 class ShortWave(NamedTuple):

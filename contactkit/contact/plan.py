@@ -212,7 +212,10 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_bodies(scene)
     _check_effects(scene)
     accuracy = accuracy or Accuracy.standard
-    made = ContactPlan(scene, accuracy, grid_of(scene, accuracy))
+    grid = grid_of(scene, accuracy)
+    if scene.window.periodic is None and not grid.periodic:  # a measured surface states so
+        scene = evolve(scene, window=evolve(scene.window, periodic=False))
+    made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
     _check_load(made)
     return made

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
@@ -13,6 +14,8 @@ from ..scene.loading import Pressing
 from ..scene.materials import Material, Stack
 from ..scene.rough_surfaces import Heights
 from ..scene.scenes import ContactScene
+from ..scene.topography import Topography, as_surface, is_topography
+from ..scene.validity import warn
 from ..scene.window import Window
 from ..units import parse_quantity
 from .effects.base import ContactEffect
@@ -20,7 +23,7 @@ from .effects.elasticity import HalfSpace, LayeredHalfSpace
 from .effects.plasticity import HardnessLimit, HardnessMap
 from .plan import plan_contact
 from .result import ContactResult
-from .solve import solve
+from .solve import solve_unwarned
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -29,12 +32,12 @@ __all__ = ["press"]
 
 
 def press(
-    heights: ArrayLike,
-    pixel_size: float | str | tuple[float | str, float | str],
+    heights: ArrayLike | Topography,
+    pixel_size: float | str | tuple[float | str, float | str] | None,
     stack: Stack | Material,
     mean_pressure: float | str,
     hardness: float | str | NDArray[np.float64] | None = None,
-    periodic: bool = True,
+    periodic: bool | None = None,
     rtol: float = 1e-8,
     threads: int = 1,
 ) -> ContactResult:
@@ -42,20 +45,25 @@ def press(
 
     A number may be a text with its unit: ``"100 MPa"``.
 
+    The heights are taken as given: no tilt is removed, and the message of the result states
+    theirs.
+
     Parameters
     ----------
-    heights : array_like (ny, nx)
-        Heights [m] of the rough body that faces the flat, peaks up.
+    heights : array_like (ny, nx), or topography
+        Heights [m] of the rough body that faces the flat, peaks up; or a topography object of
+        SurfaceTopography, which has a unit, a size and a flag of periodicity.
     pixel_size : float or (float, float)
-        Size of a pixel [m]; a pair is (dy, dx).
+        Size of a pixel [m]; a pair is (dy, dx). None with a topography.
     stack : Stack or Material
         Solid of the flat: layers on a substrate, or a half-space.
     mean_pressure : float
         Mean pressure over the map [Pa].
     hardness : float or array (ny, nx), optional
         Upper bound of the pressure [Pa]; None: elastic.
-    periodic : bool
-        Whether the map repeats beyond its edges; if not, an isolated contact.
+    periodic : bool, optional
+        Whether the map repeats beyond its edges; if not, an isolated contact. None: it repeats,
+        unless a topography states that it does not.
     rtol : float
         Largest violation of the contact conditions over the rms height [-].
     threads : int
@@ -73,6 +81,11 @@ def press(
         If the map has holes, one row, or a number is impossible.
     InfeasibleError
         If the hardness cannot carry the load.
+
+    Warns
+    -----
+    ValidityWarning
+        For each number of `ContactResult.validity` that is out of its range.
 
     Examples
     --------
@@ -95,16 +108,16 @@ def press(
         is_map = np.ndim(hardness) > 0
         given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")
         effects.append(HardnessLimit(rule="constant", hardness=given))
+    surface = _surface(heights, pixel_size)
     scene = ContactScene(
-        interface=Interface(
-            lower=Body(solid=stack),
-            upper=Body(surface=Heights(heights=heights, pixel_size=_size(pixel_size))),
-        ),
+        interface=Interface(lower=Body(solid=stack), upper=Body(surface=surface)),
         window=Window(periodic=periodic),
         loading=Pressing(pressure=_number(mean_pressure, "Pa", "mean_pressure")),
         effects=tuple(effects),
     )
-    return solve(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
+    result = solve_unwarned(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
+    warn(result.validity)
+    return evolve(result, message=f"{result.message}; {_tilt(surface)}")
 
 
 def _number(given: Any, unit: str, name: str) -> float:
@@ -118,3 +131,26 @@ def _size(given: Any) -> float | tuple[float, float]:
     if np.ndim(given) == 0:
         return _number(given, "m", "pixel_size")
     return tuple(_number(one, "m", "pixel_size") for one in given)  # type: ignore[return-value]
+
+
+def _surface(heights: Any, pixel_size: Any) -> Heights:
+    if not is_topography(heights):
+        size: Any = None if pixel_size is None else _size(pixel_size)  # None is refused there
+        return Heights(heights=heights, pixel_size=size)
+    if pixel_size is not None:
+        raise DescriptionError(
+            "press(pixel_size)", pixel_size, "be None: the topography has its size", unit="m"
+        )
+    made: Heights = as_surface(heights)
+    return made
+
+
+def _tilt(surface: Heights) -> str:
+    """State the tilt that is left in a map: the rise of the plane that fits it best."""
+    from ..roughness.height_maps import detrended
+
+    given = surface.heights
+    plane = detrended(given, "mean") - detrended(given, "tilt")
+    rise, rms = float(np.ptp(plane)), float(np.std(given - plane))
+    over = f", {rise / rms:.2g} of the rms height" if rms > 1e-9 * rise else ""
+    return f"heights as given: no tilt removed, theirs rises by {rise:.2g} m over the window{over}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -205,12 +206,13 @@ def load_curve(
     Parameters
     ----------
     curves : sequence of (label, columns)
-        Columns by the names of `ContactResult.scalars`, over the pressure that is imposed.
+        One for each line: columns by the names of `ContactResult.scalars`, over the pressure that
+        is imposed.
     axes : sequence of Axes
         One for each quantity of `LOAD_PANELS` that the columns have.
     """
     for ax, (name, label, factor) in zip(axes, panels_of(curves), strict=False):
-        for (title, columns), style in zip(curves, ("o-", "s--", "^:"), strict=False):
+        for (title, columns), style in zip(curves, itertools.cycle(_STYLES), strict=False):
             if name in columns:
                 imposed = columns.get("loading.pressure", columns["mean_pressure"])
                 mean = np.asarray(imposed) / 1e6
@@ -219,6 +221,7 @@ def load_curve(
     return axes
 
 
+_STYLES = ("o-", "s--", "^:", "v-.")
 LOAD_PANELS = (
     ("max_pressure", "maximum pressure [GPa]", 1e9),
     ("contact_fraction", "contact area [% of the window]", 0.01),

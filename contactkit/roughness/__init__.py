@@ -1,7 +1,8 @@
 """Rough surfaces: random and measured height maps, and their statistics.
 
-elementary       Heights of simple shapes: waves, spheres, paraboloids.
-random_surfaces  Random rough surfaces: exponential autocorrelation, self-affine; resolved variance.
-height_maps      Measured height maps: reading, validation, detrending.
-statistics       Roughness parameters, bearing fraction, autocorrelation, spectrum and its moments.
+elementary         Heights of simple shapes: waves, spheres, paraboloids.
+random_surfaces    Random rough surfaces: exponential autocorrelation, self-affine.
+height_maps        Measured height maps: reading, validation, detrending.
+surface_data_file  Surface data files of ISO 25178-71 in their text form.
+statistics         Roughness parameters, bearing fraction, autocorrelation, spectrum, moments.
 """

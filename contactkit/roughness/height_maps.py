@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ..errors import DescriptionError
 from ..units import parse_unit
+from .surface_data_file import is_surface_data_text, read_surface_data
 
 __all__ = [
     "HeightMap",
@@ -217,6 +218,8 @@ class HeightMap(NamedTuple):
     """Name of the file, and the channel if it has several."""
     checksum: str
     """SHA-256 of the file."""
+    is_periodic: bool | None = None
+    """Whether the map repeats beyond its edges; None where the file does not say."""
 
 
 def checksum(path: str | PathLike[str]) -> str:
@@ -248,6 +251,8 @@ def read_height_map(
                            lines that begin with ``#`` are skipped; needs both as well
     xyz                    a point x, y, z per line, on a full regular grid in any order;
                            needs `unit`, that of all three
+    sdf                    ISO 25178-71 as text, with its sizes, in metres; the binary form is
+                           one of the others
     any other              whatever SurfaceTopography reads (extra ``contactkit[maps]``);
                            `pixel_size` and `unit` only if the file does not contain them
     ====================== ==============================================================
@@ -293,7 +298,7 @@ def read_height_map(
         )
     size = _checked_size(pixel_size)
     ending = file.suffix.lower()
-    source = file.name
+    source, is_periodic = file.name, None
     if ending == ".npy" or ending in _MATRICES:
         size = _needed(size, "pixel_size", "1e-9 or (2e-9, 1e-9) [m]", file)
         raw = _load_npy(file) if ending == ".npy" else read_matrix(file)
@@ -304,9 +309,14 @@ def read_height_map(
         factor = _length_unit(unit, file)
         raw, own = read_points(file)
         heights, size = raw * factor, (own[0] * factor, own[1] * factor)
+    elif ending == ".sdf" and is_surface_data_text(file):
+        for field, given in (("unit", unit), ("pixel_size", pixel_size)):
+            if given is not None:
+                raise _double(field, given, file)
+        heights, size = read_surface_data(file)
     else:
-        heights, size, source = _read_instrument(file, size, unit, channel)
-    return HeightMap(_checked(heights, file), size, source, found)
+        heights, size, source, is_periodic = _read_instrument(file, size, unit, channel)
+    return HeightMap(_checked(heights, file), size, source, found, is_periodic)
 
 
 def _existing(path: str | PathLike[str]) -> Path:
@@ -389,10 +399,18 @@ def _checked(heights: Array, file: Path) -> Array:
     return np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
 
 
+class _Channel(NamedTuple):
+    """Heights [m], pixel size [m], source and periodicity of a channel of an instrument file."""
+
+    heights: Array
+    pixel_size: Pair
+    source: str
+    is_periodic: bool | None
+
+
 def _read_instrument(
     file: Path, size: Pair | None, unit: str | None, channel: int | None
-) -> tuple[Array, Pair, str]:
-    """Heights [m], pixel size [m] and source of an instrument file."""
+) -> _Channel:
     try:
         from SurfaceTopography import open_topography
         from SurfaceTopography.Exceptions import ReadFileError
@@ -400,8 +418,8 @@ def _read_instrument(
         raise DescriptionError(
             "HeightMap.path",
             str(file),
-            f"end in .npy, .xyz, {', '.join(_MATRICES)}",
-            hint="files of instruments need pip install contactkit[maps]",
+            f"end in .npy, .xyz, {', '.join(_MATRICES)}, or be .sdf as text",
+            hint="files of instruments and binary .sdf need pip install contactkit[maps]",
         ) from error
     try:
         with warnings.catch_warnings():
@@ -421,7 +439,7 @@ def _read_instrument(
 
 def _read_channel(
     reader: Any, file: Path, size: Pair | None, unit: str | None, channel: int | None
-) -> tuple[Array, Pair, str]:
+) -> _Channel:
     # These readers accept any file of some length, as the format has no signature.
     if reader.format() in _UNMARKED and file.suffix.lower() != f".{reader.format()}":
         raise DescriptionError(
@@ -459,4 +477,5 @@ def _read_channel(
         size = (factor * float(found.pixel_size[1]), factor * float(found.pixel_size[0]))
     heights = factor * np.ma.asarray(found.heights()).T  # there, arrays are [x, y]
     name = f"{file.name}, {info.name}" if len(channels) > 1 else file.name
-    return heights, size, name
+    flag = getattr(info, "is_periodic", None)
+    return _Channel(heights, size, name, None if flag is None else bool(flag))

@@ -3,6 +3,7 @@
 materials            Materials, and stacks of layers bonded to a substrate.
 surfaces             Base class of all surfaces; flat, sphere, paraboloid and wave.
 rough_surfaces       Random roughness, height maps, and sums of surfaces.
+topography           Topography objects of other packages as surfaces.
 asperity_population  Summits of a rough surface as a population of spheres.
 meniscus             Liquid between two bodies: its amount and its contact angles.
 interface            Two bodies and the meniscus between them; the conventions of signs.

@@ -11,6 +11,7 @@ of the liquid is positive when it resists separation.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from attrs import field, frozen
 
@@ -19,6 +20,7 @@ from ..validators import Described, optional, part
 from .materials import Material, Stack
 from .meniscus import Meniscus
 from .surfaces import Flat, Surface
+from .topography import as_surface
 
 __all__ = ["Body", "Interface"]
 
@@ -30,12 +32,13 @@ class Body(Described):
     Parameters
     ----------
     surface : Surface
-        Its surface, smooth or rough; flat if not given.
+        Its surface, smooth or rough; flat if not given. A topography object of SurfaceTopography
+        is taken as `Heights`.
     solid : Material, Stack or None
         A homogeneous solid or a stack of layers. None: rigid.
     """
 
-    surface: Surface = field(factory=Flat, validator=part(Surface))
+    surface: Surface = field(factory=Flat, converter=as_surface, validator=part(Surface))
     solid: Material | Stack | None = field(default=None, validator=optional(part(Material, Stack)))
 
     @property
@@ -44,9 +47,10 @@ class Body(Described):
         return Stack(substrate=self.solid) if isinstance(self.solid, Material) else self.solid
 
 
-def as_body(value: Body | Surface) -> Body:
-    """Take a bare surface for a rigid body of that surface."""
-    return Body(surface=value) if isinstance(value, Surface) else value
+def as_body(value: Any) -> Any:
+    """Take a bare surface, or a topography, for a rigid body of that surface."""
+    surface = as_surface(value)
+    return Body(surface=surface) if isinstance(surface, Surface) else value
 
 
 @frozen(kw_only=True)

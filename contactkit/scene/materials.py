@@ -83,6 +83,8 @@ class Stack(Described):
         From the surface down; none for a homogeneous solid.
     substrate : Material
         What carries them; it fills the half-space below.
+    name : str
+        What it is, for tables and figures.
 
     Examples
     --------
@@ -91,10 +93,19 @@ class Stack(Described):
     >>> coated = Stack(layers=(Layer(material=dlc, thickness=2e-6),), substrate=steel)
     >>> [m.name for m in coated.materials], coated.depths
     (['DLC', 'steel'], (2e-06,))
+    >>> coated.label
+    'DLC 2e-06 m / steel'
     """
 
     layers: tuple[Layer, ...] = field(default=(), converter=as_tuple, validator=_all_layers)
     substrate: Material = field(validator=part(Material))
+    name: str = ""
+
+    @property
+    def label(self) -> str:
+        """Its name; without one its materials and thicknesses."""
+        layers = (f"{layer.material.name} {layer.thickness:g} m" for layer in self.layers)
+        return self.name or " / ".join((*layers, self.substrate.name))
 
     @property
     def materials(self) -> tuple[Material, ...]:

@@ -13,7 +13,7 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..units import si
-from ..validators import as_pair, as_tuple, choice, optional, positive, refuse
+from ..validators import as_pair, as_tuple, choice, optional, part, positive, refuse
 from .surfaces import Surface
 
 if TYPE_CHECKING:
@@ -185,6 +185,8 @@ class Heights(RoughSurface):
         Heights out of the body [m], peaks positive.
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx).
+    is_periodic : bool, optional
+        Whether they repeat beyond their edges. None: not known; the window decides.
     """
 
     kind: ClassVar[str] = "heights"
@@ -193,6 +195,7 @@ class Heights(RoughSurface):
     pixel_size: float | tuple[float, float] = field(
         converter=as_pair, validator=_length_or_pair, metadata=si("m")
     )
+    is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
 
     @heights.validator
     def _check_heights(self, attribute: Attribute[Any], value: Map) -> None:

@@ -22,14 +22,15 @@ class Window(Described):
         Its size along x [m]. None: that of a measured surface.
     height : float, optional
         Its size along y [m]. None: as along x.
-    periodic : bool
+    periodic : bool, optional
         Whether the surfaces repeat beyond the edges. If not, the bodies extend without load
-        beyond the window: an isolated contact.
+        beyond the window: an isolated contact. None: they repeat, unless a measured surface
+        states that it does not.
     """
 
     width: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
     height: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-    periodic: bool = field(default=True, validator=part(bool))
+    periodic: bool | None = field(default=None, validator=optional(part(bool)))
 
 
 class Grid(NamedTuple):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
@@ -14,7 +15,7 @@ from ..files.structure import field_value, renamed
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..separation.effects.registry import Effect
 
-__all__ = ["Axis", "Changed", "Scene", "axes", "changed"]
+__all__ = ["Axis", "Changed", "Scene", "Vary", "axes", "changed", "combinations"]
 
 Scene = SeparationScene | SlidingScene | ContactScene
 Tree = dict[str, Any]
@@ -26,14 +27,25 @@ class _Leaf(NamedTuple):
 
 
 class Axis(NamedTuple):
-    """One varied parameter: its path, its values in SI units, and the unit."""
+    """Parameters that vary together: their paths, rows of values in SI units, and the units."""
 
-    path: str
-    values: tuple[Any, ...]
-    unit: str
+    paths: tuple[str, ...]
+    values: tuple[tuple[Any, ...], ...]
+    units: tuple[str, ...]
 
 
-def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) -> tuple[Axis, ...]:
+Vary = Mapping[str, Iterable[Any]]
+"""Values by path; rows of values where a key is several paths, separated by commas."""
+
+
+class _Owner(NamedTuple):
+    """Class and field that a path refers to; no class for an item of a tuple."""
+
+    kind: type | None
+    field: str
+
+
+def axes(scene: Scene, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
     """Parse the parameters to vary.
 
     Parameters
@@ -45,12 +57,13 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) ->
     vary : mapping of str to sequence
         Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index for an
         item of a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name).
-        Quantities may be texts with a unit.
+        Quantities may be texts with a unit. Several paths, separated by commas, vary together:
+        each of their values is a row with one for each path.
 
     Raises
     ------
     DescriptionError
-        If a path does not exist, lies inside another, or has no values.
+        If a path does not exist, is given twice, lies inside another, or has no values.
 
     Examples
     --------
@@ -63,16 +76,26 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Mapping[str, Iterable[Any]]) ->
     ... )
     >>> thickness = "interface.lower.solid.layers.0.thickness"
     >>> axes(scene, ck.Accuracy(), {thickness: ["5 nm", 1e-8]})[0].values
-    (5e-09, 1e-08)
+    ((5e-09,), (1e-08,))
     """
     if not isinstance(vary, Mapping) or not vary:
         raise DescriptionError("vary", vary, "name at least one field and its values")
-    found = tuple(_axis(scene, accuracy, path, values) for path, values in vary.items())
-    for axis in found:
-        for other in found:
-            if other.path.startswith(f"{axis.path}."):
-                raise DescriptionError("vary", other.path, f"not lie inside {axis.path!r}")
+    found = tuple(_axis(scene, accuracy, key, values) for key, values in vary.items())
+    paths = [path for axis in found for path in axis.paths]
+    for path in paths:
+        if paths.count(path) > 1:
+            raise DescriptionError("vary", path, "be given once")
+        for other in paths:
+            if other.startswith(f"{path}."):
+                raise DescriptionError("vary", other, f"not lie inside {path!r}")
     return found
+
+
+def combinations(varied: tuple[Axis, ...]) -> list[dict[str, Any]]:
+    """Values by path of every point, the last axis fastest."""
+    paths = [path for axis in varied for path in axis.paths]
+    product = itertools.product(*(axis.values for axis in varied))
+    return [dict(zip(paths, itertools.chain(*rows), strict=True)) for rows in product]
 
 
 class Changed(NamedTuple):
@@ -117,21 +140,42 @@ def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
     return attrs.evolve(owner, **changes)
 
 
-def _axis(scene: Scene, accuracy: Accuracy, path: str, values: Iterable[Any]) -> Axis:
-    kind, name = _owner(scene, accuracy, path)
+def _axis(scene: Scene, accuracy: Accuracy, key: str, values: Iterable[Any]) -> Axis:
+    paths = tuple(path.strip() for path in key.split(","))
+    owners = [_owner(scene, accuracy, path) for path in paths]
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
-        raise DescriptionError(f"vary[{path!r}]", values, "be a sequence of values")
-    given = [v.item() if getattr(v, "ndim", None) == 0 else v for v in values]
+        raise DescriptionError(f"vary[{key!r}]", values, "be a sequence of values")
+    given = list(values)
     if not given:
-        raise DescriptionError(f"vary[{path!r}]", given, "have at least one value")
-    if kind is None:
-        return Axis(path, tuple(given), "-")
-    read = tuple(field_value(kind, name, value) for value in given)
-    return Axis(path, read, getattr(attrs.fields(kind), name).metadata.get("unit", "-"))
+        raise DescriptionError(f"vary[{key!r}]", given, "have at least one value")
+    rows = [(value,) for value in given] if len(paths) == 1 else _rows(key, given, len(paths))
+    columns = [[_value(owner, row[i]) for row in rows] for i, owner in enumerate(owners)]
+    return Axis(paths, tuple(zip(*columns, strict=True)), tuple(map(_unit, owners)))
 
 
-def _owner(scene: Scene, accuracy: Accuracy, path: str) -> tuple[type | None, str]:
-    """Class and field that a path refers to; None for an item of a tuple."""
+def _rows(key: str, given: list[Any], n: int) -> list[tuple[Any, ...]]:
+    """Rows of values of paths that vary together."""
+    for row in given:
+        if not isinstance(row, list | tuple) or len(row) != n:
+            raise DescriptionError(
+                f"vary[{key!r}]", row, f"be a row of {n} values, one for each path"
+            )
+    return [tuple(row) for row in given]
+
+
+def _value(owner: _Owner, value: Any) -> Any:
+    plain = value.item() if getattr(value, "ndim", None) == 0 else value
+    return plain if owner.kind is None else field_value(owner.kind, owner.field, plain)
+
+
+def _unit(owner: _Owner) -> str:
+    if owner.kind is None:
+        return "-"
+    unit: str = getattr(attrs.fields(owner.kind), owner.field).metadata.get("unit", "-")
+    return unit
+
+
+def _owner(scene: Scene, accuracy: Accuracy, path: str) -> _Owner:
     at: Any = {"accuracy": accuracy} | {name: getattr(scene, name) for name in _fields(scene)}
     kind, name, walked = None, "", ""
     for segment in path.split("."):
@@ -143,7 +187,7 @@ def _owner(scene: Scene, accuracy: Accuracy, path: str) -> tuple[type | None, st
         walked = f"{walked}.{segment}" if walked else segment
     if walked == "accuracy":
         raise DescriptionError("vary", path, "lead to a field of it, such as 'accuracy.rtol'")
-    return kind, name
+    return _Owner(kind, name)
 
 
 def _lost(path: str, segment: str, walked: str, at: Any, choices: list[str]) -> DescriptionError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -18,7 +18,7 @@ from ..errors import DescriptionError, InfeasibleError, PlanError, ValidityWarni
 from ..files.results import from_bytes
 from ..planning import plan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
-from .paths import Axis, Scene, axes, changed
+from .paths import Axis, Scene, Vary, axes, changed, combinations
 from .run import Done, Piece, Task, put, run_here, run_in_processes, run_on_client
 from .store import Store, StudyPoint
 from .table import Study
@@ -29,13 +29,13 @@ if TYPE_CHECKING:
     from ..separation.results import SeparationResult
     from ..separation.sliding.result import SlidingResult
 
-__all__ = ["Study", "StudyPoint", "study"]
+__all__ = ["Study", "StudyPoint", "check_study", "study"]
 
 
 @overload
 def study(
     scene: ContactScene,
-    vary: Mapping[str, Iterable[Any]],
+    vary: Vary,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -49,7 +49,7 @@ def study(
 @overload
 def study(
     scene: SeparationScene,
-    vary: Mapping[str, Iterable[Any]],
+    vary: Vary,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -63,7 +63,7 @@ def study(
 @overload
 def study(
     scene: SlidingScene,
-    vary: Mapping[str, Iterable[Any]],
+    vary: Vary,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -76,7 +76,7 @@ def study(
 
 def study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Mapping[str, Iterable[Any]],
+    vary: Vary,
     accuracy: Accuracy | None = None,
     *,
     store: str | Path | None = None,
@@ -95,9 +95,11 @@ def study(
         Values by the dotted path of a field: ``loading.pressure``,
         ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
-        library. Along the last one each contact starts from the solution at the value before, and
-        reuses heights and compliance where these are equal: choose the load, in steps of less than
-        a half, because an initial guess from further away does not help.
+        library. Paths that vary together are one key, separated by commas, with a row of values
+        for each step: ``"loading.pressure, accuracy.rtol": [("1 MPa", 1e-8), ("2 MPa", 1e-9)]``.
+        Along the last key each contact starts from the solution at the value before, and reuses
+        heights and compliance where these are equal: choose the load, in steps of less than a
+        half, because an initial guess from further away does not help.
     accuracy : Accuracy, optional
         Numerical settings; default `Accuracy.standard`.
     store : str or Path, optional
@@ -167,6 +169,34 @@ def study(
     return run.finish()
 
 
+def check_study(
+    scene: ContactScene | SeparationScene | SlidingScene,
+    vary: Vary,
+    accuracy: Accuracy | None = None,
+) -> tuple[Axis, ...]:
+    """Refuse what `study` refuses before any solve, and return the parameters that vary.
+
+    Raises
+    ------
+    DescriptionError, PlanError
+        As `study` does.
+    """
+    accuracy = accuracy if accuracy is not None else Accuracy.standard
+    varied = axes(scene, accuracy, vary)
+    points = [changed(scene, accuracy, values) for values in combinations(varied)]
+    _check_effects(*points[0])
+    return varied
+
+
+def _check_effects(scene: Scene, accuracy: Accuracy) -> None:
+    """Refuse effects that do not fit the scene of a point, but no load: that is of this point."""
+    with suppress(InfeasibleError):
+        if isinstance(scene, ContactScene):
+            unprepared_plan(scene, accuracy)
+        else:
+            plan(scene, accuracy)
+
+
 class _Run:
     """A running study: finished points, and points still to solve."""
 
@@ -181,11 +211,7 @@ class _Run:
     ) -> None:
         self.scene, self.accuracy, self.varied = scene, accuracy, varied
         self.store, self.keeps_maps, self.progress = store, keeps_maps, progress
-        paths = [axis.path for axis in varied]
-        product = itertools.product(*(axis.values for axis in varied))
-        self.tasks = [
-            self._task(i, dict(zip(paths, v, strict=True))) for i, v in enumerate(product)
-        ]
+        self.tasks = [self._task(i, values) for i, values in enumerate(combinations(varied))]
         self.points: dict[int, StudyPoint] = {}
         self.results: dict[int, AnyResult] = {}
         self.problems: dict[int, str] = {}  # with the files of points
@@ -234,12 +260,7 @@ class _Run:
     def check(self, pieces: list[Piece]) -> None:
         """Refuse effects that do not fit the scene before any solve, and report progress."""
         if pieces:
-            scene, accuracy = changed(self.scene, self.accuracy, pieces[0].tasks[0].values)
-            with suppress(InfeasibleError):  # concerns this point only
-                if isinstance(scene, ContactScene):
-                    unprepared_plan(scene, accuracy)
-                else:
-                    plan(scene, accuracy)
+            _check_effects(*changed(self.scene, self.accuracy, pieces[0].tasks[0].values))
         if self.progress is not None and (self.n_done or not pieces):
             self.progress(self.n_done / len(self.tasks))
 
@@ -268,12 +289,14 @@ class _Run:
             raise PlanError(f"every point of the study is refused: {points[0].message}")
         scalars = {n: unit for p in points for n, (_, unit) in p.scalars.items()}
         counts = dict.fromkeys((n for p in points for n in p.counts), "-")
-        units = {axis.path: axis.unit for axis in self.varied} | scalars | {"seconds": "s"} | counts
+        varied = {p: u for axis in self.varied for p, u in zip(axis.paths, axis.units, strict=True)}
+        units = varied | scalars | {"seconds": "s"} | counts
         nothing = {name: (math.nan, unit) for name, unit in scalars.items()}
         _warn(points)
         return Study(
             tuple(evolve(p, scalars=nothing | dict(p.scalars)) for p in points),
             tuple(len(axis.values) for axis in self.varied),
+            tuple(axis.paths for axis in self.varied),
             units,
             tuple(self.results.get(i) for i in range(len(points))) if self.keeps_maps else None,
         )

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import csv
 import math
+import textwrap
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from attrs import field, frozen
@@ -20,9 +21,17 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-__all__ = ["Study"]
+__all__ = ["Study", "StudyLine"]
 
 _MAX_COLUMNS = 6  # of a table without named columns
+_WIDEST = 40  # characters of a value without a name
+
+
+class StudyLine(NamedTuple):
+    """Points of a study along one parameter: the values of the others as text, and the columns."""
+
+    label: str
+    columns: Mapping[str, NDArray[Any]]
 
 
 R_co = TypeVar("R_co", bound=Result, covariant=True)
@@ -39,6 +48,8 @@ class Study(Generic[R_co]):
     shape : tuple of int
         Number of values of each parameter; ``column(name).reshape(study.shape)`` is the array over
         them.
+    paths : tuple of tuple of str
+        Paths of each parameter, several where they vary together.
     units : mapping of str to str
         Unit of each column: of the parameters, by path; of the scalar results; of ``seconds`` and
         the operation counts.
@@ -46,6 +57,7 @@ class Study(Generic[R_co]):
 
     points: tuple[StudyPoint, ...] = field(repr=False)
     shape: tuple[int, ...]
+    paths: tuple[tuple[str, ...], ...]
     units: Mapping[str, str] = field(repr=False)
     _results: tuple[R_co | None, ...] | None = field(repr=False)
 
@@ -112,6 +124,29 @@ class Study(Generic[R_co]):
             raise DescriptionError(
                 "column", name, "be one of the study", hint=nearest(name, list(self.units))
             )
+
+    def lines(self, along: str | None = None) -> tuple[StudyLine, ...]:
+        """Return the points as lines along one parameter, one for each combination of the others.
+
+        Parameters
+        ----------
+        along : str, optional
+            Path of that parameter, or its beginning, such as ``loading``; the last parameter if
+            none is given or none fits.
+        """
+        wanted = along or self.paths[-1][0]
+        fits = [i for i, paths in enumerate(self.paths) if any(p.startswith(wanted) for p in paths)]
+        axis = fits[0] if fits else len(self.shape) - 1
+        places = np.moveaxis(np.arange(len(self.points)).reshape(self.shape), axis, -1)
+        others = [p for i, paths in enumerate(self.paths) if i != axis for p in paths]
+        columns = {name: self.column(name) for name in self.units}
+        return tuple(
+            StudyLine(
+                ", ".join(_text(self.points[line[0]].values[p]) for p in others),
+                {name: column[line] for name, column in columns.items()},
+            )
+            for line in places.reshape(-1, self.shape[axis])
+        )
 
     def table(self, *names: str) -> str:
         """Return the points as text, one per line, with remarks below.
@@ -198,12 +233,23 @@ def _number(point: StudyPoint, name: str) -> Any:
 def _text(value: Any, digits: int = 6) -> str:
     if isinstance(value, float):
         return f"{value:.{digits}g}"
-    name = getattr(value, "name", None)  # of a material, a liquid or an effect
-    return str(name) if name else str(value)
+    for name in ("label", "name"):  # of a stack; of a material, a liquid or an effect
+        if given := getattr(value, name, None):
+            return str(given)
+    return textwrap.shorten(str(value), _WIDEST, placeholder=" ...")
 
 
 def _labels(shown: list[str], varied: list[str]) -> dict[str, str]:
-    """Last segment of each path, or the whole path where two would be equal."""
-    short = {name: name.rpartition(".")[2] if name in varied else name for name in shown}
-    twice = {label for label in short.values() if list(short.values()).count(label) > 1}
-    return {name: name if label in twice else label for name, label in short.items()}
+    """Shortest ends of the paths that differ from each other and from the other columns."""
+    labels: dict[str, str] = {}
+    for name in shown:
+        ends = _ends(name) if name in varied else [name]
+        others = [end for other in shown if other != name for end in _ends(other)]
+        labels[name] = next((end for end in ends if end not in others), name)
+    return labels
+
+
+def _ends(path: str) -> list[str]:
+    """Ends of a dotted path, the shortest first."""
+    parts = path.split(".")
+    return [".".join(parts[i:]) for i in range(len(parts) - 1, -1, -1)]

@@ -501,7 +501,8 @@ def test_press_refuses_an_impossible_hardness(hardness, parts):
         ({"threads": 0}, ("Accuracy.threads must be a whole number of at least 1, got 0",)),
         ({"heights": "map.npy"}, ("Heights.heights must",)),
         ({"heights": np.array([[0.0, 1j], [0.0, 0.0]])}, ("Heights.heights must",)),
-        ({"periodic": None}, ("Window.periodic must be a bool, got None",)),
+        ({"pixel_size": None}, ("Heights.pixel_size must be positive and finite [m], got None",)),
+        ({"periodic": "yes"}, ("Window.periodic must be a bool, got 'yes'",)),
     ],
 )
 def test_press_refuses_what_it_cannot_use(given, parts):

@@ -194,26 +194,6 @@ def test_files_of_instruments_need_an_extra(write, monkeypatch):
 # Files of instruments -----------------------------------------------------------------------
 
 
-SDF = """aISO-1.0
-ManufacID = test
-CreateDate = 010120260000
-ModDate = 010120260000
-NumPoints = 3
-NumProfiles = 2
-Xscale = 1e-9
-Yscale = 2e-9
-Zscale = 1e-9
-Zresolution = -1
-Compression = 0
-DataType = 7
-CheckType = 0
-*
-0 1 2
-3 4 5.5
-*
-"""
-
-
 @pytest.fixture
 def instruments():
     pytest.importorskip("SurfaceTopography")
@@ -225,15 +205,6 @@ def matlab(tmp_path):
     path = tmp_path / "a.mat"
     savemat(path, {"first": NUMBERS, "second": 2.0 * NUMBERS})
     return path
-
-
-@pytest.mark.usefixtures("instruments")
-def test_a_file_that_says_its_sizes(write):
-    """ISO 25178-71: a profile along x after the other, so that rows are along y as everywhere."""
-    found = read_height_map(write("a.sdf", SDF))
-    np.testing.assert_allclose(found.heights, NUMBERS * 1e-9, rtol=1e-12)
-    assert found.pixel_size == (pytest.approx(2e-9), pytest.approx(1e-9))
-    assert found.source == "a.sdf"
 
 
 @pytest.mark.usefixtures("instruments")
@@ -268,9 +239,6 @@ def test_what_a_file_of_an_instrument_does_not_say(matlab, given, message):
 @pytest.mark.parametrize(
     ("content", "given", "message"),
     [
-        (SDF, {"unit": "nm"}, r"unit must be left out: a\.sdf contains it, got 'nm'"),
-        (SDF, {"pixel_size": 1e-9}, r"pixel_size must be left out: a\.sdf contains it"),
-        (SDF.replace("5.5", "BAD"), {}, r"finite in every pixel of a\.sdf.*first at \[1, 2\]"),
         (b"\x07 no format at al", SIZE, r"in a format that SurfaceTopography reads"),
         (
             b"\x07 no format at all",

@@ -108,7 +108,13 @@ def test_a_scene_runs_into_numbers_files_and_figures(scene_file, tmp_path, capsy
     out = tmp_path / "out"
     assert main(["run", str(scene_file), "--out", str(out)]) == 0
     shown = capsys.readouterr().out
-    for said in ("max pressure", "GPa" if "GPa" in shown else "Pa", "load curve, wet"):
+    for said in (
+        "validity:",
+        "pixels per shortest wave = 2.4 (at least 8)",
+        "max pressure",
+        "GPa" if "GPa" in shown else "Pa",
+        "load curve, wet",
+    ):
         assert said in shown
     names = {path.name for path in out.iterdir()}
     assert names == {
@@ -143,6 +149,30 @@ def test_the_plan_says_what_is_on_and_off(scene_file, capsys):
     assert "on   film-meniscus" in shown
     assert "off  friction-coupling" in shown
     assert "Eq. (2.43)" in shown
+    assert "study, the last path fastest:\n  loading.pressure: 2 values" in shown
+
+
+@pytest.mark.parametrize("command", ["plan", "run"])
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"loading.pressure" =', '"loading.presure" =', "did you mean 'loading.pressure'"),
+        ('["10 MPa", "40 MPa"]', '["10 MPa", "40 MPs"]', "'MPs'"),
+        ('["10 MPa", "40 MPa"]', "[]", "have at least one value"),
+        ('width = "2 um"', 'width = "2 m"', "cutoff must be at least two pixels"),
+        ('cutoff = "0.1 um"', 'cutoff = "0.05 um"', "cutoff must be at least two pixels"),
+        ('width = "2 um"', "", "Window.width must be given"),
+    ],
+)
+def test_the_plan_refuses_what_a_run_would_and_a_run_before_its_solve(
+    tmp_path, capsys, monkeypatch, command, old, new, message
+):
+    assert old in SMALL
+    monkeypatch.setattr("contactkit.contact.solve._solve_all", None)
+    path = tmp_path / "bad.toml"
+    path.write_text(SMALL.replace(old, new))
+    assert main([command, str(path)]) == 2
+    assert message in capsys.readouterr().err
 
 
 @pytest.mark.slow
@@ -156,6 +186,7 @@ def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tm
     assert numbers["quasi-newton / rtol 1e-02 / operator applications"]["value"] > 0
     assert "edge-corrected area / 48 x 48 / error" in numbers
     assert "effects up to + film-meniscus / seconds" in numbers
+    assert 0.0 < numbers["discretisation error / max_pressure"]["value"] < 1.0
     assert {path.name for path in out.iterdir()} == {"cost.png", "cost.csv"}
 
 

@@ -20,7 +20,7 @@ import pytest
 import contactkit as ck
 from contactkit.contact import prepared
 from contactkit.studies import run as study_run
-from contactkit.studies.study import StudyPoint
+from contactkit.studies.study import StudyPoint, check_study
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -487,3 +487,109 @@ def test_what_a_killed_run_left_half_written_is_swept_away(tmp_path):
     ck.study(contact(), {"loading.pressure": PRESSURES[:1]}, ACCURACY, store=tmp_path)
     assert not old.exists()
     assert new.exists()
+
+
+# Parameters that vary together, names and lines -----------------------------------------------
+
+PAIR = "effects.friction-traction.coefficient, interface.upper.surface.seed"
+
+
+def test_paths_that_vary_together_are_one_parameter():
+    scene = contact(ck.FrictionTraction(coefficient=0.1))
+    vary = {PAIR: [(0.1, 1), [0.2, 2], (0.3, 3)], "loading.pressure": PRESSURES[:2]}
+    study = ck.study(scene, vary, ACCURACY)
+    friction, seed = PAIR.split(", ")
+    assert study.shape == (3, 2)
+    assert study.paths == ((friction, seed), ("loading.pressure",))
+    assert study.column(friction).tolist() == [0.1, 0.1, 0.2, 0.2, 0.3, 0.3]
+    assert study.column(seed).tolist() == [1, 1, 2, 2, 3, 3]
+    alone = single(contact(ck.FrictionTraction(coefficient=0.3), surface=rough(3), pressure=4e7))
+    assert study.column("contact_area")[-1] == pytest.approx(alone.contact_area, rel=1e-6)
+
+
+def rough(seed):
+    return ck.GaussianRoughness(rms=1e-9, correlation_length=3e-7, cutoff=1.25e-7, seed=seed)
+
+
+@pytest.mark.parametrize(
+    ("vary", "message"),
+    [
+        ({PAIR: [0.1, 0.2]}, "must be a row of 2 values"),
+        ({PAIR: [(0.1, 1, 2)]}, "must be a row of 2 values"),
+        ({f"{FRICTION}, {FRICTION}": [(0.1, 0.2)]}, "be given once"),
+        ({FRICTION: [0.1], PAIR: [(0.1, 2)]}, "be given once"),
+        ({f"{FRICTION}, loading.presure": [(0.1, 1e6)]}, r"did you mean 'loading\.pressure'"),
+        ({f"loading, {FRICTION}, loading.pressure": [(1, 2, 3)]}, "not lie inside 'loading'"),
+    ],
+)
+def test_rows_that_do_not_fit_their_paths(vary, message):
+    scene = contact(ck.FrictionTraction(coefficient=0.1))
+    with pytest.raises(ck.DescriptionError, match=message):
+        ck.study(scene, vary, ACCURACY)
+    with pytest.raises(ck.DescriptionError, match=message):
+        check_study(scene, vary, ACCURACY)
+
+
+SOLIDS = "interface.lower.solid, interface.upper.solid"
+
+
+def stacks():
+    layers = tuple(
+        ck.Layer(material=ck.load_material(name), thickness=d)
+        for name, d in (("dlc", 5e-9), ("co-cr", 25e-9), ("ni-p", 10e-6))
+    )
+    named = ck.Stack(name="structure I", layers=layers[:1], substrate=ck.load_material("al-mg"))
+    return named, ck.Stack(layers=layers, substrate=ck.load_material("al-mg"))
+
+
+def test_columns_of_solids_are_short():
+    named, plain = stacks()
+    study = ck.study(contact(), {SOLIDS: [(named, "ni-p"), (plain, named)]}, ACCURACY)
+    lines = study.table("contact_fraction").splitlines()
+    assert lines[0].split()[:4] == ["lower.solid", "[-]", "upper.solid", "[-]"]
+    assert "structure I" in lines[1]
+    assert "Ni-P" in lines[1] or "nickel" in lines[1]
+    assert max(map(len, lines[:3])) < 160
+    assert plain.label.startswith("diamond-like carbon 5e-09 m / ")
+
+
+def test_a_load_curve_is_a_line_for_each_combination(tmp_path):
+    named, plain = stacks()
+    vary = {
+        "loading.pressure": PRESSURES[:3],
+        "interface.lower.solid": [named, plain],
+        "interface.upper.surface.seed": [1, 2],
+    }
+    study = ck.study(contact(), vary, ACCURACY)
+    lines = study.lines("loading")
+    assert [line.label for line in lines] == [
+        f"{stack.label}, {seed}" for stack in (named, plain) for seed in (1, 2)
+    ]
+    for line in lines:
+        assert line.columns["loading.pressure"].tolist() == PRESSURES[:3]
+        assert (np.diff(line.columns["contact_area"]) > 0.0).all()
+        assert len(set(line.columns["interface.upper.surface.seed"])) == 1
+    assert len(study.lines()) == 6  # along the last one
+    assert [len(line.columns["seconds"]) for line in study.lines("interface.lower")] == [2] * 6
+    one = ck.study(contact(), {"loading.pressure": PRESSURES[:2]}, ACCURACY).lines()
+    assert [line.label for line in one] == [""]
+
+
+def test_every_line_is_drawn():
+    plot = pytest.importorskip("contactkit.plot.contact")
+    drawing = pytest.importorskip("contactkit.plot.separation")
+    columns = {"mean_pressure": np.array([1e6, 2e6]), "max_pressure": np.array([1e9, 2e9])}
+    curves = [(str(i), columns) for i in range(7)]
+    figure, ax = drawing.figure()
+    plot.load_curve(curves, [ax])
+    assert len(ax.lines) == 7
+    assert len({(line.get_linestyle(), line.get_color()) for line in ax.lines}) == 7
+    assert figure is ax.figure
+
+
+def test_a_stack_keeps_its_name_in_a_file(tmp_path):
+    named, _ = stacks()
+    scene = contact(solid=named)
+    again = ck.load_scene(ck.save_scene(scene, tmp_path / "scene.toml"))
+    assert again == scene
+    assert again.interface.upper.solid.name == "structure I"

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attrs import evolve
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ...contact.result import ContactResult
     from ...studies.study import Study
 
-__all__ = ["run_contact"]
+__all__ = ["Variant", "run_contact", "study_variants"]
 
 Progress = Callable[[float], None]
 
@@ -45,14 +45,18 @@ def run_contact(
 ) -> Report:
     """Solve a contact and the studies of its file, and write maps and figures to a folder."""
     from ...contact.solve import solve_unwarned
+    from ...studies.study import check_study
 
+    variants = study_variants(scene) if vary else ()
+    for variant in variants:
+        check_study(variant.scene, vary, accuracy)  # before the solve
     result = solve_unwarned(plan(scene, accuracy))
     fraction = 0.5 if vary else 1.0
     progress(fraction)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
         studies = _studies(
-            scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
+            variants, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
         )
     scalars: dict[str, tuple[Any, str]] = dict(result.scalars())
     text = _text(result, studies)
@@ -62,30 +66,41 @@ def run_contact(
     return Report(scalars, text, files, partial(_figures, result, studies, out))
 
 
-def _studies(
-    scene: ContactScene, accuracy: Accuracy, vary: Mapping[str, list[Any]], progress: Progress
-) -> tuple[tuple[str, Study[ContactResult]], ...]:
-    """The sweep of the file, as it is and, where a film is listed, with its pull added."""
-    from ...studies.study import study
+class Variant(NamedTuple):
+    """A scene whose load curve is run, and what it is."""
 
-    if not vary:
-        return ()
+    label: str
+    scene: ContactScene
+
+
+def study_variants(scene: ContactScene) -> tuple[Variant, ...]:
+    """Scenes of the load curves: as it is and, where a film is listed, with its pull added."""
     light = _without(scene, SubsurfaceStress)
     film = light.effect(FilmMeniscus)
-    variants = [("dry" if film is None else "wet, film reported only", light)]
-    if film is not None:
-        pulled = evolve(film, self_consistent=not film.self_consistent)
-        effects = tuple(pulled if e is film else e for e in light.effects)
-        variants.append(("wet, film pulls too", evolve(light, effects=effects)))
-        if film.self_consistent:
-            variants = [(variants[1][0], variants[0][1]), (variants[0][0], variants[1][1])]
+    if film is None:
+        return (Variant("dry", light),)
+    other = evolve(film, self_consistent=not film.self_consistent)
+    changed = evolve(light, effects=tuple(other if e is film else e for e in light.effects))
+    reported, pulling = (changed, light) if film.self_consistent else (light, changed)
+    return (Variant("wet, film reported only", reported), Variant("wet, film pulls too", pulling))
+
+
+def _studies(
+    variants: tuple[Variant, ...],
+    accuracy: Accuracy,
+    vary: Mapping[str, list[Any]],
+    progress: Progress,
+) -> tuple[tuple[str, Study[ContactResult]], ...]:
+    """The sweep of the file, of each variant."""
+    from ...studies.study import study
+
     done: list[tuple[str, Study[ContactResult]]] = []
     for label, variant in variants:
 
-        def shared(fraction: float, before: int = len(done)) -> None:
+        def part(fraction: float, before: int = len(done)) -> None:
             progress((before + fraction) / len(variants))
 
-        done.append((label, study(variant, vary, accuracy, progress=shared)))
+        done.append((label, study(variant, vary, accuracy, progress=part)))
     return tuple(done)
 
 
@@ -177,7 +192,11 @@ def _load_curves(
     from ...plot import contact as contact_plot
     from ...plot import separation as plot
 
-    curves = [(label, {name: made.column(name) for name in made.units}) for label, made in studies]
+    curves = [
+        (", ".join(filter(None, [label, line.label])), line.columns)
+        for label, made in studies
+        for line in made.lines("loading")
+    ]
     panels = contact_plot.panels_of(curves)
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
@@ -187,6 +206,6 @@ def _load_curves(
     for ax in flat[len(panels) :]:
         ax.set_visible(False)
     plot.title(flat[0], f"{title}: load curve")
-    if len(studies) > 1:
+    if len(curves) > 1:
         plot.shared_legend(made, flat[0])
     return plot.save(made, out / "load-curve")

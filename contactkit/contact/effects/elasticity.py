@@ -102,7 +102,7 @@ class LayeredHalfSpace(Compliance):
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
     first, free, two = effect.sources
     found = [first]
-    if not scene.window.periodic:
+    if scene.window.periodic is False:
         found.append(free)
     if len(scene.interface.stacks) > 1:
         found.append(two)

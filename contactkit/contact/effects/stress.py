@@ -46,6 +46,12 @@ def _depths(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "be depths that grow")
 
 
+def _at_least_one(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    positive(owner, attribute, value)
+    if value < 1.0:
+        raise refuse(owner, attribute, value, "be at least 1: repetitions cannot overlap")
+
+
 class StressPart(NamedTuple):
     """Stress in the lower body: its maxima, a section, and all planes if they were kept.
 
@@ -114,7 +120,7 @@ class SubsurfaceStress(Observer[StressPart]):
     keep: Literal["section", "planes"] = field(
         default="section", validator=choice("section", "planes")
     )
-    window: float = field(default=128.0, validator=positive, metadata=si("-"))
+    window: float = field(default=128.0, validator=_at_least_one, metadata=si("-"))
 
     @property
     def sources(self) -> tuple[str, ...]:

@@ -1,0 +1,286 @@
+"""Measured maps as surfaces: what a file or a topography object states about them is honoured."""
+
+from __future__ import annotations
+
+import warnings
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import contactkit as ck
+from contactkit.errors import DescriptionError
+from contactkit.roughness import height_maps
+
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
+STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+Y, X = np.mgrid[:24, :32] / 16.0
+HEIGHTS = 1e-9 * np.cos(2.0 * np.pi * X) * np.cos(2.0 * np.pi * Y) + 1e-10 * X
+
+
+class Topography:
+    """As SurfaceTopography makes them: heights [x, y] and sizes (along x, along y) in a unit."""
+
+    def __init__(self, unit="nm", is_periodic=False, **changed):
+        self.unit, self.is_periodic = unit, is_periodic
+        self.physical_sizes = (320.0, 480.0)
+        self._heights = 1e9 * HEIGHTS.T
+        vars(self).update(changed)
+
+    def heights(self):
+        return self._heights
+
+
+def scene(surface, **window):
+    return ck.ContactScene(
+        interface=ck.Interface(lower=ck.Body(solid=STEEL), upper=surface),
+        window=ck.Window(**window),
+        loading=ck.Pressing(pressure=50e6),
+        effects=(ck.HalfSpace(),),
+    )
+
+
+# Topography objects -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("is_periodic", [True, False])
+def test_a_topography_is_pressed_as_it_states(is_periodic):
+    result = ck.press(Topography(is_periodic=is_periodic), None, STEEL, 50e6)
+    grid = result.plan.grid
+    assert grid.periodic is is_periodic
+    assert grid.pixel_size == pytest.approx((20e-9, 10e-9), rel=1e-12)
+    np.testing.assert_allclose(result.heights, HEIGHTS, rtol=1e-12)
+    given = ck.press(HEIGHTS, (20e-9, 10e-9), STEEL, 50e6, periodic=is_periodic)
+    np.testing.assert_allclose(result.pressure, given.pressure, rtol=1e-6, atol=1.0)
+
+
+def test_a_topography_is_a_surface_of_a_scene():
+    made = ck.plan(scene(Topography()))
+    assert made.grid.periodic is False
+    assert "not periodic" in str(made)
+    np.testing.assert_allclose(made.heights, HEIGHTS, rtol=1e-12)
+    body = ck.Body(surface=Topography(is_periodic=True), solid=STEEL)
+    assert ck.plan(scene(body)).grid.periodic is True
+
+
+def test_of_two_surfaces_one_that_does_not_repeat_decides():
+    both = ck.CombinedSurface(
+        parts=(
+            ck.Heights(heights=HEIGHTS, pixel_size=10e-9, is_periodic=True),
+            ck.Heights(heights=HEIGHTS, pixel_size=10e-9, is_periodic=False),
+        )
+    )
+    assert ck.plan(scene(both)).grid.periodic is False
+    unknown = ck.Heights(heights=HEIGHTS, pixel_size=10e-9)
+    assert ck.plan(scene(unknown)).grid.periodic is True
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_a_window_decides_where_it_says_so(periodic):
+    surface = Topography(is_periodic=not periodic)
+    assert ck.plan(scene(surface, periodic=periodic)).grid.periodic is periodic
+    assert ck.press(surface, None, STEEL, 5e7, periodic=periodic).plan.grid.periodic is periodic
+
+
+def test_an_isolated_map_cites_the_patch_of_love_and_keeps_it(tmp_path):
+    result = ck.solve(ck.plan(scene(Topography())))
+    assert "Love" in result.cite()
+    again = ck.load_result(result.save(tmp_path / "map"))
+    assert again.plan.grid.periodic is False
+    assert again.cite() == result.cite()
+    assert again.plan.scene == result.plan.scene or again.plan.scene.window.periodic is False
+
+
+@pytest.mark.parametrize("unit", ["um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"])
+def test_the_unit_of_a_topography_may_be_a_micrometre(unit):
+    made = ck.plan(scene(Topography(unit, physical_sizes=(0.32, 0.48), _heights=1e6 * HEIGHTS.T)))
+    np.testing.assert_allclose(made.heights, HEIGHTS, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"unit": None}, r"topography\.unit must be a unit of length, got None"),
+        ({"unit": "Pa"}, r"topography\.unit must be a unit of length, got 'Pa'"),
+        ({"physical_sizes": None}, r"topography\.physical_sizes must be two lengths"),
+        ({"physical_sizes": (1.0,), "_heights": np.zeros(4)}, "profile along a line"),
+        (
+            {"_heights": np.ma.masked_less(1e9 * HEIGHTS.T, -0.99)},
+            r"Heights\.heights must be finite everywhere",
+        ),
+    ],
+)
+def test_a_topography_that_is_no_map(changed, message):
+    with pytest.raises(DescriptionError, match=message):
+        ck.press(Topography(**changed), None, STEEL, 50e6)
+
+
+def test_the_size_of_a_topography_is_not_given_twice():
+    with pytest.raises(DescriptionError, match=r"press\(pixel_size\) must be None"):
+        ck.press(Topography(), 1e-9, STEEL, 50e6)
+
+
+# Files --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("states", [True, False, None])
+def test_a_file_that_states_whether_it_repeats_is_believed(tmp_path, monkeypatch, states):
+    """By any reader: what it found is replaced here."""
+    np.save(tmp_path / "map.npy", HEIGHTS)
+    original = height_maps.read_height_map
+    monkeypatch.setattr(
+        height_maps,
+        "read_height_map",
+        lambda *args, **named: original(*args, **named)._replace(is_periodic=states),
+    )
+    surface = ck.Measured(path=str(tmp_path / "map.npy"), pixel_size=10e-9, unit="m")
+    assert ck.plan(scene(surface)).grid.periodic is (states is not False)
+    assert ck.plan(scene(surface, periodic=True)).grid.periodic is True
+
+
+def test_an_instrument_file_states_whether_it_repeats():
+    """The flag of a channel is that of the map."""
+    channel = SimpleNamespace(
+        dim=2, name="height", unit="m", physical_sizes=(3.0, 2.0), index=0, is_periodic=True
+    )
+    made = SimpleNamespace(pixel_size=(1.0, 1.0), heights=lambda: np.zeros((3, 2)))
+    made.to_unit = lambda unit: made
+    reader = SimpleNamespace(
+        format=lambda: "toy",
+        channels=[channel],
+        default_channel=channel,
+        topography=lambda **named: made,
+    )
+    path = SimpleNamespace(name="a.toy", suffix=".toy")
+    assert height_maps._read_channel(reader, path, None, None, None).is_periodic is True
+    channel.is_periodic = None
+    assert height_maps._read_channel(reader, path, None, None, None).is_periodic is None
+
+
+SDF = """aISO-1.0
+ManufacID   = of ours
+CreateDate  = 221120262200
+ModDate     = 221120262200
+NumPoints   = 4
+NumProfiles = 3
+Xscale      = 2e-6
+Yscale      = 5.0E-06
+Zscale      = 1e-9
+Zresolution = -1
+Compression = 0
+DataType    = 7
+CheckType   = 0
+*
+0 1 2 3
+10 11 12 13 20
+21 22
+-23.5
+*
+somebody, on a rainy day
+*
+"""
+ROWS = 1e-9 * np.array([[0, 1, 2, 3], [10, 11, 12, 13], [20, 21, 22, -23.5]])
+
+
+@pytest.fixture
+def sdf(tmp_path):
+    def write(text=SDF):
+        path = tmp_path / "map.sdf"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode("latin-1"))
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        SDF,
+        SDF.replace("\n", "\r\n"),
+        SDF.replace("aISO-1.0", "aBCR-1.0"),
+        SDF.replace("aISO-1.0", "aISO-2.0"),
+        SDF.replace("aISO-1.0", "aNPL-V1.0").replace("ManufacID", "ManuFacID"),
+        SDF.replace("of ours", "M\xfcller").replace("NumPoints ", "NUMPOINTS"),
+        SDF.partition("somebody")[0],
+        SDF.rpartition("*\nsomebody")[0],
+        SDF.replace("CheckType   = 0", "CheckType   = 0 ; none"),
+    ],
+)
+def test_a_surface_data_file_brings_its_sizes(sdf, text):
+    found = height_maps.read_height_map(sdf(text))
+    np.testing.assert_allclose(found.heights, ROWS, rtol=1e-14)
+    assert found.pixel_size == (5e-6, 2e-6)
+    assert found.source == "map.sdf"
+    assert found.is_periodic is None
+
+
+def test_a_surface_data_file_needs_no_extra_and_is_pressed(sdf, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    made = ck.plan(scene(ck.Measured(path=str(sdf()), detrend="none")))
+    assert made.grid.shape == (3, 4)
+    np.testing.assert_allclose(made.heights, ROWS, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("20\n", "BAD\n", r"must be finite in every pixel of map\.sdf .*first at \[2, 0\]"),
+        ("21 22", "21 x2", r"be numbers or BAD in map\.sdf"),
+        ("21 22", "21", r"must be 12 in map\.sdf: 3 profiles of 4 points, got '11 heights'"),
+        ("NumProfiles = 3", "NumProfiles = 1", "profile along a line is not a surface"),
+        ("NumPoints   = 4", "NumPoints   = 4.5", r"numpoints must be a whole number"),
+        ("NumPoints   = 4\n", "", r"numpoints must be a number, got None"),
+        ("Xscale      = 2e-6", "Xscale      = 0", r"xscale must be a positive, finite length"),
+        ("Yscale      = 5.0E-06", "Yscale = nan", r"yscale must be a positive, finite length"),
+        ("Zscale      = 1e-9", "Zscale = big", r"zscale must be a number, got 'big'"),
+        ("Compression = 0", "Compression = 1", r"compression must be 0, got '1'; save"),
+        ("CheckType   = 0", "CheckType = 2", r"checktype must be 0"),
+        ("ModDate     = 221120262200", "rubbish", r"header must be a line key = value"),
+        ("*", "", r"one asterisk"),
+    ],
+)
+def test_a_surface_data_file_that_is_no_map(sdf, old, new, message):
+    assert old in SDF
+    with pytest.raises(DescriptionError, match=message):
+        height_maps.read_height_map(sdf(SDF.replace(old, new)))
+
+
+@pytest.mark.parametrize("given", [{"unit": "nm"}, {"pixel_size": 1e-6}])
+def test_what_a_surface_data_file_states_is_not_given_twice(sdf, given):
+    with pytest.raises(DescriptionError, match=r"must be left out: map\.sdf contains it"):
+        height_maps.read_height_map(sdf(), **given)
+
+
+def test_the_binary_form_needs_the_extra(sdf, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    with pytest.raises(DescriptionError, match=r"\.sdf as text.*binary \.sdf need pip install"):
+        height_maps.read_height_map(sdf(b"bISO-1.0" + bytes(200)))
+
+
+# Tilt ---------------------------------------------------------------------------------------
+
+
+def test_press_leaves_the_tilt_and_says_so():
+    level = height_maps.detrended(HEIGHTS)
+    tilted = level + 1e-10 * X
+    rise = 1e-10 * (X.max() - X.min())
+    result = ck.press(tilted, 1e-8, STEEL, 50e6, periodic=False)
+    np.testing.assert_array_equal(result.heights, tilted)
+    assert "no tilt removed" in result.message
+    assert f"rises by {rise:.2g} m over the window, {rise / level.std():.2g} of" in result.message
+    none = ck.press(level, 1e-8, STEEL, 50e6).message
+    assert float(none.partition("rises by ")[2].split()[0]) < 1e-9 * rise
+    flat = ck.press(np.zeros((4, 4)), 1e-8, STEEL, 50e6)
+    assert flat.message.endswith("rises by 0 m over the window")
+
+
+def test_a_plane_is_all_tilt():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        plane = ck.press(1e-10 * X, 1e-8, STEEL, 50e6, periodic=False)
+    assert plane.message.endswith("over the window")
