@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from .contact.effects.stress import SubsurfaceStress
     from .contact.plan import ContactPlan
     from .contact.press import press
+    from .contact.result import ContactResult
     from .contact.solve import solve
     from .effects import EFFECTS
     from .errors import (
@@ -100,9 +101,11 @@ if TYPE_CHECKING:
     from .separation.motion.advance import advance
     from .separation.motion.state import MotionState, Pull
     from .separation.plan import Plan
+    from .separation.results import SeparationResult
     from .separation.simulate import simulate
     from .separation.sliding.effects import ContactAngleHysteresis, CouetteForce
     from .separation.sliding.plan import SlidingPlan, divide_sliding
+    from .separation.sliding.result import SlidingResult
     from .studies.study import study
 
 __version__ = "0.1.0"
@@ -118,6 +121,7 @@ _HOMES = {
     "CombinedSurface": "scene.rough_surfaces",
     "ContactAngleHysteresis": "separation.sliding.effects",
     "ContactPlan": "contact.plan",
+    "ContactResult": "contact.result",
     "ContactScene": "scene.scenes",
     "ContactkitError": "errors",
     "ConvergenceError": "errors",
@@ -158,10 +162,12 @@ _HOMES = {
     "Pull": "separation.motion.state",
     "Rupture": "separation.effects.registry",
     "SelfAffineRoughness": "scene.rough_surfaces",
+    "SeparationResult": "separation.results",
     "SeparationScene": "scene.scenes",
     "ShearLimit": "separation.effects.registry",
     "Sliding": "scene.loading",
     "SlidingPlan": "separation.sliding.plan",
+    "SlidingResult": "separation.sliding.result",
     "SlidingScene": "scene.scenes",
     "Sphere": "scene.surfaces",
     "Stack": "scene.materials",
@@ -205,6 +211,7 @@ __all__ = [
     "CombinedSurface",
     "ContactAngleHysteresis",
     "ContactPlan",
+    "ContactResult",
     "ContactScene",
     "ContactkitError",
     "ConvergenceError",
@@ -245,10 +252,12 @@ __all__ = [
     "Pull",
     "Rupture",
     "SelfAffineRoughness",
+    "SeparationResult",
     "SeparationScene",
     "ShearLimit",
     "Sliding",
     "SlidingPlan",
+    "SlidingResult",
     "SlidingScene",
     "Sphere",
     "Stack",

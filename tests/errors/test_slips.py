@@ -303,3 +303,14 @@ def test_press_takes_texts_with_units():
     plain = ck.press(WAVE, 1e-6 / 16, STEEL, 1e7, 1e9)
     texts = ck.press(WAVE, ("62.5 nm", "62.5 nm"), STEEL, "10 MPa", "1 GPa")
     np.testing.assert_array_equal(texts.pressure, plain.pressure)
+
+
+def test_a_file_of_another_kind_than_wanted_is_refused(tmp_path):
+    path = ck.save_scene(film(), tmp_path / "film.toml")
+    assert ck.load_scene(path, ck.SeparationScene) == film()
+    with pytest.raises(ck.DescriptionError, match=r"hold a ContactScene.*it is a SeparationScene"):
+        ck.load_scene(path, ck.ContactScene)
+    saved = opened().save(tmp_path / "film")
+    assert ck.load_result(saved, ck.SeparationResult).status == "curve"
+    with pytest.raises(ck.DescriptionError, match=r"hold a ContactResult.*a SeparationResult"):
+        ck.load_result(saved, ck.ContactResult)
