@@ -26,6 +26,7 @@ __all__ = [
     "cSt",
     "deg",
     "kPa",
+    "length_text",
     "mN",
     "mPa",
     "mm",
@@ -110,6 +111,19 @@ class Unit(NamedTuple):
 def si(unit: str) -> dict[str, str]:
     """Metadata for an attrs field whose values are in `unit`, an SI unit or ``-``."""
     return {"unit": unit}
+
+
+def length_text(length: float) -> str:
+    """Length [m] in the unit that suits it, for messages.
+
+    Examples
+    --------
+    >>> length_text(5.64e-8), length_text(0.25)
+    ('56.4 nm', '250 mm')
+    """
+    units = ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm"))
+    unit, name = next((pair for pair in units if length >= pair[0]), units[-1])
+    return f"{length / unit:.4g} {name}"
 
 
 def celsius(temperature: float) -> float:

@@ -48,6 +48,11 @@ class ScenePlan(abc.ABC):
     def title(self) -> str:
         """The scene and what is imposed, in a line."""
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Events of the run that the plan foresees, in sentences; ``print(plan)`` shows them."""
+        return ()
+
     def has(self, kind: type[Effect]) -> bool:
         """Whether the scene lists an effect."""
         return any(type(effect) is kind for effect in self.scene.effects)
@@ -81,6 +86,7 @@ class ScenePlan(abc.ABC):
                 self.title,
                 *(f"  on   {effect.name:{width}s} {choices(effect)}" for effect in effects),
                 *(f"  off  {kind.name:{width}s} {kind.summary}" for kind in off),
+                *(f"  {note}" for note in self.notes),
             ]
         )
 

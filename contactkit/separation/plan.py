@@ -18,7 +18,7 @@ from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
 from ..scene.validity import ValidityNumber
-from ..units import nm
+from ..units import length_text, nm
 from .bodies import check_bodies, check_rim
 from .columns import COLUMNS
 from .effects.as_published import mixed
@@ -103,6 +103,17 @@ class Plan(ScenePlan):
     def title(self) -> str:
         """See `ScenePlan.title`."""
         return f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """See `ScenePlan.notes`."""
+        loading, end = self.scene.loading, self.film.end
+        found = []
+        if end < loading.final_gap:
+            found.append(f"the film breaks at {length_text(end)}, before the final gap")
+        if isinstance(loading, ImposedForce) and loading.mass is None:
+            found.append("no mass: speeds are those at which the film balances the pull")
+        return tuple(found)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the scene, of which the same plan is made again: laws are functions."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.loading import ImposedSpeed, ImposedTime
+from ..units import length_text
 from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
@@ -19,7 +20,7 @@ from .plan import Plan
 from .results import SeparationResult
 from .validity import check
 
-__all__ = ["at_speed", "frozen", "newtonian_impulses", "simulated", "within_time"]
+__all__ = ["at_speed", "broke", "frozen", "newtonian_impulses", "simulated", "within_time"]
 
 
 def frozen(values: object) -> NDArray[np.float64]:
@@ -44,6 +45,12 @@ def _grid(plan: Plan) -> list[float]:
     gaps[0], gaps[-1] = low, high
     ends = {end for end in (film.end, film.release) if low < end < high}
     return sorted({*map(float, gaps), *ends})
+
+
+def broke(plan: Plan) -> str:
+    """Say at which gap the film of an opening broke; empty if it lasts to the final gap."""
+    end = plan.film.end
+    return f"; the film broke at {length_text(end)}" if end < plan.scene.loading.final_gap else ""
 
 
 def acting(plan: Plan, gap: float) -> Film | None:
@@ -78,7 +85,7 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
             impulses["viscous_impulse"] = running[-1]
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
-    message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m"
+    message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m{broke(plan)}"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
 
 
@@ -154,5 +161,5 @@ def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationRes
         columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
-    message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s"
+    message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s{broke(plan)}"
     return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar, Protocol, TypeVar
 
@@ -96,12 +97,25 @@ class SeparationResult(CurveResult):
         for effect in self.plan.scene.effects:
             found |= effect.scalars(self)
         if self.state is not None:
-            return found | _numbers_of_motion(self.state)
+            return found | _numbers_of_motion(self.plan, self.state) | self._extremes()
+        return found | self._extremes() | self._means_of_cycles()
+
+    def _extremes(self) -> dict[str, tuple[float, str]]:
+        """Greatest force that resists opening, and greatest that pushes the bodies apart.
+
+        All forces of film and solids together. Where only the duration is given, the path of the
+        viscous force in time is not known: the others are then taken, under names that say so.
+        """
         forces = self.plan.forces
-        total = [self.columns[force.name] for force in forces if force.name in self.columns]
-        if total:
-            found["peak_force"] = (float(sum(total[1:], total[0]).max()), "N")
-        return found | self._means_of_cycles()
+        known = [self.columns[force.name] for force in forces if force.name in self.columns]
+        if not known:
+            return {}
+        total = sum(known[1:], known[0])
+        kind = "" if len(known) == len(forces) else "static_"
+        found = {f"peak_{kind}repulsion": (max(-float(total.min()), 0.0), "N")}
+        if self.state is None:  # a motion knows its peak between the points of its curves too
+            found[f"peak_{kind}force"] = (max(float(total.max()), 0.0), "N")
+        return found
 
     def _means_of_cycles(self) -> dict[str, tuple[float, str]]:
         """Pull over the whole of a vibration: its mean, that without vibration, its extremes."""
@@ -116,15 +130,18 @@ class SeparationResult(CurveResult):
         }
 
 
-def _numbers_of_motion(state: MotionState) -> dict[str, tuple[float, str]]:
+def _numbers_of_motion(plan: Plan, state: MotionState) -> dict[str, tuple[float, str]]:
+    """Numbers of a motion; what it did not come to is nan."""
+    released = state.n_releases > 0
+    has_speed = released and plan.scene.imposed_force.mass is not None
     found = {
-        "release_time": (state.release_time, "s"),
-        "release_speed": (state.release_speed, "m/s"),
+        "release_time": (state.release_time if released else math.nan, "s"),
+        "release_speed": (state.release_speed if has_speed else math.nan, "m/s"),
         "peak_force": (state.peak_force, "N"),
-        "peak_time": (state.peak_time, "s"),
+        "peak_time": (state.peak_time if state.peak_time >= 0.0 else math.nan, "s"),
         "dissipated_work": (state.dissipated_work, "J"),
         "final_gap": (state.gap, "m"),
     }
-    if state.n_breaks:
-        found["break_time"] = (state.break_time, "s")
+    if math.isfinite(plan.film.end):
+        found["break_time"] = (state.break_time if state.n_breaks else math.nan, "s")
     return found

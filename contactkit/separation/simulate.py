@@ -11,6 +11,7 @@ from ..errors import ConvergenceError, InfeasibleError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..scene.plan import check_plan
 from ..scene.validity import warn
+from ..units import length_text
 from .curve_result import Work
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
@@ -169,6 +170,7 @@ def _motion_result(
     if plan.has(ViscousForce):
         impulses = newtonian_impulses(plan) | impulses
     status, message = _outcome(plan, last, pull(last.time), problem)
+    message += _rupture(states)
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     columns = _columns(plan, states, pull)
     validity = check(plan, columns)
@@ -203,10 +205,10 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
     """Status of a motion, and the same as a sentence with its cure."""
     limit = plan.scene.imposed_force.time_limit
     if last.n_releases:
-        return (
-            "released",
-            f"released after {last.release_time:.6g} s at {last.release_speed:.4g} m/s",
-        )
+        speed = f" at {last.release_speed:.4g} m/s"
+        if plan.scene.imposed_force.mass is None:
+            speed = ", at no speed of its own: give loading.mass [kg] for one"
+        return "released", f"released after {last.release_time:.6g} s{speed}"
     if problem is not None:
         return "not converged", problem
     if last.time >= limit:
@@ -221,6 +223,14 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
         f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the "
         f"{what} at {last.gap:g} m; pull harder, or start from a larger gap",
     )
+
+
+def _rupture(states: list[MotionState]) -> str:
+    """Say when and at which gap the film broke; empty if it did not."""
+    first = next((state for state in states if state.n_breaks), None)
+    if first is None:
+        return ""
+    return f"; the film broke at {length_text(first.gap)}, after {first.break_time:.6g} s"
 
 
 def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:

@@ -86,11 +86,15 @@ def combinations(motion):
             yield scene(pair, *places[(5 * i + 3 * shift) % 8], motion)
 
 
+NOT_REACHED = {"release_time", "release_speed", "break_time", "peak_time"}
+"""Numbers of a motion that are nan where it did not come to them."""
+
+
 def examine(result, made):
     for name, column in result.columns.items():
         assert np.isfinite(column).all(), name
     for name, (value, _) in result.scalars().items():
-        assert math.isfinite(value), name
+        assert math.isfinite(value) or name in NOT_REACHED, name
     listed = {type(effect) for effect in made.effects}
     for kind in {type(effect) for effect in EFFECTS} - listed:
         with pytest.raises(ck.NotSimulatedError, match=rf"add {kind.__name__}\("):

@@ -29,6 +29,7 @@ import math
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ...errors import InfeasibleError
+from ...units import length_text
 from .shape import ArcShape, shape, wetting
 
 if TYPE_CHECKING:
@@ -63,11 +64,7 @@ def closed_neck_error(limit: float) -> InfeasibleError:
     >>> print(closed_neck_error(1.28e-8))
     no arc bridge beyond 12.8 nm: there its neck has closed
     """
-    units = ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm"))
-    unit, name = next((pair for pair in units if limit >= pair[0]), units[-1])
-    return InfeasibleError(
-        f"no arc bridge beyond {limit / unit:.4g} {name}: there its neck has closed"
-    )
+    return InfeasibleError(f"no arc bridge beyond {length_text(limit)}: there its neck has closed")
 
 
 def _smallest(value: Any) -> float:
