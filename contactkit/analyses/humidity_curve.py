@@ -208,7 +208,7 @@ def _scene(
         raise DescriptionError("humidity_curve(gap)", gap, "be zero or positive, and finite")
     rough = scene.effect(AsperityMenisci)
     if rough is not None:
-        area = math.pi * scene.interface.rim_radius**2
+        area = rough.area(scene)
         points = [_asperities(rough, _at(scene, p), gap, accuracy) for p in pressure.tolist()]
         return f"{rough.law}, {rough.profile} bridges", points, area
     if scene.interface.is_flat:
@@ -233,8 +233,7 @@ def _asperities(
         raise PlanError(f"AsperityMenisci needs {'; '.join(missing)}")
     sums, law = rough.sums(prepared, gap), rough.prepare(prepared)
     force = law.force(gap, 0.0) if gap <= law.end else 0.0
-    area = math.pi * scene.interface.rim_radius**2
-    return _Point(force, sums.n_wet, None, sums.coverage * area)
+    return _Point(force, sums.n_wet, None, sums.coverage * rough.area(scene))
 
 
 def _sphere(scene: SeparationScene, pressure: Floats, gap: float, tension: float) -> list[_Point]:

@@ -4,6 +4,7 @@ kelvin            Kelvin's equation and capillary condensation.
 exact             Exact axisymmetric bridges (Delaunay surfaces), their stability limits.
 arc               Bridges in the circular (toroidal) approximation.
 flats             Force law of the exact bridge between flats, tabulated.
+contact_radius    Volume of a bridge between flats from its contact radius.
 condensed         Capillary condensation on many spheres near a flat.
 many_menisci      Division of a meniscus into many equal ones.
 asperities        Menisci at the asperities of a rough surface: three statistical laws.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from attrs import field, frozen
 
 from ..units import si
-from ..validators import Described, non_negative, positive
+from ..validators import Described, count, non_negative, optional, positive
 
 __all__ = ["AsperityPopulation"]
 
@@ -23,6 +23,9 @@ class AsperityPopulation(Described):
     rms_height : float
         Standard deviation of the heights of the summits about their mean plane [m]; 0: all are
         equally high. That of the surface is larger, and its mean plane lies below.
+    count : int, optional
+        Number of summits in all [-]. None: they cover the face, as many as `density` times its
+        area. `split` sets it.
 
     Notes
     -----
@@ -39,6 +42,21 @@ class AsperityPopulation(Described):
     radius: float = field(validator=positive, metadata=si("m"))
     rms_height: float = field(default=0.0, validator=non_negative, metadata=si("m"))
 
+    count: int | None = field(default=None, validator=optional(count), metadata=si("-"))
+
+    def counted_area(self, face: float) -> float:
+        """Area [m2] that bears the summits of a face of an area [m2]: that of `count`, if given.
+
+        Examples
+        --------
+        >>> everywhere = AsperityPopulation(density=1e14, radius=1e-6)
+        >>> everywhere.counted_area(1e-10)
+        1e-10
+        >>> round(AsperityPopulation.split(radius=1e-6, count=9).counted_area(1e-10) * 1e12, 9)
+        4.0
+        """
+        return face if self.count is None else self.count / self.density
+
     @property
     def spacing(self) -> float:
         """Side of the square that a summit has on average [m]."""
@@ -50,8 +68,10 @@ class AsperityPopulation(Described):
 
         .. math:: R' = R/n, \qquad \text{one to each square of side } 2R/n
 
-        Eq. (3.14). Their menisci stay apart up to n = R/(2 (s - D)) only, with the height s of
-        the film and the gap D: see the cover in the results.
+        Eq. (3.14). They are `count` on any face, as they stand for one sphere: over (2R)^2, not
+        over the round face of radius R, which has 21 % less. Their menisci stay apart up to
+        n = R/(2 (s - D)) only, with the height s of the film and the gap D: see the coverage in
+        the results.
 
         Examples
         --------
@@ -59,4 +79,4 @@ class AsperityPopulation(Described):
         5e-06
         """
         side = count**0.5
-        return cls(density=count / (2.0 * radius) ** 2, radius=radius / side)
+        return cls(density=count / (2.0 * radius) ** 2, radius=radius / side, count=count)

@@ -7,8 +7,9 @@ outside, so that it is negative in a hollow meniscus.
 from __future__ import annotations
 
 import math
+from typing import Literal
 
-from attrs import Attribute, field, frozen
+from attrs import Attribute, evolve, field, frozen
 
 from ..errors import DescriptionError
 from ..liquids.liquid import Liquid
@@ -165,3 +166,71 @@ class Meniscus(Described):
             contact_angle_upper=contact_angle_upper,
             count=count,
         )
+
+    @classmethod
+    def from_radius(
+        cls,
+        *,
+        liquid: Liquid,
+        radius: float,
+        gap: float,
+        body: Literal["lower", "upper"] = "lower",
+        profile: Literal["exact", "arc"] = "exact",
+        contact_angle_lower: float = 0.0,
+        contact_angle_upper: float = 0.0,
+        count: int = 1,
+    ) -> Meniscus:
+        r"""Menisci between flats of a given contact radius at a gap: their `volume` follows.
+
+        Parameters
+        ----------
+        liquid : Liquid
+            What it is.
+        radius, gap : float
+            Radius of the contact circle of each meniscus and gap at which it has that [m].
+        body : {"lower", "upper"}
+            Body on which the circle is.
+        profile : {"exact", "arc"}
+            Profile of the meniscus: the exact bridge, or the arc of the source, with which
+            ``MeniscusForce(profile="as-published")`` begins at that radius.
+        contact_angle_lower, contact_angle_upper, count
+            As in `Meniscus`.
+
+        Raises
+        ------
+        InfeasibleError
+            If no stable bridge has that circle at that gap.
+
+        Examples
+        --------
+        The source's film of 2 nm and 100 nm:
+
+        >>> water = Liquid(name="water", surface_tension=0.072)
+        >>> angles = {"contact_angle_lower": math.pi / 3, "contact_angle_upper": math.pi / 3}
+        >>> film = Meniscus.from_radius(liquid=water, radius=100e-9, gap=2e-9, **angles)
+        >>> f"{film.volume / (math.pi * 1e-14 * 2e-9):.6f} of an upright disc"
+        '0.996379 of an upright disc'
+        """
+        for name, value in (("radius", radius), ("gap", gap)):
+            if not (_is_number(value) and value > 0.0):
+                where = f"Meniscus.from_radius({name})"
+                raise DescriptionError(where, value, "be positive and finite", unit="m")
+        for name, text, options in (
+            ("body", body, ("lower", "upper")),
+            ("profile", profile, ("exact", "arc")),
+        ):
+            if text not in options:
+                where = f"Meniscus.from_radius({name})"
+                raise DescriptionError(where, text, f"be {' or '.join(map(repr, options))}")
+        # Checks the angles, and is what is returned but for the volume.
+        made = cls(
+            liquid=liquid,
+            contact_angle_lower=contact_angle_lower,
+            contact_angle_upper=contact_angle_upper,
+            count=count,
+        )
+        from ..capillary.contact_radius import volume_of_radius
+
+        angles = (contact_angle_lower, contact_angle_upper)
+        volume = volume_of_radius(radius, gap, *angles, body=body, profile=profile)
+        return evolve(made, volume=count * volume)

@@ -135,7 +135,8 @@ def _lock(value: Any) -> None:
     if getattr(value, "ndim", 0):
         value.flags.writeable = False
     elif isinstance(value, Mapping):
-        for one in value.values():
+        # Of curves that are computed when they are asked for, those that were.
+        for one in getattr(value, "computed", value).values():
             _lock(one)
     elif isinstance(value, tuple):
         for one in value:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from ..errors import NotSimulatedError
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-__all__ = ["CurveResult", "Work"]
+__all__ = ["CurveResult", "LateColumns", "Work"]
 
 
 class Work(NamedTuple):
@@ -23,6 +24,39 @@ class Work(NamedTuple):
     n_rejected: int
     n_evaluations: int
     seconds: float
+
+
+class LateColumns(Mapping[str, "Curve"]):
+    """Curves by their names, of which some are computed when they are first asked for.
+
+    `late` gives the function that computes a curve, together with others.
+    """
+
+    def __init__(
+        self, known: Mapping[str, Curve], late: Mapping[str, Callable[[], Mapping[str, Curve]]]
+    ) -> None:
+        self._known = dict(known)
+        self._late = {name: compute for name, compute in late.items() if name not in known}
+        self._names = (*self._known, *self._late)
+
+    @property
+    def computed(self) -> Mapping[str, Curve]:
+        """Curves that are there already."""
+        return self._known
+
+    def __getitem__(self, name: str) -> Curve:
+        if name not in self._known:
+            self._known |= self._late[name]()
+        return self._known[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
 
 
 class CurveResult(Result):

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
-from attrs import evolve, field, frozen
+from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import InfeasibleError, PlanError
@@ -23,7 +23,7 @@ from .bodies import check_bodies, check_rim
 from .columns import COLUMNS
 from .effects.as_published import mixed
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, LimitKind, SeparationForce
-from .effects.prepared import PreparedScene, prepare_scene
+from .effects.prepared import PreparedScene, prepare_scene, with_fraction
 from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .effects.viscous import ViscousForce
 from .film import Film
@@ -113,7 +113,10 @@ class Plan(ScenePlan):
             found.append(f"the film breaks at {length_text(end)}, before the final gap")
         if isinstance(loading, ImposedForce) and loading.mass is None:
             found.append("no mass: speeds are those at which the film balances the pull")
-        return tuple(found)
+        return (
+            *found,
+            *(note for effect in self.scene.effects for note in effect.notes(self.scene)),
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the scene, of which the same plan is made again: laws are functions."""
@@ -281,9 +284,7 @@ def _rewetted(prepared: PreparedScene[SeparationScene], film: Film) -> dict[floa
         return {}
     if volume is None:  # flooded, or in vapour: all of it is there again
         return {fraction: film}
-    less = evolve(meniscus, volume=fraction * volume)
-    scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
-    return {fraction: _film(prepare_scene(scene, prepared.accuracy, prepared.liquid))}
+    return {fraction: _film(with_fraction(prepared, fraction))}
 
 
 def _states(films: Mapping[float, Film]) -> dict[FilmState, Film | None]:

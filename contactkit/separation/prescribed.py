@@ -17,7 +17,7 @@ from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .film import Film
 from .plan import Plan
-from .results import SeparationResult
+from .results import SeparationResult, with_late_curves
 from .validity import check
 
 __all__ = ["at_speed", "broke", "frozen", "newtonian_impulses", "simulated", "within_time"]
@@ -86,7 +86,8 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m{broke(plan)}"
-    return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
+    curves = with_late_curves(plan, columns)
+    return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)
 
 
 def simulated(plan: Plan) -> list[str]:
@@ -162,4 +163,5 @@ def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationRes
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s{broke(plan)}"
-    return SeparationResult(plan, "curve", message, columns, impulses, None, validity, work)
+    curves = with_late_curves(plan, columns)
+    return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)

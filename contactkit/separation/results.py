@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar, Protocol, TypeVar
 
 from attrs import field, frozen
 
 from ..scene.validity import ValidityNumber
-from .curve_result import CurveResult, Work
+from .curve_result import CurveResult, LateColumns, Work
+from .effects.base import RunCurves
 from .motion.state import MotionState
 from .plan import Plan
+from .validity import is_whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,7 +24,7 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-__all__ = ["SeparationResult", "Work"]
+__all__ = ["SeparationResult", "Work", "with_late_curves"]
 
 P_co = TypeVar("P_co", covariant=True)
 
@@ -128,6 +131,27 @@ class SeparationResult(CurveResult):
             "highest_pull": (float(pull.max()), "N"),
             "lowest_pull": (float(pull.min()), "N"),
         }
+
+
+def with_late_curves(
+    plan: Plan, columns: Mapping[str, Curve], volume_fraction: Sequence[float] | None = None
+) -> Mapping[str, Curve]:
+    """Add the curves that effects compute when they are asked for.
+
+    `volume_fraction` is the volume of the film over that of the scene along the run; 1 if not
+    given.
+    """
+    import numpy as np
+
+    gap = columns["gap"]
+    given = np.ones(gap.shape) if volume_fraction is None else np.array(volume_fraction)
+    run = RunCurves(plan, gap, is_whole(plan, columns), given)
+    late = {
+        column.name: partial(effect.late_curves, run)
+        for effect in plan.scene.effects
+        for column in effect.late
+    }
+    return LateColumns(columns, late)
 
 
 def _numbers_of_motion(plan: Plan, state: MotionState) -> dict[str, tuple[float, str]]:

@@ -18,7 +18,7 @@ from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
 from .plan import Plan
 from .prescribed import at_speed, frozen, newtonian_impulses, simulated, within_time
-from .results import SeparationResult
+from .results import SeparationResult, with_late_curves
 from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
 from .sliding.run import slide
@@ -174,7 +174,8 @@ def _motion_result(
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     columns = _columns(plan, states, pull)
     validity = check(plan, columns)
-    return SeparationResult(plan, status, message, columns, impulses, last, validity, work)
+    curves = with_late_curves(plan, columns, [state.volume_fraction for state in states])
+    return SeparationResult(plan, status, message, curves, impulses, last, validity, work)
 
 
 def _columns(

@@ -11,7 +11,7 @@ from ..scene.validity import ValidityNumber
 from .effects.base import FilmStatus
 from .plan import Plan
 
-__all__ = ["check"]
+__all__ = ["check", "is_whole"]
 
 
 def check(plan: Plan, columns: Mapping[str, Any]) -> tuple[ValidityNumber, ...]:
@@ -19,16 +19,19 @@ def check(plan: Plan, columns: Mapping[str, Any]) -> tuple[ValidityNumber, ...]:
     return plan.validity(_path(plan, columns))
 
 
+def is_whole(plan: Plan, columns: Mapping[str, Any]) -> Any:
+    """Whether the film spans the gap, at each point of a run."""
+    if "film_status" in columns:
+        return columns["film_status"] != FilmStatus.BROKEN
+    return columns["gap"] <= plan.film.end
+
+
 def _path(plan: Plan, columns: Mapping[str, Any]) -> list[tuple[float, float]]:
     """Pairs of gap [m] and speed [m/s] where the film spans an open gap.
 
     With only a time imposed the speed is the mean one.
     """
-    gaps = columns["gap"]
-    if "film_status" in columns:
-        whole = columns["film_status"] != FilmStatus.BROKEN
-    else:
-        whole = gaps <= plan.film.end
+    gaps, whole = columns["gap"], is_whole(plan, columns)
     if "speed" in columns:
         speeds = columns["speed"]
     else:

@@ -27,7 +27,7 @@ from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .plan import Plan
 from .prescribed import frozen, simulated
-from .results import SeparationResult
+from .results import SeparationResult, with_late_curves
 from .validity import check
 
 if TYPE_CHECKING:
@@ -194,7 +194,7 @@ def vibrating(
         plan,
         "curve",
         _message(path, end, breaks, len(cycles)),
-        columns,
+        with_late_curves(plan, columns),
         impulses,
         None,
         check(plan, columns),

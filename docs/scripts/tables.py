@@ -21,6 +21,7 @@ from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from liquid_tables import law_table, liquid_table
 from validation_tables import (
+    divided_force_table,
     division_table,
     errata_table,
     exact_table,
@@ -221,6 +222,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "errata": errata_table,
     "nano": nano_table,
     "division": division_table,
+    "divided force": divided_force_table,
     "nano forces": nano_force_table,
     "temperature laws": law_table,
     "assumptions": lambda: assumption_table("fuel-injector"),

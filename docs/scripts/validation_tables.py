@@ -74,6 +74,41 @@ def division_table() -> str:
     return grid(head, rows)
 
 
+def divided_force_table() -> str:
+    """Number of menisci at which the force between the source's flats is greatest."""
+    water = ck.Liquid(name="water", surface_tension=0.072)
+    rows = []
+    for lower, upper in ((60, 60), (0, 0), (20, 40), (0, 60)):
+        angles = {
+            "contact_angle_lower": math.radians(lower),
+            "contact_angle_upper": math.radians(upper),
+        }
+        gap = 2e-9
+        film = ck.Meniscus(liquid=water, volume=1e-12 * gap, **angles)
+        scene = ck.SeparationScene(
+            interface=ck.Interface(meniscus=film),
+            loading=ck.ImposedTime(initial_gap=gap, final_gap=1e-3, time=1e-7),
+            effects=(ck.MeniscusForce(),),
+        )
+        whole = ck.divide_meniscus(scene, (1,))
+        most = whole.max_stable_count
+        counts = sorted({max(round(most * i / 200), 1) for i in range(1, 201)})
+        force = ck.divide_meniscus(scene, counts).meniscus_force
+        top = int(force.argmax())
+        one, last = float(whole.meniscus_force[0]), float(force[-1])
+        rows.append(
+            (
+                f"{lower}/{upper}",
+                f"{most}",
+                f"{counts[top] / most:.2f}",
+                f"{float(force[top]) / one:.3f}",
+                f"{last / one:.3f}",
+            )
+        )
+    head = ("angles [deg]", "N_max", "greatest force at N/N_max", "over one", "at N_max, over one")
+    return grid(head, rows)
+
+
 def nano_table() -> str:
     """The sphere of section 3.2.3: volumes, breaks and mean viscous forces, by this code."""
     radius, gap, angle, duration, viscosity = 100e-9, 1e-9, math.pi / 3, 1e-7, 0.89e-3

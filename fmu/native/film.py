@@ -14,7 +14,7 @@ from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
 from ...separation.effects.film_shape import FilmShape
-from ...separation.effects.prepared import PreparedScene, prepare_scene
+from ...separation.effects.prepared import PreparedScene, with_fraction
 from ...separation.effects.viscous import TensionLimit, ViscousLaw, viscous_film
 from ...separation.film import Film
 from ...separation.plan import Plan, plan
@@ -123,7 +123,7 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
 
 def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
     """Numbers of the film with a fraction of the volume."""
-    film, prepared = made.film_with(fraction), _with_fraction(made.prepared, fraction)
+    film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
     breaks = _INF
     for effect in made.scene.effects:
         if isinstance(effect, FilmEnd):
@@ -134,18 +134,6 @@ def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
         if isinstance(effect, SeparationForce):
             numbers += _law(made.prepared, effect, film.laws[type(effect)], lowest)
     return numbers + _shape(prepared, film, lowest).numbers()
-
-
-def _with_fraction(
-    prepared: PreparedScene[SeparationScene], fraction: float
-) -> PreparedScene[SeparationScene]:
-    scene = prepared.scene
-    meniscus = scene.meniscus
-    if fraction == 1.0 or meniscus.volume is None:
-        return prepared
-    less = evolve(meniscus, volume=fraction * meniscus.volume)
-    scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
-    return prepare_scene(scene, prepared.accuracy, prepared.liquid)
 
 
 def _law(

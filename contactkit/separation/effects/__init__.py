@@ -9,6 +9,7 @@ constant_force   Time to open the film under a constant pull, without inertia.
 meniscus         Meniscus force, and the choice of its profile.
 meniscus_flat    Meniscus force between flats: free, or pinned at the rim.
 meniscus_sphere  Meniscus force on a sphere, as a curve over the gap.
+meniscus_shape   Neck, contact circles, pressure and volume of the meniscus along the gap.
 rupture          Rupture of the film.
 asperities       Menisci at the asperities of a rough flat.
 adhesion         Van der Waals attraction, and adhesive contact of a sphere.

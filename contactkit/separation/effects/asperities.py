@@ -47,6 +47,8 @@ class AsperityMenisci(SeparationForce):
     """Menisci at the summits of a rough flat face near a smooth one; the liquid condenses there.
 
     The gap of the scene is the distance of the smooth face from the mean plane of the summits.
+    They are counted over the face, a disc of the radius of the `Flat`, unless they bring their
+    count, as those of `AsperityPopulation.split` do.
     How far a meniscus reaches is set by its pressure or relative humidity, or by the height of a
     film.
 
@@ -113,8 +115,11 @@ class AsperityMenisci(SeparationForce):
         meniscus, missing = scene.meniscus, list[str]()
         if not scene.interface.is_flat:
             missing.append("two flats: the asperities stand on one of them")
-        elif math.isinf(scene.interface.rim_radius):
-            missing.append("the radius [m] of a Flat face, over which the asperities are counted")
+        elif math.isinf(self.area(scene)):
+            missing.append(
+                "the radius [m] of a Flat face, over which the asperities are counted, or their "
+                "count"
+            )
         if meniscus.volume is not None:
             missing.append(
                 "interface.meniscus.pressure [Pa] or meniscus_height [m], not a volume: which "
@@ -138,6 +143,10 @@ class AsperityMenisci(SeparationForce):
             if type(effect).name in whole
         ]
         return tuple(missing)
+
+    def area(self, scene: SeparationScene) -> float:
+        """Area [m2] that bears the asperities."""
+        return self.asperities.counted_area(math.pi * scene.interface.rim_radius**2)
 
     def height(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Height at which the menisci end [m], of a thin film."""
@@ -163,7 +172,7 @@ class AsperityMenisci(SeparationForce):
         from ...capillary import asperities as laws
 
         population, scene = self.asperities, prepared.scene
-        area = math.pi * scene.interface.rim_radius**2
+        area = self.area(scene)
         tension, wetting = prepared.liquid.surface_tension, _wetting(scene)
         height = self.height(prepared)
         given = (population.radius, population.density, area, tension, wetting, height)
@@ -212,7 +221,7 @@ def _exact_law(effect: AsperityMenisci, prepared: PreparedScene[SeparationScene]
     pressure = -_wetting(prepared.scene) / effect.height(prepared)
     rtol = max(0.1 * prepared.accuracy.time_rtol, 1e-11)
     one, reach = force_curve(pressure, prepared.angles, 1.0 / population.radius, rtol)
-    number = population.density * math.pi * prepared.scene.interface.rim_radius**2
+    number = population.density * effect.area(prepared.scene)
     if effect.law == "identical":
         last = reach * (1.0 - 1e-12)  # a trial step may look beyond the end
         return ForceLaw(

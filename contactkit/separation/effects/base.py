@@ -10,9 +10,9 @@ does once whatever does not depend on gap and speed; what it returns is called i
 from __future__ import annotations
 
 import abc
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import field, frozen
 
@@ -43,6 +43,7 @@ __all__ = [
     "LimitKind",
     "LimitPart",
     "Limiter",
+    "RunCurves",
     "SeparationEffect",
     "SeparationForce",
 ]
@@ -72,6 +73,18 @@ class LimitKind(IntEnum):
 
 
 LIMIT = Column("limit", "-", "limit that acts")
+
+
+class RunCurves(NamedTuple):
+    """Curves of a run, from which others follow.
+
+    `gap` [m], whether the film is `whole` there, and the volume of the film over that of the scene.
+    """
+
+    plan: Plan
+    gap: Curve
+    whole: NDArray[np.bool_]
+    volume_fraction: Curve
 
 
 @frozen(eq=False)
@@ -129,12 +142,25 @@ class SeparationEffect(Effect):
 
     takes_pressure: ClassVar[bool] = False
     """Whether it knows a meniscus of fixed pressure; otherwise the plan refuses that."""
+    late: ClassVar[tuple[Column, ...]] = ()
+    """Columns of the curves of `late_curves`."""
     published_choice: ClassVar[str] = ""
     """Field that is ``"as-published"`` where the source's equations are taken as printed."""
 
     @classmethod
     def curves(cls) -> tuple[Column, ...]:
         """Curves that this effect adds to a result."""
+        return ()
+
+    def late_curves(self, run: RunCurves) -> Mapping[str, Curve]:
+        """Curves that follow from those of a run, computed when one of them is asked for.
+
+        `late` lists them.
+        """
+        return {}
+
+    def notes(self, scene: SeparationScene) -> tuple[str, ...]:
+        """Remarks on this effect in a scene, in sentences; part of a printed plan."""
         return ()
 
     @property
@@ -194,7 +220,7 @@ class SeparationForce(SeparationEffect):
     @classmethod
     def curves(cls) -> tuple[Column, ...]:
         """See `SeparationEffect.curves`."""
-        return (cls.column,)
+        return (cls.column, *cls.late)
 
     def proportional_to(self, scene: SeparationScene) -> str:
         """Property of the liquid that the force is proportional to and depends on in no other way.

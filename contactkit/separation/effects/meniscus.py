@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
@@ -15,11 +15,17 @@ from ...scene.column import Column
 from ...scene.surfaces import Sphere
 from ...scene.validity import ValidityNumber
 from ...validators import choice
-from .base import ForceLaw, SeparationForce
+from .base import ForceLaw, RunCurves, SeparationForce
 from .film_shape import needs_extent
 from .meniscus_flat import arc_law, exact_law, printed_law, printed_radius
+from .meniscus_shape import SHAPE_COLUMNS, shape_curves
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Curve = NDArray[np.float64]
+
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
     from ..plan import Plan
@@ -59,6 +65,10 @@ class MeniscusForce(SeparationForce):
     to nine tenths (equal angles below 90 degrees); mixed angles are worse where the gap is not
     small against the radius, -12 % at a radius of two gaps for 60/120 degrees. The arc has no
     fold: it ends where its neck vanishes, 1.4 to 15 times beyond the exact limit.
+
+    A result has the shape of the meniscus, too, by the same profile: ``neck_radius``,
+    ``contact_radius_lower``, ``contact_radius_upper``, ``liquid_pressure``, ``liquid_volume`` and
+    ``break_gap``, computed when one of them is asked for, and nan where the film has broken.
     """
 
     name: ClassVar[str] = "meniscus-force"
@@ -66,6 +76,8 @@ class MeniscusForce(SeparationForce):
     column: ClassVar[Column] = Column("meniscus_force", "N", "meniscus force", "#2a9d8f")
     takes_pressure: ClassVar[bool] = True
     published_choice: ClassVar[str] = "profile"
+
+    late: ClassVar[tuple[Column, ...]] = SHAPE_COLUMNS
 
     profile: Literal["exact", "arc", "as-published"] = field(
         default="exact", validator=choice("exact", "arc", "as-published")
@@ -137,6 +149,21 @@ class MeniscusForce(SeparationForce):
         if self.profile == "as-published":
             return printed_law(prepared, self.pulled, self.radius)
         return exact_law(prepared) if self.profile == "exact" else arc_law(prepared)
+
+    def late_curves(self, run: RunCurves) -> Mapping[str, Curve]:
+        """See `SeparationEffect.late_curves`: the shape of the meniscus."""
+        return shape_curves(self, run)
+
+    def notes(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.notes`: what pulls where no amount of liquid is given."""
+        is_flooded = scene.meniscus.volume is None and scene.liquid_pressure is None
+        if not is_flooded:
+            return ()
+        return (
+            "flooded: liquid follows to the rim of the faces, and its meniscus, pinned there, "
+            "pulls; inside a bath there is none: leave MeniscusForce out, or give the amount of "
+            "liquid",
+        )
 
     def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
         """See `SeparationEffect.rimless_radius`: the contact circle."""

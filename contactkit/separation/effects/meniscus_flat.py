@@ -24,6 +24,7 @@ __all__ = [
     "exact_law",
     "printed_law",
     "printed_radius",
+    "volume_of_one",
 ]
 
 Body = Literal["lower", "upper"]
@@ -49,6 +50,10 @@ def _nothing(gap: float) -> float:
 
 def exact_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
     """Force of the exact bridge, which ends where it loses stability."""
+    return _law(_exact(prepared), prepared.film, prepared.liquid.surface_tension)
+
+
+def _exact(prepared: PreparedScene[SeparationScene]) -> _Film:
     film, angles = prepared.film, prepared.angles
     rtol = max(0.1 * prepared.accuracy.time_rtol, 1e-11)
     free: Curve = _nothing
@@ -64,8 +69,15 @@ def exact_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         pinned = _sized(held.force, film.rim, film.rim)
         pinned_volume = _sized(held.volume, film.rim, film.rim**3)
         pinned_end = held.end * film.rim
-    both = _Film(free, pinned, pinned_volume, free_end, pinned_end)
-    return _law(both, film, prepared.liquid.surface_tension)
+    return _Film(free, pinned, pinned_volume, free_end, pinned_end)
+
+
+def volume_of_one(prepared: PreparedScene[SeparationScene], profile: str) -> Curve:
+    """Volume [m3] of one meniscus over the gap [m]: as given, or what fills it to the rim."""
+    film = prepared.film
+    both = _exact(prepared) if profile == "exact" else _arcs(prepared, lambda gap, circle: circle)
+    pinned_to = _pinned_to(both, film)
+    return lambda gap: both.pinned_volume(gap) if gap < pinned_to else film.volume
 
 
 def _sized(curve: Curve, length: float, factor: float) -> Curve:

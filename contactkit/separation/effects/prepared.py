@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...accuracy import Accuracy
 from ...errors import PlanError
@@ -15,7 +15,14 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
 
-__all__ = ["Angles", "Curvatures", "PreparedScene", "checked_liquid", "prepare_scene"]
+__all__ = [
+    "Angles",
+    "Curvatures",
+    "PreparedScene",
+    "checked_liquid",
+    "prepare_scene",
+    "with_fraction",
+]
 
 S_co = TypeVar("S_co", bound="SeparationScene | SlidingScene", covariant=True)
 
@@ -61,6 +68,19 @@ class PreparedScene(Generic[S_co]):
     def wetting(self) -> float:
         """Sum of the cosines of both contact angles [-]."""
         return sum(map(math.cos, self.angles))
+
+
+def with_fraction(
+    prepared: PreparedScene[SeparationScene], fraction: float
+) -> PreparedScene[SeparationScene]:
+    """Scene with a fraction of its volume, such as what re-wets of it; a flooded one as it is."""
+    scene = prepared.scene
+    meniscus = scene.meniscus
+    if fraction == 1.0 or meniscus.volume is None:
+        return prepared
+    less = evolve(meniscus, volume=fraction * meniscus.volume)
+    scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
+    return prepare_scene(scene, prepared.accuracy, prepared.liquid)
 
 
 S = TypeVar("S", bound="SeparationScene | SlidingScene")

@@ -135,6 +135,37 @@ def test_a_sphere_split_into_equal_ones_fills_the_same_square():
     assert made.density * (2 * 50e-6) ** 2 == pytest.approx(2500.0, rel=1e-12)
 
 
+@pytest.mark.parametrize("face", [50e-6, 1e-3, None])
+@pytest.mark.parametrize("profile", ["exact", "thin-film"])
+def test_the_menisci_of_a_split_sphere_are_as_many_as_it_was_split_into(film_scene, face, profile):
+    """Whatever the face: over (2R)^2, as they were counted, not over its pi R^2."""
+    flat = ck.Flat() if face is None else ck.Flat(radius=face)
+    split = AsperityPopulation.split(radius=50e-6, count=2500)
+    effect = ck.AsperityMenisci(
+        asperities=split, law="identical", profile=profile, meniscus_height=100e-9
+    )
+    scene = film_scene(effect, lower=flat, upper=flat, initial_gap=10e-9, final_gap=50e-9)
+    result = ck.simulate(ck.plan(scene))
+    part = result.of(ck.AsperityMenisci)
+    assert part.n_wet[0] == pytest.approx(2500.0, rel=1e-12)
+    thin = 2500 * 2 * math.pi * 1e-6 * 2 * 0.03 * (1.0 - 10e-9 / 100e-9)
+    assert part.force[0] == pytest.approx(thin, rel=1e-9 if profile == "thin-film" else 0.2)
+    assert part.coverage[0] == pytest.approx(0.9 * 2 * math.pi * 1e-6 * 1e-7 / 4e-12, rel=1e-9)
+
+
+def test_a_density_is_counted_over_the_round_face(film_scene):
+    effect = ck.AsperityMenisci(
+        asperities=AsperityPopulation(density=1e12, radius=1e-6),
+        law="identical",
+        profile="thin-film",
+        meniscus_height=100e-9,
+    )
+    flat = ck.Flat(radius=1e-4)
+    scene = film_scene(effect, lower=flat, upper=flat, initial_gap=10e-9, final_gap=50e-9)
+    part = ck.simulate(ck.plan(scene)).of(ck.AsperityMenisci)
+    assert part.n_wet[0] == pytest.approx(1e12 * math.pi * 1e-8, rel=1e-12)
+
+
 def test_split_menisci_touch_where_the_kernel_says_they_do():
     """Cover pi/4, circles touching in a square order, at n = R/(2 (s - D))."""
     from contactkit.capillary.many_menisci import max_separate_split

@@ -1,0 +1,151 @@
+"""Shape of the meniscus along the gap: its neck, contact circles, pressure, volume, break gap."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...errors import ConvergenceError
+from ...scene.column import Column
+from .prepared import with_fraction
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...scene.scenes import SeparationScene
+    from .base import RunCurves
+    from .meniscus import MeniscusForce
+    from .prepared import PreparedScene
+
+    Curve = NDArray[np.float64]
+
+__all__ = ["SHAPE_COLUMNS", "MeniscusShape", "meniscus_shape", "shape_curves"]
+
+_JUST_BELOW = 1.0 - 1e-12  # of the end of a bridge: a gap that is the end is still spanned
+
+SHAPE_COLUMNS = (
+    Column("neck_radius", "m", "neck radius of a meniscus"),
+    Column("contact_radius_lower", "m", "contact radius on the lower body"),
+    Column("contact_radius_upper", "m", "contact radius on the upper body"),
+    Column("liquid_pressure", "Pa", "pressure of the liquid, over ambient"),
+    Column("liquid_volume", "m3", "liquid in all menisci"),
+    Column("break_gap", "m", "gap at which the film breaks"),
+)
+
+
+class MeniscusShape(NamedTuple):
+    """Radii of one meniscus [m], its pressure [Pa] and its volume [m3] at some gaps."""
+
+    neck: Curve
+    lower: Curve
+    upper: Curve
+    pressure: Curve
+    volume: Curve
+
+
+def meniscus_shape(
+    prepared: PreparedScene[SeparationScene], effect: MeniscusForce, gaps: Curve
+) -> MeniscusShape:
+    """Shape of one meniscus at gaps [m] that it spans, by the profile of its force.
+
+    nan where the shape of a bridge is not found.
+    """
+    import numpy as np
+
+    try:
+        pressure = prepared.scene.liquid_pressure
+        if pressure is not None:
+            return _at_pressure(prepared, pressure, gaps)
+        if prepared.scene.interface.is_flat:
+            return _between_flats(prepared, effect, gaps)
+        return _on_sphere(prepared, effect.profile, gaps)
+    except ConvergenceError:
+        return MeniscusShape(*(np.full(gaps.shape, np.nan) for _ in MeniscusShape._fields))
+
+
+def shape_curves(effect: MeniscusForce, run: RunCurves) -> dict[str, Curve]:
+    """Curves of `SHAPE_COLUMNS` along a run; nan where the film has broken."""
+    import numpy as np
+
+    plan = run.plan
+    curves = {column.name: np.full(run.gap.shape, np.nan) for column in SHAPE_COLUMNS}
+    for fraction in np.unique(run.volume_fraction[run.whole]).tolist():
+        here = run.whole & (run.volume_fraction == fraction)
+        film = plan.film_with(fraction)
+        ends = film.laws[type(effect)].end
+        gaps = np.minimum(run.gap[here], ends * _JUST_BELOW)
+        found = meniscus_shape(with_fraction(plan.prepared, fraction), effect, gaps)
+        volume = plan.scene.meniscus.count * found.volume
+        values = (found.neck, found.lower, found.upper, found.pressure, volume, film.end)
+        for column, value in zip(SHAPE_COLUMNS, values, strict=True):
+            curves[column.name][here] = value
+    for curve in curves.values():
+        curve.flags.writeable = False
+    return curves
+
+
+def _at_pressure(
+    prepared: PreparedScene[SeparationScene], pressure: float, gaps: Curve
+) -> MeniscusShape:
+    from ...capillary.exact.at_pressure import bridge_at_pressure
+
+    tension = prepared.liquid.surface_tension
+    fixed = (*prepared.angles, *prepared.curvatures)
+    found = bridge_at_pressure(gaps, pressure / tension, *fixed, beyond="nan")
+    radii = (found.neck, found.radius_lower, found.radius_upper)
+    return MeniscusShape(*radii, tension * found.pressure, found.volume)
+
+
+def _between_flats(
+    prepared: PreparedScene[SeparationScene], effect: MeniscusForce, gaps: Curve
+) -> MeniscusShape:
+    import numpy as np
+
+    from .meniscus_flat import volume_of_one
+
+    tension = prepared.liquid.surface_tension
+    printed = -tension * prepared.wetting / gaps  # the curvature of the arc alone
+    if effect.takes_printed() and effect.radius == "disc":
+        radius = np.array([prepared.film.radius(gap) for gap in gaps.tolist()])
+        return MeniscusShape(radius, radius, radius, printed, np.pi * radius**2 * gaps)
+    one = volume_of_one(prepared, effect.profile)
+    volume = np.array([one(gap) for gap in gaps.tolist()])
+    if effect.profile == "exact":
+        from ...capillary.exact.bridge import bridge
+
+        exact = bridge(gaps, volume, *prepared.angles, beyond="nan")
+        radii = (exact.neck, exact.radius_lower, exact.radius_upper)
+        return MeniscusShape(*radii, tension * exact.pressure, volume)
+    from ...capillary.arc.bridge import arc_bridge
+
+    arc = arc_bridge(gaps, volume, *prepared.angles, beyond="nan")
+    pressure = printed if effect.takes_printed() else tension * arc.pressure
+    return MeniscusShape(arc.neck, arc.radius_lower, arc.radius_upper, pressure, volume)
+
+
+def _on_sphere(
+    prepared: PreparedScene[SeparationScene], profile: str, gaps: Curve
+) -> MeniscusShape:
+    import numpy as np
+
+    tension, volume = prepared.liquid.surface_tension, prepared.film.volume
+    fixed = (*prepared.angles, *prepared.curvatures)
+    volumes = np.full(gaps.shape, volume)
+    if profile == "exact":
+        from ...capillary.exact.bridge import bridge
+
+        exact = bridge(gaps, volume, *fixed, beyond="nan")
+        radii = (exact.neck, exact.radius_lower, exact.radius_upper)
+        return MeniscusShape(*radii, tension * exact.pressure, volumes)
+    from ...capillary.arc import sphere as arc_sphere
+
+    shape = "parabola" if profile == "as-published" else "sphere"
+    arc = arc_sphere.solve(gaps, volume, *fixed, profile=shape)
+    pressure = tension * arc.pressure
+    if profile == "as-published":  # what Eq. (3.12) has beside the surface tension
+        from ...as_published.printed.common import meniscus_sphere_3_12
+
+        x, upper = arc.radius_upper, prepared.angles.upper
+        line = 2.0 * np.pi * tension * x * np.sin(arc.slope_upper + upper)
+        pressure = (line - meniscus_sphere_3_12(arc, tension, upper)) / (np.pi * x**2)
+    return MeniscusShape(arc.neck, arc.radius_lower, arc.radius_upper, pressure, volumes)
