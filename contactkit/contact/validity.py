@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -41,14 +41,17 @@ def check_contact(
     parts : mapping of effect class to its part
         What the effects computed.
     """
+    is_periodic = contact.grid.periodic
+    # Of a window that is not periodic the rectangle around the contact matters alone.
+    steps = _steps(heights if is_periodic else heights[_around(contact.pressure > 0.0)])
     found = [
         _pixels_per_wave(contact),
         _pixels_per_spot(contact),
         _peak_pressure(contact),
-        _slope(contact, heights),
+        _slope(contact, steps),
     ]
-    if contact.grid.periodic:
-        found.append(_jump(heights))
+    if is_periodic:
+        found.append(_jump(heights, steps))
     effects = contact.scene.effects
     own = [one for e in effects for one in e.validity(contact, parts.get(type(e)))]
     return (*found, *own)
@@ -100,15 +103,26 @@ def _peak_pressure(contact: Contact) -> ValidityNumber:
     )
 
 
-def _slope(contact: Contact, heights: Map) -> ValidityNumber:
-    """Of all heights; in a window that is not periodic, of the rectangle around the contact."""
-    shown = heights if contact.grid.periodic else heights[_around(contact.pressure > 0.0)]
-    squares = 0.0
-    for axis, size in enumerate(contact.grid.pixel_size):
-        squares += float(np.square(np.diff(shown, axis=axis) / size).mean())
+class _Steps(NamedTuple):
+    """Rms step [m] of the heights from each line to the next, over the lines along y and x."""
+
+    along_y: Map
+    along_x: Map
+
+
+def _steps(heights: Map) -> _Steps:
+    down, across = np.diff(heights, axis=0), np.diff(heights, axis=1)
+    return _Steps(
+        np.sqrt(np.einsum("ij,ij->i", down, down) / down.shape[1]),
+        np.sqrt(np.einsum("ij,ij->j", across, across) / across.shape[0]),
+    )
+
+
+def _slope(contact: Contact, steps: _Steps) -> ValidityNumber:
+    pairs = zip(steps, contact.grid.pixel_size, strict=True)
     return ValidityNumber(
         name="rms slope",
-        value=math.sqrt(squares),
+        value=math.hypot(*(math.sqrt(float(np.square(s).mean())) / size for s, size in pairs)),
         high=_STEEPEST,
         detail="a half-space takes slopes to be small; check the units of heights and pixel size",
         source="Johnson 1985, section 4.1",
@@ -126,14 +140,14 @@ def _around(touching: NDArray[np.bool_]) -> tuple[slice, slice]:
     return ranges[0], ranges[1]
 
 
-def _jump(heights: Map) -> ValidityNumber:
+def _jump(heights: Map, steps: _Steps) -> ValidityNumber:
     """Step from the last line to the first over the largest step inside, rms along the line."""
     worst = 0.0
-    for axis in (0, 1):
+    for axis, each in enumerate(steps):
+        inside = float(each.max())
         wrapped = heights.take(0, axis) - heights.take(-1, axis)
-        inside = np.sqrt(np.square(np.diff(heights, axis=axis)).mean(axis=1 - axis)).max()
         step = math.sqrt(float(np.square(wrapped).mean()))
-        worst = max(worst, step / float(inside) if inside > 0.0 else (math.inf if step else 0.0))
+        worst = max(worst, step / inside if inside > 0.0 else (math.inf if step else 0.0))
     return ValidityNumber(
         name="jump at the edge of the periodic window",
         value=worst,
