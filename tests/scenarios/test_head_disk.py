@@ -175,6 +175,19 @@ def test_the_plan_refuses_what_a_run_would_and_a_run_before_its_solve(
     assert message in capsys.readouterr().err
 
 
+def test_a_file_may_vary_paths_together(tmp_path, capsys):
+    thickness = "interface.lower.solid.layers.0.thickness"
+    rows = f'"{thickness}, loading.pressure" = [["5 nm", "10 MPa"], ["10 nm", "40 MPa"]]'
+    path = tmp_path / "rows.toml"
+    path.write_text(SMALL.replace('"loading.pressure" = ["10 MPa", "40 MPa"]', rows))
+    assert main(["plan", str(path)]) == 0
+    assert f"{thickness}, loading.pressure: 2 values" in capsys.readouterr().out
+    opened = open_scene(str(path))
+    made = ck.study(opened.scene, opened.vary, ck.Accuracy(grid=48, rtol=1e-3))
+    assert made.shape == (2,)
+    assert made.column(thickness).tolist() == [5e-9, 1e-8]
+
+
 @pytest.mark.slow
 def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tmp_path, capsys):
     out = tmp_path / "cost"
