@@ -138,7 +138,7 @@ def _zoom(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
 
 
 def _delays(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float) -> Path:
-    """Release delay over temperature, for several tensions the oil may bear."""
+    """Release delay over temperature, for several tensile strengths of the oil."""
     made, ax = plot.figure(size=(9.0, 5.0))
     pulse = scene.valve.profile.on_time * 1e3
     curves: list[tuple[str, bool, float | None]] = [

@@ -77,7 +77,7 @@ def _mirror(ax: Any, scene: MicromirrorScene) -> None:
     )
     ax.set(xlabel="distance from the axis [um]", ylabel="height over the axis [um]")
     ax.set_aspect("equal")
-    ax.set_ylim(floor - 1.0, 1.7)
+    ax.set_ylim(floor - 1.25, 1.7)
     bend = -root_height(tips, tilt, 1.0) * 1e9
     plot.title(
         ax, f"landed under its bias at {math.degrees(tilt):.2f} deg, tips bent {bend:.0f} nm"
@@ -112,7 +112,7 @@ def _tip(ax: Any, scene: MicromirrorScene, made: Plan) -> None:
     top = 1.15 * float(under.max())
     ax.fill_between(x * nm, under * nm, top * nm, color=plot.COLORS["meniscus"], alpha=0.5, lw=0)
     ax.fill_between(x * nm, -0.25 * top * nm, 0.0, color=_SITE, lw=0)
-    ax.set(xlabel="[nm]", ylabel="height over the site [nm]")
+    ax.set(xlabel="distance from the axis of the tip [nm]", ylabel="height over the site [nm]")
     ax.set_ylim(-0.25 * top * nm, top * nm)
     humidity = 100 * scene.study.humidity
     plot.title(ax, f"apex of a tip at {humidity:g} % humidity (heights stretched)")
