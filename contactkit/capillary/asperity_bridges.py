@@ -58,7 +58,10 @@ def force_curve(
         error = float(np.max(np.abs(coarse(left[1::2]) - value[1::2])) / np.max(np.abs(value)))
         nodes = 2 * nodes - 1
     if error > max(rtol, 1e-6):
-        raise ConvergenceError(f"the meniscus force at an asperity is rough: {error:.1e} off")
+        raise ConvergenceError(
+            f"the meniscus force at an asperity is rough: {error:.1e} off; take the thin film, "
+            f"AsperityMenisci(profile='thin-film'), or asperities of a smaller radius"
+        )
     fine = CubicSpline(left, value)
 
     def curve(gap: Floats) -> Floats:

@@ -10,6 +10,8 @@ __all__ = ["EventStep", "first_crossing", "step_to_event"]
 
 S = TypeVar("S")
 _MOST_TRIALS = 60
+_QUICK = 0.01  # fraction of a miss to which secants reduce it where they work
+_MOST_SECANTS = 3  # in a row that neither halve the bracket nor do that
 
 
 def first_crossing(events: Iterable[float], begin: float, end: float, same: float) -> float | None:
@@ -46,7 +48,7 @@ def step_to_event(
     length: float,
     enough: float,
 ) -> EventStep[S]:
-    """Step that ends at an event: secants, kept inside the bracket.
+    """Step that ends at an event: secants, kept inside the bracket, which is halved if they stall.
 
     Parameters
     ----------
@@ -73,13 +75,17 @@ def step_to_event(
     low, high = 0.0, length
     last, missed_last = low, begin
     missed = miss(taken)
+    width, size, since = high, abs(missed), 0
     for _ in range(_MOST_TRIALS):
         if abs(missed) <= enough or high - low <= 1e-15 * high:
             break
         low, high = (length, high) if missed < 0.0 else (low, length)
+        since += 1
+        if high - low <= 0.5 * width or abs(missed) <= _QUICK * size:
+            width, size, since = high - low, abs(missed), 0
         slope = (missed - missed_last) / (length - last)
         guess = length - missed / slope if slope else math.nan
-        again = attempt(guess) if low < guess < high else None
+        again = attempt(guess) if low < guess < high and since < _MOST_SECANTS else None
         while again is None:
             guess = 0.5 * (low + high)
             if guess in (low, high):

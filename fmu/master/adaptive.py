@@ -18,6 +18,7 @@ __all__ = ["Goal", "Walk"]
 
 _SAME = 1e-9  # gaps closer than this, relatively, are one
 _MOST_REJECTED = 60
+_NOT_LOCATED = 16.0  # error of a step that does not find the gap of an event
 _REST = 0.02  # fraction of the final time of a step at rest
 
 
@@ -79,12 +80,16 @@ class Walk:
             self._rest(point, end)
             return
         length = min(self._length, end - point.time)
-        found, error, rejected = None, math.inf, 0
+        rejected = 0
         while True:
-            found = self._try(length)
+            found, mark, ended = self._try(length), None, None
             error = self._judge(found, length) if found is not None else math.inf
             if found is not None and error <= 1.0:
-                break
+                mark = self._mark(point, found.gap)
+                ended = self._ended(found, length, mark)
+                if ended is not None:
+                    break
+                error = _NOT_LOCATED
             rejected += 1
             length = self._control.shorter(length, error)
             if rejected > _MOST_REJECTED or length < 1e-15 * max(point.time, 1e-12):
@@ -95,9 +100,7 @@ class Walk:
         self.n_rejected += rejected
         is_cut = not rejected and length < self._length
         self._length = self._control.following(length, error, self._length if is_cut else 0.0)
-        mark = self._mark(point, found.gap)
-        if mark is not None:
-            found, length = self._locate(found, length, mark)
+        found, length = ended
         self._accept(found, length, end, mark)
 
     def _rest(self, point: Point, end: float) -> None:
@@ -162,8 +165,15 @@ class Walk:
             events.append(self.goal.release_gap)
         return first_crossing(events, point.gap, gap, _SAME)
 
-    def _locate(self, found: Doubled, length: float, mark: float) -> EventStep[Doubled]:
-        """Step that ends at a gap."""
+    def _ended(
+        self, found: Doubled, length: float, mark: float | None
+    ) -> EventStep[Doubled] | None:
+        """Step that ends at a gap, if there is one on the way; nothing if it is not found.
+
+        A step that is too rough may jump over the gap; a shorter one does not.
+        """
+        if mark is None:
+            return EventStep(found, length)
         point = self.points[-1]
         travel = math.log(found.gap / point.gap)
         # A stiff film may hardly have moved, and its impulse is in what it did.
@@ -173,12 +183,8 @@ class Walk:
             return math.copysign(1.0, travel) * math.log(step.gap / mark)
 
         begin = -abs(math.log(point.gap / mark))
-        found, length = step_to_event(self._try, beyond, begin, found, length, enough)
-        if abs(beyond(found)) > 1e3 * enough:
-            raise ConvergenceError(
-                f"no step leads from {point.gap:g} m at {point.time:g} s to the gap of {mark:g} m"
-            )
-        return EventStep(found, length)
+        located = step_to_event(self._try, beyond, begin, found, length, enough)
+        return located if abs(beyond(located.taken)) <= 1e3 * enough else None
 
     def _accept(self, found: Doubled, length: float, end: float, mark: float | None) -> None:
         point = self.points[-1]

@@ -99,7 +99,8 @@ class FixedWalk:
         if not 0.0 < gap < math.inf:
             raise ConvergenceError(
                 f"{self._scheme} with a step of {length:.3g} s blew up: the gap became {gap:.3g} m "
-                f"at {point.time + length:.3g} s; m/c is {body.mass / point.film.damping:.3g} s"
+                f"at {point.time + length:.3g} s; m/c is {body.mass / point.film.damping:.3g} s; "
+                f"take steps well below it, or AdaptiveSteps"
             )
         seen = (point.gap, point.speed) if is_late else (gap, speed)
         there = self.film.move(point.time, length, *seen)

@@ -136,7 +136,9 @@ def _no_arc(point: list[float], closed: bool) -> Exception:
             f"no arc bridge at a gap of {gap!r} m: its neck is closed there, though not up "
             f"to {limit!r} m"
         )
-    return ConvergenceError(f"no arc was found at a gap of {gap!r} m, below {limit!r} m")
+    return ConvergenceError(
+        f"no arc was found at a gap of {gap!r} m, below {limit!r} m; take the exact bridge"
+    )
 
 
 def _between_curved(points: list[Array], beyond: str) -> list[Array]:

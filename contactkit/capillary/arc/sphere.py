@@ -219,7 +219,10 @@ def volume(
     e = equations(problem, one, two, profile)
     leans = abs(e.tilt[0]) <= 1e-12 * (radius_upper + e.height[0]) and abs(e.turn[0]) < np.pi
     if not (leans and one[0] > 0.0 and e.excess[0] > 0.0):
-        raise ConvergenceError(f"no arc meets the upper body at a radius of {radius_upper!r} m")
+        raise ConvergenceError(
+            f"no arc meets the upper body at a radius of {radius_upper!r} m; give a smaller "
+            f"radius, or contact angles that differ less"
+        )
     return float(e.excess[0])
 
 
@@ -302,5 +305,8 @@ def zero_neck_gap(
     if neck(near) > 0.0 > neck(far):
         limit = bracketed_root(neck, near, far, rtol=1e-14)
     if abs(neck(limit)) > 1e-9 * size:
-        raise ConvergenceError(f"no closing neck between gaps of {near!r} and {far!r} m")
+        raise ConvergenceError(
+            f"no closing neck between gaps of {near!r} and {far!r} m; take the limit of the exact "
+            f"bridge, stability_limit"
+        )
     return limit

@@ -86,7 +86,9 @@ def relax_curvature(bodies: Pair, factor: float, start: Array, gap: float) -> Ar
             continue
         ratio = math.sqrt(ratio)
         if ratio > 0.9999:
-            raise ConvergenceError("no bridge was found between bodies so strongly curved", here)
+            raise ConvergenceError(
+                "no bridge was found between bodies so strongly curved; give less volume", here
+            )
     return here
 
 
@@ -131,7 +133,7 @@ def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = 
     """Follow the curve from a stable bridge, given by its unknowns, to the limit."""
     here, good = newton(bodies, start[:, None], np.array([gap]), pressure)
     if not good[0]:
-        raise ConvergenceError("no bridge was found to start from", start)
+        raise ConvergenceError("no bridge was found to start from; give less volume", start)
     leaves = [body.cosine[0] == -1.0 for body in (bodies.limiting, bodies.second)]
     limit = np.inf
     if any(leaves) and pressure is None:
@@ -165,7 +167,9 @@ def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = 
         step = min(1.4 * step, 0.5)
     if np.isfinite(limit) and here.gap[0] > 0.9 * limit:
         return _branch(bodies, path, places, tangents, np.append(_gaps(places), limit), DETACHMENT)
-    raise ConvergenceError("no limit of the bridge was found", places)
+    raise ConvergenceError(
+        "no limit of the bridge was found; change volume or angles a little", places
+    )
 
 
 def _gaps(places: list[Free]) -> Array:

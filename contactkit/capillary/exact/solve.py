@@ -83,7 +83,8 @@ def _free(
     columns = from_free(found, flipped=False)
     if (exists & ~good).any():
         raise ConvergenceError(
-            f"no bridge was found below its limit of {curve.gap[-1]:.6g} lengths"
+            f"no bridge was found below its limit of {curve.gap[-1]:.6g} lengths; change the gap "
+            f"a little, or take the arc, arc_bridge"
         )
     closer = gap < curve.gap[0]
     if closer.any():
@@ -112,7 +113,10 @@ def _of_kind(key: Key, gap: Array, pressure: float | None) -> tuple[Columns, Fla
         lost |= exists & (gap < curve.gap[0]) & ~found.good
     if lost.any():
         if (gap[lost] >= curve.gap[0]).any():
-            raise ConvergenceError(f"no bridge was found below its limit of {limit:.6g} lengths")
+            raise ConvergenceError(
+                f"no bridge was found below its limit of {limit:.6g} lengths; change the gap a "
+                f"little, or take the arc, arc_bridge"
+            )
         _close(key, gap, pressure, curve, columns, lost)
     return columns, exists, limit
 

@@ -61,6 +61,11 @@ _STARTS = (0.1, 0.03, 0.2, 0.01, 0.4, 0.003, 0.0)
 _CYLINDER = math.pi ** (1.0 / 3.0)
 
 
+_NOT_TOUCHING = (
+    "no bridge was found between touching bodies; give less volume, or take the arc, arc_bridge"
+)
+
+
 class Limit(NamedTuple):
     """Bridges at the stability limit; all arrays of the broadcast shape of the arguments.
 
@@ -102,7 +107,7 @@ def contact(
     while not found.good[0]:
         factor *= 4.0
         if factor > 1e9:
-            raise ConvergenceError("no bridge was found between touching bodies")
+            raise ConvergenceError(_NOT_TOUCHING)
         scaled_curvature = (factor * curvatures[0], factor * curvatures[1])
         given = problem(zero, one, (angles[0], angles[1]), scaled_curvature)
         found = from_arc(given, (angles[0], angles[1]), scaled_curvature)
@@ -117,7 +122,7 @@ def contact(
         if new.good[0]:
             factor, found = trial, new
         elif ratio > 0.999:
-            raise ConvergenceError("no bridge was found between touching bodies")
+            raise ConvergenceError(_NOT_TOUCHING)
         else:
             ratio = math.sqrt(ratio)
     return found

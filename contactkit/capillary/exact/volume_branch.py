@@ -225,7 +225,9 @@ def _closed(
             middle = _halved(bodies, inside, pressure)
             top = _places(bodies, np.array([middle]), inside[1, :1], pressure)
         if not top[2, 0] >= places[2, -2] * (1.0 - 1e-10):
-            raise ConvergenceError("the fold of the bridge was not found", places)
+            raise ConvergenceError(
+                "the fold of the bridge was not found; change volume or angles a little", places
+            )
         top[3] = 0.0
         places = np.hstack((places[:, :-1], top))
     return Branch(bodies, flipped, places[0], places[1], places[2], places[3], kind)
@@ -292,7 +294,9 @@ def march(
         if now != flipped:
             flipped = now
             columns = _places(bodies, there, columns[1, -1:], pressure)
-    raise ConvergenceError("no limit of the bridge was found", columns)
+    raise ConvergenceError(
+        "no limit of the bridge was found; change volume or angles a little", columns
+    )
 
 
 def _places(bodies: Pair, chart: Array, log_neck: Array, pressure: float | None) -> Array:
@@ -329,5 +333,7 @@ def flat_branch(bodies: Pair, flipped: bool) -> Branch:
         if turned.size:
             return _closed(bodies, flipped, columns, FOLD)
     if last is None:
-        raise ConvergenceError("no limit of the bridge was found between flats")
+        raise ConvergenceError(
+            "no limit of the bridge was found between flats; change the angles a little"
+        )
     return _closed(bodies, flipped, columns, last)

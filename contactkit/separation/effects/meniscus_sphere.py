@@ -196,7 +196,8 @@ def _stretches(
             continue
         if tail > 1e-6:
             raise ConvergenceError(
-                f"the meniscus force on the sphere is rough: {tail:.1e} off a curve"
+                f"the meniscus force on the sphere is rough: {tail:.1e} off a curve; give less "
+                f"liquid, or take MeniscusForce(profile='arc')"
             )
         found.append((a, b, series))
     return found

@@ -95,6 +95,19 @@ def test_a_step_ends_at_the_event(power):
     assert len(calls) < 40
 
 
+def test_secants_that_stall_do_not_lose_the_event():
+    """A flat approach from beyond, a steep one from before: secants crawl down the flat side."""
+    calls = []
+
+    def miss(x):
+        calls.append(x)
+        return (x - 0.3) ** 7 if x > 0.3 else -((0.3 - x) ** 0.2)
+
+    taken, _ = step_to_event(lambda x: x, miss, miss(0.0), 1.0, 1.0, 1e-30)
+    assert taken == pytest.approx(0.3, abs=1e-4)
+    assert len(calls) < 60
+
+
 def test_an_event_is_met_although_long_steps_cannot_be_solved():
     taken, _ = step_to_event(
         lambda x: x * x if x < 0.6 else None, lambda x: x / 0.3 - 1.0, -1.0, 1.0, 1.0, 1e-13

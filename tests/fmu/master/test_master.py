@@ -166,3 +166,16 @@ def test_a_mass_that_is_pushed_back_lands_on_its_asperities(film):
     assert found["h"][-1] == 4e-6
     assert found["v"][-1] == 0.0
     assert found.time[-1] == 0.5
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 3e-2, 1e-2, 1e-3])
+def test_a_mass_that_is_thrown_off_and_falls_back_is_followed_at_every_tolerance(film, tolerance):
+    """Rough steps jump over the gap at which the film fills the faces; shorter ones find it."""
+    steps = AdaptiveSteps(tolerance=tolerance)
+    given = Fmu(film, {"V": "0.158 mm3"})
+    body = Mass(mass=0.02, stiffness=5e3)
+    pull = lambda time: 40.0 * math.sin(2.0 * math.pi * 50.0 * time) ** 2  # noqa: E731
+    found = couple(given, body, pull, stop_time=0.1, steps=steps)
+    assert found.time[-1] == 0.1
+    assert found["h"].min() > 0.0
+    assert found["h"].max() == pytest.approx(0.0118, rel=max(3.0 * tolerance, 0.03))
