@@ -78,18 +78,28 @@ def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
 
 
 def _is_periodic(scene: ContactScene) -> bool:
-    """Whether the surfaces of a scene repeat: by its window, else unless one states otherwise."""
-    if scene.window.periodic is not None:
-        return scene.window.periodic
-    return all(_may_repeat(body.surface) for body in scene.interface.bodies)
+    """Whether the surfaces of a scene repeat: as the window says, else if all of them may."""
+    periodic = scene.window.periodic
+    if periodic is False:
+        return False
+    once = [one for body in scene.interface.bodies for one in _isolated(body.surface)]
+    if periodic and once:
+        raise DescriptionError(
+            "Window.periodic",
+            True,
+            f"be False or left out: {' and '.join(once)} states that it does not repeat",
+            hint="if it does, say so there: is_periodic=True",
+        )
+    return not once
 
 
-def _may_repeat(surface: Surface) -> bool:
+def _isolated(surface: Surface) -> list[str]:
+    """Names of the maps in a surface that state that they do not repeat."""
     if isinstance(surface, CombinedSurface):
-        return all(_may_repeat(part) for part in surface.parts)
+        return [name for part in surface.parts for name in _isolated(part)]
     if isinstance(surface, Measured):
-        surface = _measured(surface)
-    return not (isinstance(surface, Heights) and surface.is_periodic is False)
+        return [surface.path] if _measured(surface).is_periodic is False else []
+    return ["Heights"] if isinstance(surface, Heights) and surface.is_periodic is False else []
 
 
 def _own_grids(surface: Surface) -> list[tuple[tuple[int, int], tuple[float, float]]]:
@@ -131,7 +141,7 @@ def _read(surface: Measured, changed: int) -> Heights:
     return Heights(
         heights=-heights if surface.flipped else heights,
         pixel_size=found.pixel_size,
-        is_periodic=found.is_periodic,
+        is_periodic=found.is_periodic if surface.is_periodic is None else surface.is_periodic,
     )
 
 

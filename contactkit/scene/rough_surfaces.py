@@ -142,6 +142,8 @@ class Measured(RoughSurface):
         Whether the map shows the counter body as a mould, so that its valleys are the peaks.
     checksum : str, optional
         SHA-256 of the file; a file that differs is refused.
+    is_periodic : bool, optional
+        Whether the map repeats beyond its edges. None: what the file states, if it does.
     """
 
     kind: ClassVar[str] = "measured"
@@ -156,6 +158,7 @@ class Measured(RoughSurface):
     )
     flipped: bool = False
     checksum: str | None = None
+    is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
 
 
 def _as_map(value: Any) -> Map:

@@ -98,6 +98,12 @@ def test_a_contact_inside_all_ranges_warns_of_nothing():
             "film force over load",
             None,
         ),
+        (
+            scene(effects=(ck.HalfSpace(), ck.IslandBridges(film_thickness=8e-9))),
+            64,
+            "largest island over the window",
+            None,
+        ),
     ],
     ids=lambda one: one if isinstance(one, str) else "",
 )

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import contactkit as ck
 from contactkit.errors import DescriptionError
@@ -76,11 +77,20 @@ def test_of_two_surfaces_one_that_does_not_repeat_decides():
     assert ck.plan(scene(unknown)).grid.periodic is True
 
 
-@pytest.mark.parametrize("periodic", [True, False])
-def test_a_window_decides_where_it_says_so(periodic):
-    surface = Topography(is_periodic=not periodic)
-    assert ck.plan(scene(surface, periodic=periodic)).grid.periodic is periodic
-    assert ck.press(surface, None, STEEL, 5e7, periodic=periodic).plan.grid.periodic is periodic
+@pytest.mark.parametrize("states", [True, False, None])
+def test_any_map_may_be_an_isolated_contact(states):
+    surface = Topography(is_periodic=states)
+    assert ck.plan(scene(surface, periodic=False)).grid.periodic is False
+    assert ck.press(surface, None, STEEL, 5e7, periodic=False).plan.grid.periodic is False
+
+
+def test_a_map_that_does_not_repeat_is_not_pressed_as_if_it_did():
+    message = r"Window\.periodic must be False or left out: Heights states that .* is_periodic=True"
+    surface = Topography(is_periodic=False)
+    with pytest.raises(DescriptionError, match=message):
+        ck.plan(scene(surface, periodic=True))
+    with pytest.raises(DescriptionError, match=message):
+        ck.press(surface, None, STEEL, 5e7, periodic=True)
 
 
 def test_an_isolated_map_cites_the_patch_of_love_and_keeps_it(tmp_path):
@@ -136,7 +146,13 @@ def test_a_file_that_states_whether_it_repeats_is_believed(tmp_path, monkeypatch
     )
     surface = ck.Measured(path=str(tmp_path / "map.npy"), pixel_size=10e-9, unit="m")
     assert ck.plan(scene(surface)).grid.periodic is (states is not False)
-    assert ck.plan(scene(surface, periodic=True)).grid.periodic is True
+    repeats = evolve(surface, is_periodic=True)  # known better than by the file
+    assert ck.plan(scene(repeats, periodic=True)).grid.periodic is True
+    assert ck.plan(scene(repeats)).grid.periodic is True
+    alone = evolve(surface, is_periodic=False)
+    assert ck.plan(scene(alone)).grid.periodic is False
+    with pytest.raises(DescriptionError, match=r"map\.npy states that it does not repeat"):
+        ck.plan(scene(alone, periodic=True))
 
 
 def test_an_instrument_file_states_whether_it_repeats():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from operator import attrgetter
 from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
@@ -13,7 +12,7 @@ from attrs import Attribute, field, frozen
 from ...capillary import island_bridges as kernel
 from ...capillary.film_islands import islands, meniscus_area
 from ...capillary.kelvin import meniscus_height
-from ...errors import ValidityWarning
+from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, positive, refuse
 from .base import Contact, Observer, Scalar
@@ -166,16 +165,21 @@ class IslandBridges(Observer[IslandPart]):
 
     def observe(self, contact: Contact) -> IslandPart:
         """See `Observer.observe`."""
-        part = bridges_of(self, contact)
-        if contact.grid.periodic and part.largest_fraction > _WIDEST:
-            warnings.warn(
-                f"the largest island covers {100.0 * part.largest_fraction:.0f} % of the window: "
-                "the menisci have joined, and one bridge under a sphere is no model of it; use "
-                "FilmMeniscus, or a thinner film",
-                ValidityWarning,
-                stacklevel=2,
-            )
-        return part
+        return bridges_of(self, contact)
+
+    def validity(self, contact: Contact, part: IslandPart) -> tuple[ValidityNumber, ...]:
+        """See `ContactEffect.validity`."""
+        if not contact.grid.periodic:
+            return ()
+        return (
+            ValidityNumber(
+                name="largest island over the window",
+                value=part.largest_fraction,
+                high=_WIDEST,
+                detail="the menisci have joined, and one bridge under a sphere is no model of it; "
+                "use FilmMeniscus, or a thinner film",
+            ),
+        )
 
     def at_pressure(self, contact: Contact, pressure: float) -> IslandPart:
         """Return the same for a pressure [Pa], in place of that of the scene or of a film."""
