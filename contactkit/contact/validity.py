@@ -69,7 +69,7 @@ def _pixels_per_wave(contact: Contact) -> ValidityNumber:
         if shortest is None
         else f"below, the maximum pressure is up to a quarter off (at 3 pixels) and stress more; "
         f"use a finer Accuracy.grid, or a longer {shortest.field}",
-        source="measured, docs/accuracy.md, Contact",
+        source="measured, docs/accuracy.md, Pixels per wave",
     )
 
 
@@ -86,7 +86,7 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
         "tenth off; use a finer Accuracy.grid, or a smaller window"
         if area
         else "there is no contact",
-        source="16/pi x area/edges; measured, docs/accuracy.md, Contact",
+        source="16/pi x area/edges; measured, docs/accuracy.md, Pixels per wave",
     )
 
 

@@ -302,6 +302,20 @@ def test_the_estimate_of_a_rough_contact_is_the_change_to_fewer_pixels():
     assert "32 x 32" in str(found)
 
 
+@pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+@pytest.mark.parametrize("pixels", [3, 4, 6, 8])
+def test_the_estimate_bounds_the_maximum_pressure_of_a_rough_contact(pixels):
+    surface = ck.GaussianRoughness(rms=1e-9, correlation_length=2e-7, cutoff=2e-6 / 32)
+
+    def peak(per_wave):
+        accuracy = ck.Accuracy(grid=32 * per_wave)
+        return ck.solve(ck.plan(scene(surface, pressure=20e6), accuracy))
+
+    result, reference = peak(pixels), peak(16)
+    true = abs(result.max_pressure / reference.max_pressure - 1.0)
+    assert true < ck.discretisation_error(result).errors["max_pressure"] + 0.02
+
+
 def test_a_hardness_map_goes_with_the_pixels():
     hardness = ck.HardnessMap(np.full((64, 64), 5e8))
     limit = ck.HardnessLimit(rule="constant", hardness=hardness)
