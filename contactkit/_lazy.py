@@ -29,6 +29,10 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
     def attribute(name: str) -> Any:
         if name in homes:
             return getattr(import_module(f"{package}.{homes[name]}"), name)
-        raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        from difflib import get_close_matches  # for this alone
+
+        close = [] if name.startswith("_") else get_close_matches(name, homes, n=1)
+        cure = f"; did you mean {close[0]!r}?" if close else ""
+        raise AttributeError(f"module {package!r} has no attribute {name!r}{cure}")
 
     return attribute

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, overload
 
 from .accuracy import Accuracy
-from .scene.plan import check_scene
+from .scene.plan import check_accuracy, check_scene
 from .scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .separation.plan import Plan
 from .separation.plan import plan as plan_separation
@@ -54,6 +54,7 @@ def plan(
         If the scene has no answer.
     """
     check_scene(scene, (ContactScene, SeparationScene, SlidingScene))
+    check_accuracy(accuracy)
     if isinstance(scene, ContactScene):
         from .contact.plan import plan_contact
 

@@ -93,6 +93,8 @@ _SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
     "Nm": (1.0, {"kg": 1, "m": 2, "s": -2}, True),
     "Ns": (1.0, {"kg": 1, "m": 1, "s": -1}, True),
     "Pas": (1.0, {"kg": 1, "m": -1, "s": -1}, True),
+    "P": (0.1, {"kg": 1, "m": -1, "s": -1}, True),
+    "Å": (1e-10, {"m": 1}, False),
     "St": (1e-4, {"m": 2, "s": -1}, True),
     "min": (60.0, {"s": 1}, False),
     "h": (3600.0, {"s": 1}, False),

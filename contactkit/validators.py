@@ -48,7 +48,8 @@ def _number_of(text: str, unit: str) -> str:
         number = parse_quantity(text, unit)
     except DescriptionError as error:
         return error.hint if error.hint.endswith("]") else ""
-    return f"a text with a unit is for files and studies; in Python write {number!r}"
+    written = int(number) if unit == "-" and number.is_integer() else number
+    return f"a text with a unit is for files and studies; in Python write {written!r}"
 
 
 class Described:
@@ -140,12 +141,20 @@ def choice(*options: str) -> Validator:
     return check_choice
 
 
+_LOADERS = {"Liquid": "load_liquid", "Material": "load_material"}
+
+
 def part(*kinds: type) -> Validator:
     """Refuse anything but an instance of the given classes."""
 
     def check_part(owner: object, attribute: Attribute[Any], value: Any) -> None:
         if not isinstance(value, kinds):
-            raise refuse(owner, attribute, value, f"be a {' or '.join(k.__name__ for k in kinds)}")
+            names = [kind.__name__ for kind in kinds]
+            loaders = [f"ck.{_LOADERS[name]}({value!r})" for name in names if name in _LOADERS]
+            cure = (
+                f"one of the library is {loaders[0]}" if isinstance(value, str) and loaders else ""
+            )
+            raise refuse(owner, attribute, value, f"be a {' or '.join(names)}", cure)
 
     return check_part
 

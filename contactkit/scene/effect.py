@@ -119,7 +119,10 @@ def check_listed(
     """Refuse what is no effect of a kind of scene, or is listed twice; return the kinds."""
     for effect in effects:
         if not isinstance(effect, role):
-            raise PlanError(f"{effect!r} is not an effect of a {scene} scene; known: {known}")
+            cure = f"known: {known}"
+            if isinstance(effect, type) and issubclass(effect, Effect) and issubclass(effect, role):
+                cure = f"it is a class: write {as_written(effect)}"
+            raise PlanError(f"{effect!r} is not an effect of a {scene} scene; {cure}")
     kinds = [type(effect) for effect in effects]
     if twice := sorted({k.__name__ for k in kinds if kinds.count(k) > 1}):
         raise PlanError(f"listed more than once: {', '.join(twice)}")

@@ -11,7 +11,7 @@ from ..errors import NotSimulatedError, PlanError
 from .effect import Effect, EffectRegistry, as_written, choices
 from .scenes import Scene
 
-__all__ = ["ScenePlan", "check_plan", "check_scene"]
+__all__ = ["ScenePlan", "check_accuracy", "check_plan", "check_scene"]
 
 
 class _Scene(Protocol):
@@ -68,6 +68,7 @@ class ScenePlan(abc.ABC):
         for effect in self.scene.effects:
             if type(effect) is kind:
                 return effect
+        _check_kind(kind)
         raise NotSimulatedError(
             f"the scene does not call for {kind.name}: add {as_written(kind)} to its effects"
         )
@@ -128,6 +129,27 @@ def check_scene(given: object, kinds: type[Scene] | tuple[type[Scene], ...]) -> 
         cure = "; a scene file is read by ck.load_scene(path)"
     known = kinds if isinstance(kinds, tuple) else (kinds,)
     raise PlanError(f"{_names(known)} is needed here, got {_name(given)}{cure}")
+
+
+def check_accuracy(given: object) -> None:
+    """Refuse what is no `Accuracy`, such as a tolerance or a name.
+
+    Raises
+    ------
+    PlanError
+        With the cure.
+    """
+    if not (given is None or isinstance(given, Accuracy)):
+        known = isinstance(given, str) and hasattr(Accuracy, given)
+        cure = f"ck.Accuracy.{given}" if known else "ck.Accuracy(rtol=...)"
+        raise PlanError(f"an Accuracy is needed beside the scene, got {given!r}; write {cure}")
+
+
+def _check_kind(given: object) -> None:
+    """Refuse an effect, or its name, where its class is needed."""
+    if not (isinstance(given, type) and issubclass(given, Effect)):
+        name = type(given).__name__ if isinstance(given, Effect) else "MeniscusForce"
+        raise PlanError(f"the class of an effect is needed, such as ck.{name}, got {given!r}")
 
 
 def _names(kinds: tuple[type, ...]) -> str:

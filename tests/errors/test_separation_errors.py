@@ -62,6 +62,7 @@ FIELDS = [
     (SUMMITS, "density", "1/m2", POSITIVE, [0.0, -1e12, None]),
     (SUMMITS, "radius", "m", POSITIVE, [0.0, -1e-6, None]),
     (SUMMITS, "rms_height", "m", NON_NEGATIVE, [-1e-9, None]),
+    (SUMMITS, "count", "", WHOLE, [0, -1, 2.5]),
     (ck.AsperityMenisci(asperities=SUMMITS), "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
     (FILM, "contact_angle_lower", "rad", ANGLE, [-0.1, 3.2, None]),
     (FILM, "contact_angle_upper", "rad", ANGLE, [-0.1, 181.0, None]),

@@ -196,6 +196,47 @@ IN_PYTHON = {
         "loading.force is -40 N and never opens the gap: a force that opens is positive, "
         "force = 40 N",
     ),
+    "a liquid by its name": (
+        lambda: ck.Meniscus(liquid="water"),
+        ck.DescriptionError,
+        "Meniscus.liquid must be a Liquid, got 'water'; one of the library is "
+        "ck.load_liquid('water')",
+    ),
+    "an effect without its brackets": (
+        lambda: ck.plan(film(effects=(ck.ViscousForce,))),
+        ck.PlanError,
+        "it is a class: write ViscousForce()",
+    ),
+    "an effect by its name": (
+        lambda: opened().of("viscous-force"),
+        ck.PlanError,
+        "the class of an effect is needed, such as ck.MeniscusForce, got 'viscous-force'",
+    ),
+    "an effect in place of its class": (
+        lambda: opened().of(ck.ViscousForce()),
+        ck.PlanError,
+        "such as ck.ViscousForce",
+    ),
+    "a tolerance in place of an accuracy": (
+        lambda: ck.plan(film(), 1e-6),
+        ck.PlanError,
+        "an Accuracy is needed beside the scene, got 1e-06; write ck.Accuracy(rtol=...)",
+    ),
+    "an accuracy by its name": (
+        lambda: ck.plan(film(), "draft"),
+        ck.PlanError,
+        "write ck.Accuracy.draft",
+    ),
+    "a name of the package is misspelt": (
+        lambda: ck.Simulate,
+        AttributeError,
+        "module 'contactkit' has no attribute 'Simulate'; did you mean 'simulate'?",
+    ),
+    "a number as a text": (
+        lambda: ck.Accuracy(grid="64"),
+        ck.DescriptionError,
+        "in Python write 64",
+    ),
     "a pressure in another unit": (
         lambda: ck.press(WAVE, "60 nm", STEEL, "100 N"),
         ck.DescriptionError,
@@ -291,6 +332,8 @@ def test_a_slip_in_a_file_is_answered_with_its_cure(tmp_path, capsys, slip):
         ("10 mPas", "Pa.s", 0.01),
         ("10 mPa·s", "Pa.s", 0.01),
         ("2 Ns/m", "N.s/m", 2.0),
+        ("1 cP", "Pa.s", 1e-3),
+        ("5 Å", "m", 5e-10),
         ("5 nm", "m", 5e-9),  # and no newton metre
         ("5 ns", "s", 5e-9),
     ],
