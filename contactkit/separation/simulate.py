@@ -57,8 +57,8 @@ def simulate(
     plan : Plan or SlidingPlan
         What to run.
     throw : bool
-        Raise where an integration does not reach its tolerance; otherwise return what was
-        reached, with status ``not converged``.
+        Raise where an integration does not reach its tolerance, or where a force pushes a mass that
+        does not open; otherwise return what was reached, with status ``not converged`` or ``stuck``.
     progress : callable, optional
         Called with the fraction that is done.
 
@@ -71,6 +71,8 @@ def simulate(
     ------
     ConvergenceError
         If no step of time meets the tolerance; carries the result so far.
+    InfeasibleError
+        If the force is negative, so that it never opens the gap.
     """
     check_plan(plan, (Plan, SlidingPlan))
     begun = clock.perf_counter()
@@ -98,7 +100,7 @@ def simulate(
 def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) -> SeparationResult:
     """Motion of a mass under a pull, one internal step at a time, to its release."""
     loading = plan.scene.imposed_force
-    if loading.force < 0.0 and loading.initial_speed <= 0.0:
+    if throw and loading.force < 0.0 and loading.initial_speed <= 0.0:
         raise InfeasibleError(
             f"loading.force is {loading.force:g} N and never opens the gap: a force that opens is "
             f"positive, force = {-loading.force:g} N"
