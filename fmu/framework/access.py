@@ -42,6 +42,7 @@ class PortAccess(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
         self._follows = False  # outputs answer to what is set without a step in between
         self._stale = False  # and something was set since they last did
         self._phase = ""
+        self._given = set(self.baked)  # variables that were given a value
 
     @classmethod
     def start_values(cls) -> dict[str, Value]:
@@ -130,6 +131,8 @@ class PortAccess(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
         except (KeyError, KeyboardInterrupt):
             self._refuse("real", vrs, values)
         self._stale = self._follows
+        if self._open is self._tables.settable:
+            self._given.update(settable[reference][0] for reference in vrs if reference in settable)
 
     def set_integer(self, vrs: Sequence[int], values: Sequence[int]) -> None:
         """Set integer and enumeration inputs, or parameters before initialization ends."""

@@ -18,7 +18,7 @@ from xml.etree.ElementTree import Element, SubElement
 from attrs import field, frozen
 
 from ...units import parse_unit
-from .ports import Kind, Port, Value, display_conversion
+from .ports import TOLERANCE, Kind, Port, Value, display_conversion
 
 __all__ = [
     "Description",
@@ -96,7 +96,10 @@ def frame(
     for name, meaning in about.log_categories.items():
         SubElement(categories, "Category", name=name, description=meaning)
     if about.experiment:
-        SubElement(root, "DefaultExperiment", {k: repr(v) for k, v in about.experiment.items()})
+        experiment = dict(about.experiment)
+        if TOLERANCE in about.start:  # a host that gives it back changes nothing
+            experiment["tolerance"] = float(about.start[TOLERANCE])
+        SubElement(root, "DefaultExperiment", {k: repr(v) for k, v in experiment.items()})
     return root
 
 

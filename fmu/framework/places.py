@@ -7,6 +7,8 @@ of a scene does not survive both, so that it can be refused.
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from enum import IntEnum
 from functools import reduce
@@ -14,7 +16,7 @@ from typing import Any, NamedTuple, TypeVar, cast
 
 from attrs import evolve, field, fields, frozen, has
 
-__all__ = ["Difference", "Place", "differences", "read", "write"]
+__all__ = ["Difference", "Place", "differences", "in_parameters", "read", "write"]
 
 _T = TypeVar("_T")
 
@@ -43,6 +45,11 @@ class Place:
     effect: type | None = None
     nothing: Any = None
     words: Mapping[IntEnum, str] = field(factory=dict)
+
+    @property
+    def fields(self) -> frozenset[str]:
+        """Last names of the paths."""
+        return frozenset(path.rpartition(".")[2] for path in self.paths)
 
     def read(self, scene: Any) -> Any:
         """Value of the parameter for a scene; that of an enumeration is the name of its member."""
@@ -91,6 +98,23 @@ def _evolved(owner: Any, tree: Mapping[str, Any]) -> Any:
         for name, value in tree.items()
     }
     return evolve(owner, **changes)
+
+
+def in_parameters(places: Mapping[str, Place], text: str) -> str:
+    """Text in which the fields of a scene are called by the parameters that stand for them.
+
+    Examples
+    --------
+    >>> in_parameters({"h_min": Place("loading.rest_gap")}, "give ImposedForce.rest_gap [m]")
+    'give h_min [m]'
+    """
+    fields_of = Counter(field for place in places.values() for field in place.fields)
+    for name, place in places.items():
+        for path in place.paths:
+            *_, owner, field = f".{path}".split(".")
+            of = r"\w+" if fields_of[field] == 1 else f"(?i:{owner})"
+            text = re.sub(rf"\b(\w+\.)*{of}\.{field}\b", name, text)
+    return text
 
 
 class Difference(NamedTuple):

@@ -19,7 +19,17 @@ from attrs import Attribute, field, frozen
 from ...errors import DescriptionError
 from ...units import parse_quantity, parse_unit
 
-__all__ = ["Causality", "Kind", "Port", "Value", "display_conversion", "find_port", "start_value"]
+__all__ = [
+    "Causality",
+    "Kind",
+    "Port",
+    "TOLERANCE",
+    "Value",
+    "display_conversion",
+    "find_port",
+    "start_value",
+    "tolerance",
+]
 
 Causality = Literal["input", "output", "parameter"]
 Kind = Literal["real", "integer", "boolean", "enumeration"]
@@ -188,6 +198,26 @@ class Port:
                 return _TYPES.get(self.kind, int)(value)
         unit = "" if self.unit == "-" else self.unit
         raise DescriptionError(self.name, given, self.expectation, unit=unit)
+
+
+TOLERANCE = "rtol"
+"""Parameter that the tolerance of an experiment stands for, unless it is set."""
+
+
+def tolerance(start: float) -> Port:
+    """Parameter `rtol`, the relative tolerance of the steps inside an FMU.
+
+    Below 1e-11 round-off hides the error that is controlled.
+    """
+    return Port(
+        TOLERANCE,
+        "-",
+        causality="parameter",
+        label="tolerance of an internal step; that of the experiment if not set",
+        start=start,
+        minimum=1e-11,
+        maximum=0.1,
+    )
 
 
 class Conversion(NamedTuple):

@@ -2,18 +2,20 @@
 
 pythonfmu hands every call of the host to Python as it comes. A Python exception that leaves a
 callback is fatal there and frees the instance, and the next call crashes the host. So nothing is
-raised here: the first failure is logged with its cure and remembered, outputs stay at their last
-good values, and every later step is answered with ``fmi2Discard`` until the host resets the slave
-or goes back to an earlier state.
+raised here. A step that cannot be taken is discarded: its reason is logged, nothing has changed,
+and a shorter one may do. Any other failure is logged with its cure and remembered: outputs stay at
+their last good values, and every later step is answered with ``fmi2Discard`` until the host resets
+the slave or goes back to an earlier state.
 """
 
 from __future__ import annotations
 
+import sys
 import traceback
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from itertools import pairwise
-from math import isfinite
+from math import inf, isfinite
 from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
@@ -23,12 +25,18 @@ from pythonfmu.enums import Fmi2Status
 from ...errors import ContactkitError
 from .access import PortAccess
 from .description import Description, model_description
+from .places import Place, in_parameters
+from .ports import TOLERANCE
 from .state import Phase, Snapshot, check_state, from_bytes, plain, to_bytes
 
 __all__ = ["PortSlave"]
 
+_CURE = "reset the FMU, or go back to an earlier state"
+_MORE_STEPS = " or raise Accuracy.max_steps"  # which no parameter stands for
 _STEPPING = Phase.STEPPING  # looked up once
-_ROUNDING = 1e-12  # fraction of the time by which two clocks may differ by round-off
+_CLOCK = 16.0 * sys.float_info.epsilon  # fraction of the time by which two clocks may differ
+_REST = 1e-9  # fraction of a step up to which another is put off, as masters end with round-off
+_OFF = 1e-6  # fraction of a step by which it may start or end off its time
 
 
 class PortSlave(PortAccess):
@@ -44,6 +52,8 @@ class PortSlave(PortAccess):
         Every variable of the FMU, in order.
     summary : str
         One line on the model, for tools.
+    places : mapping of str to Place
+        Fields of a scene that parameters stand for, by which messages call them.
     experiment : mapping
         ``startTime``, ``stopTime``, ``stepSize``, ``tolerance`` to suggest to a tool.
     build : str
@@ -61,6 +71,7 @@ class PortSlave(PortAccess):
     """
 
     summary: ClassVar[str] = ""
+    places: ClassVar[Mapping[str, Place]] = {}
     experiment: ClassVar[Mapping[str, float]] = {}
     build: ClassVar[str] = "0" * 64
 
@@ -84,7 +95,11 @@ class PortSlave(PortAccess):
 
     @abstractmethod
     def advance(self, time: float, step: float) -> None:
-        """Go from `time` to ``time + step`` [s] and set the outputs there."""
+        """Go from `time` to ``time + step`` [s] and set the outputs there.
+
+        What it changes besides `values` is replaced, not changed in place: where it raises, all
+        attributes are put back.
+        """
 
     def refresh(self) -> None:
         """Let outputs follow inputs set since the last step, where they depend on them."""
@@ -114,23 +129,38 @@ class PortSlave(PortAccess):
             self._fail(f"{call} belongs to phase {phase}, the FMU is {self._phase}; reset it")
         return self._phase is phase
 
-    def _attempt(self, name: str, hook: Callable[..., None], *given: float) -> bool:
-        """Run a hook; on trouble put the values back as they were, and fail."""
-        reason = self._try(hook, *given)
-        if reason:
-            self._fail(f"{name} at t = {self.time!r} s: {reason}")
-        return not reason
+    def _attempt(self, name: str, hook: Callable[..., None]) -> bool:
+        """Run a hook; on trouble put everything back as it was, and fail."""
+        error = self._try(hook)
+        if error is not None:
+            self._fail(f"{name} at t = {self.time!r} s: {self._explain(error)}; {_CURE}")
+        return error is None
 
-    def _try(self, hook: Callable[..., None], *given: float) -> str:
-        saved = self.values.copy()
+    def _try(self, hook: Callable[..., None], *given: float) -> BaseException | None:
+        values, owned = self.values, self.__dict__.copy()
+        saved = values.copy()
         try:
             hook(*given)
-            self._tables.check_outputs(self.values)
+            self._tables.check_outputs(values)
         except BaseException as error:  # noqa: BLE001  # even an interrupt would crash the host
-            self.values.clear()
-            self.values.update(saved)
-            return _explain(error)
-        return ""
+            self.__dict__.update(owned)
+            values.clear()
+            values.update(saved)
+            return error
+        return None
+
+    def _explain(self, error: BaseException) -> str:
+        """Message of an error: its own words if it is ours, else with a traceback."""
+        if isinstance(error, ContactkitError):
+            text = in_parameters(self.places, str(error))
+            return text.replace("Accuracy.time_rtol", TOLERANCE).replace(_MORE_STEPS, "")
+        trace = "".join(traceback.format_exception(error))
+        return f"unexpected {type(error).__name__}: {error}\n{trace}"
+
+    def _discard(self, reason: str) -> bool:
+        """Log why a step is not taken; nothing has changed, and another one may be."""
+        self.log(reason, Fmi2Status.discard, "logStatusError")
+        return False
 
     def _follow(self) -> None:
         self._stale = False
@@ -139,20 +169,47 @@ class PortSlave(PortAccess):
         if self._phase is Phase.STEPPING:
             self._attempt("direct feedthrough", self.refresh)
             return
-        reason = self._try(self.prepare)
-        if reason:  # a tool may still be half way through its parameters: the end decides
-            self.log(f"no outputs yet: {reason}", Fmi2Status.warning, "logStatusWarning")
+        error = self._try(self.prepare)
+        if error is not None:  # a tool may still be half way through its parameters
+            reason = f"no outputs yet: {self._explain(error)}"
+            self.log(reason, Fmi2Status.warning, "logStatusWarning")
 
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
     ) -> None:
-        """Note what the host announces."""
-        if self._is_in(Phase.INSTANTIATED, "setupExperiment"):
-            if isfinite(start_time):
-                self.time = self.start_time = start_time
-            else:
-                self._fail(f"start time must be finite [s], got {start_time!r}; reset the FMU")
+        """Note what the host announces: no step goes beyond the stop time."""
+        if not self._is_in(Phase.INSTANTIATED, "setupExperiment"):
+            return
+        if not isfinite(start_time):
+            self._fail(f"start time must be finite [s], got {start_time!r}; reset the FMU")
+        elif stop_time is not None and not stop_time >= start_time:
+            self._fail(
+                f"stop time must not come before the start time {start_time!r} s, got "
+                f"{stop_time!r} s; reset the FMU"
+            )
+        elif tolerance is not None and not 0.0 <= tolerance < inf:
+            self._fail(
+                f"tolerance must be a finite number above 0, got {tolerance!r}; reset the FMU"
+            )
+        else:
+            self.time = self.start_time = start_time
             self.stop_time, self.tolerance = stop_time, tolerance
+            self._take_tolerance(tolerance or 0.0)
+
+    def _take_tolerance(self, tolerance: float) -> None:
+        """Take the tolerance of the host for `rtol`, unless that was set; 0: there is none."""
+        port = next((port for port in self.ports if port.name == TOLERANCE), None)
+        if port is None or not tolerance or TOLERANCE in self._given:
+            return
+        low, high = port.limits
+        self.values[TOLERANCE] = taken = min(max(tolerance, low), high)
+        if taken != tolerance:
+            self.log(
+                f"the tolerance of the experiment, {tolerance:g}, is none that {TOLERANCE} may "
+                f"have: {taken:g} is taken",
+                Fmi2Status.warning,
+                "logStatusWarning",
+            )
 
     def enter_initialization_mode(self) -> None:
         """From here on outputs answer to what was set."""
@@ -177,23 +234,40 @@ class PortSlave(PortAccess):
         """Advance by one communication step; False makes pythonfmu answer ``fmi2Discard``."""
         if self.failure or not self._is_in(_STEPPING, "doStep"):
             return False
-        nothing = _ROUNDING * max(abs(self.time), self._last_step)
-        gap = abs(current_time - self.time)
-        if (
-            not (gap <= nothing + 1e-6 * abs(step_size) and isfinite(step_size))
-            or step_size < -nothing
+        time, last, lag = self.time, self._last_step, current_time - self.time
+        clock, off = _CLOCK * abs(time), _OFF * abs(step_size)
+        nothing = max(clock, _REST * last)
+        if not (abs(lag) <= nothing + off and isfinite(step_size)) or (
+            step_size < -max(clock, _OFF * last)
         ):
             self._fail(
-                f"a step must start at t = {self.time!r} s, where the last one ended, and go "
+                f"a step must start at t = {time!r} s, where the last one ended, and go "
                 f"forward, got a start of {current_time!r} s and a length of {step_size!r} s; to "
                 "go back set an earlier FMU state, or reset the FMU"
             )
             return False
-        if step_size <= nothing:  # some masters end with a step of rounding size, even backwards
+        end = current_time + step_size
+        if self.stop_time is not None and end > self.stop_time + nothing + off:
+            return self._discard(
+                f"a step to t = {end!r} s goes beyond the stop time of the experiment, "
+                f"{self.stop_time!r} s; take a shorter one"
+            )
+        # What was put off is done with the next step; else clocks differ by their round-off.
+        length = step_size + lag if abs(lag) > clock else step_size
+        if length <= nothing:  # masters end with a step of rounding size, even backwards
+            if end == current_time and step_size > _OFF * last:
+                return self._discard(
+                    f"a step of {step_size!r} s vanishes in the round-off of the time "
+                    f"{current_time!r} s; take a longer one, or start the clock at 0"
+                )
             return True
-        if not self._attempt("step", self.advance, current_time, step_size):
+        if (error := self._try(self.advance, current_time, length)) is not None:
+            reason = f"step of {length!r} s from t = {time!r} s: {self._explain(error)}"
+            if isinstance(error, ContactkitError):
+                return self._discard(f"{reason}; or take shorter steps from there")
+            self._fail(f"{reason}; {_CURE}")
             return False
-        self.time, self._last_step, self._stale = current_time + step_size, step_size, False
+        self.time, self._last_step, self._stale = end, length, False
         return True
 
     # state and description -------------------------------------------------------------------
@@ -211,6 +285,7 @@ class PortSlave(PortAccess):
             failure=self.failure,
             time=self.time,
             start_time=self.start_time,
+            stop_time=self.stop_time,
             values=self.values.copy(),
             hidden={},  # numbers all: `check_outputs` has seen to it
         )
@@ -218,7 +293,7 @@ class PortSlave(PortAccess):
             if self._prepared is not None:
                 state["hidden"] = plain(self.hidden_state())
         except BaseException as error:  # noqa: BLE001  # see _try
-            self._fail(f"state: {_explain(error)}")
+            self._fail(f"state: {self._explain(error)}; {_CURE}")
         return state
 
     def _set_fmu_state(self, state: Any) -> None:
@@ -229,11 +304,12 @@ class PortSlave(PortAccess):
             self._restore(state)
         except BaseException as error:  # noqa: BLE001  # see _try
             self.values = saved
-            self._fail(f"state: {_explain(error)}")
+            self._fail(f"state: {self._explain(error)}; {_CURE}")
 
     def _restore(self, state: Mapping[str, Any]) -> None:
         phase = Phase(state["phase"])
         self.time, self.start_time = state["time"], state["start_time"]
+        self.stop_time = state["stop_time"]
         self.values.clear()
         self.values.update(state["values"])
         if state["prepared"]:
@@ -272,12 +348,3 @@ class PortSlave(PortAccess):
                 experiment=self.experiment,
             )
         )
-
-
-def _explain(error: BaseException) -> str:
-    """Message of an error: its own words if it is ours, with a traceback if it is unexpected."""
-    if isinstance(error, ContactkitError):
-        return f"{error}; reset the FMU, or go back to an earlier state"
-    return (
-        f"unexpected {type(error).__name__}: {error}\n{''.join(traceback.format_exception(error))}"
-    )

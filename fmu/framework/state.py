@@ -25,6 +25,7 @@ _FIELDS = {
     "failure",
     "time",
     "start_time",
+    "stop_time",
     "values",
     "hidden",
 }
@@ -96,6 +97,9 @@ def check_state(state: Any, build: str, ports: Sequence[Port]) -> None:
     for name in ("time", "start_time"):
         if not isinstance(state[name], float) or not math.isfinite(state[name]):
             raise DescriptionError(f"{name} of the FMU state", state[name], "be finite", hint=_CURE)
+    stop = state["stop_time"]
+    if not (stop is None or isinstance(stop, float)):
+        raise DescriptionError("stop_time of the FMU state", stop, "be a number", hint=_CURE)
     if state["phase"] not in list(Phase):
         raise DescriptionError("phase of the FMU state", state["phase"], "be known", hint=_CURE)
     types = {

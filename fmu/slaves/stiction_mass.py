@@ -35,7 +35,7 @@ from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port
+from ..framework.ports import Port, tolerance
 from ..framework.slave import PortSlave
 
 __all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
@@ -150,7 +150,7 @@ PORTS = (
     ),
     _size("dp_cav", "Pa", "tensile strength of the liquid; 0: no limit", 0.0, "bar"),
     _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
-    _size("rtol", "-", "tolerance of an internal step", 1e-8, exclusive=True, maximum=0.1),
+    tolerance(1e-8),
 )
 
 
@@ -306,12 +306,12 @@ class StictionMass(PortSlave):
     """Steps the same plan, with the same step of time, as a script would."""
 
     ports: ClassVar[tuple[Port, ...]] = PORTS
+    places: ClassVar[Mapping[str, Place]] = PLACES
     summary = "Mass held by a liquid film: meniscus and viscous force, limits, rupture, re-wetting"
     experiment: ClassVar[Mapping[str, float]] = {
         "startTime": 0.0,
         "stopTime": 1e-2,
         "stepSize": 1e-5,
-        "tolerance": 1e-6,
     }
 
     plan: Plan
@@ -320,25 +320,22 @@ class StictionMass(PortSlave):
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
-        tolerance = max(self.values["rtol"], 1e-11)
-        self.plan = plan(scene_of(self.values), Accuracy(time_rtol=tolerance))
-        self.state = start(self.plan)._replace(time=self.start_time)
+        self.plan = plan(scene_of(self.values), Accuracy(time_rtol=self.values["rtol"]))
+        self.state = start(self.plan)
         self._show(0.0)
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`."""
-        before, values = self.state, self.values
-        if before.time != time:  # by round-off, or as a host that starts late
-            before = before._replace(time=time)
+        before, values = self.state, self.values  # its time counts from the start
         pull = self._pull
         if pull.force != values["F_ext"] or pull.rate or values["dF_ext"]:
-            self._pull = pull = Pull(values["F_ext"], values["dF_ext"], time)
+            self._pull = pull = Pull(values["F_ext"], values["dF_ext"], before.time)
         self.state = state = advance(self.plan, before, pull, step)
-        self._show(pull(time + step))
+        self._show(pull(state.time))
         if state.n_releases > before.n_releases:
-            self.event(f"released at t = {state.release_time:.9g} s")
+            self.event(f"released at t = {values['t_release']:.9g} s")
         if state.n_breaks > before.n_breaks:
-            self.event(f"film broke at t = {state.break_time:.9g} s")
+            self.event(f"film broke at t = {values['t_break']:.9g} s")
 
     def _show(self, pull: float) -> None:
         values, state = self.values, self.state
@@ -348,7 +345,9 @@ class StictionMass(PortSlave):
         values["J"] = state.impulses["viscous_impulse"]
         values["J_m"] = state.impulses.get("meniscus_impulse", 0.0)
         values["W"], values["F_peak"] = state.dissipated_work, state.peak_force
-        values["t_break"], values["t_release"] = state.break_time, state.release_time
+        begin = self.start_time
+        values["t_break"] = begin + state.break_time if state.n_breaks else -1.0
+        values["t_release"] = begin + state.release_time if state.n_releases else -1.0
         values["n_break"], values["n_release"] = state.n_breaks, state.n_releases
 
     def hidden_state(self) -> Mapping[str, Any]:

@@ -53,7 +53,7 @@ from ...separation.effects.registry import (
 from ...separation.motion.state import MotionState
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port
+from ..framework.ports import Port, tolerance
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
 
@@ -199,7 +199,7 @@ PORTS = (
         start=TipLaw.EXACT,
     ),
     _size("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
-    _size("rtol", "-", "tolerance of an internal step", 1e-7, exclusive=True, maximum=0.1),
+    tolerance(1e-7),
 )
 
 
@@ -308,6 +308,7 @@ class TipContact(PortSlave):
     """Steps the tips of one side; numbers of ``models/micromirror/micromirror.toml``."""
 
     ports: ClassVar[tuple[Port, ...]] = PORTS
+    places: ClassVar[Mapping[str, Place]] = PLACES
     summary = (
         "Spring tips on a landing site: meniscus, van der Waals and viscous force, snap-off and "
         "landing (needs numpy and scipy unless V = 0)"
@@ -316,7 +317,6 @@ class TipContact(PortSlave):
         "startTime": 0.0,
         "stopTime": 2e-5,
         "stepSize": 2e-8,
-        "tolerance": 1e-6,
     }
 
     plan: Plan
@@ -326,14 +326,12 @@ class TipContact(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         values = self.values
-        tolerance = max(values["rtol"], 1e-11)
-        self.plan = plan(tip_scene(values), Accuracy(time_rtol=tolerance))
+        self.plan = plan(tip_scene(values), Accuracy(time_rtol=values["rtol"]))
         self.stop = self._site()
         if values["z"] <= 0.0:
-            start = self.start_time
-            self.state = landed_start(self.plan, start, stop=self.stop, height=values["z"])
+            self.state = landed_start(self.plan, stop=self.stop, height=values["z"])
         else:
-            self.state = free_start(self.plan, values["z"], values["vz"], self.start_time)
+            self.state = free_start(self.plan, values["z"], values["vz"])
         values["F_mean"] = 0.0
         self.refresh()
         self._show()
@@ -364,19 +362,21 @@ class TipContact(PortSlave):
 
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`."""
-        values, before = self.values, self.state
-        if before.motion.time != time:  # by round-off, or as a host that starts late
-            before = before._replace(motion=before.motion._replace(time=time))
-        root = Root(values["z"], values["vz"], values["az"], time)
+        values, before = self.values, self.state  # its time counts from the start
+        root = Root(values["z"], values["vz"], values["az"], before.time)
         self.state = advance_tip(self.plan, values["c"], before, root, step, self.stop)
         values["F_mean"] = values["N"] * (self.state.impulse - before.impulse) / step
         there = root.after(step)
         self._pull_root(there.height, there.speed)
         self._show()
         if self.state.motion.n_breaks > before.motion.n_breaks:
-            self.event(f"film broke at t = {self.state.motion.break_time:.9g} s")
+            self.event(f"film broke at t = {values['t_break']:.9g} s")
         if self.state.n_landings > before.n_landings:
-            self.event(f"landed at t = {self.state.landing_time:.9g} s")
+            self.event(f"landed at t = {values['t_land']:.9g} s")
+
+    def _clock(self, time: float) -> float:
+        """Time of the host [s] for one since the start; -1 stays."""
+        return self.start_time + time if time >= 0.0 else -1.0
 
     def _show(self) -> None:
         state, motion, n = self.state, self.state.motion, self.values["N"]
@@ -391,9 +391,9 @@ class TipContact(PortSlave):
             W_visc=n * motion.dissipated_work,
             W_land=n * state.landing_loss,
             state=int(TipStatus.LANDED if state.on_site else status),
-            t_break=motion.break_time,
-            t_free=state.free_time,
-            t_land=state.landing_time,
+            t_break=self._clock(motion.break_time),
+            t_free=self._clock(state.free_time),
+            t_land=self._clock(state.landing_time),
             n_break=motion.n_breaks,
             n_land=state.n_landings,
             d=state.depth,

@@ -20,7 +20,7 @@ from typing import Any, ClassVar
 from pythonfmu.enums import Fmi2Status
 
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
-from ...errors import DescriptionError
+from ...errors import DescriptionError, InfeasibleError
 from ...models.injector import valve as law
 from ..framework.places import Place, read, write
 from ..framework.ports import Port, Value
@@ -30,11 +30,37 @@ __all__ = ["ValveDrive", "check_drive", "drive_values", "valve_of"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
+_MOST_SWITCHINGS = 10_000
+
+
+PLACES: Mapping[str, Place] = {
+    "R_coil": Place("coil.resistance"),
+    "N_turns": Place("coil.turns"),
+    "A_pole": Place("coil.pole_area"),
+    "g_air": Place("coil.air_gap"),
+    "g_iron": Place("coil.iron_gap"),
+    "B_sat": Place("coil.saturation", nothing=0.0),
+    "k_spring": Place("spring.stiffness"),
+    "F_preload": Place("spring.preload"),
+    "h_stop": Place("stop.gap"),
+    "k_stop": Place("stop.stiffness"),
+    "d_stop": Place("stop.damping"),
+    "t_delay": Place("profile.start_delay"),
+    "T_period": Place("profile.period"),
+    "t_on": Place("profile.on_time"),
+    "U_boost": Place("profile.boost_voltage"),
+    "t_boost": Place("profile.boost_time"),
+    "U_hold": Place("profile.hold_voltage"),
+    "U_off": Place("profile.off_voltage"),
+    "n_cycles": Place("profile.cycles"),
+}
+"""Where each parameter stands in a `Valve`."""
 
 
 class ValveDrive(PortSlave):
     """Drive of a spool valve; the numbers are those of ``models/injector/fuel_injector.toml``."""
 
+    places: ClassVar[Mapping[str, Place]] = PLACES
     summary = "Electromagnet, return spring and opposite stop of a spool valve"
     experiment: ClassVar[Mapping[str, float]] = {
         "startTime": 0.0,
@@ -339,9 +365,12 @@ class ValveDrive(PortSlave):
                 Fmi2Status.warning,
                 "logStatusWarning",
             )
-        for start, stop in pairwise([time, *law.switching_times(valve.profile, time, end), end]):
-            applied = law.voltage(valve.profile, 0.5 * (start + stop))
-            here = gap + speed * (start - time)
+        _check_switchings(valve.profile, step)
+        # Counted from the begin of the step: late in a run the clock is coarse.
+        marks = [mark - time for mark in law.switching_times(valve.profile, time, end)]
+        for start, stop in pairwise([0.0, *(mark for mark in marks if mark < step), step]):
+            applied = law.voltage(valve.profile, time + 0.5 * (start + stop))
+            here = gap + speed * start
             flux = law.advance_flux(valve.coil, flux, here, speed, applied, stop - start)
         values["flux"], values["F_mag"] = flux, law.magnet_force(valve.coil, flux)
         values["u"] = law.voltage(valve.profile, end)
@@ -355,6 +384,16 @@ class ValveDrive(PortSlave):
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
         self.largest = hidden["largest"]
+
+
+def _check_switchings(profile: law.DriveProfile, step: float) -> None:
+    """Refuse a step with more switchings of the voltage than can be followed in a second or so."""
+    count = 3.0 * min(profile.cycles, step / profile.period)
+    if count > _MOST_SWITCHINGS:
+        raise InfeasibleError(
+            f"a step of {step:g} s holds {count:.3g} switchings of the voltage, with T_period = "
+            f"{profile.period:g} s, and at most {_MOST_SWITCHINGS} are followed in one step"
+        )
 
 
 def check_drive(values: Mapping[str, Value]) -> None:
@@ -378,29 +417,6 @@ def check_drive(values: Mapping[str, Value]) -> None:
             hint="else the armature meets the poles before the spool meets the stop",
         )
 
-
-PLACES: Mapping[str, Place] = {
-    "R_coil": Place("coil.resistance"),
-    "N_turns": Place("coil.turns"),
-    "A_pole": Place("coil.pole_area"),
-    "g_air": Place("coil.air_gap"),
-    "g_iron": Place("coil.iron_gap"),
-    "B_sat": Place("coil.saturation", nothing=0.0),
-    "k_spring": Place("spring.stiffness"),
-    "F_preload": Place("spring.preload"),
-    "h_stop": Place("stop.gap"),
-    "k_stop": Place("stop.stiffness"),
-    "d_stop": Place("stop.damping"),
-    "t_delay": Place("profile.start_delay"),
-    "T_period": Place("profile.period"),
-    "t_on": Place("profile.on_time"),
-    "U_boost": Place("profile.boost_voltage"),
-    "t_boost": Place("profile.boost_time"),
-    "U_hold": Place("profile.hold_voltage"),
-    "U_off": Place("profile.off_voltage"),
-    "n_cycles": Place("profile.cycles"),
-}
-"""Where each parameter stands in a `Valve`."""
 
 _VALVE = law.Valve(
     coil=law.Coil(resistance=1.0, turns=1, pole_area=1.0, air_gap=2.0, iron_gap=1.0),

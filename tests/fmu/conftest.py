@@ -100,7 +100,7 @@ class Host:
 
     @property
     def errors(self):
-        return [entry.message for entry in self.log if entry.status == ERROR]
+        return [entry.message for entry in self.log if entry.status in (DISCARD, ERROR)]
 
     def close(self):
         self.slave.freeInstance()

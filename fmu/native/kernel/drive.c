@@ -10,6 +10,7 @@
 
 #define MU0 (4e-7 * 3.141592653589793)
 #define MOST_STEPS 10000000 /* of the flux, in one step of the host */
+#define MOST_SWITCHINGS 10000
 #define CLOSE 1e-12         /* fraction of a step before which no pause is made */
 
 enum { SWITCHES = 1 };
@@ -134,21 +135,23 @@ typedef struct {
 /* Take the flux from one switch of the voltage to the next; 0 if it cannot follow. */
 static int carry(const ck_model *model, double time, motion *gone) {
     const ck_profile *profile = &model->drive.profile;
-    double gap = model->state.values[CK_H], speed = model->state.values[CK_V], begin = time;
-    double end = time + gone->length;
+    double gap = model->state.values[CK_H], speed = model->state.values[CK_V];
+    double begin = 0.0, mark = time, end = gone->length; /* counted from the begin of the step: late in a run clocks are coarse */
     long budget = MOST_STEPS;
     for (;;) {
-        double next = next_switch(profile, begin, end), length = next - begin, reached;
-        double voltage = voltage_at(profile, 0.5 * (begin + next));
-        reached = ck_coil_advance(&model->drive.coil, &gone->flux, gap + speed * (begin - time),
-                                  speed, voltage, length, &budget);
-        if (reached < length) {
-            gone->length = begin - time + reached;
+        double next, voltage, reached;
+        mark = next_switch(profile, mark, time + end);
+        next = mark < time + end ? ck_smaller(mark - time, end) : end;
+        voltage = voltage_at(profile, time + 0.5 * (begin + next));
+        reached = ck_coil_advance(&model->drive.coil, &gone->flux, gap + speed * begin, speed,
+                                  voltage, next - begin, &budget);
+        if (reached < next - begin) {
+            gone->length = begin + reached;
             return 0;
         }
         if (next >= end) return 1;
-        if (model->pauses && next - time > CLOSE * ck_larger(fabs(time), gone->length)) {
-            gone->length = next - time, gone->pauses = 1;
+        if (model->pauses && next > CLOSE * ck_larger(fabs(time), gone->length)) {
+            gone->length = next, gone->pauses = 1;
             return 1;
         }
         begin = next;
@@ -159,11 +162,19 @@ static int no_step(ck_model *model, double length, const motion *gone) {
     char message[400];
     snprintf(message, sizeof message,
              "the flux of the coil did not follow a gap of %.6g m that moves at %.6g m/s for %.6g "
-             "s: it got to %.6g s; give a smaller speed or shorter steps, then reset the FMU or go "
-             "back to an earlier state",
+             "s: it got to %.6g s; give a smaller speed or shorter steps",
              model->state.values[CK_H], model->state.values[CK_V], length, gone->length);
-    ck_model_fail(model, message);
-    return CK_DISCARD;
+    return ck_model_discard(model, message);
+}
+
+/* Refuse a step with more switchings of the voltage than can be followed in a second or so. */
+static int too_many(ck_model *model, double length, double count) {
+    char message[400];
+    snprintf(message, sizeof message,
+             "a step of %.6g s holds %.3g switchings of the voltage, with T_period = %.6g s, and at "
+             "most %d are followed in one step; take shorter steps",
+             length, count, model->drive.profile.period, MOST_SWITCHINGS);
+    return ck_model_discard(model, message);
 }
 
 /* Say once that the faces are pressed further than was solved. */
@@ -183,8 +194,12 @@ static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state, before = *state;
     double *v = state->values;
     forces begun = forces_at(model, v[CK_H], v[CK_V]);
+    const ck_profile *profile = &model->drive.profile;
+    double switchings = 3.0 * ck_smaller(profile->cycles, length / profile->period);
     motion gone = {length, v[CK_FLUX], 0};
-    int fine = carry(model, time, &gone);
+    int fine;
+    if (switchings > MOST_SWITCHINGS) return too_many(model, length, switchings);
+    fine = carry(model, time, &gone);
     if (!fine) return no_step(model, length, &gone);
     /* What is remembered is where the spool was, not where it may be at the end of the step. */
     state->driven.largest = ck_larger(begun.approach, state->driven.largest);
@@ -197,10 +212,8 @@ static int step(ck_model *model, double time, double length) {
     v[CK_DF_EXT] = (v[CK_F_EXT] - begun.pull) / gone.length;
     if (!fine || !isfinite(v[CK_DF_EXT])) {
         *state = before;
-        ck_model_fail(model, "the forces at the end of the step are no finite numbers; give a "
-                             "smaller gap, speed or step, then reset the FMU or go back to an "
-                             "earlier state");
-        return CK_DISCARD;
+        return ck_model_discard(model, "the forces at the end of the step are no finite numbers; "
+                                       "give a smaller gap, speed or step");
     }
     state->shown = 1;
     warn_beyond(model, before.driven.largest, time);

@@ -155,6 +155,7 @@ double ck_fixed_force(const ck_acting *a, double gap) {
    only, and the panels are fine enough for it to be exact to round-off. Where a limit sets in the
    force has a kink: the panel is halved until what the kink leaves out is negligible. */
 #define WIDEST 0.25 /* of a panel, in ln h */
+#define MOST_PANELS 10000 /* more than there are between any two gaps that are numbers */
 #define NARROW 0.01 /* three nodes are enough below it */
 #define DEEPEST 9
 
@@ -208,9 +209,14 @@ static void panel(travel *w, double begin, double end, int depth) {
 
 ck_impulse ck_along(const ck_acting *acting, double begin, double end, double length) {
     double ratio = log(end / begin), gap = begin, factor;
-    int count = (int)ceil(fabs(ratio) / WIDEST), i;
     travel w = {acting, (end - begin) / length, 0.0, {0.0, 0.0}};
+    int count, i;
     if (!acting->any) return w.sum;
+    if (!(fabs(ratio) < WIDEST * MOST_PANELS)) { /* from nothing, or without end: for others to find */
+        w.sum.viscous = w.sum.fixed = NAN;
+        return w.sum;
+    }
+    count = (int)ceil(fabs(ratio) / WIDEST);
     if (begin == end) {
         w.sum.fixed = length * ck_fixed_force(acting, begin);
         return w.sum;

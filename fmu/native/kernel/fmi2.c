@@ -94,9 +94,9 @@ void fmi2FreeInstance(fmi2Component c) {
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance,
                                fmi2Real start, fmi2Boolean has_stop, fmi2Real stop) {
     OWN(c);
-    (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
     if (!ck_model_is_in(&own->model, CK_INSTANTIATED, "setupExperiment")) return fmi2Error;
-    return (fmi2Status)ck_model_setup(&own->model, start);
+    return (fmi2Status)ck_model_setup(&own->model, start, has_stop ? &stop : NULL,
+                                      has_tolerance ? &tolerance : NULL);
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {

@@ -94,9 +94,10 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean has_to
                                        fmi3Float64 tolerance, fmi3Float64 start,
                                        fmi3Boolean has_stop, fmi3Float64 stop) {
     OWN(instance);
-    (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
     if (!ck_model_is_in(&own->model, CK_INSTANTIATED, "enterInitializationMode")) return fmi3Error;
-    if (ck_model_setup(&own->model, start) != CK_OK) return fmi3Error;
+    if (ck_model_setup(&own->model, start, has_stop ? &stop : NULL,
+                       has_tolerance ? &tolerance : NULL) != CK_OK)
+        return fmi3Error;
     own->model.state.phase = CK_INITIALIZATION;
     own->model.state.stale = 1;
     return fmi3OK;
@@ -150,7 +151,7 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
     return fmi3OK;
 }
 
-/* A failed step is an error: only a reset or an earlier state helps, a shorter step does not. */
+/* A step is discarded where a shorter one may do; otherwise only a reset or an earlier state helps. */
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step, fmi3Boolean keeps,
                       fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early,
                       fmi3Float64 *last) {
@@ -162,7 +163,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
     *event = *terminate = *early = fmi3False;
     status = ck_model_step(&own->model, time, step);
     *last = own->model.state.time;
-    if (status != CK_OK) return fmi3Error;
+    if (status != CK_OK) return own->model.state.failed ? fmi3Error : fmi3Discard;
     *event = own->model.state.event != 0;
     *early = *last < time + step && ck_model_pends(&own->model);
     return fmi3OK;

@@ -221,11 +221,10 @@ static int step(ck_model *model, double time, double length) {
         char message[200];
         *state = before;
         snprintf(message, sizeof message,
-                 "the forces are no finite numbers on the way from a gap of %.6g m to %.6g m; "
-                 "reset the FMU, or go back to an earlier state",
+                 "the forces are no finite numbers between a gap of %.6g m and %.6g m; take shorter "
+                 "steps, with a gap nearer to the first",
                  state->memory.gap, v[CK_H]);
-        ck_model_fail(model, message);
-        return CK_DISCARD;
+        return ck_model_discard(model, message);
     }
     ck_act(&model->scene, state->memory.film, state->memory.broken, 0, &acting);
     ck_forces_at(&acting, gap_of(model), 0.0, &found);

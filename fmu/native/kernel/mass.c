@@ -13,14 +13,17 @@ static const char *apply(ck_model *model) {
     if (v[CK_H_MIN] > v[CK_H0]) return ck_wrong(model, CK_H_MIN, "not exceed", CK_H0, "m");
     scene->mass = v[CK_M], scene->initial_speed = v[CK_V0];
     scene->stiffness = v[CK_K_S], scene->release_gap = v[CK_H_REL], scene->rest_gap = v[CK_H_MIN];
-    scene->rtol = v[CK_RTOL] > 1e-11 ? v[CK_RTOL] : 1e-11;
+    scene->rtol = v[CK_RTOL];
     return problem;
 }
 
 static void start(ck_model *model) {
-    ck_start(&model->scene, model->state.start_time, &model->state.motion);
+    ck_start(&model->scene, &model->state.motion);
     model->state.pull = 0.0;
 }
+
+/* Time of the host for one since the start. */
+static double clock_at(const ck_model *model, double time) { return model->state.start_time + time; }
 
 static int show(ck_model *model) {
     double *v = model->state.values;
@@ -35,7 +38,8 @@ static int show(ck_model *model) {
     v[CK_J] = motion->viscous_impulse, v[CK_J_M] = motion->fixed_impulse, v[CK_W] = motion->work;
     v[CK_STATE] = ck_status(&model->scene, motion, &acting, &found, model->state.pull);
     v[CK_LIMIT] = found.limit + 1;
-    v[CK_T_BREAK] = motion->break_time, v[CK_T_RELEASE] = motion->release_time;
+    v[CK_T_BREAK] = motion->breaks ? clock_at(model, motion->break_time) : -1.0;
+    v[CK_T_RELEASE] = motion->releases ? clock_at(model, motion->release_time) : -1.0;
     v[CK_F_PEAK] = motion->peak_force;
     v[CK_N_BREAK] = motion->breaks, v[CK_N_RELEASE] = motion->releases;
     return 1;
@@ -43,39 +47,47 @@ static int show(ck_model *model) {
 
 static int no_step(ck_model *model, int trouble, const ck_motion *where) {
     char message[400];
-    const char *cure = "loosen rtol";
+    const char *cure = "take shorter steps, or loosen rtol";
     if (where->gap < 1e-12)
         cure = "the bodies are pressed together; give h_min [m], where asperities carry";
     snprintf(message, sizeof message,
-             "%s from %.9g s, gap %.6g m, speed %.6g m/s; %s, then reset the FMU or go back to an "
-             "earlier state",
+             "%s from %.9g s, gap %.6g m, speed %.6g m/s; %s",
              trouble == CK_NO_STEP ? "no step of time can be taken" : "too many internal steps led",
-             where->time, where->gap, where->speed, cure);
-    ck_model_fail(model, message);
-    return CK_DISCARD;
+             clock_at(model, where->time), where->gap, where->speed, cure);
+    return ck_model_discard(model, message);
 }
 
 static void tell(ck_model *model, const ck_motion *before) {
     const ck_motion *now = &model->state.motion;
     char message[80];
     if (now->releases > before->releases) {
-        snprintf(message, sizeof message, "released at t = %.9g s", now->release_time);
+        snprintf(message, sizeof message, "released at t = %.9g s", clock_at(model, now->release_time));
         model->say(model->host, CK_OK, "logEvents", message);
     }
     if (now->breaks > before->breaks) {
-        snprintf(message, sizeof message, "film broke at t = %.9g s", now->break_time);
+        snprintf(message, sizeof message, "film broke at t = %.9g s", clock_at(model, now->break_time));
         model->say(model->host, CK_OK, "logEvents", message);
     }
 }
 
+static int rate_twice(ck_model *model) {
+    char message[300];
+    snprintf(message, sizeof message,
+             "the rate of F_ext is given twice, as dF_ext = %.9g N/s and as the derivative of the "
+             "input, %.9g N/s; give one of them, then reset the FMU",
+             model->state.values[CK_DF_EXT], model->state.rate);
+    ck_model_fail(model, message);
+    return CK_DISCARD;
+}
+
 static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state;
-    ck_motion before = state->motion, *now = &state->motion;
+    ck_motion before = state->motion, *now = &state->motion; /* its time counts from the start */
     ck_pull pull;
     int trouble;
-    pull.force = state->values[CK_F_EXT], pull.time = time;
+    if (state->rate != 0.0 && state->values[CK_DF_EXT] != 0.0) return rate_twice(model);
+    pull.force = state->values[CK_F_EXT], pull.time = now->time;
     pull.rate = state->values[CK_DF_EXT] + state->rate;
-    now->time = time;
     trouble = ck_advance(&model->scene, now, &pull, length);
     if (trouble || !isfinite(now->gap + now->speed + now->work)) {
         ck_motion where = *now;
@@ -83,8 +95,8 @@ static int step(ck_model *model, double time, double length) {
         return no_step(model, trouble ? trouble : CK_NO_STEP, &where);
     }
     state->pull = ck_pull_at(&pull, now->time);
-    state->end = now->time;
-    if (now->pending && now->time < time + length) /* a ramp goes on from where it is */
+    state->end = time + (now->time - before.time);
+    if (now->pending && state->end < time + length) /* a ramp goes on from where it is */
         state->values[CK_F_EXT] = state->pull;
     state->shown = 0; /* outputs are made once they are read */
     if (now->releases > before.releases || now->breaks > before.breaks) tell(model, &before);

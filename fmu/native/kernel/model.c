@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROUNDING 1e-12 /* fraction of the time by which two clocks may differ by round-off */
+#define CLOCK (16.0 * DBL_EPSILON) /* fraction of the time by which two clocks may differ */
+#define REST 1e-9 /* fraction of a step up to which another is put off, as masters end with round-off */
+#define OFF 1e-6  /* fraction of a step by which it may start or end off its time */
 
 static const char *const NAMES[CK_VARIABLES] = {
     "F_ext", "dF_ext",
@@ -38,6 +40,11 @@ int ck_model_fail(ck_model *model, const char *message) {
         model->say(model->host, CK_ERROR, "logStatusError", message);
     }
     return CK_ERROR;
+}
+
+int ck_model_discard(ck_model *model, const char *message) {
+    model->say(model->host, CK_DISCARD, "logStatusError", message);
+    return CK_DISCARD;
 }
 
 int ck_model_open(ck_model *model, const char *resources, const char *guid) {
@@ -70,6 +77,7 @@ void ck_model_reset(ck_model *model) {
     int i;
     memset(&model->state, 0, sizeof model->state);
     model->state.checksum = model->data.checksum;
+    model->state.stop_time = HUGE_VAL;
     model->state.shown = 1;
     for (i = 0; i < model->data.port_count; i++)
         model->state.values[model->data.ports[i].id] = model->data.ports[i].start;
@@ -128,6 +136,7 @@ int ck_model_set(ck_model *model, unsigned reference, int types, double value) {
         return refuse(model, port, value, expected);
     }
     model->state.values[port->id] = value;
+    if (port->id == CK_RTOL) model->state.has_rtol = 1;
     if (model->state.phase < CK_STEPPING) model->state.stale = 1;
     else if (ck_model_kind(model)->follows) model->state.shown = 0, model->state.driven.ahead = 0.0;
     return CK_OK;
@@ -225,10 +234,35 @@ int ck_model_get(ck_model *model, unsigned reference, int types, double *value) 
     return CK_OK;
 }
 
-int ck_model_setup(ck_model *model, double start_time) {
+/* Take the tolerance of the host for `rtol`, unless that was set; 0: there is none. */
+static void take_tolerance(ck_model *model, double tolerance) {
+    const ck_port *port = NULL;
+    double *rtol = &model->state.values[CK_RTOL];
+    int i;
+    for (i = 0; i < model->data.port_count; i++)
+        if (model->data.ports[i].id == CK_RTOL) port = &model->data.ports[i];
+    if (!port || tolerance == 0.0 || model->state.has_rtol) return;
+    *rtol = ck_smaller(ck_larger(tolerance, port->low), port->high);
+    if (*rtol != tolerance) {
+        char message[200];
+        snprintf(message, sizeof message,
+                 "the tolerance of the experiment, %g, is none that rtol may have: %g is taken",
+                 tolerance, *rtol);
+        model->say(model->host, CK_WARNING, "logStatusWarning", message);
+    }
+}
+
+int ck_model_setup(ck_model *model, double start_time, const double *stop_time,
+                   const double *tolerance) {
     if (!isfinite(start_time))
         return ck_model_fail(model, "the start time must be finite [s]; reset the FMU");
+    if (stop_time && !(*stop_time >= start_time))
+        return ck_model_fail(model, "the stop time must not come before the start time; reset the FMU");
+    if (tolerance && !(*tolerance >= 0.0 && isfinite(*tolerance)))
+        return ck_model_fail(model, "the tolerance must be a finite number above 0; reset the FMU");
     model->state.time = model->state.start_time = start_time;
+    model->state.stop_time = stop_time ? *stop_time : HUGE_VAL;
+    if (tolerance) take_tolerance(model, *tolerance);
     return CK_OK;
 }
 
@@ -248,13 +282,36 @@ int ck_model_initialize(ck_model *model) {
     return CK_OK;
 }
 
+/* Refuse a step that ends beyond the stop time. */
+static int beyond_stop(ck_model *model, double end) {
+    char message[300];
+    snprintf(message, sizeof message,
+             "a step to t = %.17g s goes beyond the stop time of the experiment, %.17g s; take a "
+             "shorter one",
+             end, model->state.stop_time);
+    return ck_model_discard(model, message);
+}
+
+/* A step too short to be taken is put off to the next: masters end with a step of rounding size,
+   even backwards. Refused if the clock of the host stands still. */
+static int put_off(ck_model *model, double time, double step) {
+    char message[300];
+    if (time + step != time || step <= OFF * model->state.last_step) return CK_OK;
+    snprintf(message, sizeof message,
+             "a step of %.9g s vanishes in the round-off of the time %.17g s; take a longer one, or "
+             "start the clock at 0",
+             step, time);
+    return ck_model_discard(model, message);
+}
+
 int ck_model_step(ck_model *model, double time, double step) {
     ck_state *state = &model->state;
-    double nothing = ROUNDING * ck_larger(fabs(state->time), state->last_step), seen[CK_HELD];
+    double lag = time - state->time, last = state->last_step, off = OFF * fabs(step);
+    double clock = CLOCK * fabs(state->time), nothing = ck_larger(clock, REST * last), length;
+    double seen[CK_HELD];
     int status;
     if (state->failed || !ck_model_is_in(model, CK_STEPPING, "doStep")) return CK_DISCARD;
-    if (!(fabs(time - state->time) <= nothing + 1e-6 * fabs(step) && isfinite(step)) ||
-        step < -nothing) {
+    if (!(fabs(lag) <= nothing + off && isfinite(step)) || step < -ck_larger(clock, OFF * last)) {
         char message[300];
         snprintf(message, sizeof message,
                  "a step must start at t = %.17g s, where the last one ended, and go forward, got "
@@ -269,13 +326,16 @@ int ck_model_step(ck_model *model, double time, double step) {
                              "discrete states before the next, or instantiate without event mode");
         return CK_DISCARD;
     }
-    if (step <= nothing) return CK_OK; /* some masters end with a step of rounding size */
+    if (time + step > state->stop_time + nothing + off) return beyond_stop(model, time + step);
+    /* What was put off is done with the next step; else clocks differ by their round-off. */
+    length = fabs(lag) > clock ? step + lag : step;
+    if (length <= nothing) return put_off(model, time, step);
     ck_events_lift(model, seen);
-    status = ck_model_kind(model)->step(model, time, step);
+    status = ck_model_kind(model)->step(model, time, length);
     ck_events_hold(model, seen);
     if (status != CK_OK) return status;
     state->time = ck_model_pends(model) ? state->end : time + step;
-    state->last_step = step, state->rate = 0.0;
+    state->last_step = length, state->rate = 0.0;
     if (model->event_mode) {
         ck_model_follow(model);
         state->event = ck_events_lag(model);

@@ -4,8 +4,9 @@
    with its film; `stiction-force` in force.c, a film for a tool that owns the mass; `valve-drive`
    in drive.c, which has no film. Which of them an instance is says its file of data.
 
-   The first failure is logged with its cure and remembered: outputs stay at their last good values
-   and steps are discarded, until the host resets the model or restores an earlier state. */
+   A step that cannot be taken is discarded: its reason is logged, nothing has changed, and a shorter
+   one may do. Any other failure is logged with its cure and remembered: outputs stay at their last
+   good values and steps are refused, until the host resets the model or restores an earlier state. */
 
 #ifndef CK_MODEL_H
 #define CK_MODEL_H
@@ -78,12 +79,13 @@ typedef struct {
     uint64_t checksum; /* of the data it belongs to */
     double values[CK_VARIABLES];
     double latest[CK_HELD]; /* of outputs that event mode changes */
-    double time, start_time, last_step, rate, pull;
+    double time, start_time, stop_time, last_step, rate, pull;
     double end; /* of the last step, where it paused */
     ck_motion motion; /* of stiction-mass */
     ck_memory memory; /* of stiction-force */
     ck_driven driven; /* of valve-drive */
-    int phase, failed, stale, shown, event, padding; /* no byte of a saved state is left open */
+    int phase, failed, stale, shown, event;
+    int has_rtol; /* the host has set `rtol`: its tolerance does not stand for it any more */
 } ck_state;
 
 typedef void (*ck_say)(void *host, int status, const char *category, const char *message);
@@ -104,7 +106,7 @@ typedef struct {
     const char *(*apply)(ck_model *model); /* parameters into the scene; what is wrong, or NULL */
     void (*start)(ck_model *model);        /* the state at the start */
     int (*show)(ck_model *model);          /* outputs into `values`; 0 if they are not finite */
-    int (*step)(ck_model *model, double time, double step); /* status; fails for itself */
+    int (*step)(ck_model *model, double time, double step); /* status; nothing changes if not CK_OK */
     void (*resolve)(ck_model *model);      /* make happen what is pending; */
     int follows;                           /* whether outputs follow inputs without a step */
     /* Slope of an output by an input it follows, exactly; 0 if it is not known so. */
@@ -121,7 +123,9 @@ uint64_t ck_checksum(const void *bytes, size_t count);
 int ck_model_open(ck_model *model, const char *resources, const char *guid);
 void ck_model_close(ck_model *model);
 void ck_model_reset(ck_model *model);
-int ck_model_setup(ck_model *model, double start_time);
+/* The start, and what the host says besides: NULL where it says nothing. */
+int ck_model_setup(ck_model *model, double start_time, const double *stop_time,
+                   const double *tolerance);
 int ck_model_initialize(ck_model *model);
 int ck_model_step(ck_model *model, double time, double step);
 int ck_model_restore(ck_model *model, const ck_state *state);
@@ -154,7 +158,8 @@ int ck_events_lag(const ck_model *model); /* whether event mode has anything to 
 void ck_events_skip(ck_model *model); /* if it is not used nothing waits for it */
 
 /* For the models themselves. */
-int ck_model_fail(ck_model *model, const char *message); /* CK_ERROR */
+int ck_model_fail(ck_model *model, const char *message);    /* CK_ERROR, and so on */
+int ck_model_discard(ck_model *model, const char *message); /* CK_DISCARD, of this step only */
 int ck_model_is_in(ck_model *model, int phase, const char *call);
 const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);

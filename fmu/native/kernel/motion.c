@@ -10,9 +10,8 @@
 #define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts */
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
-void ck_start(const ck_scene *scene, double time, ck_motion *state) {
+void ck_start(const ck_scene *scene, ck_motion *state) {
     memset(state, 0, sizeof *state);
-    state->time = time;
     state->gap = scene->initial_gap;
     state->in_contact = scene->rest_gap >= scene->initial_gap && scene->initial_speed <= 0.0;
     state->speed = state->in_contact ? 0.0 : scene->initial_speed;

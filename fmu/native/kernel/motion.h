@@ -35,7 +35,7 @@ enum { CK_NONE = 0, CK_RUPTURE = 1, CK_REWETTING = 2 };
 enum { CK_DONE = 0, CK_NO_STEP = 1, CK_TOO_MANY_STEPS = 2 };
 enum { CK_CONTACT = 1, CK_STUCK = 2, CK_FULL = 3, CK_BRIDGE = 4, CK_BROKEN = 5 };
 
-void ck_start(const ck_scene *scene, double time, ck_motion *state);
+void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);
 void ck_resolve(const ck_scene *scene, ck_motion *state); /* make happen what is pending */
 int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt);

@@ -59,7 +59,7 @@ def protect(files: Mapping[str, bytes]) -> dict[str, bytes]:
         **files,
         own[0]: _compiled(_compiler(), os.environ.get("CC", "")),
         f"{_FOLDER}/pythonfmu.so": files[own[0]],
-        "resources/guid.txt": guid[1] + b"\n",
+        "resources/guard.txt": guid[1] + b"\n" + files.get("resources/slavemodule.txt", b""),
     }
 
 

@@ -28,6 +28,7 @@
 EACH(DECLARE)
 
 #define PATH 4096
+#define LINE 200
 static const char NEWEST = 19, OLDEST = 11; /* versions of Python 3 to look for */
 
 typedef struct {
@@ -122,15 +123,15 @@ static const char *load(void) {
 
 /* Instances ---------------------------------------------------------------------------------- */
 
-/* Whether a file of the resources can be read; its first line, if there is room for it. */
-static int first_line(const char *folder, const char *name, char *line, int size) {
-    char path[PATH + 40];
+/* Whether a file of the resources has as many lines; the last of them, if there is room for it. */
+static int read_line(const char *folder, const char *name, int number, char line[LINE]) {
+    char path[PATH + LINE + 40];
     FILE *file;
-    int fine;
+    int fine = 1;
     snprintf(path, sizeof path, "%s/%s", folder, name);
     file = fopen(path, "rb");
     if (!file) return 0;
-    fine = fgets(line, size, file) != NULL;
+    while (fine && number-- > 0) fine = fgets(line, LINE, file) != NULL;
     fclose(file);
     line[fine ? strcspn(line, "\r\n") : 0] = 0;
     return fine;
@@ -138,17 +139,22 @@ static int first_line(const char *folder, const char *name, char *line, int size
 
 static const char *check(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                          char *folder) {
-    char line[200];
+    char line[LINE], module[LINE], script[LINE + 4];
     if (!name || !*name) return "the instance needs a name";
     if (type != fmi2CoSimulation) return "this FMU is for co-simulation only";
     if (!resources || !ck_folder_of(resources, folder, PATH))
         return "the resource location is missing, or is no file";
-    if (!first_line(folder, "slavemodule.txt", line, sizeof line))
+    if (!read_line(folder, "slavemodule.txt", 1, module))
         return "the resource location is no folder of this FMU; give that of its folder resources";
     if (strstr(folder, "%20"))
         return "the path of the FMU must not hold the letters %20; unpack it elsewhere";
-    if (!guid || !first_line(folder, "guid.txt", line, sizeof line) || strcmp(line, guid) != 0)
+    if (!guid || !read_line(folder, "guard.txt", 1, line) || strcmp(line, guid) != 0)
         return "the GUID is not that of this FMU; take it from its modelDescription.xml";
+    snprintf(script, sizeof script, "%s.py", module);
+    if (!read_line(folder, "guard.txt", 2, line) || strcmp(line, module) != 0 ||
+        !read_line(folder, script, 1, line))
+        return "resources/slavemodule.txt, or the script it names, is not that of this FMU; unpack or "
+               "build it again";
     return load();
 }
 

@@ -113,7 +113,7 @@ def trouble(lab, act, phase="stepping"):
     found = {
         "worst": max(statuses),
         "finite": lab.finite(instance),
-        "errors": [e for e in instance.log if e[0] == ERROR],
+        "errors": [e for e in instance.log if e[0] in (DISCARD, ERROR)],
         "fatal": [name for name, status in instance.statuses if status >= FATAL],
     }
     found["again"] = lab.again(instance, 1)

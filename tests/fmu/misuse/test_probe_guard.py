@@ -28,9 +28,10 @@ def test_without_a_compiler_an_fmu_is_left_as_it_is(monkeypatch):
 @needs_guard
 def test_it_takes_the_place_of_the_library(monkeypatch):
     files = {"modelDescription.xml": DESCRIPTION, LIBRARY: b"\x7fELF of pythonfmu"}
+    files["resources/slavemodule.txt"] = b"toy_1"
     found = guard.protect(files)
     assert found[MOVED] == files[LIBRARY]
-    assert found["resources/guid.txt"] == b"abc-1\n"
+    assert found["resources/guard.txt"] == b"abc-1\ntoy_1"
     assert found[LIBRARY][:4] == b"\x7fELF"
     assert b"fmi2Instantiate" in found[LIBRARY]
 
@@ -46,4 +47,4 @@ def test_guarded_fmus_are_valid_and_rebuilt_byte_by_byte(toy_module, tmp_path):
     assert one.read_bytes() == other.read_bytes()
     assert validate(one) == []
     with zipfile.ZipFile(one) as packed:
-        assert {LIBRARY, MOVED, "resources/guid.txt"} <= set(packed.namelist())
+        assert {LIBRARY, MOVED, "resources/guard.txt"} <= set(packed.namelist())
