@@ -111,7 +111,17 @@ _STYLE = (
     "th,td{border:1px solid #bbb;padding:.3em .6em;text-align:left;vertical-align:top}"
     "svg{float:right;margin:0 0 1em 1em}h2{margin-top:1.6em}"
 )
-_HEAD = ("name", "unit", "shown in", "causality", "type", "start", "allowed", "description")
+_HEAD = (
+    "name",
+    "unit",
+    "shown in",
+    "causality",
+    "group",
+    "type",
+    "start",
+    "allowed",
+    "description",
+)
 _PYTHON = (
     "It is run by a Python interpreter on the host computer (3.11 or later), which besides the "
     "files in this FMU needs: {}. A host that is no Python itself has to find a shared library "
@@ -289,6 +299,7 @@ def _cells(port: Port, start: Value) -> list[str]:
         "" if port.unit == "-" else port.unit,
         port.display_unit or "",
         port.causality,
+        port.group,
         port.kind,
         "" if is_output else shown,
         "" if is_output and port.enumeration is None else allowed,

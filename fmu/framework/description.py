@@ -65,7 +65,7 @@ def model_description(about: Description) -> Element:
     variables = SubElement(root, "ModelVariables")
     references = value_references(about.ports)
     for port in about.ports:
-        variables.append(_variable(port, references[port.name], about.start))
+        variables.append(_variable(port, references, about.start))
     root.append(_structure(about.ports))
     return root
 
@@ -152,11 +152,11 @@ def items(enumeration: type[IntEnum]) -> list[Element]:
     return [Element("Item", name=member.name, value=str(int(member))) for member in enumeration]
 
 
-def _variable(port: Port, reference: int, start: Mapping[str, Value]) -> Element:
+def _variable(port: Port, references: Mapping[str, int], start: Mapping[str, Value]) -> Element:
     is_parameter, is_output = port.causality == "parameter", port.causality == "output"
     attributes = {
         "name": port.name,
-        "valueReference": str(reference),
+        "valueReference": str(references[port.name]),
         "description": port.label,
         "causality": port.causality,
         "variability": "continuous" if port.kind == "real" else "discrete",
@@ -166,11 +166,16 @@ def _variable(port: Port, reference: int, start: Mapping[str, Value]) -> Element
     elif is_output:
         attributes["initial"] = "calculated"
     node = Element("ScalarVariable", attributes)
-    SubElement(node, _TAGS[port.kind], details(port, start))
+    SubElement(node, _TAGS[port.kind], details(port, start, references))
+    if port.group:
+        tool = SubElement(SubElement(node, "Annotations"), "Tool", name="contactkit")
+        SubElement(tool, "Dialog", group=port.group)
     return node
 
 
-def details(port: Port, start: Mapping[str, Value]) -> dict[str, str]:
+def details(
+    port: Port, start: Mapping[str, Value], references: Mapping[str, int]
+) -> dict[str, str]:
     """Attributes of a variable that belong to its type, the same in both versions of FMI."""
     found: dict[str, Any] = {
         "declaredType": port.enumeration and port.enumeration.__name__,
@@ -179,6 +184,7 @@ def details(port: Port, start: Mapping[str, Value]) -> dict[str, str]:
         "min": _finite(port.minimum),
         "max": _finite(port.maximum),
         "nominal": port.nominal,
+        "derivative": None if port.rate_of is None else str(references[port.rate_of]),
         "start": None if port.causality == "output" else start[port.name],
     }
     return {name: _text(value, port.kind) for name, value in found.items() if value is not None}

@@ -72,7 +72,11 @@ def model_description3(about: Description, discrete: Collection[str] = ()) -> El
         }
         if port.causality != "input":
             attributes["initial"] = "exact" if port.causality == "parameter" else "calculated"
-        SubElement(variables, _TAGS[port.kind], attributes | details(port, about.start))
+        more = details(port, about.start, references)
+        node = SubElement(variables, _TAGS[port.kind], attributes | more)
+        if port.group:
+            note = SubElement(SubElement(node, "Annotations"), "Annotation", type="contactkit")
+            SubElement(note, "Dialog", group=port.group)
     SubElement(
         variables,
         "Float64",

@@ -10,11 +10,11 @@ import difflib
 import math
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import IntEnum
 from typing import Any, Literal, NamedTuple
 
-from attrs import Attribute, field, frozen
+from attrs import Attribute, evolve, field, frozen
 
 from ...errors import DescriptionError
 from ...units import parse_quantity, parse_unit
@@ -27,6 +27,7 @@ __all__ = [
     "Value",
     "display_conversion",
     "find_port",
+    "grouped",
     "start_value",
     "tolerance",
 ]
@@ -76,6 +77,10 @@ class Port:
         A typical size, for a tool that scales its tolerances.
     display_unit : str, optional
         Unit to show the values in, such as ``um``, ``mPa.s``, ``deg``, ``bar`` or ``degC``.
+    group : str
+        Group of parameters that it belongs to in a dialog; set by `grouped`.
+    rate_of : str, optional
+        Name of the variable whose derivative by time it is.
     depends_on : tuple of str, optional
         Inputs and parameters that an output follows without a step in between; ``()`` says
         none. If not given, a tool has to assume all of them.
@@ -106,6 +111,8 @@ class Port:
     exclusive: bool = field(kw_only=True, default=False)
     nominal: float | None = field(kw_only=True, default=None)
     display_unit: str | None = field(kw_only=True, default=None)
+    group: str = field(kw_only=True, default="")
+    rate_of: str | None = field(kw_only=True, default=None)
     depends_on: tuple[str, ...] | None = field(kw_only=True, default=None)
     start: Value = field(kw_only=True)
 
@@ -266,6 +273,32 @@ def find_port(ports: Sequence[Port], name: str) -> Port:
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(names)
     raise DescriptionError("port", name, "be a variable of this FMU", hint=hint)
+
+
+def grouped(ports: Sequence[Port], groups: Mapping[str, Sequence[str]]) -> tuple[Port, ...]:
+    """Ports whose parameters are in groups, and in their order, as a dialog shows them.
+
+    Parameters
+    ----------
+    ports : sequence of Port
+        Inputs and outputs keep their order, and come first.
+    groups : mapping of str to sequence of str
+        Names of the parameters in each group.
+
+    Raises
+    ------
+    DescriptionError
+        If a parameter is in no group, or a name is none of a parameter.
+    """
+    others = [port for port in ports if port.causality != "parameter"]
+    left = {port.name: port for port in ports if port.causality == "parameter"}
+    names = [name for members in groups.values() for name in members]
+    if set(names) != set(left) or len(names) != len(left):
+        odd = sorted(set(names) ^ set(left))
+        raise DescriptionError("grouped(groups)", odd, "name every parameter once, and no other")
+    for group, members in groups.items():
+        others += [evolve(left[name], group=group) for name in members]
+    return tuple(others)
 
 
 def start_value(ports: Sequence[Port], name: str, value: Value | str) -> Value:

@@ -112,7 +112,7 @@ def build_native(
         given.setdefault("h", given["h0"])
     scene = moving(scene, mass)
     film = film_numbers(scene)
-    ports = native_ports(film.prepared, film.lowest, model)
+    ports = native_ports(film.prepared, film.lowest, model, film.force)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
@@ -181,7 +181,11 @@ def write_native(
     page = native_page(scene, ports, values, name=model, fmi=str(fmi))
     files = {
         **description_files(
-            fmi, evolve(about, guid=guid), sources, holds_mass=model == "stiction-mass"
+            fmi,
+            evolve(about, guid=guid),
+            sources,
+            takes_rate=model == "stiction-mass",
+            gives_rates=model == "valve-drive",
         ),
         "resources/film.bin": data_file(guid, numbers),
         "documentation/index.html": page.encode(),

@@ -21,7 +21,7 @@ _HELD = ("t_break", "t_release", "u")  # real outputs that change at events only
 
 
 def description_files(
-    fmi: int, about: Description, files: Iterable[str], *, holds_mass: bool
+    fmi: int, about: Description, files: Iterable[str], *, takes_rate: bool, gives_rates: bool
 ) -> dict[str, bytes]:
     """Descriptions of the model and, in FMI 3.0, of its build, by their path in the FMU.
 
@@ -33,26 +33,36 @@ def description_files(
         What they say.
     files : iterable of str
         Names of the sources; headers are left out.
-    holds_mass : bool
-        Whether the mass is inside: then FMI 2.0 may give the rate of its input.
+    takes_rate : bool
+        Whether FMI 2.0 may give the rate of an input.
+    gives_rates : bool
+        Whether first derivatives of outputs by time are provided.
     """
     compiled = sorted(name for name in files if name.endswith(".c"))
     if fmi == 3:
         root = model_description3(about, _HELD)
+        _able(root, gives_rates)
         build = build_description(about.identifier, compiled)
         return {"modelDescription.xml": _text(root), "sources/buildDescription.xml": _text(build)}
     root = model_description(about)
-    kind = root.find("CoSimulation")
-    assert kind is not None
+    kind = _able(root, gives_rates)
     kind.attrib |= {
         "needsExecutionTool": "false",
-        "canInterpolateInputs": str(holds_mass).lower(),
+        "canInterpolateInputs": str(takes_rate).lower(),
         "providesDirectionalDerivative": "true",
     }
     sources = SubElement(kind, "SourceFiles")
     for name in compiled:
         SubElement(sources, "File", name=name)
     return {"modelDescription.xml": _text(root)}
+
+
+def _able(root: Element, gives_rates: bool) -> Element:
+    """Element of the capabilities of a description, with the order of output derivatives."""
+    (kind,) = root.iter("CoSimulation")
+    if gives_rates:
+        kind.set("maxOutputDerivativeOrder", "1")
+    return kind
 
 
 def _text(root: Element) -> bytes:

@@ -37,6 +37,8 @@ class FilmNumbers(NamedTuple):
     numbers: list[float]
     lowest: float
     """Lowest gap of the tables [m]."""
+    force: float
+    """Static force at the start [N], or 0."""
     prepared: PreparedScene[SeparationScene]
 
 
@@ -118,7 +120,8 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     ]
     for one in fractions:
         numbers += _film(prepared, one, lowest)
-    return FilmNumbers(numbers, lowest, prepared.prepared)
+    force = prepared.film.static_force(loading.initial_gap)
+    return FilmNumbers(numbers, lowest, force, prepared.prepared)
 
 
 def _film(made: Plan, fraction: float, lowest: float) -> list[float]:

@@ -55,12 +55,15 @@ _LABELS = {
 
 
 def native_ports(
-    prepared: PreparedScene[SeparationScene], lowest: float, model: Model = "stiction-mass"
+    prepared: PreparedScene[SeparationScene],
+    lowest: float,
+    model: Model = "stiction-mass",
+    force: float = 0.0,
 ) -> tuple[Port, ...]:
-    """Variables of the FMU of a scene whose tables begin at a gap [m]."""
+    """Variables of the FMU of a scene whose tables begin at a gap [m], with a typical force [N]."""
     own = MODELS[model]
     there = {port.name for port in own} & set(IDENTIFIERS) - _absent(prepared, model)
-    start = start_of(prepared, model)
+    start, sizes = start_of(prepared, model), _sizes(prepared.scene, abs(force))
     ports = []
     for port in own:
         if port.name not in there:
@@ -73,9 +76,20 @@ def native_ports(
             depends_on=depends,
             label=_LABELS.get(port.name, port.label),
             start=start.get(port.name, port.start),
+            nominal=sizes.get(port.name, port.nominal),
         )
         ports.append(_bounded(port, prepared.scene, lowest, model))
     return tuple(ports)
+
+
+def _sizes(scene: SeparationScene, force: float) -> dict[str, float]:
+    """Typical sizes of variables, for masters that scale their errors; powers of ten."""
+    gap = scene.loading.initial_gap
+    found = {"h": gap}
+    if force > 0.0:
+        found |= dict.fromkeys(("F_ext", "F", "F_m", "F_v", "F_mean", "F_peak"), force)
+        found |= {"dF_ext": 1e4 * force, "J": 1e-3 * force, "J_m": 1e-3 * force, "W": force * gap}
+    return {name: 10.0 ** math.floor(math.log10(size)) for name, size in found.items()}
 
 
 def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) -> Port:

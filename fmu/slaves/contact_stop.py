@@ -21,7 +21,7 @@ from pythonfmu.enums import Fmi2Status
 from ...analyses.load_displacement.curve import Branch, CurvePoint, LoadDisplacementCurve
 from ...analyses.load_displacement.impact import in_series
 from ...errors import DescriptionError
-from ..framework.ports import Port
+from ..framework.ports import Port, grouped
 from ..framework.slave import PortSlave
 
 __all__ = ["ContactStop", "StopSide"]
@@ -47,7 +47,12 @@ def _size(name: str, unit: str, label: str, value: float, **more: Any) -> Port:
     return Port(name, unit, causality="parameter", label=label, start=value, minimum=0.0, **more)
 
 
-PORTS = (
+_GROUPS = {
+    "geometry": ("h_touch", "side", "scale"),
+    "solids": ("k_body", "d_stop", "d_max0"),
+}
+
+_PORTS = (
     Port(
         "h",
         "m",
@@ -113,6 +118,8 @@ PORTS = (
     _size("d_stop", "s/m", "damping, F = F_el (1 + d_stop x speed of approach)", 0.0),
     _size("d_max0", "m", "largest approach the faces have had before", 0.0, display_unit="um"),
 )
+
+PORTS = grouped(_PORTS, _GROUPS)
 
 
 class _Memory(NamedTuple):

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, NamedTuple
 from ...accuracy import Accuracy
 from ...separation.effects.base import FilmStatus, LimitKind
 from ...separation.plan import Film, Plan, plan
-from ..framework.ports import Port, find_port
+from ..framework.ports import Port, find_port, grouped
 from ..framework.slave import PortSlave
 from . import stiction_mass
 from .film_travel import Travel, travel
@@ -61,7 +61,14 @@ def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **mor
     return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
 
 
-PORTS = (
+_GROUPS = {
+    "geometry": ("h0", "R"),
+    "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
+    "motion": ("m_ref", "exchange"),
+    "limits": ("dp_cav", "tau_lim"),
+}
+
+_PORTS = (
     Port(
         "h",
         "m",
@@ -75,13 +82,19 @@ PORTS = (
     ),
     Port("v", "m/s", causality="input", label="opening speed there", nominal=0.1),
     _output("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
-    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS),
-    _output("F_v", "N", "viscous force after the limits, positive resists opening", _VISCOUS),
-    _output("c", "N.s/m", "damping dF/dv", _VISCOUS),
-    _output("k", "N/m", "stiffness dF/dh", _ALL),
-    _output("J", "N.s", "viscous impulse since the start", ()),
-    _output("J_m", "N.s", "meniscus impulse since the start", ()),
-    _output("F_mean", "N", "mean of F over the way of the last step", ()),
+    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
+    _output(
+        "F_v",
+        "N",
+        "viscous force after the limits, positive resists opening",
+        _VISCOUS,
+        nominal=10.0,
+    ),
+    _output("c", "N.s/m", "damping dF/dv", _VISCOUS, nominal=1e8),
+    _output("k", "N/m", "stiffness dF/dh", _ALL, nominal=1e7),
+    _output("J", "N.s", "viscous impulse since the start", (), nominal=1e-2),
+    _output("J_m", "N.s", "meniscus impulse since the start", (), nominal=1e-2),
+    _output("F_mean", "N", "mean of F over the last step", (), nominal=10.0),
     _output("coupling_error", "-", "what F_mean differs by from F, over what moves the mass", ()),
     _output(
         "H_stable",
@@ -152,6 +165,8 @@ PORTS = (
     ),
     *(find_port(stiction_mass.PORTS, name) for name in _KEPT),
 )
+
+PORTS = grouped(_PORTS, _GROUPS)
 
 
 class _Memory(NamedTuple):

@@ -35,7 +35,7 @@ from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, tolerance
+from ..framework.ports import Port, grouped, tolerance
 from ..framework.slave import PortSlave
 
 __all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
@@ -56,8 +56,8 @@ _VISCOUS = (*_SHAPE, "v0", "eta", "dp_cav", "tau_lim")
 _ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
-def _input(name: str, unit: str, label: str) -> Port:
-    return Port(name, unit, causality="input", label=label, start=0.0)
+def _input(name: str, unit: str, label: str, nominal: float) -> Port:
+    return Port(name, unit, causality="input", label=label, start=0.0, nominal=nominal)
 
 
 def _output(
@@ -82,17 +82,31 @@ def _size(
     )
 
 
-PORTS = (
-    _input("F_ext", "N", "pull on the mass, positive opens"),
-    _input("dF_ext", "N/s", "rate of the pull during the next step; 0 holds it constant"),
+_GROUPS = {
+    "geometry": ("h0", "R"),
+    "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
+    "motion": ("m", "v0", "k_s", "h_rel", "h_min"),
+    "limits": ("dp_cav", "tau_lim"),
+    "numerics": ("rtol",),
+}
+
+_PORTS = (
+    _input("F_ext", "N", "pull on the mass, positive opens", 10.0),
+    _input("dF_ext", "N/s", "rate of the pull during the next step; 0 holds it constant", 1e5),
     _output("h", "m", "gap", ("h0",), display_unit="um", nominal=1e-6),
-    _output("v", "m/s", "opening speed", ("v0",)),
-    _output("F", "N", "force of the film, positive resists opening", _ALL),
-    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS),
-    _output("F_v", "N", "viscous force after the limits, positive resists opening", _VISCOUS),
-    _output("J", "N.s", "viscous impulse since the start"),
-    _output("J_m", "N.s", "meniscus impulse since the start"),
-    _output("W", "J", "work dissipated in the film since the start"),
+    _output("v", "m/s", "opening speed", ("v0",), nominal=0.1, rate_of="h"),
+    _output("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
+    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
+    _output(
+        "F_v",
+        "N",
+        "viscous force after the limits, positive resists opening",
+        _VISCOUS,
+        nominal=10.0,
+    ),
+    _output("J", "N.s", "viscous impulse since the start", nominal=1e-2),
+    _output("J_m", "N.s", "meniscus impulse since the start", nominal=1e-2),
+    _output("W", "J", "work dissipated in the film since the start", nominal=1e-4),
     _output(
         "state",
         "-",
@@ -113,7 +127,7 @@ PORTS = (
     ),
     _output("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     _output("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
-    _output("F_peak", "N", "largest force of the film so far"),
+    _output("F_peak", "N", "largest force of the film so far", nominal=10.0),
     _output("n_break", "-", "number of ruptures so far", kind="integer"),
     _output("n_release", "-", "number of releases so far", kind="integer"),
     _size("m", "kg", "moving mass", 0.02, "g", exclusive=True),
@@ -152,6 +166,8 @@ PORTS = (
     _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     tolerance(1e-8),
 )
+
+PORTS = grouped(_PORTS, _GROUPS)
 
 
 PLACES: Mapping[str, Place] = {

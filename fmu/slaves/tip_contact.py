@@ -53,7 +53,7 @@ from ...separation.effects.registry import (
 from ...separation.motion.state import MotionState
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, tolerance
+from ..framework.ports import Port, grouped, tolerance
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
 
@@ -100,7 +100,15 @@ def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **mor
     return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
 
 
-PORTS = (
+_GROUPS = {
+    "geometry": ("N", "R", "h0", "h_free"),
+    "liquid": ("V", "eta", "gamma", "theta1", "theta2", "profile"),
+    "solids": ("A_H", "d_stop"),
+    "motion": ("m", "k", "c"),
+    "numerics": ("rtol",),
+}
+
+_PORTS = (
     Port(
         "z",
         "m",
@@ -201,6 +209,8 @@ PORTS = (
     _size("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),
 )
+
+PORTS = grouped(_PORTS, _GROUPS)
 
 
 PLACES: Mapping[str, Place] = {

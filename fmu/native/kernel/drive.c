@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define MU0 (4e-7 * 3.141592653589793)
 #define MOST_STEPS 10000000 /* of the flux, in one step of the host */
@@ -71,7 +72,7 @@ static const char *apply(ck_model *model) {
 
 static void start(ck_model *model) {
     double *v = model->state.values;
-    model->state.driven.largest = model->state.driven.ahead = 0.0;
+    memset(&model->state.driven, 0, sizeof model->state.driven);
     model->state.driven.pending = CK_NONE;
     v[CK_FLUX] = v[CK_DF_EXT] = 0.0;
     v[CK_U] = voltage_at(&model->drive.profile, model->state.start_time);
@@ -190,6 +191,25 @@ static void warn_beyond(ck_model *model, double known, double time) {
     model->say(model->host, CK_WARNING, "logStatusWarning", message);
 }
 
+/* Outputs whose mean slope over the last step is kept: that of the pull is dF_ext, too. */
+static const int RATED[CK_RATES] = {CK_F_EXT, CK_F_MAG, CK_F_SPRING, CK_F_STOP, CK_I, CK_FLUX};
+
+static int rate(const ck_model *model, int output, double *found) {
+    int k;
+    *found = 0.0; /* of the voltage and of dF_ext, which stay for a step */
+    for (k = 0; k < CK_RATES; k++)
+        if (RATED[k] == output) *found = model->state.driven.rates[k];
+    return 1;
+}
+
+static void keep_rates(ck_model *model, const forces *begun, double flux, double length) {
+    const double first[CK_RATES] = {begun->pull, begun->magnet,  begun->spring,
+                                    begun->stop, begun->current, flux};
+    int k;
+    for (k = 0; k < CK_RATES; k++)
+        model->state.driven.rates[k] = (model->state.values[RATED[k]] - first[k]) / length;
+}
+
 static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state, before = *state;
     double *v = state->values;
@@ -209,7 +229,8 @@ static int step(ck_model *model, double time, double length) {
     v[CK_FLUX] = gone.flux;
     if (!gone.pauses) v[CK_U] = voltage_at(&model->drive.profile, state->end);
     fine = isfinite(gone.flux) && show(model);
-    v[CK_DF_EXT] = (v[CK_F_EXT] - begun.pull) / gone.length;
+    keep_rates(model, &begun, before.values[CK_FLUX], gone.length);
+    v[CK_DF_EXT] = state->driven.rates[0];
     if (!fine || !isfinite(v[CK_DF_EXT])) {
         *state = before;
         return ck_model_discard(model, "the forces at the end of the step are no finite numbers; "
@@ -243,4 +264,4 @@ static int slope(const ck_model *model, int unknown, int known, double *found) {
     return isfinite(*found);
 }
 
-const ck_kind ck_valve_drive = {apply, start, show, step, resolve, 1, slope};
+const ck_kind ck_valve_drive = {apply, start, show, step, resolve, 1, slope, rate};

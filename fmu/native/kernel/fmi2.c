@@ -229,9 +229,14 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                         const fmi2Integer order[], fmi2Real value[]) {
+    size_t i;
+    int status = CK_OK;
     OWN(c);
-    (void)vr, (void)n, (void)order, (void)value;
-    return lacks(own, "derivatives of outputs are not provided");
+    if (n > 0 && (!vr || !order || !value))
+        return fail(own, "getRealOutputDerivatives: arguments are missing");
+    for (i = 0; i < n && status == CK_OK; i++)
+        status = ck_model_rate(&own->model, vr[i], order[i], &value[i]);
+    return (fmi2Status)status;
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],

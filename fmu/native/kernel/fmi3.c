@@ -445,8 +445,13 @@ fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                     const fmi3Int32 orders[], fmi3Float64 values[], size_t m) {
-    (void)vr, (void)n, (void)orders, (void)values, (void)m;
-    return lacks(instance, "derivatives of outputs by time are not provided");
+    size_t i;
+    int status = CK_OK;
+    OWN(instance);
+    if (!fit(own, vr, n, values, m) || (n > 0 && !orders)) return fmi3Error;
+    for (i = 0; i < n && status == CK_OK; i++)
+        status = ck_model_rate(&own->model, vr[i], orders[i], &values[i]);
+    return (fmi3Status)status;
 }
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {

@@ -246,4 +246,4 @@ static void resolve(ck_model *model) {
     if (breaks) tell(model);
 }
 
-const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope};
+const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope, NULL};

@@ -252,6 +252,18 @@ static void take_tolerance(ck_model *model, double tolerance) {
     }
 }
 
+int ck_model_rate(ck_model *model, unsigned reference, int order, double *value) {
+    const ck_port *port = ck_model_port(model, reference, CK_REAL, "derivative of an output");
+    const ck_kind *kind = ck_model_kind(model);
+    char message[200];
+    if (!port) return CK_ERROR;
+    if (order == 1 && port->causality == CK_OUTPUT && kind->rate && kind->rate(model, port->id, value))
+        return CK_OK;
+    snprintf(message, sizeof message,
+             "there is no derivative of order %d of %s; go on without it", order, NAMES[port->id]);
+    return ck_model_discard(model, message);
+}
+
 int ck_model_setup(ck_model *model, double start_time, const double *stop_time,
                    const double *tolerance) {
     if (!isfinite(start_time))

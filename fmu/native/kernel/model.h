@@ -65,10 +65,13 @@ typedef struct {
     int film, broken, detached, pending; /* as in ck_motion */
 } ck_memory;
 
+enum { CK_RATES = 6 };
+
 /* What a drive remembers besides its outputs: the largest approach of its faces, for how long the
-   gap has run on at its speed since it was set, and whether the voltage has yet to switch. */
+   gap has run on at its speed since it was set, mean slopes of outputs over the last step, and
+   whether the voltage has yet to switch. */
 typedef struct {
-    double largest, ahead;
+    double largest, ahead, rates[CK_RATES];
     int pending, padding;
 } ck_driven;
 
@@ -111,6 +114,8 @@ typedef struct {
     int follows;                           /* whether outputs follow inputs without a step */
     /* Slope of an output by an input it follows, exactly; 0 if it is not known so. */
     int (*slope)(const ck_model *model, int unknown, int known, double *slope);
+    /* Derivative of an output by time, over the last step; 0 if there is none. NULL: of none. */
+    int (*rate)(const ck_model *model, int output, double *rate);
 } ck_kind;
 
 extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive;
@@ -146,6 +151,9 @@ int ck_model_get(ck_model *model, unsigned reference, int types, double *value);
 /* Sum over the knowns of the slope of each unknown by it, times its seed (derivative.c). */
 int ck_model_derivative(ck_model *model, const unsigned unknown[], size_t n,
                         const unsigned known[], size_t m, const double seed[], double value[]);
+
+/* First derivative of an output by time; CK_DISCARD if there is none. */
+int ck_model_rate(ck_model *model, unsigned reference, int order, double *value);
 
 /* Event mode. Around whatever makes outputs: put true values in place of those the host
    has seen, then back; noted as seen once event mode has shown them. */
