@@ -255,14 +255,19 @@ def _build(parsed: argparse.Namespace) -> None:
 def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
     """Write a native FMU; return its description and the file."""
     from .fmu.native.build import build_native, native_scene
-    from .fmu.native.drive import build_native_drive
+    from .fmu.native.drive import build_native_drive, build_native_stop
     from .fmu.python.build import FMUS
+    from .scene.scenes import ContactScene
 
     fmi: Literal[2, 3] = 3 if parsed.fmi == "3" else 2
     if "valve-drive" in (parsed.what, parsed.model):
         path = build_native_drive(parsed.out, start=_drive_start(parsed.what), fmi=fmi)
         return f"valve-drive, native, FMI {fmi}.0", path
     what = parsed.what if parsed.what in FMUS else _load(parsed.what)
+    if what == "contact-stop" or isinstance(getattr(what, "scene", None), ContactScene):
+        values = {} if isinstance(what, str) else what.fmu_start().values
+        path = build_native_stop(parsed.out, start=values, fmi=fmi)
+        return f"contact-stop, native, FMI {fmi}.0", path
     scene, start = native_scene(what, parsed.model)
     film_alone = "stiction-force" in (parsed.what, parsed.model)
     model: Literal["stiction-mass", "stiction-force"] = (

@@ -1,8 +1,8 @@
 """Native FMUs: one C kernel for all models, and the tables of one scene.
 
 build        Writing native FMUs: one C kernel for all models, and the tables of one scene.
-drive        Writing a native ``valve-drive``: the C kernel, its variables, and rough end-stop
-             faces.
+drive        Writing native FMUs without a film: ``valve-drive``, ``contact-stop``.
+faces        The load-displacement curve of rough faces as the numbers that the C kernel reads.
 film         The film of a scene as the numbers that the C kernel of a native FMU reads.
 tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.
 ports        The variables of a native FMU: those of the Python FMU of that name that a table

@@ -224,8 +224,8 @@ def native_scene(what: Any, model: Model | None = None) -> NativeScene:
         return NativeScene(scene, {})
     if isinstance(scene, ContactScene):  # said before hours go into its curve
         raise PlanError(
-            "a contact scene makes a contact-stop, which has no native form in this version; "
-            "leave out --native"
+            "a contact scene makes a contact-stop, which has no film; build it by "
+            "contactkit.fmu.native.drive.build_native_stop"
         )
     name, given, film = (what, {}, None) if isinstance(what, str) else what.fmu_start()
     if film is not None:
@@ -238,7 +238,7 @@ def native_scene(what: Any, model: Model | None = None) -> NativeScene:
     if name not in _SLAVES:
         raise PlanError(
             f"{name} has no native form as a film in this version, only {' and '.join(_SLAVES)} "
-            f"have, and valve-drive as a valve; leave out --native"
+            f"have, and valve-drive and contact-stop without one; leave out --native"
         )
     own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
     slave = _SLAVES[own]

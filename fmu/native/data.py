@@ -78,8 +78,21 @@ IDENTIFIERS = (
     "U_hold",
     "U_off",
     "n_cycles",
+    "F_el",
+    "contact_area",
+    "plastic_area",
+    "d",
+    "d_max",
+    "d_res",
+    "W_d",
+    "n_beyond",
+    "h_touch",
+    "side",
+    "scale",
+    "k_body",
+    "d_max0",
 )
-_MODELS = ("stiction-mass", "stiction-force", "valve-drive")
+_MODELS = ("stiction-mass", "stiction-force", "valve-drive", "contact-stop")
 _TYPES = {"real": 1.0, "integer": 2.0, "enumeration": 4.0, "boolean": 8.0}
 _CAUSALITIES = ("input", "output", "parameter")
 _MAGIC = b"CKFILM03"

@@ -1,27 +1,24 @@
-"""Writing a native ``valve-drive``: the C kernel, its variables, and rough end-stop faces."""
+"""Writing native FMUs without a film: ``valve-drive``, ``contact-stop``."""
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from ...analyses.load_displacement.curve import HERTZ, LoadDisplacementCurve, normalized
-from ...errors import PlanError
-from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
 from ..framework.ports import Value, start_value
+from ..framework.slave import PortSlave
+from ..slaves.contact_stop import ContactStop
 from ..slaves.valve_drive import ValveDrive, check_drive
 from .build import chosen_platforms, target, write_native
 from .description import CATEGORIES
+from .faces import face_numbers, stop_numbers
 
-__all__ = ["build_native_drive", "face_numbers"]
-
-_NAME = "valve-drive"
-_MOST_UNLOADING_CURVES = 64  # CK_UNLOADING_CURVES of native/drive.h
+__all__ = ["build_native_drive", "build_native_stop"]
 
 
 def build_native_drive(
@@ -68,69 +65,63 @@ def build_native_drive(
     given = dict(start or {})
     if curve is not None:
         given["curve"] = curve
-    faces = bake(_NAME, given).get("curve")
-    ports = ValveDrive.ports
-    values: dict[str, Value] = ValveDrive.start_values()
-    values |= {name: start_value(ports, name, value) for name, value in given.items()}
-    check_drive(values)
-    about = Description(
-        identifier=_NAME.replace("-", "_"),
-        guid="",
-        tool="contactkit",
-        ports=ports,
-        start=values,
-        summary=ValveDrive.summary,
-        log_categories=CATEGORIES,
-        experiment=ValveDrive.experiment,
-    )
+    faces = bake("valve-drive", given).get("curve")
+    about = _description("valve-drive", ValveDrive, given)
+    check_drive(about.start)
     tables = face_numbers(LoadDisplacementCurve.from_data(faces) if faces is not None else None)
-    return write_native(_NAME, about, tables, place, fmi, chosen_platforms(platforms), compiler)
+    names = chosen_platforms(platforms)
+    return write_native("valve-drive", about, tables, place, fmi, names, compiler)
 
 
-def face_numbers(curve: LoadDisplacementCurve | None) -> list[float]:
-    """Numbers of rough faces, in the order in which ``native/data.c`` reads them.
+def build_native_stop(
+    out: str | os.PathLike[str],
+    *,
+    start: Mapping[str, Any] | None = None,
+    curve: LoadDisplacementCurve | None = None,
+    platforms: Sequence[str] | None = None,
+    compiler: str = "auto",
+    fmi: Literal[2, 3] = 2,
+) -> Path:
+    """Write a ``contact-stop`` that runs without Python (co-simulation).
 
-    Every curve is its nodes, values and slopes, those of forces in logarithms.
+    Parameters
+    ----------
+    out, start, platforms, compiler, fmi
+        See `build_native_drive`.
+    curve : LoadDisplacementCurve, optional
+        The faces; those of the scene ``contact-stop`` of contactkit if not given.
+
+    Returns
+    -------
+    Path
+        The file.
 
     Raises
     ------
-    PlanError
-        If there are more unloading curves than the kernel holds.
+    ContactkitError
+        As `build_native_drive`.
     """
-    if curve is None:
-        return [0.0]
-    out = curve.unloading
-    if len(out) > _MOST_UNLOADING_CURVES:
-        raise PlanError(
-            f"a native valve-drive holds {_MOST_UNLOADING_CURVES} unloading curves of its "
-            f"faces, this one has {len(out)}; make it with fewer, or leave out --native"
-        )
-    numbers = [1.0, curve.elastic_limit, float(len(out))]
-    numbers += _in_logarithms(power_curve(curve.approach, curve.force, HERTZ), curve.approach)
-    if out:
-        nodes = (curve.elastic_limit, *(one.max_approach for one in out))
-        left = (0.0, *(one.residual_approach for one in out))
-        numbers += _plain(monotone_curve(nodes, left), nodes)
-    for one in out:
-        numbers += [one.max_approach, *_in_logarithms(normalized(one).force, one.fractions)]
-    return numbers
+    place = target(out, fmi)
+    given = dict(start or {})
+    if curve is not None:
+        given["curve"] = curve
+    faces = LoadDisplacementCurve.from_data(bake("contact-stop", given)["curve"])
+    about = _description("contact-stop", ContactStop, given)
+    names = chosen_platforms(platforms)
+    return write_native("contact-stop", about, stop_numbers(faces), place, fmi, names, compiler)
 
 
-def _plain(curve: Curve, nodes: Sequence[float]) -> list[float]:
-    points = [curve(x) for x in nodes]
-    return [
-        float(len(nodes)),
-        *nodes,
-        *(value for value, _ in points),
-        *(slope for _, slope in points),
-    ]
-
-
-def _in_logarithms(curve: Curve, nodes: Sequence[float]) -> list[float]:
-    points = [curve(x) for x in nodes]
-    return [
-        float(len(nodes)),
-        *map(math.log, nodes),
-        *(math.log(value) for value, _ in points),
-        *(slope * x / value for x, (value, slope) in zip(nodes, points, strict=True)),
-    ]
+def _description(name: str, slave: type[PortSlave], given: Mapping[str, Any]) -> Description:
+    """Description of the native twin of a slave, with start values."""
+    values: dict[str, Value] = slave.start_values()
+    values |= {key: start_value(slave.ports, key, value) for key, value in given.items()}
+    return Description(
+        identifier=name.replace("-", "_"),
+        guid="",
+        tool="contactkit",
+        ports=slave.ports,
+        start=values,
+        summary=slave.summary,
+        log_categories=CATEGORIES,
+        experiment=slave.experiment,
+    )

@@ -20,6 +20,7 @@ _ABOUT = {
     "stiction-mass": ("StictionMass", "Mass held by a liquid film"),
     "stiction-force": ("StictionForce", "Liquid film between two bodies"),
     "valve-drive": ("ValveDrive", "Electromagnet, return spring and opposite stop of a valve"),
+    "contact-stop": ("ContactStop", "Rough faces that meet at an end stop"),
 }
 
 

@@ -30,7 +30,7 @@ __all__ = ["ValveDrive", "check_drive", "drive_values", "valve_of"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
-_MOST_SWITCHINGS = 10_000
+_MOST_SWITCHINGS = 100_000
 
 
 PLACES: Mapping[str, Place] = {

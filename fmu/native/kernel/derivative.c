@@ -2,7 +2,7 @@
 
    While stepping, no output of stiction-mass follows an input. Of stiction-force, F, F_m and F_v
    by gap and speed are read off the tables; c, k and H_stable, slopes themselves, are differences.
-   Those of valve-drive by gap and speed follow from its laws. Before the first step outputs follow
+   Those of valve-drive and contact-stop by gap and speed follow from their laws. Before the first step outputs follow
    the parameters too, through all that is prepared from them: differences. Nothing here is
    remembered as a failure. */
 

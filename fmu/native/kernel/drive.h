@@ -27,13 +27,16 @@ typedef struct {
 } ck_curve;
 
 /* Force of rough faces over their approach, and the unloading curves from maximum approaches `ends`.
-   Curves of forces are in logarithms. */
+   Curves of forces and areas of contact are in logarithms. */
 typedef struct {
     int is_there, count;
     double limit; /* approach up to which all is reversible */
     ck_curve first, residual;
     double ends[CK_UNLOADING_CURVES];
     ck_curve unloading[CK_UNLOADING_CURVES];
+    /* only of a stop: areas over the approach, and over those at the ends of the unloading curves,
+       and the work dissipated up to a maximum approach */
+    ck_curve area, plastic, dissipated, areas[CK_UNLOADING_CURVES];
 } ck_faces;
 
 typedef struct {
@@ -57,7 +60,19 @@ double ck_coil_force(const ck_coil *coil, double flux);
 double ck_coil_advance(const ck_coil *coil, double *flux, double gap, double speed, double voltage,
                        double duration, long *budget);
 
-/* Faces in series with a spring; both approach by this since they touched. */
+enum { CK_FREE = 1, CK_LOADING = 2, CK_UNLOADING = 3, CK_BEYOND = 4 };
+
+/* Areas of contact and of plastic flow, and the branch of the load-displacement curve. */
+typedef struct {
+    double area, plastic;
+    int branch;
+} ck_touching;
+
+ck_touching ck_faces_touching(const ck_faces *faces, const ck_pressed *pressed, double largest);
+double ck_faces_residual(const ck_faces *faces, double largest);
+double ck_faces_dissipated(const ck_faces *faces, double largest);
+
+/* Faces in series with a spring, 0 is rigid; both approach by this since they touched. */
 ck_pressed ck_faces_pressed(const ck_faces *faces, double approach, double largest,
                             double stiffness);
 

@@ -7,6 +7,7 @@
 
 #define ROUNDS 100
 #define CLOSE 1e-13
+#define SAME 1e-12 /* approaches closer than this, relatively, are one */
 
 /* Piece in which a number lies, between the first and the last node. */
 static int piece_of(const ck_curve *curve, double x) {
@@ -59,13 +60,14 @@ static double power(const ck_curve *curve, double x, double *by_x) {
     return value;
 }
 
-/* Force of an unloading curve over that at its maximum approach, at a fraction of the length of the
+/* Value of an unloading curve over that at its maximum approach, at a fraction of the length of the
    curve; before all others comes the loading curve up to the elastic limit. */
-static double unloading_curve(const ck_faces *faces, int i, double fraction, double *by_fraction) {
+static double unloading_curve(const ck_faces *faces, const ck_curve *first, const ck_curve *others,
+                              int i, double fraction, double *by_fraction) {
     double value, whole, unused;
-    if (i >= 0) return power(&faces->unloading[i], fraction, by_fraction);
-    value = power(&faces->first, fraction * faces->limit, by_fraction);
-    whole = power(&faces->first, faces->limit, &unused);
+    if (i >= 0) return power(&others[i], fraction, by_fraction);
+    value = power(first, fraction * faces->limit, by_fraction);
+    whole = power(first, faces->limit, &unused);
     *by_fraction *= faces->limit / whole;
     return value / whole;
 }
@@ -74,35 +76,50 @@ static double end_of(const ck_faces *faces, int i) {
     return i >= 0 ? faces->ends[i] : faces->limit;
 }
 
-/* Force on unloading from a maximum approach: the solved curves on both sides of it, mixed. */
-static double unloading_force(const ck_faces *faces, double approach, double largest, double *by_approach) {
+/* Unloading from a maximum approach: the solved curves on both sides of it, and how they mix. */
+typedef struct {
+    double residual, length, t;
+    int low, high;
+} mixture;
+
+static mixture mixed(const ck_faces *faces, double largest) {
     int lowest = faces->limit > 0.0 ? -1 : 0, high = lowest;
-    double unused, residual = plain(&faces->residual, largest, &unused);
-    double length = largest - residual, fraction = (approach - residual) / length;
-    double whole = power(&faces->first, largest, &unused), force, slope, other, by_other, t;
+    mixture m;
+    m.residual = ck_faces_residual(faces, largest), m.length = largest - m.residual, m.t = 0.0;
+    while (high < faces->count && end_of(faces, high) <= largest) high++;
+    m.low = high > lowest ? high - 1 : lowest;
+    m.high = high < faces->count && high > lowest ? high : m.low;
+    if (m.high > m.low)
+        m.t = log(largest / end_of(faces, m.low)) / log(end_of(faces, m.high) / end_of(faces, m.low));
+    return m;
+}
+
+/* Value on unloading over that at the maximum approach, and its slope by the approach. */
+static double unloading(const ck_faces *faces, const ck_curve *first, const ck_curve *others,
+                        const mixture *m, double approach, double *by_approach) {
+    double fraction = (approach - m->residual) / m->length, value, slope, other, by_other;
     *by_approach = 0.0;
     if (fraction <= 0.0) return 0.0;
-    while (high < faces->count && end_of(faces, high) <= largest) high++;
-    if (high == lowest || high == faces->count) {
-        force = unloading_curve(faces, high == lowest ? lowest : high - 1, fraction, &slope);
-    } else {
-        double low = end_of(faces, high - 1);
-        t = log(largest / low) / log(end_of(faces, high) / low);
-        force = unloading_curve(faces, high - 1, fraction, &slope), other = unloading_curve(faces, high, fraction, &by_other);
-        force = (1.0 - t) * force + t * other, slope = (1.0 - t) * slope + t * by_other;
+    value = unloading_curve(faces, first, others, m->low, fraction, &slope);
+    if (m->high > m->low) {
+        other = unloading_curve(faces, first, others, m->high, fraction, &by_other);
+        value = (1.0 - m->t) * value + m->t * other, slope = (1.0 - m->t) * slope + m->t * by_other;
     }
-    *by_approach = slope * whole / length;
-    return force * whole;
+    *by_approach = slope / m->length;
+    return value;
 }
 
 static double force_at(const ck_faces *faces, double approach, double largest, double *slope) {
-    double first, force, by_approach, most = faces->first.end;
+    double first, force, whole, by_approach, unused, most = faces->first.end;
+    mixture m;
     if (largest > most) largest = most;
     first = power(&faces->first, approach, slope);
     if (!faces->count || approach >= largest || largest <= faces->limit) return first;
-    force = unloading_force(faces, approach, largest, &by_approach);
+    m = mixed(faces, largest);
+    whole = power(&faces->first, largest, &unused);
+    force = whole * unloading(faces, &faces->first, faces->unloading, &m, approach, &by_approach);
     if (force > first) return first; /* interpolated above the loading curve */
-    *slope = by_approach;
+    *slope = whole * by_approach;
     return force;
 }
 
@@ -128,8 +145,39 @@ static double shared(const ck_faces *faces, double approach, double largest, dou
 ck_pressed ck_faces_pressed(const ck_faces *faces, double approach, double largest,
                             double stiffness) {
     ck_pressed found = {0.0, 0.0, approach};
-    if (approach > 0.0) found.approach = shared(faces, approach, largest, stiffness);
+    if (approach > 0.0 && stiffness > 0.0)
+        found.approach = shared(faces, approach, largest, stiffness);
     found.force = force_at(faces, found.approach, largest, &found.slope);
-    found.slope = found.slope * stiffness / (found.slope + stiffness);
+    if (stiffness > 0.0) found.slope = found.slope * stiffness / (found.slope + stiffness);
+    return found;
+}
+
+double ck_faces_residual(const ck_faces *faces, double largest) {
+    double unused, most = faces->first.end;
+    if (!faces->count || largest <= faces->limit) return 0.0;
+    return plain(&faces->residual, largest < most ? largest : most, &unused);
+}
+
+double ck_faces_dissipated(const ck_faces *faces, double largest) {
+    double unused;
+    return faces->count && largest > faces->limit ? plain(&faces->dissipated, largest, &unused) : 0.0;
+}
+
+ck_touching ck_faces_touching(const ck_faces *faces, const ck_pressed *pressed, double largest) {
+    double approach = pressed->approach, most = faces->first.end, unused, deepest;
+    ck_touching found = {0.0, 0.0, CK_FREE};
+    if (largest > most) largest = most;
+    deepest = approach > largest ? approach : largest;
+    found.plastic = plain(&faces->plastic, deepest < most ? deepest : most, &unused);
+    if (!(pressed->force > 0.0)) return found;
+    if (faces->count && approach < largest && largest > faces->limit) {
+        mixture m = mixed(faces, largest);
+        found.branch = CK_UNLOADING;
+        found.area = power(&faces->area, largest, &unused) *
+                     unloading(faces, &faces->area, faces->areas, &m, approach, &unused);
+        return found;
+    }
+    found.branch = approach > most * (1.0 + SAME) ? CK_BEYOND : CK_LOADING;
+    found.area = power(&faces->area, approach < most ? approach : most, &unused);
     return found;
 }

@@ -25,12 +25,15 @@ static const char *const NAMES[CK_VARIABLES] = {
     "F_mag", "F_spring", "F_stop", "i", "u", "flux",
     "R_coil", "N_turns", "A_pole", "g_air", "g_iron", "B_sat", "k_spring", "F_preload",
     "h_stop", "k_stop", "d_stop", "t_delay", "T_period", "t_on", "U_boost", "t_boost",
-    "U_hold", "U_off", "n_cycles"};
+    "U_hold", "U_off", "n_cycles",
+    "F_el", "contact_area", "plastic_area", "d", "d_max", "d_res", "W_d", "n_beyond",
+    "h_touch", "side", "scale", "k_body", "d_max0"};
 
 const char *ck_name(int id) { return NAMES[id]; }
 
 const ck_kind *ck_model_kind(const ck_model *model) {
-    static const ck_kind *const kinds[] = {&ck_stiction_mass, &ck_stiction_force, &ck_valve_drive};
+    static const ck_kind *const kinds[] = {&ck_stiction_mass, &ck_stiction_force, &ck_valve_drive,
+                                           &ck_contact_stop};
     return kinds[model->data.kind];
 }
 
@@ -356,7 +359,7 @@ int ck_model_step(ck_model *model, double time, double step) {
 }
 
 int ck_model_restore(ck_model *model, const ck_state *state) {
-    int count = model->data.kind == CK_VALVE_DRIVE ? 1 : model->data.scene.film_count;
+    int count = model->data.kind >= CK_VALVE_DRIVE ? 1 : model->data.scene.film_count;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
         state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
         state->memory.film < 0 || state->memory.film >= count)
@@ -373,7 +376,7 @@ int ck_model_restore(ck_model *model, const ck_state *state) {
 /* Outputs that are no continuous numbers change in event mode only, and the event a step ended for
    is applied in it. Between two events the host sees what it has seen; `latest` is what is true. */
 static const int HELD[CK_HELD] = {CK_STATE,     CK_LIMIT,    CK_T_BREAK, CK_T_RELEASE, CK_N_BREAK,
-                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U};
+                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U, CK_N_BEYOND};
 
 static int holds(const ck_model *model) {
     return model->event_mode && model->state.phase == CK_STEPPING;

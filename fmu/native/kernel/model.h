@@ -2,7 +2,7 @@
 
    Common to all models (model.c): ports, phases, refusals. `stiction-mass` is in mass.c, a mass
    with its film; `stiction-force` in force.c, a film for a tool that owns the mass; `valve-drive`
-   in drive.c, which has no film. Which of them an instance is says its file of data.
+   in drive.c and `contact-stop` in stop.c, which have no film. Which of them an instance is says its file of data.
 
    A step that cannot be taken is discarded: its reason is logged, nothing has changed, and a shorter
    one may do. Any other failure is logged with its cure and remembered: outputs stay at their last
@@ -16,7 +16,7 @@
 
 #include <stdint.h>
 
-enum { CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1, CK_VALVE_DRIVE = 2 };
+enum { CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1, CK_VALVE_DRIVE = 2, CK_CONTACT_STOP = 3 };
 /* Types of variables, as bits: a call of one version of FMI may take several of them. */
 enum { CK_REAL = 1, CK_INTEGER = 2, CK_ENUMERATION = 4, CK_BOOLEAN = 8 };
 enum { CK_INPUT = 0, CK_OUTPUT = 1, CK_PARAMETER = 2 };
@@ -36,10 +36,12 @@ enum {
     CK_R_COIL, CK_N_TURNS, CK_A_POLE, CK_G_AIR, CK_G_IRON, CK_B_SAT, CK_K_SPRING, CK_F_PRELOAD,
     CK_H_STOP, CK_K_STOP, CK_D_STOP, CK_T_DELAY, CK_T_PERIOD, CK_T_ON, CK_U_BOOST, CK_T_BOOST,
     CK_U_HOLD, CK_U_OFF, CK_N_CYCLES,
+    CK_F_EL, CK_CONTACT_AREA, CK_PLASTIC_AREA, CK_D, CK_D_MAX, CK_D_RES, CK_W_D, CK_N_BEYOND,
+    CK_H_TOUCH, CK_SIDE, CK_SCALE, CK_K_BODY, CK_D_MAX0,
     CK_VARIABLES
 };
 
-enum { CK_HELD = 9 }; /* outputs that change at events only */
+enum { CK_HELD = 10 }; /* outputs that change at events only */
 
 typedef struct {
     int id, type, causality;
@@ -53,7 +55,7 @@ typedef struct {
     int kind, port_count;
     ck_port ports[CK_VARIABLES];
     ck_scene scene; /* of a film */
-    ck_faces faces; /* of a drive */
+    ck_faces faces; /* of a drive, or a stop */
     double *numbers;
     ck_cell *cells;
     int hints[CK_FILMS * (CK_LAWS + 1) * CK_PIECES];
@@ -75,6 +77,13 @@ typedef struct {
     int pending, padding;
 } ck_driven;
 
+/* What a stop remembers: the largest approach of its faces, and where the last step ended, with
+   the damping there. */
+typedef struct {
+    double largest, depth, damping;
+    int beyond, padding;
+} ck_stopped;
+
 /* Everything that changes, in one piece without pointers. `stale`: the parameters were set since
    the outputs were made; `shown`: the outputs in `values` are those of the state it is in; `event`:
    outputs that change in event mode only are not. */
@@ -87,6 +96,7 @@ typedef struct {
     ck_motion motion; /* of stiction-mass */
     ck_memory memory; /* of stiction-force */
     ck_driven driven; /* of valve-drive */
+    ck_stopped stopped; /* of contact-stop */
     int phase, failed, stale, shown, event;
     int has_rtol; /* the host has set `rtol`: its tolerance does not stand for it any more */
 } ck_state;
@@ -118,7 +128,7 @@ typedef struct {
     int (*rate)(const ck_model *model, int output, double *rate);
 } ck_kind;
 
-extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive;
+extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive, ck_contact_stop;
 
 /* Reading the file (data.c); the message says what is wrong with it, NULL if nothing is. */
 const char *ck_data_read(const char *path, ck_data *data);

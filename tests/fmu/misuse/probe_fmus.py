@@ -22,7 +22,7 @@ from native_scenes import HAS_CC, SCENES
 import contactkit as ck
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
-from contactkit.fmu.native.drive import build_native_drive
+from contactkit.fmu.native.drive import build_native_drive, build_native_stop
 from contactkit.fmu.python.build import FMUS, build
 
 HERE = Path(__file__).parent
@@ -63,7 +63,11 @@ RUNS = {
 """Start values, and the length and the inputs of every step."""
 
 NATIVE = (
-    [(model, fmi) for model in ("stiction-mass", "stiction-force", "valve-drive") for fmi in (2, 3)]
+    [
+        (model, fmi)
+        for model in ("stiction-mass", "stiction-force", "valve-drive", "contact-stop")
+        for fmi in (2, 3)
+    ]
     if HAS_CC
     else []
 )
@@ -82,6 +86,8 @@ def build_one(name: str, folder: Path) -> Path:
     more = {"fmi": int(fmi), "platforms": [local()], "compiler": "cc"}
     if model == "valve-drive":
         return build_native_drive(out, curve=rough() if fmi == "2" else None, **more)
+    if model == "contact-stop":
+        return build_native_stop(out, curve=rough(), **more)
     scene = SCENES["drop"]
     effects = (*scene.effects, ck.TensionLimit(tension=1e6))
     scene = attrs.evolve(scene, effects=effects)

@@ -28,7 +28,8 @@ from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.master.injector import Fmu, cosimulate  # noqa: E402
 from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
-from contactkit.fmu.native.drive import build_native_drive, face_numbers  # noqa: E402
+from contactkit.fmu.native.drive import build_native_drive  # noqa: E402
+from contactkit.fmu.native.faces import face_numbers  # noqa: E402
 from contactkit.fmu.python.build import build, validate  # noqa: E402
 from contactkit.fmu.slaves.valve_drive import ValveDrive  # noqa: E402
 
@@ -293,7 +294,7 @@ def test_what_cannot_be_built_is_refused(tmp_path):
         build_native_drive(out, platforms=[])
     with pytest.raises(PlanError, match="has no film"):
         native_scene("valve-drive")
-    with pytest.raises(PlanError, match="65; make it with fewer"):
+    with pytest.raises(PlanError, match="65; make them with fewer"):
         build_native_drive(out, curve=rough(count=65), **ONE)
     assert not out.exists()
 
