@@ -75,11 +75,13 @@ static void start(ck_model *model) {
 static int show(ck_model *model) {
     double *v = model->state.values;
     answer a = look_up(model);
-    v[CK_F_EL] = a.elastic, v[CK_F] = a.elastic * a.gain, v[CK_K] = a.stiffness;
-    v[CK_C] = a.gain > 0.0 ? a.elastic * v[CK_D_STOP] : 0.0;
+    double damping = a.gain > 0.0 ? a.elastic * v[CK_D_STOP] : 0.0;
+    if (!isfinite(a.elastic * a.gain) || !isfinite(a.stiffness + damping) || !isfinite(a.approach))
+        return 0;
+    v[CK_F_EL] = a.elastic, v[CK_F] = a.elastic * a.gain, v[CK_K] = a.stiffness, v[CK_C] = damping;
     v[CK_CONTACT_AREA] = a.area, v[CK_PLASTIC_AREA] = a.plastic;
     v[CK_D] = a.approach, v[CK_STATE] = a.branch;
-    return isfinite(v[CK_F] + v[CK_K]) && isfinite(v[CK_C] + a.approach);
+    return 1;
 }
 
 static void warn(ck_model *model, double approach, double time) {

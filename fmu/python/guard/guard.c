@@ -31,11 +31,13 @@ EACH(DECLARE)
 #define LINE 200
 static const char NEWEST = 19, OLDEST = 11; /* versions of Python 3 to look for */
 
-typedef struct {
+typedef struct instance {
     fmi2Component inner;
     fmi2CallbackFunctions callbacks; /* pythonfmu keeps the address and calls the logger unasked */
-    char *name;
+    char *name, *folder;
+    fmi2Boolean visible;
     int lost; /* the library called it fatal, and has freed it */
+    struct instance *next;
 } instance;
 
 /* Logging ------------------------------------------------------------------------------------ */
@@ -158,28 +160,94 @@ static const char *check(fmi2String name, fmi2Type type, fmi2String guid, fmi2St
     return load();
 }
 
+static char *copy_of(const char *text) {
+    char *copy = (char *)malloc((text ? strlen(text) : 0) + 1);
+    if (copy) strcpy(copy, text ? text : "");
+    return copy;
+}
+
 static void give_up(instance *own) {
-    if (own) free(own->name);
+    if (!own) return;
+    free(own->name);
+    free(own->folder);
     free(own);
+}
+
+/* Instances that were freed serve again: of each one it makes, pythonfmu keeps a part for ever. */
+enum { MOST_IDLE = 16 };
+static instance *idle;
+static char idle_busy;
+
+static void hold(void) {
+    while (__atomic_exchange_n(&idle_busy, 1, __ATOMIC_ACQUIRE)) continue;
+}
+
+static void let_go_of(void) { __atomic_store_n(&idle_busy, 0, __ATOMIC_RELEASE); }
+
+/* Keep an instance for later; the one that is too many, or NULL. */
+static instance *put_aside(instance *own) {
+    instance **last = &idle, *spare;
+    int count = 0;
+    own->callbacks.logger = deaf; /* that of the host may be gone */
+    hold();
+    own->next = idle, idle = own;
+    while (*last && count++ < MOST_IDLE) last = &(*last)->next;
+    spare = *last;
+    *last = NULL;
+    let_go_of();
+    return spare;
+}
+
+/* One that was put aside, with the name and in the folder of a new one; NULL if there is none. */
+static instance *take_back(const instance *new) {
+    instance **at = &idle, *found;
+    hold();
+    while (*at && (strcmp((*at)->name, new->name) || strcmp((*at)->folder, new->folder) ||
+                   (*at)->visible != new->visible))
+        at = &(*at)->next;
+    found = *at;
+    if (found) *at = found->next;
+    let_go_of();
+    return found;
+}
+
+/* Instance of the library: one that was put aside and could be reset, or a new one. */
+static instance *make(instance *new, fmi2String guid) {
+    instance *old = take_back(new);
+    fmi2Status status = fmi2Fatal;
+    if (old) {
+        old->callbacks = new->callbacks;
+        status = inner_SetDebugLogging(old->inner, fmi2True, 0, NULL);
+        if (status == fmi2OK) status = inner_Reset(old->inner);
+        if (status == fmi2OK) {
+            give_up(new);
+            return old;
+        }
+        if (status != fmi2Fatal) inner_FreeInstance(old->inner);
+        give_up(old);
+    }
+    /* a plain path: of a URI pythonfmu would undo nothing but blanks */
+    new->inner = inner_Instantiate(new->name, fmi2CoSimulation, guid, new->folder, &new->callbacks,
+                                   new->visible, fmi2True);
+    return new;
 }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
                               fmi2Boolean logs) {
     instance *own = (instance *)calloc(1, sizeof *own);
-    char folder[PATH];
+    char folder[PATH] = "";
     const char *problem;
     void *handle = NULL;
     fmi2String errors = "logStatusError";
     if (!own) return NULL;
     if (functions) own->callbacks = *functions;
     if (!own->callbacks.logger) own->callbacks.logger = deaf;
-    own->name = (char *)calloc(1, (name ? strlen(name) : 0) + 1);
-    if (own->name && name) strcpy(own->name, name);
-    problem = own->name ? check(name, type, guid, resources, folder) : "there is no memory left";
+    problem = check(name, type, guid, resources, folder);
+    own->name = copy_of(name), own->folder = copy_of(folder), own->visible = visible;
+    if (!own->name || !own->folder) problem = "there is no memory left";
     if (!problem) {
-        /* a plain path: of a URI pythonfmu would undo nothing but blanks */
-        own->inner = inner_Instantiate(name, type, guid, folder, &own->callbacks, visible, fmi2True);
+        own = make(own, guid);
         /* Why it refuses is no debugging, and said to a host that wants none of that, too. */
         if (own->inner && !logs) inner_SetDebugLogging(own->inner, fmi2True, 1, &errors);
         if (own->inner && !(handle = ck_handle_new(CK_INSTANCES, own))) {
@@ -193,10 +261,12 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
 }
 
 void fmi2FreeInstance(fmi2Component c) {
-    instance *own = (instance *)ck_handle_free(CK_INSTANCES, c);
+    instance *own = (instance *)ck_handle_free(CK_INSTANCES, c), *spare = own;
     if (!own) return;
-    if (!own->lost) inner_FreeInstance(own->inner);
-    give_up(own);
+    if (!own->lost) spare = put_aside(own);
+    if (!spare) return;
+    if (!spare->lost) inner_FreeInstance(spare->inner);
+    give_up(spare);
 }
 
 #define OWN(c)                                                                                   \
