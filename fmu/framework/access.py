@@ -32,7 +32,8 @@ class PortAccess(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        cls._tables = Tables(cls.ports)
+        if "ports" in cls.__dict__:  # one that inherits them shares their tables
+            cls._tables = Tables(cls.ports)
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -50,27 +50,22 @@ BAKERS = dict.fromkeys(("contact-stop", "valve-drive", "tip-contact"), "contents
 _SCRIPT = '''\
 """Main script of this FMU: contactkit wrote it, pythonfmu loads it."""
 
-import ctypes
-
 from {package}.fmu.python.integrity import verify
 from {package}.fmu.slaves.{module} import {class_name} as Model
 
-# pythonfmu 0.7 executes this file for each instance, and each time gives back a reference to its
-# namespace that it never took: here is that reference.
-ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
 
-if {class_name!r} not in globals():
+class {class_name}(Model):
+    """The model with the start values of this build."""
 
-    class {class_name}(Model):
-        """The model with the start values of this build."""
+    build = {build!r}
+    baked = {baked!r}
 
-        build = {build!r}
-        baked = {baked!r}
-
-        def __init__(self, **kwargs):
-            record = verify(kwargs["resources"], self.build)
-            type(self).data = record["data"]  # tables, under the hash of the build
-            super().__init__(**kwargs)
+    # The class needs a method of its own: pythonfmu 0.7 gives back a reference to this module's
+    # namespace that it never took, each time it instantiates, and only a function renews one.
+    def __init__(self, **kwargs):
+        record = verify(kwargs["resources"], self.build)
+        type(self).data = record["data"]  # tables, under the hash of the build
+        super().__init__(**kwargs)
 '''
 
 # pythonfmu's builder leaves its traces in sys.path and sys.modules; another process keeps them
