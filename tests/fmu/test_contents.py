@@ -184,13 +184,14 @@ def page(**more):
 
 def test_the_page_names_every_variable_with_its_start():
     cells = read(page())
-    rows = {cells[at]: cells[at : at + 8] for at in range(0, len(cells), 8)}
+    rows = {cells[at]: cells[at : at + 9] for at in range(0, len(cells), 9)}
     assert list(rows) == [port.name for port in PORTS]
     for port in PORTS:
         assert rows[port.name][1] == ("" if port.unit == "-" else port.unit)
-        assert rows[port.name][7] == port.label
-    assert rows["h0"][5] == "5e-06"
-    assert rows["meniscus_law"][5] == "EXACT"
+        assert rows[port.name][4] == port.group
+        assert rows[port.name][8] == port.label
+    assert rows["h0"][6] == "5e-06"
+    assert rows["meniscus_law"][6] == "EXACT"
 
 
 def test_the_page_says_what_acts_what_does_not_and_by_whom():
