@@ -126,7 +126,7 @@ class SelfAffineRoughness(RoughSurface):
 
 @frozen(kw_only=True)
 class Measured(RoughSurface):
-    """A height map from a file: the formats of instruments, npy, or plain columns of text.
+    """A height map from a file: npy, columns of text, ISO 25178-71 as text, formats of instruments.
 
     Parameters
     ----------
