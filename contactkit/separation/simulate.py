@@ -58,7 +58,8 @@ def simulate(
         What to run.
     throw : bool
         Raise where an integration does not reach its tolerance, or where a force pushes a mass that
-        does not open; otherwise return what was reached, with status ``not converged`` or ``stuck``.
+        does not open; otherwise return what was reached, with status ``not converged`` or
+        ``stuck``.
     progress : callable, optional
         Called with the fraction that is done.
 
