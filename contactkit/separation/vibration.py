@@ -22,6 +22,7 @@ from ..errors import InfeasibleError
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.roots import bracketed_root, first_true
 from ..scene.loading import ImposedSpeed, Vibration
+from ..units import length_text
 from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
@@ -193,7 +194,7 @@ def vibrating(
     return SeparationResult(
         plan,
         "curve",
-        _message(path, end, breaks, len(cycles)),
+        _message(path, end, _Break(breaks, film.end), len(cycles)),
         with_late_curves(plan, columns),
         impulses,
         None,
@@ -202,7 +203,14 @@ def vibrating(
     )
 
 
-def _message(path: VibrationPath, end: float, breaks: float, drawn: int) -> str:
+class _Break(NamedTuple):
+    """Time [s] and gap [m] at which a film breaks; inf for never."""
+
+    time: float
+    gap: float
+
+
+def _message(path: VibrationPath, end: float, broke: _Break, drawn: int) -> str:
     count = end * path.vibration.frequency
     said = (
         f"opened from {path.begin:g} m to {path.mean(end):g} m on the mean, in {count:.6g} cycles "
@@ -210,7 +218,9 @@ def _message(path: VibrationPath, end: float, breaks: float, drawn: int) -> str:
     )
     if math.ceil(count) > drawn:
         said += f", of which {drawn} were computed"
-    return said + (f"; the film broke after {breaks:.6g} s" if breaks <= end else "")
+    if broke.time > end:
+        return said
+    return f"{said}; the film broke at {length_text(broke.gap)}, after {broke.time:.6g} s"
 
 
 def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, float]]:

@@ -31,7 +31,8 @@ def filled(gap, face=1e-3):
 def run(scene):
     result = ck.simulate(ck.plan(scene))
     for name, curve in result.columns.items():
-        assert np.isfinite(curve).all(), name
+        # A cylinder or a disc never breaks: its gap to break at is inf.
+        assert np.isfinite(curve).all() or name == "break_gap", name
     assert all(math.isfinite(value) for value, _ in result.scalars().values())
     return result
 
