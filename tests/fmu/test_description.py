@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 import zipfile
 from enum import IntEnum
+from importlib import import_module
+from itertools import pairwise
 from xml.etree import ElementTree
 
 import pytest
 
 from contactkit.errors import DescriptionError
-from contactkit.fmu.framework.ports import Port, display_conversion, find_port
+from contactkit.fmu.framework.ports import Port, display_conversion, find_port, grouped
 from contactkit.fmu.framework.slave import PortSlave
+from contactkit.fmu.python.build import FMUS, build
 
 
 @pytest.fixture(scope="module")
@@ -162,3 +165,41 @@ def test_headings_carry_the_unit(toy_module):
     headings = [p.heading for p in toy_module.Toy.ports]
     assert headings[:2] == ["u [N]", "n"]
     assert find_port(toy_module.Toy.ports, "tau").heading == "tau [s]"
+
+
+# What tools show and scale by ---------------------------------------------------------------
+
+
+def models():
+    """Class of each FMU, by its name."""
+    for name, (module, kind) in FMUS.items():
+        if name != "toy":
+            yield name, getattr(import_module(f"contactkit.fmu.{module}"), kind)
+
+
+@pytest.mark.parametrize(("name", "model"), list(models()))
+def test_parameters_are_in_groups_and_what_masters_scale_has_a_size(name, model):
+    groups = [port.group for port in model.ports if port.causality == "parameter"]
+    assert all(groups)
+    assert len(dict.fromkeys(groups)) == 1 + sum(a != b for a, b in pairwise(groups))
+    scaled = [p for p in model.ports if p.unit in ("N", "m/s", "N.s", "N/s", "J", "m/s2")]
+    sizes = {p.name: p.nominal for p in scaled if p.causality != "parameter" and p.name != "F_max"}
+    assert [name for name, size in sizes.items() if not size] == []
+
+
+def test_groups_hold_every_parameter_once():
+    ports = (Port("a", "m", causality="parameter", label="a"),)
+    assert grouped(ports, {"all": ("a",)})[0].group == "all"
+    for groups in ({}, {"all": ("a", "b")}, {"all": ("a",), "again": ("a",)}):
+        with pytest.raises(DescriptionError, match="name every parameter once"):
+            grouped(ports, groups)
+
+
+def test_the_mass_says_its_groups_and_that_its_speed_is_a_rate(shelf):
+    with zipfile.ZipFile(shelf(build, "stiction-mass")) as packed:
+        root = ElementTree.fromstring(packed.read("modelDescription.xml"))
+    names = [node.get("name") for node in root.find("ModelVariables")]
+    assert variable(root, "v")[0].get("derivative") == str(1 + names.index("h"))
+    dialog = variable(root, "eta").find("Annotations/Tool[@name='contactkit']/Dialog")
+    assert dialog.get("group") == "liquid"
+    assert root.find("DefaultExperiment").get("tolerance") == "1e-08"

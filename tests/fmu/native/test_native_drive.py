@@ -102,6 +102,31 @@ def host(fmu, open_fmu):
     return open_fmu(fmu)
 
 
+# Derivatives of its outputs ---------------------------------------------------------------------
+
+
+def test_derivatives_of_its_outputs_are_mean_slopes_of_the_last_step(fmu, fmu3, host):
+    for path in (fmu, fmu3):
+        about = fmpy.read_model_description(str(path)).coSimulation
+        assert about.maxOutputDerivativeOrder == 1
+    references = {name: v.valueReference for name, v in host.variables.items()}
+    host.start(t_delay=0.0, h=5e-6, v=0.02)
+    assert host.step(1e-4) == OK
+    host.set(h=7e-6)
+    before = host.outputs()
+    assert host.step(1e-4) == OK
+    after = host.outputs()
+    for name in FORCES:
+        (found,) = host.slave.getRealOutputDerivatives([references[name]], [1])
+        expected = 0.0 if name == "u" else (after[name] - before[name]) / 1e-4
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9), name
+    assert after["dF_ext"] == pytest.approx((after["F_ext"] - before["F_ext"]) / 1e-4)
+    for name, order in (("F_ext", 2), ("h", 1)):
+        with pytest.raises(fmpy.fmi1.FMICallException):
+            host.slave.getRealOutputDerivatives([references[name]], [order])
+    assert host.step(1e-4) == OK  # nothing is remembered of what was asked for
+
+
 # What it says ---------------------------------------------------------------------------------
 
 
