@@ -15,7 +15,7 @@ from selection import quick
 import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.stability import stability_limit
-from contactkit.errors import DescriptionError, PlanError
+from contactkit.errors import ConvergenceError, DescriptionError, PlanError
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_mass import (
     PORTS,
@@ -473,3 +473,15 @@ def test_the_pressure_around_limits_a_liquid_that_boils():
     kept = tuple(e for e in scene.effects if not isinstance(e, ck.TensionLimit))
     boils = ck.TensionLimit(tension="vapour", ambient_pressure=5e4)
     assert mass_values(attrs.evolve(scene, effects=(*kept, boils)))["dp_cav"] == 5e4
+
+
+def test_messages_name_the_parameters_of_the_fmu():
+    slave = StictionMass(instance_name="direct")
+    said = {
+        "loosen Accuracy.time_rtol or raise Accuracy.max_steps": "loosen rtol",
+        "give loading.rest_gap [m], where they carry": "give h_min [m], where they carry",
+        "ImposedForce.final_gap must exceed 1 m": "h_rel must exceed 1 m",
+        "Liquid.viscosity must be positive": "eta must be positive",
+    }
+    for text, expected in said.items():
+        assert slave._explain(ConvergenceError(text)) == expected
