@@ -46,6 +46,13 @@ class Body(Described):
         """The solid as a stack; None if rigid."""
         return Stack(substrate=self.solid) if isinstance(self.solid, Material) else self.solid
 
+    @property
+    def elastic_stack(self) -> Stack:
+        """The solid as a stack; a rigid body is refused."""
+        if self.stack is None:
+            raise PlanError("a rigid body has no stress: give its solid, a Material or a Stack")
+        return self.stack
+
 
 def as_body(value: Any) -> Any:
     """Take a bare surface, or a topography, for a rigid body of that surface."""

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from contact_effort import best_of, fast_table, ratio_table, solver_table
 from measured_blocks import measure
+from stress_tables import depth_table, reading_table, stress_cost_table
 from validation_tables import grid
 
 import contactkit as ck
@@ -77,8 +78,7 @@ def sphere_table() -> str:
         solid, width = stack(case["layers"]), 2.5 * case["contact_radius"] * A0
         cells: list[str] = []
         for friction, wanted in case["maxima"].items():
-            depths = sorted({*(float(z) * A0 for z in np.linspace(0.0, 1.0, 17))})
-            stress = ck.SubsurfaceStress(depths=depths, window=128.0)
+            stress = ck.SubsurfaceStress(tolerance=1e-4, window=128.0)
             mu = float(friction)
             slid = (ck.FrictionTraction(coefficient=mu),) if mu else ()
             run = sphere(solid, width, 80, stress, *slid)
@@ -242,6 +242,9 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "waves": wave_table,
     "area": area_table,
     "pixels": pixels_table,
+    "readings": reading_table,
+    "depths": depth_table,
+    "stress-cost": stress_cost_table,
     "solver": solver_table,
     "fast": fast_table,
     "ratios": ratio_table,

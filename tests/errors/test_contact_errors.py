@@ -99,6 +99,7 @@ FIELDS = [
     (FRICTION, "coefficient", "", BETWEEN, [-0.1, 1.1, None]),
     (FRICTION, "direction", "rad", FINITE, [None]),
     (ck.SubsurfaceStress(), "window", "", POSITIVE, [0.0, -1.0, None]),
+    (ck.SubsurfaceStress(), "tolerance", "", POSITIVE, [0.0, -0.1, None]),
     (WET, "film_thickness", "m", POSITIVE, [0.0, -1e-9, None]),
     (WET, "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
     (WET, "connectivity", "", "be 4 or 8 neighbours", [0, 6, None]),
@@ -108,7 +109,12 @@ FIELDS = [
     (ck.Accuracy(), "threads", "", WHOLE, [0, -5, 1.5, None]),
 ]
 # Checked apart: arrays, and depths, which are many.
-ELSEWHERE = {("Heights", "heights"), ("HardnessMap", "values"), ("SubsurfaceStress", "depths")}
+ELSEWHERE = {
+    ("Heights", "heights"),
+    ("HardnessMap", "values"),
+    ("SubsurfaceStress", "depths"),
+    ("SubsurfaceStress", "coefficients"),
+}
 OF_A_SEPARATION = {"time_rtol", "points", "max_steps"}
 
 
@@ -179,6 +185,14 @@ def test_the_list_above_is_complete():
             lambda: ck.SubsurfaceStress(depths=(-1e-8, 1e-8)),
             ("SubsurfaceStress.depths must be zero or positive, and finite [m], got -1e-08",),
         ),
+        (
+            lambda: ck.SubsurfaceStress(coefficients=(0.1, 1.5)),
+            ("SubsurfaceStress.coefficients must lie between 0 and 1", "1.5"),
+        ),
+        (
+            lambda: ck.SubsurfaceStress(coefficients=(0.1, 0.1)),
+            ("SubsurfaceStress.coefficients must be different from each other",),
+        ),
         (lambda: ck.HardnessMap([[1e9, -1.0]]), ("HardnessMap.values must", "[Pa]", "(1, 2)")),
         (lambda: ck.HardnessMap([[1e9, math.nan]]), ("HardnessMap.values must", "[Pa]")),
         (lambda: ck.HardnessMap([1e9, 1e9]), ("HardnessMap.values must have two dimensions",)),
@@ -219,6 +233,7 @@ def test_a_pull_is_a_matter_of_separation():
         (lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'literal'"),
         (lambda: ck.HardnessLimit(displacement="other"), "HardnessLimit.displacement", "'local'"),
         (lambda: ck.SubsurfaceStress(keep="other"), "SubsurfaceStress.keep", "'planes'"),
+        (lambda: ck.SubsurfaceStress(reading="other"), "SubsurfaceStress.reading", "'uniform'"),
         (lambda: ck.Measured(path="x", detrend="other"), "Measured.detrend", "'curvature'"),
         (lambda: ck.Accuracy(method="other"), "Accuracy.method", "'active-set'"),
     ],
@@ -345,6 +360,21 @@ def test_an_effect_of_something_else_is_refused_with_the_known_ones(effect):
             (HALF_SPACE, ck.FrictionCoupling()),
             {},
             ("FrictionCoupling needs FrictionTraction(coefficient=...) beside it",),
+        ),
+        (
+            (HALF_SPACE, ck.SubsurfaceStress(coefficients=(0.1,))),
+            {},
+            ("SubsurfaceStress needs FrictionTraction(coefficient=...) beside it",),
+        ),
+        (
+            (
+                HALF_SPACE,
+                ck.FrictionTraction(coefficient=0.1),
+                ck.FrictionCoupling(),
+                ck.SubsurfaceStress(coefficients=(0.1,)),
+            ),
+            {},
+            ("SubsurfaceStress needs one scene for each of its coefficients [-]",),
         ),
         (
             (HALF_SPACE, STRESS),

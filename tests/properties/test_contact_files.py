@@ -264,7 +264,7 @@ CALLED = {
     "coupled friction": (FRICTION, ck.FrictionCoupling()),
     "film": (ck.FilmMeniscus(film_thickness=1e-9),),
     "islands": (ck.IslandBridges(film_thickness=2e-10),),
-    "section": (FRICTION, ck.SubsurfaceStress(depths=(0.0, 1e-8, 3e-8))),
+    "section": (FRICTION, ck.SubsurfaceStress(depths=(0.0, 1e-8, 3e-8), coefficients=(0.0, 0.5))),
     "planes": (ck.SubsurfaceStress(depths=(0.0, 1e-8), keep="planes"), ck.HardnessLimit()),
 }
 

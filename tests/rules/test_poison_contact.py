@@ -33,7 +33,7 @@ OWNED = {
         *FIELDS,
     },
     ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
-        "elasticity.stress.planes.planes",
+        "elasticity.stress.reading.*",
         "elasticity.stress.maxima.*",
         "elasticity.stress.measures.*",
         "elasticity.layered_fields.*",
@@ -160,7 +160,7 @@ HEARTS = [
         "periodic",
         "elasticity.stress.tractions.traction_coupling",
     ),
-    ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.planes.planes"),
+    ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.maxima.plane_maxima"),
     ((ck.FilmMeniscus(film_thickness=1e-9),), "periodic", "capillary.film_islands.meniscus_area"),
 ]
 
@@ -207,10 +207,13 @@ def test_what_a_scene_does_not_call_for_is_not_transformed(monkeypatch, edges):
             (ck.SubsurfaceStress(depths=(1e-8,)),),
             (ck.SubsurfaceStress(depths=(1e-8,)), none),
             (ck.SubsurfaceStress(depths=(1e-8,)), friction),
-            (ck.SubsurfaceStress(depths=(1e-8, 2e-8)), friction),
+            (ck.SubsurfaceStress(depths=(1e-8,), coefficients=(0.0, 0.1, 0.5)), friction),
+            (ck.SubsurfaceStress(depths=(1e-8, 2e-8), coefficients=(0.0, 0.1, 0.5)), friction),
         )
     ]
-    assert alone[0] < counts[0] == counts[1] < counts[2] < counts[3]
+    # The traction is a multiple of the pressure, and stress is linear in the coefficient.
+    assert alone[0] < counts[0] == counts[1] == counts[2] < counts[3] < counts[4]
+    assert counts[3] - counts[2] < counts[2] - alone[0]  # three more take those of one
 
 
 def test_every_effect_and_every_choice_is_poisoned():

@@ -86,10 +86,15 @@ class FrictionTraction(Observer[FrictionPart]):
         """See `Effect.sources`."""
         return ("traction mu p on the pressure without friction: Goodman 1962, Eq. (2.24)",)
 
+    @property
+    def direction_cosines(self) -> TractionRatio:
+        """Direction of the traction on the lower body: that for a coefficient of 1."""
+        return TractionRatio(math.cos(self.direction), math.sin(self.direction))
+
     def components(self) -> TractionRatio:
         """Traction on the lower body per unit of pressure."""
-        along_x, along_y = math.cos(self.direction), math.sin(self.direction)
-        return TractionRatio(self.coefficient * along_x, self.coefficient * along_y)
+        along = self.direction_cosines
+        return TractionRatio(self.coefficient * along.x, self.coefficient * along.y)
 
     def observe(self, contact: Contact) -> FrictionPart:
         """See `Observer.observe`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
@@ -11,26 +11,31 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 from attrs import Attribute, field, frozen
 
-from ...elasticity.stress import measures as stress_measures
-from ...elasticity.stress.maxima import Maximum, maxima
-from ...elasticity.stress.planes import Plane, planes
+from ...elasticity.depths import default_depths
+from ...elasticity.stress.maxima import DepthSearch, Maximum, plane_maxima
+from ...elasticity.stress.planes import Plane, StressField
+from ...elasticity.stress.reading import READINGS, Reading
 from ...elasticity.stress.tractions import Tractions
 from ...units import si
-from ...validators import choice, non_negative, positive, refuse
-from .base import Contact, Observer, Scalar
+from ...validators import choice, fraction, non_negative, positive, refuse
+from .base import Contact, DisplacementTerm, Observer, Scalar
 from .elasticity import layers_of
 from .friction import FrictionTraction
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
+    from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
-    from ...scene.window import Grid
 
     Map = NDArray[np.float64]
+    Place = tuple[float, str]
 
-__all__ = ["StressPart", "SubsurfaceStress", "scan"]
+__all__ = ["FrictionStress", "StressPart", "SubsurfaceStress"]
+
+_MOST = 64  # planes of one search
+_FIRST = 6  # planes of a search to begin with, down to two radii of the sharpest spot
+_HIGH = 0.5  # of the maximum pressure: where it is larger, a spot
 
 
 def _tuple(value: Any) -> tuple[float, ...] | None:
@@ -52,15 +57,30 @@ def _at_least_one(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "be at least 1: repetitions cannot overlap")
 
 
+def _coefficients(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    for coefficient in value:
+        fraction(owner, attribute, coefficient)
+    if len(set(value)) < len(value):
+        raise refuse(owner, attribute, value, "be different from each other")
+
+
+class FrictionStress(NamedTuple):
+    """Maxima of the stress for a coefficient of friction, by the names of the measures."""
+
+    coefficient: float
+    maxima: Mapping[str, Maximum]
+
+
 class StressPart(NamedTuple):
     """Stress in the lower body: its maxima, a section, and all planes if they were kept.
 
     `depth` [m], `side` ("+" below a depth, "-" above) and `layer` (0: the topmost) name the
-    planes, n of them; at an interface there are two. `maxima` holds value and place of the
+    planes, n of them; at an interface there are two. `maxima` holds value, place and error of the
     largest "von_mises", "sqrt_j2", "tension" (largest principal stress), "tresca" (largest shear
     stress) and "sigma_xz". `section` (6, n, nx) is the stress [Pa] under the row of pixels `row`
     with the largest pressure; `largest_von_mises` (n) [Pa] that of each plane. `planes` (6, n,
-    ny, nx) is there with ``keep="planes"`` only.
+    ny, nx) is there with ``keep="planes"`` only; `by_friction` has the maxima for each of the
+    further coefficients of friction.
     """
 
     depth: Map
@@ -71,40 +91,58 @@ class StressPart(NamedTuple):
     section: Map
     largest_von_mises: Map
     planes: Map | None
+    by_friction: tuple[FrictionStress, ...] = ()
 
 
 _MEASURES = ("von_mises", "tension", "tresca", "sigma_xz", "sqrt_j2")
-_OF_A_MAXIMUM = (("", "value", "Pa"), ("_depth", "z", "m"), ("_layer", "layer", "-"))
+_OF_A_MAXIMUM = (
+    ("", "value", "Pa"),
+    ("_depth", "z", "m"),
+    ("_layer", "layer", "-"),
+    ("_error", "error", "-"),
+)
 
 
-def _read(measure: str, field: str, part: StressPart) -> float:
+def _read(measure: str, field: str, part: StressPart) -> float | None:
     number: float = getattr(part.maxima[measure], field)
-    return number
+    return None if math.isnan(number) else number
 
 
 @frozen(kw_only=True)
 class SubsurfaceStress(Observer[StressPart]):
-    """Stress in the lower body, on planes at given depths and on both faces of each interface.
+    """Stress in the lower body, on planes at depth and on both faces of each interface.
 
     In-plane stresses jump at interfaces, so a maximum may sit on either face. Where friction
-    acts its traction is included. Maxima are those of the pixels of the planes: choose depths
-    closer than the size of a contact spot.
+    acts its traction is included. Maxima are those of the pixels of the planes; each comes with
+    an estimate of how much larger the stress may be between the planes.
 
     Parameters
     ----------
     depths : tuple of float, optional
-        Depths of the planes [m], growing. None: the surface and 24 depths down to a
-        quarter of the window, closer together towards the surface.
+        Depths of the planes [m], growing. None: they follow the size of the contact spots, and
+        planes are added until every maximum stands to `tolerance`.
     keep : {"section", "planes"}
         Whether to keep one section and the maxima, or all planes: six arrays for each depth.
     window : float
         Isolated contacts: distance of the repetitions that the transforms leave over the size of
         the window [-]; stiff layers need a hundred contact radii for four digits.
+    tolerance : float
+        Of the maxima over depth, where `depths` are not given [-].
+    reading : {"spline", "uniform", "trigonometric"}
+        Pressure between the pixels. ``spline``: the cubic spline through them, for maxima; beside
+        a contact the stress is up to three times too large, two pixels away it is right.
+        ``uniform``: on each pixel, as in Love's patch, for maps; maxima are off by several per cent
+        where spots are a few pixels wide. ``trigonometric``: as in the contact problem of a
+        periodic window; off the contact, ripples along rows and columns exceed the stress there
+        many times.
+    coefficients : tuple of float
+        Further coefficients of friction for which to give the maxima [-], from the same
+        transforms: the stress is linear in the coefficient.
     """
 
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
-    records: ClassVar[tuple[type, ...]] = (StressPart, Maximum)
+    records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)
     scalars: ClassVar[tuple[Scalar, ...]] = tuple(
         Scalar(f"max_{measure}{suffix}", unit, partial(_read, measure, field))
         for measure in _MEASURES
@@ -121,6 +159,11 @@ class SubsurfaceStress(Observer[StressPart]):
         default="section", validator=choice("section", "planes")
     )
     window: float = field(default=128.0, validator=_at_least_one, metadata=si("-"))
+    tolerance: float = field(default=0.01, validator=positive, metadata=si("-"))
+    reading: Reading = field(default="spline", validator=choice(*READINGS))
+    coefficients: tuple[float, ...] = field(
+        default=(), converter=tuple, validator=_coefficients, metadata=si("-")
+    )
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -132,97 +175,149 @@ class SubsurfaceStress(Observer[StressPart]):
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
+        missing = []
         if scene.interface.lower.solid is None:
-            return ("interface.lower.solid: the stress of a rigid body is not defined",)
-        return ()
-
-    def planes_of(self, scene: ContactScene, grid: Grid) -> tuple[tuple[float, str], ...]:
-        """Depth [m] and side of each plane: those requested, and both faces of interfaces."""
-        stack = scene.interface.lower.stack
-        assert stack is not None
-        wanted = self.depths
-        if wanted is None:
-            from ...elasticity.depths import default_depths
-
-            (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
-            deepest = 0.25 * min(ny * dy, nx * dx)
-            return tuple(zip(*default_depths(stack.thicknesses, deepest), strict=True))
-        faces = [z for z in stack.depths if z <= wanted[-1] * (1.0 + 1e-12)]
-        planes = {(z, side) for z in faces for side in "-+"}
-        planes |= {(z, "+") for z in wanted if not any(math.isclose(z, f) for f in faces)}
-        return tuple(sorted(planes, key=lambda plane: (plane[0], plane[1] == "+")))
+            missing.append("interface.lower.solid: the stress of a rigid body is not defined")
+        if self.coefficients and scene.effect(FrictionTraction) is None:
+            missing.append("FrictionTraction(coefficient=...) beside it for its coefficients [-]")
+        if self.coefficients and scene.effect(DisplacementTerm) is not None:
+            missing.append(
+                "one scene for each of its coefficients [-] (or no FrictionCoupling, with which "
+                "the pressure depends on the coefficient)"
+            )
+        return tuple(missing)
 
     def observe(self, contact: Contact) -> StressPart:
         """See `Observer.observe`."""
+        stack = contact.scene.interface.lower.elastic_stack
+        found = _Planes(self, contact, stack)
+        places = self._first_places(contact, stack)
+        while places:
+            found.add(places)
+            places = found.missing() if self.depths is None else []
+        return found.part()
+
+    def _first_places(self, contact: Contact, stack: Stack) -> list[Place]:
+        """Depth [m] and side of each plane to begin with, and both faces of interfaces."""
+        if self.depths is not None:
+            wanted, deepest = [(z, "+") for z in self.depths], self.depths[-1] * (1.0 + 1e-12)
+        else:
+            deepest = _deepest(contact)
+            first = default_depths((), min(2.0 * _sharpest(contact), deepest), _FIRST)
+            wanted = [(z, "+") for z in first.depths]
+        faces = [z for z in stack.depths if z <= deepest]
+        inside = [one for one in wanted if not any(math.isclose(one[0], z) for z in faces)]
+        return _ordered(inside + [(z, side) for z in faces for side in "-+"])
+
+
+def _ordered(places: Sequence[Place]) -> list[Place]:
+    return sorted(places, key=lambda place: (place[0], place[1] == "+"))
+
+
+def _deepest(contact: Contact) -> float:
+    """Depth [m] below which no maximum is looked for: half a period, or an isolated window."""
+    (ny, nx), (dy, dx) = contact.grid.shape, contact.grid.pixel_size
+    return (0.5 if contact.grid.periodic else 1.0) * min(ny * dy, nx * dx)
+
+
+def _sharpest(contact: Contact) -> float:
+    """Radius [m] of the smallest spot of high pressure, that of a circle of its area."""
+    from scipy.ndimage import label
+
+    pressure = contact.pressure
+    spots, n = label(pressure > _HIGH * pressure.max())
+    pixels = np.bincount(spots.ravel())[1:].min() if n else 1
+    return math.sqrt(float(pixels) * contact.grid.pixel_area / math.pi)
+
+
+class _Kept(NamedTuple):
+    """What is kept of one plane."""
+
+    depth: float
+    side: str
+    layer: int
+    section: Map
+    largest_von_mises: float
+    stress: Map | None
+
+
+class _Planes:
+    """Planes of stress below a contact, added in any order, and what is kept of them."""
+
+    def __init__(self, effect: SubsurfaceStress, contact: Contact, stack: Stack) -> None:
         friction = contact.scene.effect(FrictionTraction)
-        traction = friction.components() if friction is not None else (0.0, 0.0)
-        planes = self.planes_of(contact.scene, contact.grid)
-        return scan(contact, planes, traction, self.keep == "planes", self.window)
+        self._effect, self._contact = effect, contact
+        ratio = friction.components() if friction is not None else None
+        # With further coefficients friction is kept apart: its stress is that of one of them.
+        own = friction.coefficient if friction is not None and effect.coefficients else 0.0
+        self._sliding = (own, *effect.coefficients)
+        self._field = StressField(
+            Tractions(contact.grid.pixel_size, contact.pressure),
+            layers_of(stack),
+            mean="periodic" if contact.grid.periodic else "free",
+            padding=effect.window,
+            reading=effect.reading,
+            friction=None if effect.coefficients else ratio,
+            drag=friction.direction_cosines if friction and effect.coefficients else None,
+            workers=contact.threads,
+        )
+        self._search = DepthSearch(effect.tolerance, _deepest(contact))
+        peak = int(np.argmax(contact.pressure))
+        self._row = int(np.unravel_index(peak, contact.pressure.shape)[0])
+        self._kept: list[_Kept] = []
 
+    def add(self, places: Sequence[Place]) -> None:
+        """Compute planes, given in order of depth."""
+        depths, sides = [z for z, _ in places], [side for _, side in places]
+        pixel, keep = self._contact.grid.pixel_size, self._effect.keep == "planes"
+        coefficients = self._effect.coefficients
+        for plane in self._field.planes(depths, sides):
+            found, *others = plane_maxima(plane, pixel, self._sliding)
+            self._note(None, found)
+            for mu, other in zip(coefficients, others, strict=True):
+                self._note(mu, other)
+            section, largest = self._own(plane, self._row).copy(), found["von_mises"].value
+            stress = self._own(plane, slice(None)) if keep else None
+            one = _Kept(plane.depth, plane.side, plane.layer, section, largest, stress)
+            self._kept.append(one)
 
-def scan(
-    contact: Contact,
-    where: Sequence[tuple[float, str]],
-    friction: tuple[float, float],
-    keep_planes: bool,
-    window: float,
-) -> StressPart:
-    """Stress of a contact on planes.
+    def _own(self, plane: Plane, rows: int | slice) -> Map:
+        """Stress with the friction of the scene, on some rows of a plane."""
+        if plane.dragged is None:
+            return plane.stress[:, rows]
+        return np.asarray(plane.stress[:, rows] + self._sliding[0] * plane.dragged[:, rows])
 
-    Parameters
-    ----------
-    contact : Contact
-        Solved.
-    where : sequence of (float, str)
-        Depth [m] and side of each plane, in order.
-    friction : (float, float)
-        Traction along x and y per unit of pressure [-]; what is 0 is not transformed.
-    keep_planes : bool
-        Whether to keep the planes themselves.
-    window : float
-        Padding of an isolated contact [-].
-    """
-    stack = contact.scene.interface.lower.stack
-    assert stack is not None
-    pressure, (ny, nx) = contact.pressure, contact.grid.shape
-    row = int(np.unravel_index(int(np.argmax(pressure)), pressure.shape)[0])
-    tractions = [part * pressure if part != 0.0 else None for part in friction]
-    n = len(where)
-    section, largest = np.empty((6, n, nx)), []
-    kept = np.empty((6, n, ny, nx)) if keep_planes else None
-    layers = np.empty(n, dtype=int)
-    found = planes(
-        Tractions(contact.grid.pixel_size, pressure, *tractions),
-        layers_of(stack),
-        [depth for depth, _ in where],
-        [side for _, side in where],
-        mean="periodic" if contact.grid.periodic else "free",
-        padding=window,
-        workers=contact.threads,
-    )
+    def _note(self, mu: float | None, found: Mapping[str, Maximum]) -> None:
+        for measure, one in found.items():
+            self._search.add((mu, measure), one)
 
-    def passing() -> Iterator[Plane]:
-        for i, plane in enumerate(found):
-            section[:, i] = plane.stress[:, row]
-            layers[i] = plane.layer
-            if kept is not None:
-                kept[:, i] = plane.stress
-            yield plane
+    def missing(self) -> list[Place]:
+        """Planes that the search wants; none once it has more than enough."""
+        if len(self._kept) >= _MOST:
+            return []
+        known = [one.depth for one in self._kept]
+        wanted = self._search.missing()
+        return [(z, "+") for z in wanted if not any(math.isclose(z, one) for one in known)]
 
-    def von_mises(stress: Map) -> Map:
-        values = stress_measures.von_mises(stress)
-        largest.append(float(values.max()))
-        return values
+    def part(self) -> StressPart:
+        """Put everything together, in order of depth."""
+        kept = sorted(self._kept, key=lambda one: (one.depth, one.side == "+"))
+        planes = [one.stress for one in kept if one.stress is not None]
+        return StressPart(
+            depth=np.array([one.depth for one in kept]),
+            side=tuple(one.side for one in kept),
+            layer=np.array([one.layer for one in kept], dtype=int),
+            maxima=self._maxima(None),
+            row=self._row,
+            section=np.stack([one.section for one in kept], axis=1),
+            largest_von_mises=np.array([one.largest_von_mises for one in kept]),
+            planes=np.stack(planes, axis=1) if planes else None,
+            by_friction=tuple(
+                FrictionStress(mu, self._maxima(mu)) for mu in self._effect.coefficients
+            ),
+        )
 
-    measures = {
-        "von_mises": von_mises,
-        "tension": stress_measures.max_principal_stress,
-        "tresca": stress_measures.tresca,
-        "sigma_xz": lambda stress: np.abs(stress[4]),
-    }
-    best = maxima(passing(), measures, contact.grid.pixel_size, refine=True)
-    mises = best["von_mises"]
-    best["sqrt_j2"] = mises._replace(value=mises.value / 3.0**0.5)
-    depths = np.array([depth for depth, _ in where])
-    sides = tuple(side for _, side in where)
-    return StressPart(depths, sides, layers, best, row, section, np.array(largest), kept)
+    def _maxima(self, mu: float | None) -> dict[str, Maximum]:
+        best = {name: self._search.best((mu, name)) for name in _MEASURES if name != "sqrt_j2"}
+        mises = best["von_mises"]
+        return best | {"sqrt_j2": mises._replace(value=mises.value / math.sqrt(3.0))}

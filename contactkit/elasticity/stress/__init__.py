@@ -2,6 +2,7 @@
 
 tractions  Maps of tractions; normal displacement under tangential ones.
 planes     Stresses on planes at depth.
+reading    Reading of a map between its pixels: trigonometric, uniform, spline.
 measures   Equivalent stresses: von Mises, Tresca, principal stresses, interface shear.
 maxima     Maxima of these measures and their locations.
 periodic   Stresses on one plane, mode by mode of a periodic map.

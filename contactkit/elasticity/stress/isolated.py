@@ -79,8 +79,14 @@ class Grids(NamedTuple):
         """The grid of the map, then the wide and the narrow grid of each step."""
         return [self.first, *(grid for step in self.steps for grid in (step.wide, step.narrow))]
 
-    def spectra(self, maps: list[Array | None], workers: int | None = None) -> list[Loads]:
-        """Spectra of loads (None: no load) on each grid, in the order of `all`."""
+    def spectra(
+        self, maps: list[Array | None], workers: int | None = None, kernel: Array | None = None
+    ) -> list[Loads]:
+        """Spectra of loads (None: no load) on each grid, in the order of `all`.
+
+        `kernel` is the transform of the kernel with which the maps are read, on the first grid,
+        whose own spectra are those of the pixels.
+        """
         first = self.first
         (ny, nx), (dy, dx), shape = first.window, first.pixel_size, first.modes.shape
         loads = [None if m is None else spectrum(m, shape, workers) for m in maps]
@@ -88,7 +94,8 @@ class Grids(NamedTuple):
         if not self.steps:
             return found
         period, centre = self.steps[0].period, (0.5 * (ny - 1) * dy, 0.5 * (nx - 1) * dx)
-        lows = [None if q is None else _low(q, shape) * (dy * dx) for q in loads]
+        read = 1.0 if kernel is None else kernel
+        lows = [None if q is None else _low(q * read, shape) * (dy * dx) for q in loads]
         lows = [None if q is None else _shifted(q, period, centre) for q in lows]
         for step in self.steps:
             smooth = [None if low is None else _smooth_load(low, step) for low in lows]

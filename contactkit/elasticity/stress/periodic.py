@@ -10,7 +10,7 @@ transforms that contain no other.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -21,9 +21,11 @@ from ..layered_fields import PlaneStates, unit_stresses
 __all__ = [
     "Modes",
     "UnitFields",
-    "component",
     "grid_of_modes",
     "into_space",
+    "of_pressure",
+    "of_traction",
+    "on_modes",
     "spectrum",
     "table_of",
     "within",
@@ -172,24 +174,34 @@ def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> UnitF
     return UnitFields(tables[0, :6], tables[1])
 
 
-def component(k: int, loads: list[Complex | None], tables: UnitFields, modes: Modes) -> Complex:
-    """Spectrum of component k due to a pressure and tractions along x and y.
+def on_modes(tables: UnitFields, modes: Modes, *, tractions: bool) -> UnitFields:
+    """Fields per unit load on each mode, (6, ...) and (9, ...), zero for the mean.
+
+    Without `tractions` their table is left as it is.
+
+    Examples
+    --------
+    >>> modes, tables = grid_of_modes((1, 4), (1.0, 1.0)), np.arange(4.0)[None]
+    >>> on_modes(UnitFields(tables, tables), modes, tractions=False).pressure.tolist()
+    [[[0.0, 1.0, 2.0]]]
+    """
+    pressure, traction = tables
+    if tractions:
+        traction = np.take(traction, modes.rank, axis=1, mode="clip")
+    return UnitFields(np.take(pressure, modes.rank, axis=1, mode="clip"), traction)
+
+
+def of_pressure(k: int, fields: Array, modes: Modes) -> Array:
+    """Symbol of component k for a pressure, without its factor i; 0 to 5 stresses, then x, y, z.
 
     Parameters
     ----------
     k : int
-        0 to 5 for the stresses, 6 to 8 for the displacements.
-    loads : list of (ndarray or None)
-        Spectra of the pressure and, times -i, of both tractions on the modes.
-    tables
-        From `table_of`.
+        Component.
+    fields : ndarray (6, ...)
+        `UnitFields.pressure` on the modes.
     modes : Modes
-        Those of the loads.
-
-    Returns
-    -------
-    ndarray
-        Without its mean, in the shape of the loads.
+        On which the symbol is wanted.
 
     Examples
     --------
@@ -199,68 +211,75 @@ def component(k: int, loads: list[Complex | None], tables: UnitFields, modes: Mo
     >>> modes = grid_of_modes((1, 4), (1.0, 1.0))
     >>> states = next(plane_states(modes.length, [1.0], [0.3], [], [0.0]))
     >>> tables = table_of(states, modes.length, displacement=False)
-    >>> component(2, [np.ones((1, 3), complex), None, None], tables, modes).real.round(3).tolist()
+    >>> fields = on_modes(tables, modes, tractions=False)
+    >>> of_pressure(2, fields.pressure, modes).round(3).tolist()
     [[0.0, -1.0, -1.0]]
     """
-    pressure, traction_x, traction_y = loads
     x, y, xx, yy = modes.x, modes.y, modes.xx, modes.yy
-    terms: list[Complex] = []
-    if pressure is not None:
-        terms.append(_of_pressure(k, tables.pressure, modes.rank, x, y, xx, yy) * pressure)
-    if traction_x is not None:
-        terms.append(_of_traction(k, tables.traction, modes.rank, x, y, xx, yy) * traction_x)
-    if traction_y is not None:
-        swapped = _of_traction(SWAPPED[k], tables.traction, modes.rank, y, x, yy, xx)
-        terms.append(swapped * traction_y)
-    total = terms[0]
-    for term in terms[1:]:
-        total += term
-    if k in IMAGINARY:
-        total *= 1j
-    return total
-
-
-def _of_pressure(
-    k: int, table: Array, rank: Indices, x: Array, y: Array, xx: Array, yy: Array
-) -> Array:
-    def at(row: int | Array) -> Array:
-        return np.take(table[row] if isinstance(row, int) else row, rank, mode="clip")
-
-    LL, TT, S, T, U, W = table
-    if k in (0, 1):
-        along, across = (xx, yy) if k == 0 else (yy, xx)
-        return at(LL) * along + at(TT) * across
-    if k == 3:
-        return at(LL - TT) * x * y
-    direction = (1.0, x, y)[{2: 0, 4: 1, 5: 2, 6: 1, 7: 2, 8: 0}[k]]
-    return at({2: S, 4: T, 5: T, 6: U, 7: U, 8: W}[k]) * direction
-
-
-def _of_traction(
-    k: int, table: Array, rank: Indices, x: Array, y: Array, xx: Array, yy: Array
-) -> Array:
-    """Weights of a traction along x; exchange x and y for the other."""
-
-    def at(row: Array) -> Array:
-        return np.take(row, rank, mode="clip")
-
-    LL, TT, S, T, U, W, V, Q, uV = table
+    rows: list[Array] = list(fields)
+    LL, TT, S, T, U, W = rows
     match k:
         case 0:
-            return x * (at(LL) * xx + at(TT - 2.0 * V) * yy)
+            return LL * xx + TT * yy
         case 1:
-            return x * (at(LL + 2.0 * V) * yy + at(TT) * xx)
+            return LL * yy + TT * xx
         case 2:
-            return x * at(S)
+            return S
         case 3:
-            return y * (at(LL - TT + V) * xx - at(V) * yy)
-        case 4:
-            return at(T) * xx + at(Q) * yy
-        case 5:
-            return x * y * at(T - Q)
-        case 6:
-            return at(U) * xx + at(uV) * yy
-        case 7:
-            return x * y * at(U - uV)
+            return (LL - TT) * x * y
+        case 4 | 5:
+            return T * (x if k == 4 else y)
+        case 6 | 7:
+            return U * (x if k == 6 else y)
         case _:
-            return x * at(W)
+            return W
+
+
+def of_traction(k: int, fields: Array, modes: Modes, along: Literal["x", "y"]) -> Array:
+    """Symbol of component k for a traction along an axis, without its factors of i.
+
+    Parameters
+    ----------
+    k, modes
+        As in `of_pressure`.
+    fields : ndarray (9, ...)
+        `UnitFields.traction` on the modes.
+    along : {"x", "y"}
+        Axis of the traction.
+
+    Examples
+    --------
+    On the surface sigma_xz is the traction, with the other sign:
+
+    >>> from ..layered_fields import plane_states
+    >>> modes = grid_of_modes((1, 4), (1.0, 1.0))
+    >>> states = next(plane_states(modes.length, [1.0], [0.3], [], [0.0]))
+    >>> tables = table_of(states, modes.length, displacement=False)
+    >>> fields = on_modes(tables, modes, tractions=True)
+    >>> of_traction(4, fields.traction, modes, "x").round(3).tolist()
+    [[0.0, -1.0, -1.0]]
+    """
+    x, y, xx, yy = modes.x, modes.y, modes.xx, modes.yy
+    if along == "y":
+        k, x, y, xx, yy = SWAPPED[k], y, x, yy, xx
+    rows: list[Array] = list(fields)
+    LL, TT, S, T, U, W, V, Q, uV = rows
+    match k:
+        case 0:
+            return x * (LL * xx + (TT - 2.0 * V) * yy)
+        case 1:
+            return x * ((LL + 2.0 * V) * yy + TT * xx)
+        case 2:
+            return x * S
+        case 3:
+            return y * ((LL - TT + V) * xx - V * yy)
+        case 4:
+            return T * xx + Q * yy
+        case 5:
+            return x * y * (T - Q)
+        case 6:
+            return U * xx + uV * yy
+        case 7:
+            return x * y * (U - uV)
+        case _:
+            return x * W
