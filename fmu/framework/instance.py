@@ -143,10 +143,10 @@ class Instance:
         self._keep = callbacks  # ctypes does not
         return callbacks
 
-    def start(self, values: Mapping[str, float | str], stop_time: float) -> None:
+    def start(self, values: Mapping[str, float | str], stop_time: float | None) -> None:
         """Initialize with start values by name: SI numbers, or texts with a unit.
 
-        An enumeration takes the name of an item too.
+        An enumeration takes the name of an item too. Without a stop time [s] there is no end.
 
         What the FMU refuses is an error with what it said.
         """

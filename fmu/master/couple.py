@@ -74,9 +74,9 @@ class Coupled:
         At these times gap ``h`` [m], speed ``v`` [m/s], pull ``F_ext`` [N], force of the film ``F``
         [N] and of its meniscus ``F_m`` [N], viscous impulse ``J`` [N.s].
     release_time : float
-        When the gap first came to the release gap [s]; -1 if it did not.
+        When the gap first came to the release gap [s]; nan if it did not.
     break_time : float
-        Time of the latest rupture [s]; -1 if the film did not break.
+        Time of the latest rupture [s]; nan if the film did not break.
     log : tuple of str
         Messages of the FMUs.
     n_steps, n_rejected, n_calls : int
@@ -242,11 +242,16 @@ def _result(walk: Walk | FixedWalk, calls: int, log: tuple[str, ...], seconds: f
     return Coupled(
         table[:, 0],
         columns,
-        walk.release_time,
-        walk.points[-1].film.broken_at,
+        _reached(walk.release_time),
+        _reached(walk.points[-1].film.broken_at),
         log,
         len(walk.points) - 1,
         walk.n_rejected,
         calls,
         seconds,
     )
+
+
+def _reached(time: float) -> float:
+    """Time [s] of an event; nan for one that did not happen, which an FMU gives as -1."""
+    return time if time >= 0.0 else math.nan

@@ -136,7 +136,7 @@ class FilmSide(Restorable):
         if not 0.0 < gap < math.inf:
             raise DescriptionError("h0", gap, "be positive and finite", unit="m")
         own: dict[str, float | str] = {"h": gap, "v": speed, "m_ref": mass, "exchange": exchange}
-        self.start({**values, **own}, 0.0)
+        self.start({**values, **own}, None)
         self.first_gap = gap
         self.has_limits = max(self.get(self.references("dp_cav", "tau_lim"))) > 0.0
         return self.look()

@@ -5,6 +5,7 @@ The error is that of the first release against a monolithic solution at a tight 
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -207,8 +208,8 @@ def _coupled_release(
         steps=steps,
         jumps=(profile.start_delay, profile.start_delay + profile.boost_time),
     )
-    if found.release_time < 0.0:
-        raise ConvergenceError("never released")
+    if math.isnan(found.release_time):
+        raise ConvergenceError("never released; give the pull more time or force")
     counts = {"steps": found.n_steps, "film calls": found.n_calls}
     if isinstance(steps, FixedSteps) and steps.scheme in ("jacobi", "gauss-seidel"):
         counts["warnings of the film"] = sum("m_ref/c" in line for line in found.log)

@@ -183,6 +183,7 @@ def test_a_number_is_a_steady_pull_and_a_text_a_start_value(film):
 @pytest.mark.parametrize("more", [{}, {"dp_cav": 1e5}])
 def test_nothing_moves_where_nothing_pulls(film, more):
     found = couple(Fmu(film, {"gamma": 0.0} | more), Mass(mass=0.02), 0.0, 0.1, release_gap=1e-4)
-    assert (found.release_time, found.time[-1]) == (-1.0, 0.1)
+    assert math.isnan(found.release_time)
+    assert found.time[-1] == 0.1
     assert set(found["h"]) == {5e-6}
     assert set(found["J"]) == {0.0}
