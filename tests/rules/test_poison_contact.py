@@ -33,6 +33,7 @@ OWNED = {
         *FIELDS,
     },
     ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
+        "elasticity.stress.planes.component",
         "elasticity.stress.reading.*",
         "elasticity.stress.maxima.*",
         "elasticity.stress.measures.*",

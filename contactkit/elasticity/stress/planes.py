@@ -43,7 +43,7 @@ from .periodic import (
 from .reading import Reading, Shallow, ShortWaves
 from .tractions import Tractions
 
-__all__ = ["Plane", "StressField", "planes"]
+__all__ = ["Plane", "StressField", "component", "planes"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -227,7 +227,7 @@ class StressField:
             near = loads if is_whole else [_part(q, reached.rows, across) for q in loads]
             fields = np.empty((count, *grid.window))
             for k in range(count):
-                values = _component(k, near, unit, reached, shallow)
+                values = component(k, near, unit, reached, shallow)
                 if k < 6:
                     values[0, 0] = mean[k]
                 fields[k] = into_space(values, reached, grid.window, self._workers)
@@ -324,10 +324,41 @@ def _means(loads: Loads) -> list[float]:
     return [0.0 if q is None else float(q[0, 0].real) for q in loads]
 
 
-def _component(
-    k: int, loads: Loads, unit: UnitFields, modes: Modes, shallow: Shallow | None
+def component(
+    k: int, loads: Loads, unit: UnitFields, modes: Modes, shallow: Shallow | None = None
 ) -> Complex:
-    """Spectrum of component k of a pressure and of tractions along x and y, but for its mean."""
+    """Spectrum of component k due to a pressure and tractions along x and y, but for its mean.
+
+    Parameters
+    ----------
+    k : int
+        0 to 5 for the stresses, 6 to 8 for the displacements.
+    loads : list of (ndarray or None)
+        Spectra of the pressure and, times -i, of both tractions on the modes.
+    unit : UnitFields
+        Fields per unit load on the modes, by `on_modes`.
+    modes : Modes
+        Those of the loads.
+    shallow : Shallow, optional
+        Where short waves of the reading reach the plane.
+
+    Returns
+    -------
+    ndarray
+        In the shape of the loads.
+
+    Examples
+    --------
+    On the surface sigma_zz is the pressure, with the other sign:
+
+    >>> from .periodic import grid_of_modes
+    >>> modes = grid_of_modes((1, 4), (1.0, 1.0))
+    >>> states = next(plane_states(modes.length, [1.0], [0.3], [], [0.0]))
+    >>> tables = table_of(states, modes.length, displacement=False)
+    >>> unit = on_modes(tables, modes, tractions=False)
+    >>> component(2, [np.ones((1, 3), complex), None, None], unit, modes).real.round(3).tolist()
+    [[0.0, -1.0, -1.0]]
+    """
     total = np.zeros(modes.rank.shape, dtype=np.complex128)
     pressure, *tractions = loads
     if pressure is not None:

@@ -14,7 +14,8 @@ from contactkit.elasticity.layered import (
     normal_symbol,
 )
 from contactkit.elasticity.layered_fields import plane_states
-from contactkit.elasticity.stress.periodic import component, grid_of_modes, table_of
+from contactkit.elasticity.stress.periodic import grid_of_modes, on_modes, table_of
+from contactkit.elasticity.stress.planes import component
 
 DATA = json.loads((Path(__file__).parents[2] / "data" / "layered.json").read_text())
 each_stack = pytest.mark.parametrize("stack", DATA["stacks"].values(), ids=DATA["stacks"])
@@ -89,7 +90,8 @@ def test_stresses_and_displacements_of_one_mode(stack):
         loads = [np.full((4, 3), turn[k], complex) if load == k else None for k in "pxy"]
         states = next(plane_states(modes.length, *elastic(stack), [z], side))
         tables = table_of(states, modes.length, displacement=True)
-        found = np.array([component(k, loads, tables, modes)[at] for k in range(9)])
+        unit = on_modes(tables, modes, tractions=True)
+        found = np.array([component(k, loads, unit, modes)[at] for k in range(9)])
         found = np.concatenate([found[6:], found[:6]])
         values = np.array([complex(*pair) for pair in expected])
         values = values if xi > 0 else values.conj()
