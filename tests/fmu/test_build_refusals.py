@@ -44,7 +44,6 @@ def test_a_file_that_cannot_be_written_is_named_and_no_part_of_it_stays(tmp_path
     [
         (["stiction-mass", "--model", "stiction-force"], "add --native, or build stiction-force"),
         (["stiction-force", "--native", "--model", "stiction-mass"], "has no mass"),
-        (["head-disk", "--native"], "a contact scene makes a contact-stop"),
     ],
 )
 def test_options_that_contradict_each_other_build_nothing(words, said, tmp_path, capsys):

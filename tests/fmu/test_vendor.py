@@ -20,6 +20,7 @@ def test_only_what_the_slave_imports_is_carried(toy_module):
         "fmu/framework/__init__.py",
         "fmu/framework/access.py",
         "fmu/framework/description.py",
+        "fmu/framework/places.py",
         "fmu/framework/ports.py",
         "fmu/framework/slave.py",
         "fmu/framework/state.py",

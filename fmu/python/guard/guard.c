@@ -85,6 +85,13 @@ static int find_python(void) {
     return 0;
 }
 
+/* Stay as the library of pythonfmu does: instances that were put aside are known here. */
+static void pin(void) {
+    Dl_info own;
+    if (dladdr((void *)&inner_Instantiate, &own) && own.dli_fname)
+        dlopen(own.dli_fname, RTLD_NOW | RTLD_NODELETE);
+}
+
 static const char *load_all(void) {
     static char problem[PATH + 400];
     char path[PATH];
@@ -105,6 +112,7 @@ static const char *load_all(void) {
        of C++, so a second time and into freed memory; done before them there is nothing left to do. */
     *(void **)&let_go = dlsym(library, "finalizePythonInterpreter");
     if (let_go) on_exit(let_go, NULL);
+    pin();
 #define LOAD(name)                                                                               \
     if (!(*(void **)&inner_##name = dlsym(library, "fmi2" #name))) {                             \
         inner_Instantiate = NULL;                                                                \
