@@ -2,6 +2,7 @@
 
 The map is generated here in the form of an instrument: heights in an array, and the pixel size. A
 stiff coating thinner than the waves of the roughness cannot spread the load, a thicker one does.
+Coatings thinner than a pixel of the map, 20 nm, are warned about.
 """
 
 from __future__ import annotations

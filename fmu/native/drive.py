@@ -112,7 +112,7 @@ def build_native_stop(
 
 
 def _description(name: str, slave: type[PortSlave], given: Mapping[str, Any]) -> Description:
-    """Description of the native twin of a slave, with start values."""
+    """Description of the native counterpart of a slave, with start values."""
     values: dict[str, Value] = slave.start_values()
     values |= {key: start_value(slave.ports, key, value) for key, value in given.items()}
     return Description(

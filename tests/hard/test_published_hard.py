@@ -110,7 +110,7 @@ def test_the_drag_of_a_sphere_grows_with_each_decade_of_its_gap():
     assert np.diff(drag) == pytest.approx(2 * math.pi * 1e-4 * 40 * math.log(10), rel=1e-12)
     impulse = [float(sphere_impulse(1e-4, gap, 2e-9, 1.0)) for gap in gaps]
     x = math.sqrt(2e-4 * 2e-9)
-    # At the apex the drag lasts while the other circle covers it: over a travel of x, both ways.
+    # At the apex the drag lasts while the other circle covers it: over x, in both directions.
     per_gap = 2.0 * math.pi * x * 1e-4 * 40 * math.log(10)
     assert np.diff(impulse) == pytest.approx(per_gap, rel=1e-9)
     corrected = [ask("3.56", gap=gap).corrected for gap in gaps]

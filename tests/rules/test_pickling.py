@@ -173,11 +173,11 @@ def numbers(value):
     return repr(value)
 
 
-@pytest.mark.parametrize("twin", [through_pickle, copy.deepcopy])
+@pytest.mark.parametrize("copied", [through_pickle, copy.deepcopy])
 @pytest.mark.parametrize("name", MADE)
-def test_what_is_pickled_or_copied_holds_the_same_numbers(name, twin):
+def test_what_is_pickled_or_copied_holds_the_same_numbers(name, copied):
     value = made(name)
-    again = twin(value)
+    again = copied(value)
     assert type(again) is type(value)
     assert numbers(again) == numbers(value)
 

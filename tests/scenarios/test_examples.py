@@ -41,13 +41,9 @@ def test_each_example_has_its_number():
     assert {path.stem for path in EXAMPLES.glob("*.py")} == set(NUMBERS)
 
 
-LONG = {"coated_sphere", "step_the_fmu"}
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in NUMBERS]
-)
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")  # the examples tell which
+@pytest.mark.parametrize("name", NUMBERS)
 def test_example(name, tmp_path):
     if "fmu" in name:
         pytest.importorskip("pythonfmu")

@@ -165,7 +165,7 @@ def test_a_flooded_meniscus_says_what_pulls(film_scene):
     bodies = FLATS | {"lower": face, "upper": face}
     text = str(run(film_scene, ck.MeniscusForce(), bodies, {}).plan)
     assert "flooded: liquid follows to the rim" in text
-    assert "inside a bath there is none" in text
+    assert "in a flooded reservoir there is none" in text
     assert "flooded" not in str(run(film_scene, ck.MeniscusForce(), bodies, {"volume": 6e-23}).plan)
 
 

@@ -161,8 +161,8 @@ class MeniscusForce(SeparationForce):
             return ()
         return (
             "flooded: liquid follows to the rim of the faces, and its meniscus, pinned there, "
-            "pulls; inside a bath there is none: leave MeniscusForce out, or give the amount of "
-            "liquid",
+            "pulls; in a flooded reservoir there is none: leave MeniscusForce out, or give the "
+            "amount of liquid",
         )
 
     def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:

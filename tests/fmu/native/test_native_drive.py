@@ -124,7 +124,7 @@ def test_derivatives_of_its_outputs_are_mean_slopes_of_the_last_step(fmu, fmu3, 
     for name, order in (("F_ext", 2), ("h", 1)):
         with pytest.raises(fmpy.fmi1.FMICallException):
             host.slave.getRealOutputDerivatives([references[name]], [order])
-    assert host.step(1e-4) == OK  # nothing is remembered of what was asked for
+    assert host.step(1e-4) == OK  # nothing is remembered of what was refused
 
 
 # What it says ---------------------------------------------------------------------------------

@@ -65,17 +65,17 @@ def test_fmpy_finds_no_problems(shelf, fmi):
 )
 def test_it_gives_what_the_slave_gives(host, values):
     """Up and down at random, from touch to beyond the tables."""
-    twin, chance = slave(**values), random.Random(3)
+    slave_in_python, chance = slave(**values), random.Random(3)
     host.start(**values)
     sign = -1.0 if values.get("side") == 2 else 1.0
     fractions = [-0.1, 0.0, 1e-9, 0.2, *(chance.uniform(-0.05, 1.02) for _ in range(60)), 1.3, 0.5]
     for n, fraction in enumerate(fractions):
         given = {"h": TOUCH + sign * fraction * MOST, "v": chance.uniform(-0.3, 0.3)}
         host.set(**given)
-        twin.values |= given
+        slave_in_python.values |= given
         assert host.step(1e-6) == OK
-        assert twin.do_step(n * 1e-6, 1e-6), twin.failure
-        found, expected = host.outputs(), twin.values
+        assert slave_in_python.do_step(n * 1e-6, 1e-6), slave_in_python.failure
+        found, expected = host.outputs(), slave_in_python.values
         for name in EXACT:
             assert found[name] == pytest.approx(expected[name], rel=1e-9, abs=1e-24), (n, name)
         assert found["state"] == expected["state"]
