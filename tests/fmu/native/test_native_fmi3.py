@@ -402,6 +402,16 @@ def test_a_host_in_c_handles_the_events(host, fmus):
         assert row == pytest.approx([float(known[name]) for name in names], rel=1e-9)
 
 
+def test_the_host_in_c_knows_the_references(fmus):
+    (known,) = re.findall(r"enum \{([^}]*H_BREAK[^}]*)\}", (HERE / "native_host3.c").read_text())
+    references = {
+        variable.name.upper(): variable.valueReference
+        for variable in fmpy.read_model_description(str(fmus[3])).modelVariables
+    }
+    for name, reference in re.findall(r"(\w+) = (\d+)", known):
+        assert references["M" if name == "MASS" else name] == int(reference), name
+
+
 @linux_only
 def test_no_misuse_ends_the_host(host):
     host("misuse")
