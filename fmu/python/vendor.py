@@ -14,8 +14,10 @@ import ast
 import importlib.util
 import sys
 from collections.abc import Iterator
+from functools import cache
 from importlib.machinery import ModuleSpec
 from pathlib import Path
+from typing import NamedTuple
 
 from attrs import field, frozen
 
@@ -112,7 +114,9 @@ def _imports(name: str, spec: ModuleSpec, at_once: bool) -> tuple[set[str], set[
     inner, outer = set[str](), set[str]()
     package = name if _is_package(spec) else name.rpartition(".")[0]
     source = Path(spec.origin or "").read_bytes()
-    for node in _statements(ast.parse(source), at_once):
+    for node, is_late in _statements(source):
+        if at_once and is_late:
+            continue
         if isinstance(node, ast.Import):
             outer.update(alias.name.partition(".")[0] for alias in node.names)
         elif node.level == 0:
@@ -129,17 +133,29 @@ def _imports(name: str, spec: ModuleSpec, at_once: bool) -> tuple[set[str], set[
     return inner, outer - sys.stdlib_module_names
 
 
-def _statements(tree: ast.AST, at_once: bool) -> Iterator[ast.Import | ast.ImportFrom]:
-    """Import statements, at any depth or outside functions, that are not for type checkers only."""
-    if at_once and isinstance(tree, ast.FunctionDef | ast.AsyncFunctionDef):
-        return
+class _Statement(NamedTuple):
+    """An import statement, and whether it stands in a function and so runs later."""
+
+    node: ast.Import | ast.ImportFrom
+    is_late: bool
+
+
+@cache
+def _statements(source: bytes) -> tuple[_Statement, ...]:
+    """Import statements of a source that are not for type checkers only."""
+    return tuple(_below(ast.parse(source), is_late=False))
+
+
+def _below(tree: ast.AST, *, is_late: bool) -> Iterator[_Statement]:
     if isinstance(tree, ast.Import | ast.ImportFrom):
-        yield tree
+        yield _Statement(tree, is_late)
+    is_late = is_late or isinstance(tree, ast.FunctionDef | ast.AsyncFunctionDef)
     children = ast.iter_child_nodes(tree)
     if isinstance(tree, ast.If) and "TYPE_CHECKING" in ast.unparse(tree.test):
         children = iter(tree.orelse)
     for child in children:
-        yield from _statements(child, at_once)
+        if not isinstance(child, ast.expr):
+            yield from _below(child, is_late=is_late)
 
 
 def bundled_attrs() -> dict[str, bytes]:
@@ -158,7 +174,7 @@ def _with_bundled_attrs(path: str, source: bytes) -> bytes:
     """Source of a module at a path in the package, with attrs imported from that package."""
     lines = source.decode().splitlines(keepends=True)
     bundled = "." * (path.count("/") + 1) + _BUNDLED
-    for node in ast.walk(ast.parse(source)):
+    for node, _ in _statements(source):
         if isinstance(node, ast.Import) and {a.name for a in node.names} & _ATTRS:
             former, own = "import ", f"from {bundled} import "
         elif isinstance(node, ast.ImportFrom) and _is_of_attrs(node):

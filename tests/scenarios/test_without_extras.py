@@ -123,6 +123,7 @@ def bare(tmp_path_factory):
     return folder, json.loads(done.stdout)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_numbers_and_files_come_first_and_one_line_names_the_extra(bare, command):
     folder, found = bare

@@ -67,14 +67,16 @@ def growth(shelf, path, count):
 
 
 @pytest.mark.skipif(not can_guard(), reason="there is no compiler for the guard")
-@pytest.mark.parametrize("count", [200, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [200, 2000])
 def test_a_python_fmu_keeps_nothing_of_an_instance(shelf, count):
     """pythonfmu alone keeps 5 KiB of each."""
     assert growth(shelf, shelf(build, "valve-drive"), count) < ROOM
 
 
 @pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
-@pytest.mark.parametrize("count", [200, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [200, 2000])
 def test_a_native_fmu_keeps_nothing_of_an_instance(shelf, count):
     path = shelf(build_native, SCENES["flooded"], platforms=[local()], compiler="cc")
     assert growth(shelf, path, count) < ROOM

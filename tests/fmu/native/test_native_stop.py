@@ -48,6 +48,7 @@ def slave(**values):
     return made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_fmpy_finds_no_problems(shelf, fmi):
     path = shelf(build_native_stop, curve=rough(), start={"scale": 2.0}, fmi=fmi, **ONE)
