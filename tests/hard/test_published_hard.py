@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from selection import quick
 
 import contactkit as ck
 from contactkit.as_published.arguments import ARGUMENTS
@@ -155,7 +156,7 @@ def test_a_film_wider_than_its_sphere_has_no_right_value(number):
     assert "wider than the sphere of radius 1e-07 m" in ask(number, **wide).corrected_by
 
 
-@pytest.mark.parametrize("number", ["3.14b", "3.29b", "3.58", "3.59"])
+@pytest.mark.parametrize("number", quick(["3.14b", "3.29b", "3.58", "3.59"], 0, 2))
 def test_overlapping_menisci_have_no_right_value(number):
     apart, overlapping = (ask(number, number=count) for count in (25**2, 26**2))  # R/(2 (s - D))
     assert apart.corrected is not None

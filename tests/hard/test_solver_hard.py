@@ -233,6 +233,7 @@ def test_a_tolerance_near_rounding_is_still_met_or_said_not_to_be(solver):
     assert not impossible.converged
 
 
+@pytest.mark.slow
 def test_a_start_almost_all_at_its_bound_is_worth_nothing():
     """What is left to take up the load overshoots, and the steps would lead nowhere for long."""
     heights = rough((128, 128))

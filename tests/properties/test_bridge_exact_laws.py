@@ -93,6 +93,7 @@ def test_stiffness_is_the_slope_of_the_force(lower, upper, volume, bend, fractio
     assert (ends[1] - ends[0]) / (2.0 * step) == pytest.approx(slope, rel=1e-5, abs=1e-6)
 
 
+@pytest.mark.slow
 @few
 @given(angles, angles, volumes, bends, fractions)
 def test_one_force_through_every_cut(lower, upper, volume, bend, fraction):

@@ -260,6 +260,7 @@ def stresses(heights, pixel, solid, friction, angle, periodic):
     return ck.solve(ck.plan(scene)).of(ck.SubsurfaceStress)
 
 
+@pytest.mark.slow
 @few
 @given(maps(), pixels, solids, edges, st.floats(-3.0, 3.0))
 def test_sliding_the_other_way_under_a_mirror_mirrors_the_stress(

@@ -189,6 +189,7 @@ def test_a_section_is_a_row_of_the_planes_and_the_maxima_are_theirs():
         assert part.maxima[name].value == pytest.approx(values.max(), rel=1e-9), name
 
 
+@pytest.mark.slow
 def test_a_scan_holds_one_plane_at_a_time():
     """Peak memory of a section does not grow with the planes; keeping them does."""
 

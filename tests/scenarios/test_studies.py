@@ -331,6 +331,7 @@ def test_a_point_that_was_refused_is_tried_again(tmp_path):
 # Workers ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_workers_change_nothing(tmp_path):
     """One chain in two pieces, with a point that has no answer; progress by points."""
     scene = contact(ck.HardnessLimit(rule="material"))

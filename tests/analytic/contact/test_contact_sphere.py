@@ -240,7 +240,7 @@ def layered():
     return get
 
 
-@pytest.mark.parametrize("name", SPHERES)
+@pytest.mark.parametrize("name", quick(list(SPHERES), 0, 3, 6))
 def test_a_coated_half_space_carries_the_sphere_as_the_table_says(layered, name):
     case, run = SPHERES[name], layered(name)
     assert run.max_pressure / P_HERTZ == pytest.approx(case["peak_pressure"], rel=2e-4)

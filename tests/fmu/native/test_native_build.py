@@ -75,6 +75,7 @@ def host(unpacked, tmp_path_factory):
     return run
 
 
+@pytest.mark.slow
 def test_fmpy_finds_no_problems(fmu):
     assert validate(fmu) == []
 

@@ -105,6 +105,7 @@ def host(fmu, open_fmu):
 # Derivatives of its outputs ---------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_derivatives_of_its_outputs_are_mean_slopes_of_the_last_step(fmu, fmu3, host):
     for path in (fmu, fmu3):
         about = fmpy.read_model_description(str(path)).coSimulation
