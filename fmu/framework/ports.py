@@ -28,6 +28,9 @@ __all__ = [
     "display_conversion",
     "find_port",
     "grouped",
+    "input_port",
+    "output_port",
+    "size_port",
     "start_value",
     "tolerance",
 ]
@@ -205,6 +208,52 @@ class Port:
                 return _TYPES.get(self.kind, int)(value)
         unit = "" if self.unit == "-" else self.unit
         raise DescriptionError(self.name, given, self.expectation, unit=unit)
+
+
+def input_port(name: str, unit: str, label: str, **more: Any) -> Port:
+    """Input of a slave; `more` are parameters of `Port`.
+
+    Examples
+    --------
+    >>> input_port("v", "m/s", "opening speed", nominal=0.1).causality
+    'input'
+    """
+    return Port(name, unit, causality="input", label=label, **more)
+
+
+def output_port(
+    name: str, unit: str, label: str, depends_on: tuple[str, ...] = (), **more: Any
+) -> Port:
+    """Output of a slave, with what it follows without a step in between; `more` as in `Port`.
+
+    Examples
+    --------
+    >>> output_port("F_spring", "N", "force of the spring", ("h",)).depends_on
+    ('h',)
+    """
+    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
+
+
+def size_port(
+    name: str, unit: str, label: str, start: float, display_unit: str | None = None, **more: Any
+) -> Port:
+    """Parameter that is zero or positive; `more` as in `Port`, `exclusive` refuses zero.
+
+    Examples
+    --------
+    >>> size_port("m", "kg", "moving mass", 0.02, "g", exclusive=True).expectation
+    'be a finite number above 0'
+    """
+    return Port(
+        name,
+        unit,
+        causality="parameter",
+        label=label,
+        start=start,
+        minimum=0.0,
+        display_unit=display_unit,
+        **more,
+    )
 
 
 TOLERANCE = "rtol"

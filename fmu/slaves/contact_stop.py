@@ -21,7 +21,7 @@ from pythonfmu.enums import Fmi2Status
 from ...analyses.load_displacement.curve import Branch, CurvePoint, LoadDisplacementCurve
 from ...analyses.load_displacement.impact import in_series
 from ...errors import DescriptionError
-from ..framework.ports import Port, grouped
+from ..framework.ports import Port, grouped, input_port, output_port, size_port
 from ..framework.slave import PortSlave
 
 __all__ = ["ContactStop", "StopSide"]
@@ -39,36 +39,25 @@ _STATIC = (*_PLACE, "scale", "k_body", "d_max0")
 _ALL = (*_STATIC, "v", "d_stop")
 
 
-def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **more: Any) -> Port:
-    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
-
-
-def _size(name: str, unit: str, label: str, value: float, **more: Any) -> Port:
-    return Port(name, unit, causality="parameter", label=label, start=value, minimum=0.0, **more)
-
-
 _GROUPS = {
     "geometry": ("h_touch", "side", "scale"),
     "solids": ("k_body", "d_stop", "d_max0"),
 }
 
 _PORTS = (
-    Port(
-        "h",
-        "m",
-        causality="input",
-        label="gap, at the end of the step to come",
-        display_unit="um",
-        nominal=1e-5,
+    input_port("h", "m", "gap, at the end of the step to come", display_unit="um", nominal=1e-5),
+    input_port("v", "m/s", "opening speed there", nominal=0.1),
+    output_port("F", "N", "force that pushes out of the stop, never negative", _ALL, nominal=100.0),
+    output_port(
+        "F_el", "N", "the same without damping: what the tables give", _STATIC, nominal=100.0
     ),
-    Port("v", "m/s", causality="input", label="opening speed there", nominal=0.1),
-    _output("F", "N", "force that pushes out of the stop, never negative", _ALL, nominal=100.0),
-    _output("F_el", "N", "the same without damping: what the tables give", _STATIC, nominal=100.0),
-    _output("k", "N/m", "stiffness: growth of F_el with the approach", _STATIC, nominal=1e8),
-    _output("c", "N.s/m", "damping: growth of F with the speed of approach", _ALL, nominal=100.0),
-    _output("contact_area", "m2", "area of contact", _STATIC, display_unit="mm2"),
-    _output("plastic_area", "m2", "area that has yielded so far", _STATIC, display_unit="mm2"),
-    _output(
+    output_port("k", "N/m", "stiffness: growth of F_el with the approach", _STATIC, nominal=1e8),
+    output_port(
+        "c", "N.s/m", "damping: growth of F with the speed of approach", _ALL, nominal=100.0
+    ),
+    output_port("contact_area", "m2", "area of contact", _STATIC, display_unit="mm2"),
+    output_port("plastic_area", "m2", "area that has yielded so far", _STATIC, display_unit="mm2"),
+    output_port(
         "d",
         "m",
         "approach of the faces from first touch, < 0 apart",
@@ -76,18 +65,17 @@ _PORTS = (
         display_unit="um",
         nominal=1e-7,
     ),
-    _output(
+    output_port(
         "d_max",
         "m",
         "largest approach so far, at the end of a step",
-        (),
         display_unit="um",
         nominal=1e-7,
     ),
-    _output("d_res", "m", "approach at which they detach after it", (), display_unit="um"),
-    _output("W", "J", "work dissipated by plasticity since the start", (), nominal=1e-6),
-    _output("W_d", "J", "work dissipated by damping since the start", (), nominal=1e-6),
-    _output(
+    output_port("d_res", "m", "approach at which they detach after it", display_unit="um"),
+    output_port("W", "J", "work dissipated by plasticity since the start", nominal=1e-6),
+    output_port("W_d", "J", "work dissipated by damping since the start", nominal=1e-6),
+    output_port(
         "state",
         "-",
         "branch of the contact",
@@ -96,8 +84,8 @@ _PORTS = (
         enumeration=Branch,
         start=Branch.FREE,
     ),
-    _output("n_beyond", "-", "number of steps that ended beyond the tables", (), kind="integer"),
-    _size("h_touch", "m", "gap at which the faces touch", 25e-6, display_unit="um"),
+    output_port("n_beyond", "-", "number of steps that ended beyond the tables", kind="integer"),
+    size_port("h_touch", "m", "gap at which the faces touch", 25e-6, display_unit="um"),
     Port(
         "side",
         "-",
@@ -107,16 +95,16 @@ _PORTS = (
         enumeration=StopSide,
         start=StopSide.ABOVE,
     ),
-    _size("scale", "-", "number of windows, or spots, side by side", 1.0, exclusive=True),
-    _size(
+    size_port("scale", "-", "number of windows, or spots, side by side", 1.0, exclusive=True),
+    size_port(
         "k_body",
         "N/m",
         "stiffness of the bodies behind the faces; 0: rigid",
         0.0,
         display_unit="N/um",
     ),
-    _size("d_stop", "s/m", "damping, F = F_el (1 + d_stop x speed of approach)", 0.0),
-    _size("d_max0", "m", "largest approach the faces have had before", 0.0, display_unit="um"),
+    size_port("d_stop", "s/m", "damping, F = F_el (1 + d_stop x speed of approach)", 0.0),
+    size_port("d_max0", "m", "largest approach the faces have had before", 0.0, display_unit="um"),
 )
 
 PORTS = grouped(_PORTS, _GROUPS)

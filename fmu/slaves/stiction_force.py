@@ -17,7 +17,7 @@ from typing import Any, ClassVar, NamedTuple
 from ...accuracy import Accuracy
 from ...separation.effects.base import FilmStatus, LimitKind
 from ...separation.plan import Film, Plan, plan
-from ..framework.ports import Port, find_port, grouped
+from ..framework.ports import Port, find_port, grouped, input_port, output_port, size_port
 from ..framework.slave import PortSlave
 from . import stiction_mass
 from .film_travel import Travel, travel
@@ -57,10 +57,6 @@ _SAME = 1e-9  # gaps closer than this, relatively, are one
 _ENDLESS = sys.float_info.max  # a step without bound: hosts choke on infinity
 
 
-def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **more: Any) -> Port:
-    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
-
-
 _GROUPS = {
     "geometry": ("h0", "R"),
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
@@ -69,48 +65,46 @@ _GROUPS = {
 }
 
 _PORTS = (
-    Port(
+    input_port(
         "h",
         "m",
-        causality="input",
-        label="gap, at the end of the step to come",
+        "gap, at the end of the step to come",
         start=5e-6,
         minimum=0.0,
         exclusive=True,
         display_unit="um",
         nominal=1e-6,
     ),
-    Port("v", "m/s", causality="input", label="opening speed there", nominal=0.1),
-    _output("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
-    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
-    _output(
+    input_port("v", "m/s", "opening speed there", nominal=0.1),
+    output_port("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
+    output_port("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
+    output_port(
         "F_v",
         "N",
         "viscous force after the limits, positive resists opening",
         _VISCOUS,
         nominal=10.0,
     ),
-    _output("c", "N.s/m", "damping dF/dv", _VISCOUS, nominal=1e8),
-    _output("k", "N/m", "stiffness dF/dh", _ALL, nominal=1e7),
-    _output("J", "N.s", "viscous impulse since the start", (), nominal=1e-2),
-    _output("J_m", "N.s", "meniscus impulse since the start", (), nominal=1e-2),
-    _output("F_mean", "N", "mean of F over the last step", (), nominal=10.0),
-    _output("coupling_error", "-", "what F_mean differs by from F, over what moves the mass", ()),
-    _output(
+    output_port("c", "N.s/m", "damping dF/dv", _VISCOUS, nominal=1e8),
+    output_port("k", "N/m", "stiffness dF/dh", _ALL, nominal=1e7),
+    output_port("J", "N.s", "viscous impulse since the start", nominal=1e-2),
+    output_port("J_m", "N.s", "meniscus impulse since the start", nominal=1e-2),
+    output_port("F_mean", "N", "mean of F over the last step", nominal=10.0),
+    output_port("coupling_error", "-", "what F_mean differs by from F, over what moves the mass"),
+    output_port(
         "H_stable",
         "s",
         "longest communication step for exchanging forces: m_ref/c",
         (*_VISCOUS, "m_ref"),
     ),
-    _output(
+    output_port(
         "in_doubt",
         "-",
         "last step longer than H_stable, or coupling_error above 0.2",
-        (),
         kind="boolean",
     ),
-    _output("n_doubt", "-", "number of steps in doubt so far", (), kind="integer"),
-    _output(
+    output_port("n_doubt", "-", "number of steps in doubt so far", kind="integer"),
+    output_port(
         "state",
         "-",
         "state of the film",
@@ -119,7 +113,7 @@ _PORTS = (
         enumeration=FilmStatus,
         start=FilmStatus.FULL,
     ),
-    _output(
+    output_port(
         "limit",
         "-",
         "limit of the liquid that acts",
@@ -128,32 +122,23 @@ _PORTS = (
         enumeration=LimitKind,
         start=LimitKind.NONE,
     ),
-    _output(
+    output_port(
         "h_above",
         "m",
         "next gap above at which a force is not smooth; 0: none",
         _MENISCUS,
         display_unit="um",
     ),
-    _output(
+    output_port(
         "h_below",
         "m",
         "next gap below at which a force is not smooth; 0: none",
         _MENISCUS,
         display_unit="um",
     ),
-    _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
-    _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
-    Port(
-        "m_ref",
-        "kg",
-        causality="parameter",
-        label="mass that the tool moves",
-        start=0.02,
-        minimum=0.0,
-        exclusive=True,
-        display_unit="g",
-    ),
+    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
+    size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
     Port(
         "exchange",
         "-",

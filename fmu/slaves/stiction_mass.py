@@ -35,7 +35,7 @@ from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, grouped, tolerance
+from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
 from ..framework.slave import PortSlave
 
 __all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
@@ -56,32 +56,6 @@ _VISCOUS = (*_SHAPE, "v0", "eta", "dp_cav", "tau_lim")
 _ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
-def _input(name: str, unit: str, label: str, nominal: float) -> Port:
-    return Port(name, unit, causality="input", label=label, start=0.0, nominal=nominal)
-
-
-def _output(
-    name: str, unit: str, label: str, depends_on: tuple[str, ...] = (), **more: Any
-) -> Port:
-    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
-
-
-def _size(
-    name: str, unit: str, label: str, value: float, display: str | None = None, **more: Any
-) -> Port:
-    """Describe a parameter that is zero or positive."""
-    return Port(
-        name,
-        unit,
-        causality="parameter",
-        label=label,
-        start=value,
-        minimum=0.0,
-        display_unit=display,
-        **more,
-    )
-
-
 _GROUPS = {
     "geometry": ("h0", "R"),
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
@@ -91,23 +65,25 @@ _GROUPS = {
 }
 
 _PORTS = (
-    _input("F_ext", "N", "pull on the mass, positive opens", 10.0),
-    _input("dF_ext", "N/s", "rate of the pull during the next step; 0 holds it constant", 1e5),
-    _output("h", "m", "gap", ("h0",), display_unit="um", nominal=1e-6),
-    _output("v", "m/s", "opening speed", ("v0",), nominal=0.1, rate_of="h"),
-    _output("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
-    _output("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
-    _output(
+    input_port("F_ext", "N", "pull on the mass, positive opens", nominal=10.0),
+    input_port(
+        "dF_ext", "N/s", "rate of the pull during the next step; 0 holds it constant", nominal=1e5
+    ),
+    output_port("h", "m", "gap", ("h0",), display_unit="um", nominal=1e-6),
+    output_port("v", "m/s", "opening speed", ("v0",), nominal=0.1, rate_of="h"),
+    output_port("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
+    output_port("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
+    output_port(
         "F_v",
         "N",
         "viscous force after the limits, positive resists opening",
         _VISCOUS,
         nominal=10.0,
     ),
-    _output("J", "N.s", "viscous impulse since the start", nominal=1e-2),
-    _output("J_m", "N.s", "meniscus impulse since the start", nominal=1e-2),
-    _output("W", "J", "work dissipated in the film since the start", nominal=1e-4),
-    _output(
+    output_port("J", "N.s", "viscous impulse since the start", nominal=1e-2),
+    output_port("J_m", "N.s", "meniscus impulse since the start", nominal=1e-2),
+    output_port("W", "J", "work dissipated in the film since the start", nominal=1e-4),
+    output_port(
         "state",
         "-",
         "state of the film",
@@ -116,7 +92,7 @@ _PORTS = (
         enumeration=FilmStatus,
         start=FilmStatus.FULL,
     ),
-    _output(
+    output_port(
         "limit",
         "-",
         "limit of the liquid that acts",
@@ -125,25 +101,25 @@ _PORTS = (
         enumeration=LimitKind,
         start=LimitKind.NONE,
     ),
-    _output("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
-    _output("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
-    _output("F_peak", "N", "largest force of the film so far", nominal=10.0),
-    _output("n_break", "-", "number of ruptures so far", kind="integer"),
-    _output("n_release", "-", "number of releases so far", kind="integer"),
-    _size("m", "kg", "moving mass", 0.02, "g", exclusive=True),
-    _size("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),
+    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
+    output_port("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
+    output_port("F_peak", "N", "largest force of the film so far", nominal=10.0),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
+    output_port("n_release", "-", "number of releases so far", kind="integer"),
+    size_port("m", "kg", "moving mass", 0.02, "g", exclusive=True),
+    size_port("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),
     Port("v0", "m/s", causality="parameter", label="opening speed at the start", start=0.0),
-    _size("k_s", "N/m", "stiffness of a spring that pulls back towards h0", 0.0),
-    _size("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
-    _size("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
-    _size("h_break", "m", "gap at which the film breaks; 0: where the bridge does", 0.0, "um"),
-    _size("rewet", "-", "fraction of V that is there when the bodies return", 1.0, maximum=1.0),
-    _size("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
-    _size("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
-    _size("gamma", "N/m", "surface tension; 0: no meniscus force", 0.03, "mN/m"),
-    _size("theta1", "rad", "contact angle on the fixed body", 0.2, "deg", maximum=math.pi),
-    _size("theta2", "rad", "contact angle on the moving body", 0.2, "deg", maximum=math.pi),
-    _size("V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3"),
+    size_port("k_s", "N/m", "stiffness of a spring that pulls back towards h0", 0.0),
+    size_port("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
+    size_port("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
+    size_port("h_break", "m", "gap at which the film breaks; 0: where the bridge does", 0.0, "um"),
+    size_port("rewet", "-", "fraction of V that is there when the bodies return", 1.0, maximum=1.0),
+    size_port("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
+    size_port("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
+    size_port("gamma", "N/m", "surface tension; 0: no meniscus force", 0.03, "mN/m"),
+    size_port("theta1", "rad", "contact angle on the fixed body", 0.2, "deg", maximum=math.pi),
+    size_port("theta2", "rad", "contact angle on the moving body", 0.2, "deg", maximum=math.pi),
+    size_port("V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3"),
     Port(
         "N",
         "-",
@@ -162,8 +138,8 @@ _PORTS = (
         enumeration=MeniscusLaw,
         start=MeniscusLaw.EXACT,
     ),
-    _size("dp_cav", "Pa", "tensile strength of the liquid; 0: no limit", 0.0, "bar"),
-    _size("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
+    size_port("dp_cav", "Pa", "tensile strength of the liquid; 0: no limit", 0.0, "bar"),
+    size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     tolerance(1e-8),
 )
 

@@ -53,7 +53,7 @@ from ...separation.effects.registry import (
 from ...separation.motion.state import MotionState
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, grouped, tolerance
+from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
 
@@ -80,26 +80,6 @@ _START = ("z", "h0")
 _FILM = (*_START, "R", "A_H", "gamma", "theta1", "theta2", "V", "profile")
 
 
-def _size(
-    name: str, unit: str, label: str, value: float, display: str | None = None, **more: Any
-) -> Port:
-    """Describe a parameter that is zero or positive."""
-    return Port(
-        name,
-        unit,
-        causality="parameter",
-        label=label,
-        start=value,
-        minimum=0.0,
-        display_unit=display,
-        **more,
-    )
-
-
-def _output(name: str, unit: str, label: str, depends_on: tuple[str, ...], **more: Any) -> Port:
-    return Port(name, unit, causality="output", label=label, depends_on=depends_on, **more)
-
-
 _GROUPS = {
     "geometry": ("N", "R", "h0", "h_free"),
     "liquid": ("V", "eta", "gamma", "theta1", "theta2", "profile"),
@@ -109,23 +89,16 @@ _GROUPS = {
 }
 
 _PORTS = (
-    Port(
+    input_port(
         "z",
         "m",
-        causality="input",
-        label="height of the root over where an unbent tip lands",
+        "height of the root over where an unbent tip lands",
         display_unit="um",
         nominal=1e-6,
     ),
-    Port("vz", "m/s", causality="input", label="speed of the root, > 0 lifts", nominal=0.1),
-    Port(
-        "az",
-        "m/s2",
-        causality="input",
-        label="acceleration of the root in the next step",
-        nominal=1e6,
-    ),
-    _output(
+    input_port("vz", "m/s", "speed of the root, > 0 lifts", nominal=0.1),
+    input_port("az", "m/s2", "acceleration of the root in the next step", nominal=1e6),
+    output_port(
         "F",
         "N",
         "force of all tips on the root, > 0 holds it down",
@@ -133,10 +106,10 @@ _PORTS = (
         display_unit="nN",
         nominal=1e-7,
     ),
-    _output("F_mean", "N", "mean of F over the last step", (), display_unit="nN", nominal=1e-7),
-    _output("h", "m", "gap under a tip", _START, display_unit="nm", nominal=1e-8),
-    _output("v", "m/s", "speed of a tip", ("vz",), nominal=0.1),
-    _output(
+    output_port("F_mean", "N", "mean of F over the last step", display_unit="nN", nominal=1e-7),
+    output_port("h", "m", "gap under a tip", _START, display_unit="nm", nominal=1e-8),
+    output_port("v", "m/s", "speed of a tip", ("vz",), nominal=0.1),
+    output_port(
         "F_film",
         "N",
         "force on one tip from its site, > 0 holds",
@@ -144,22 +117,20 @@ _PORTS = (
         display_unit="nN",
         nominal=1e-7,
     ),
-    _output("J", "N.s", "impulse of all tips on the root since the start", (), nominal=1e-13),
-    _output("W_visc", "J", "work dissipated in the films of all tips", (), nominal=1e-16),
-    _output("W_land", "J", "energy dissipated in all landings, of all tips", (), nominal=1e-17),
-    _output("state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus),
-    _output("t_break", "s", "time of the latest rupture, -1 before", (), start=-1.0),
-    _output(
-        "t_free",
-        "s",
-        "time at which the tips were free for the last time, -1 before",
-        (),
-        start=-1.0,
+    output_port("J", "N.s", "impulse of all tips on the root since the start", nominal=1e-13),
+    output_port("W_visc", "J", "work dissipated in the films of all tips", nominal=1e-16),
+    output_port("W_land", "J", "energy dissipated in all landings, of all tips", nominal=1e-17),
+    output_port(
+        "state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus
     ),
-    _output("t_land", "s", "time of the latest landing, -1 before", (), start=-1.0),
-    _output("n_break", "-", "number of ruptures so far", (), kind="integer"),
-    _output("n_land", "-", "number of landings so far", (), kind="integer"),
-    _output(
+    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
+    output_port(
+        "t_free", "s", "time at which the tips were free for the last time, -1 before", start=-1.0
+    ),
+    output_port("t_land", "s", "time of the latest landing, -1 before", start=-1.0),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
+    output_port("n_land", "-", "number of landings so far", kind="integer"),
+    output_port(
         "d",
         "m",
         "approach of apex and site, or their residual indentation; 0 if rigid",
@@ -167,11 +138,11 @@ _PORTS = (
         display_unit="nm",
         nominal=1e-9,
     ),
-    _output("d_max", "m", "largest approach of a tip so far; 0 if rigid", (), display_unit="nm"),
-    _output(
-        "F_max", "N", "largest force of the site on a tip so far; 0 if rigid", (), display_unit="nN"
+    output_port("d_max", "m", "largest approach of a tip so far; 0 if rigid", display_unit="nm"),
+    output_port(
+        "F_max", "N", "largest force of the site on a tip so far; 0 if rigid", display_unit="nN"
     ),
-    _output("W_plastic", "J", "work that yielding took, of all tips", (), nominal=1e-17),
+    output_port("W_plastic", "J", "work that yielding took, of all tips", nominal=1e-17),
     Port(
         "N",
         "-",
@@ -181,22 +152,22 @@ _PORTS = (
         start=2,
         minimum=1,
     ),
-    _size("m", "kg", "mass of one tip", 4e-16, exclusive=True),
-    _size("k", "N/m", "stiffness of one tip", 1.0, exclusive=True),
-    _size("c", "N.s/m", "damping of one tip while it is free", 2e-10),
-    _size(
+    size_port("m", "kg", "mass of one tip", 4e-16, exclusive=True),
+    size_port("k", "N/m", "stiffness of one tip", 1.0, exclusive=True),
+    size_port("c", "N.s/m", "damping of one tip while it is free", 2e-10),
+    size_port(
         "h0", "m", "gap that roughness keeps open under a landed tip", 4e-10, "nm", exclusive=True
     ),
-    _size(
+    size_port(
         "h_free", "m", "gap beyond which solids do not attract a tip", 5e-8, "nm", exclusive=True
     ),
-    _size("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True),
-    _size("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19),
-    _size("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0),
-    _size("gamma", "N/m", "surface tension of the liquid", 0.0727, "mN/m", exclusive=True),
-    _size("eta", "Pa.s", "viscosity of the liquid; 0: no viscous force", 1e-3, "mPa.s"),
-    _size("theta1", "rad", "contact angle on the landing site", 0.7, "deg", maximum=math.pi),
-    _size("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
+    size_port("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True),
+    size_port("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19),
+    size_port("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0),
+    size_port("gamma", "N/m", "surface tension of the liquid", 0.0727, "mN/m", exclusive=True),
+    size_port("eta", "Pa.s", "viscosity of the liquid; 0: no viscous force", 1e-3, "mPa.s"),
+    size_port("theta1", "rad", "contact angle on the landing site", 0.7, "deg", maximum=math.pi),
+    size_port("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
     Port(
         "profile",
         "-",
@@ -206,7 +177,7 @@ _PORTS = (
         enumeration=TipLaw,
         start=TipLaw.EXACT,
     ),
-    _size("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
+    size_port("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),
 )
 
