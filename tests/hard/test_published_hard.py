@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from published_case import NM, ask
 from scipy.integrate import quad
 from selection import quick
 
@@ -15,43 +16,10 @@ import contactkit as ck
 from contactkit.as_published.arguments import ARGUMENTS
 from contactkit.lubrication.couette_sphere import sphere_drag, sphere_impulse
 
-NM, RIGHT = 1e-9, math.pi / 2
+RIGHT = math.pi / 2
 
-# One possible value of each argument, for a film of nanometres.
-GIVEN = {
-    "surface_tension": 0.072,
-    "angle_lower": 1.0,
-    "angle_upper": 1.0,
-    "radius": 100 * NM,
-    "gap": 1 * NM,
-    "angle": 1.0,
-    "number": 4,
-    "kelvin_radius": 1 * NM,
-    "molar_volume": 18e-6,
-    "temperature": 298.15,
-    "relative_humidity": 0.5,
-    "sphere_radius": 100 * NM,
-    "immersion": 1 * NM,
-    "filling_angle": 0.2,
-    "volume": 927.3e-27,
-    "height": 2 * NM,
-    "film_height": 3 * NM,
-    "gap_start": 1 * NM,
-    "gap_end": 39 * NM,
-    "separation_time": 1e-7,
-    "viscosity": 0.89e-3,
-    "speed": 0.02,
-    "position": 5 * NM,
-    "travel": 30 * NM,
-    "force": 1e-9,
-}
 LENGTHS = [name for name, argument in ARGUMENTS.items() if argument.unit in ("m", "m3")]
 SIZES = (0.0, 1e-300, 1e-90, 1e-15, 1.0, 1e90, 1e300)
-
-
-def ask(number, /, **changed):
-    names = ck.PUBLISHED[number].arguments
-    return ck.published(number, **{n: GIVEN[n] for n in names if n in GIVEN} | changed)
 
 
 def changes(number):

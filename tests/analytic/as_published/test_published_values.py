@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 
 import pytest
+from published_case import FILM, NM, ask
 
 import contactkit as ck
 from contactkit.as_published.arguments import ARGUMENTS
@@ -14,40 +15,7 @@ from contactkit.as_published.printed.errata import ERRATA
 
 CASES = json.loads((Path(__file__).parents[2] / "data" / "separation.json").read_text())
 PRINTED = CASES["source_printed_numbers"]
-DEG, NM = math.pi / 180.0, 1e-9
-FILM = {"surface_tension": 0.072, "angle_lower": 60 * DEG, "angle_upper": 60 * DEG}
-
-# One possible value of each argument, for a film of nanometres.
-GIVEN = {
-    **FILM,
-    "radius": 100 * NM,
-    "gap": 1 * NM,
-    "angle": 1.0,
-    "number": 4,
-    "kelvin_radius": 1 * NM,
-    "molar_volume": 18e-6,
-    "temperature": 298.15,
-    "relative_humidity": 0.5,
-    "sphere_radius": 100 * NM,
-    "immersion": 1 * NM,
-    "filling_angle": 0.2,
-    "volume": 927.3e-27,
-    "height": 2 * NM,
-    "film_height": 3 * NM,
-    "gap_start": 1 * NM,
-    "gap_end": 39 * NM,
-    "separation_time": 1e-7,
-    "viscosity": 0.89e-3,
-    "speed": 0.02,
-    "position": 5 * NM,
-    "travel": 30 * NM,
-    "force": 1e-9,
-}
-
-
-def ask(number, /, **changed):
-    names = ck.PUBLISHED[number].arguments
-    return ck.published(number, **{n: GIVEN[n] for n in names if n in GIVEN} | changed)
+DEG = math.pi / 180.0
 
 
 @pytest.mark.parametrize("number", ck.PUBLISHED)
