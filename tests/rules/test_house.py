@@ -408,7 +408,7 @@ def test_no_file_names_a_place_on_a_machine():
 
 def test_a_place_on_a_machine_would_be_seen():
     seen = [f"open('/{'root'}/x')", f"/{'work'}/main", f"cd /{'tmp'}/abc"]
-    innocent = ["https://example.org/work/x", "in /tmp or so", "a/work/b"]
+    innocent = [f"https://example.org/{'work'}/x", f"in /{'tmp'} or so", f"a/{'work'}/b"]
     assert [text for text in (*seen, *innocent) if MACHINE.search(text)] == seen
 
 
