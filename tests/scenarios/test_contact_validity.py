@@ -244,6 +244,29 @@ def test_a_film_that_pulls_more_than_the_load_says_what_it_would_pull_in_balance
     assert balanced.of(ck.FilmMeniscus).self_consistent_force is None
 
 
+def test_the_smoothest_surface_of_the_source_states_the_size_in_balance():
+    """The lowest load of Fig. 2.25 on sigma = 1 nm, beta* = 0.5 um: 7 and 180 times the load."""
+    surface = ck.GaussianRoughness(rms=1e-9, correlation_length=0.5e-6, cutoff=625e-9)
+    solid = ck.Material(name="III", young_modulus=100e9, poisson_ratio=0.3, hardness=5e9)
+    lubricant = ck.Meniscus(liquid=ck.Liquid(name="lubricant", surface_tension=0.025))
+
+    def of(self_consistent):
+        film = ck.FilmMeniscus(film_thickness=1e-9, self_consistent=self_consistent)
+        given = scene(surface, 1e5, solid, (ck.HalfSpace(), film), width=20e-6)
+        interface = evolve(given.interface, meniscus=lubricant)
+        result, out = solved(evolve(given, interface=interface), grid=256)
+        return result.of(ck.FilmMeniscus), numbers(result), out
+
+    reported, stated, out = of(self_consistent=False)
+    balanced, _, _ = of(self_consistent=True)
+    assert 4.0 < reported.relative_force < 12.0
+    assert 100.0 < balanced.relative_force < 300.0
+    assert "film force over load" in out
+    assert reported.self_consistent_force == pytest.approx(balanced.force, rel=0.1)
+    text = f"{reported.self_consistent_force / 4e-5:.2g} times the load"
+    assert text in stated["film force over load"].detail
+
+
 def test_a_weak_film_is_not_estimated():
     reported, out = filmed(3e9)
     part = reported.of(ck.FilmMeniscus)
