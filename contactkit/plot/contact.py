@@ -113,8 +113,7 @@ def von_mises_section(result: ContactResult, ax: Axes | None = None) -> Axes:
 
     ax = ax if ax is not None else figure()[1]
     part: StressPart = result.of(SubsurfaceStress)
-    stack = result.plan.scene.interface.lower.stack
-    assert stack is not None
+    stack = result.plan.scene.interface.lower.elastic_stack
     dx, nx = result.plan.grid.pixel_size[1], result.plan.grid.shape[1]
     values = von_mises(part.section) / 1e9
     centre = int(np.argmax(result.pressure[part.row]))

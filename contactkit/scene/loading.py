@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
-from ..errors import DescriptionError
+from ..errors import DescriptionError, PlanError
 from ..units import si
 from ..validators import Described, finite, non_negative, optional, part, positive, refuse
 
@@ -246,6 +246,13 @@ class ImposedForce(SeparationLoading):
         if value > self.initial_gap:
             expected = f"not exceed initial_gap = {self.initial_gap:g} m"
             raise refuse(self, attribute, value, expected)
+
+    @property
+    def moving_mass(self) -> float:
+        """The mass [kg]; a pull without one is refused."""
+        if self.mass is None:
+            raise PlanError("a motion with inertia needs loading.mass [kg]: give the moving mass")
+        return self.mass
 
 
 SEPARATION_LOADINGS: tuple[type[SeparationLoading], ...] = (ImposedSpeed, ImposedForce, ImposedTime)

@@ -31,7 +31,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
-from ...errors import ConvergenceError, DescriptionError, PlanError
+from ...errors import ConvergenceError, DescriptionError, PlanError, nearest
 from ...frozen import FrozenDict
 from ...separation.motion.state import MotionState, outputs
 from ...separation.plan import Film, Plan
@@ -147,7 +147,9 @@ class MonolithicResult:
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a curve by its name in `COLUMNS`."""
         if name not in self.columns:
-            raise DescriptionError("column", name, f"be one of {', '.join(self.columns)}")
+            raise DescriptionError(
+                "column", name, "be a column of the result", hint=nearest(name, self.columns)
+            )
         return self.columns[name]
 
 
@@ -315,17 +317,21 @@ def simulate(
     ------
     PlanError
         If the scene has no mass, does not impose a force, or has a force of the solids.
+    DescriptionError
+        If `end` is not positive and finite.
     ConvergenceError
-        If the solver gives up.
+        If the solver gives up, or events follow each other without end.
     """
     loading = plan.scene.imposed_force
-    if loading.mass is None:
-        raise PlanError("a monolithic simulation needs loading.mass [kg]")
+    if not 0.0 < end < math.inf:
+        raise DescriptionError(
+            "end", end, "be positive and finite", unit="s", hint="the simulation starts at 0"
+        )
     if not all(kind.needs_film for kind in plan.film.laws):
         raise PlanError(
             "a monolithic simulation knows forces of the film only; leave out those of the solids"
         )
-    run = _Run(plan, drive, loading.mass, rtol, faces)
+    run = _Run(plan, drive, loading.moving_mass, rtol, faces)
     switches = law.switching_times(drive.profile, 0.0, end) if isinstance(drive, Valve) else []
     for start, stop in pairwise([0.0, *switches, end]):
         run.to(start, stop)
@@ -376,7 +382,11 @@ class _Run:
                 self._leave()
             self._piece(stop)
             if len(self.pieces) > _MOST_PIECES:
-                raise ConvergenceError(f"events follow each other without end at {self.time:g} s")
+                raise ConvergenceError(
+                    f"events follow each other without end: {_MOST_PIECES} by {self.time:g} s, at "
+                    f"a gap of {float(self.state[0]):g} m; end earlier, or move apart the marks "
+                    "next to it: loading.rest_gap, initial_gap and final_gap, the gap of the stop"
+                )
 
     # equations --------------------------------------------------------------------------------
 
@@ -439,7 +449,11 @@ class _Run:
             **method,
         )
         if not solution.success or solution.sol is None:
-            raise ConvergenceError(f"scipy stopped at {self.time:g} s: {solution.message}")
+            raise ConvergenceError(
+                f"scipy stopped at {self.time:g} s, at a gap of {float(self.state[0]):g} m and "
+                f"{float(self.state[1]):g} m/s: {solution.message} Use a larger rtol (it is "
+                f"{self.rtol:g}), end earlier, or check the units of mass, stiffness and pull"
+            )
         self.n_steps += len(solution.t) - 1
         self.n_evaluations += solution.nfev
         at = partial(in_si, solution.sol, self.loading.initial_gap, film is not None)

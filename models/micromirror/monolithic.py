@@ -85,7 +85,7 @@ class _Integration:
         loading = plan.scene.imposed_force
         self.mirror, self.plan, self.rtol = mirror, plan, rtol
         self.origin, self.stiffness = loading.initial_gap, loading.stiffness
-        self.mass, self.damping = loading.mass or 0.0, mirror.tips.damping
+        self.mass, self.damping = loading.moving_mass, mirror.tips.damping
         far = self.origin + root_height(mirror.tips, start[0], -1.0)
         self.state = np.array([*start, self.origin, 0.0, far, 0.0])
         self.modes, self.broken = [LANDED, FREE], [False, True]

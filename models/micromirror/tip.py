@@ -137,7 +137,7 @@ def contact_of(plan: Plan, stop: TipStop, state: TipState, root: Root) -> Contac
     """Tip that touches, with a root that moves."""
     loading = plan.scene.imposed_force
     held = attraction(plan, state)
-    return Contact(stop, held, loading.stiffness, loading.mass or 0.0, root)
+    return Contact(stop, held, loading.stiffness, loading.moving_mass, root)
 
 
 def pressed(stop: TipStop, state: TipState, depth: float, largest: float) -> TipState:
@@ -227,7 +227,7 @@ def _one(plan: Plan, state: TipState, root: Root, end: float, gives: bool = Fals
     if before.in_contact:
         impulse -= twelfth * bent
     else:
-        mass = loading.mass or 0.0
+        mass = loading.moving_mass
         film = sum(
             impulse - before.impulses.get(name, 0.0) for name, impulse in after.impulses.items()
         )
@@ -257,18 +257,18 @@ def _landed(state: TipState, loss: float, time: float) -> TipState:
 
 def _flight(plan: Plan, damping: float, state: TipState, root: Root) -> Flight:
     loading, motion = plan.scene.imposed_force, state.motion
-    assert loading.mass is not None  # the device gives one
-    decay = 0.5 * damping / loading.mass
-    square = loading.stiffness / loading.mass - decay * decay
+    mass = loading.moving_mass
+    decay = 0.5 * damping / mass
+    square = loading.stiffness / mass - decay * decay
     if square <= 0.0:
-        critical = 2.0 * math.sqrt(loading.stiffness * loading.mass)
+        critical = 2.0 * math.sqrt(loading.stiffness * mass)
         raise DescriptionError(
             "SpringTips.damping",
             damping,
             f"be less than critical, {critical:g} N.s/m",
             unit="N.s/m",
         )
-    frequency, rest = math.sqrt(square), -loading.mass * root.acceleration / loading.stiffness
+    frequency, rest = math.sqrt(square), -mass * root.acceleration / loading.stiffness
     cosine = motion.gap - loading.initial_gap - root.height - rest
     sine = (motion.speed - root.speed + decay * cosine) / frequency
     return Flight(rest, decay, frequency, cosine, sine)
@@ -284,7 +284,7 @@ def _fly(
     elapsed = left if lands is None else lands
     (bend, rate), there = flight.at(elapsed), root.after(elapsed)
     gap, speed = loading.initial_gap + there.height + bend, there.speed + rate
-    mass = loading.mass or 0.0
+    mass = loading.moving_mass
     impulse = mass * (speed - motion.speed)
     state = state._replace(
         motion=motion._replace(time=motion.time + elapsed, gap=gap, speed=speed, step=0.0),
@@ -307,7 +307,7 @@ def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
         armed=True,
         detached=False,
     )
-    loss = 0.0 if gives else 0.5 * (loading.mass or 0.0) * motion.speed * motion.speed
+    loss = 0.0 if gives else 0.5 * loading.moving_mass * motion.speed * motion.speed
     return _landed(state, loss, motion.time)._replace(motion=moved, free=False, touching=gives)
 
 

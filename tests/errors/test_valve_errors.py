@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import pytest
 from attrs import evolve
 
-from contactkit.errors import DescriptionError, PlanError
+import contactkit as ck
+from contactkit.errors import ConvergenceError, DescriptionError, PlanError
+from contactkit.models.injector import monolithic
 from contactkit.models.injector.monolithic import simulate
 from contactkit.models.injector.valve import Coil, DriveProfile, Spring, Stop, Valve
 from contactkit.separation.plan import plan
@@ -60,8 +63,41 @@ def test_the_poles_must_lie_beyond_the_stop():
         Valve(coil=COIL, spring=SPRING, stop=evolve(STOP, gap=200e-6), profile=PROFILE)
 
 
-def test_a_monolithic_simulation_needs_a_force_and_a_mass(film_scene):
-    for motion in ({"speed": 1e-6}, {"force": 1.0}):
-        made = plan(film_scene(**motion))
-        with pytest.raises(PlanError, match="needs loading"):
-            simulate(made, lambda time: 1.0, 1e-3)
+@pytest.mark.parametrize(
+    ("motion", "cure"),
+    [
+        ({"speed": 1e-6}, "needs loading = ImposedForce"),
+        ({"force": 1.0}, "needs loading.mass [kg]: give the moving mass"),
+    ],
+)
+def test_what_a_monolithic_simulation_needs_is_named_with_its_cure(film_scene, motion, cure):
+    with pytest.raises(PlanError, match=re.escape(cure)):
+        simulate(plan(film_scene(**motion)), lambda time: 1.0, 1e-3)
+
+
+@pytest.mark.parametrize("end", [0.0, -1.0, float("nan")])
+def test_a_monolithic_simulation_ends_after_it_starts(film_scene, end):
+    made = plan(film_scene(force=1.0, mass=1e-3))
+    with pytest.raises(DescriptionError, match=r"end must be positive and finite \[s\]"):
+        simulate(made, lambda time: 1.0, end)
+
+
+def test_a_solver_that_gives_up_names_a_cure(film_scene):
+    made = plan(film_scene(ck.ViscousForce(), force=1.0, mass=1e-3))
+    # No step is short enough for a pull that grows beyond all bounds.
+    with pytest.raises(ConvergenceError, match="Use a larger rtol") as caught:
+        simulate(made, lambda time: 1.0 / (1e-4 - time) ** 2 if time < 1e-4 else math.inf, 1e-3)
+    assert "m/s" in str(caught.value)
+
+
+def test_events_without_end_name_a_cure(film_scene, monkeypatch):
+    monkeypatch.setattr(monolithic, "_MOST_PIECES", 1)
+    scene = film_scene(ck.ViscousForce(), force=1.0, mass=1e-3, stiffness=1e9)
+    with pytest.raises(ConvergenceError, match="end earlier, or move apart the marks"):
+        simulate(plan(scene), lambda time: math.sin(1e6 * time), 1e-3)
+
+
+def test_a_column_that_a_result_does_not_have_is_answered(film_scene):
+    result = simulate(plan(film_scene(force=1.0, mass=1e-3)), lambda time: 1.0, 1e-9)
+    with pytest.raises(DescriptionError, match="did you mean 'speed'"):
+        result["sped"]

@@ -220,5 +220,4 @@ def _spool(film: SeparationScene) -> Mass:
     from ...fmu.master.couple import Mass
 
     loading = film.imposed_force
-    assert loading.mass is not None  # the injector gives one
-    return Mass(mass=loading.mass, stiffness=loading.stiffness, rest_gap=loading.rest_gap)
+    return Mass(mass=loading.moving_mass, stiffness=loading.stiffness, rest_gap=loading.rest_gap)

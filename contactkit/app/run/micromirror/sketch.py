@@ -125,10 +125,11 @@ def _meniscus(ax: Any, made: Plan) -> float:
     from ....capillary.exact.bridge import bridge
 
     interface, meniscus = made.scene.interface, made.scene.meniscus
-    assert meniscus.volume is not None
     gap, curvature = made.scene.loading.initial_gap, interface.curvatures[1]
     angle = meniscus.contact_angle_lower
-    found = bridge(gap, meniscus.volume, angle, meniscus.contact_angle_upper, 0.0, curvature)
+    found = bridge(
+        gap, made.prepared.film.volume, angle, meniscus.contact_angle_upper, 0.0, curvature
+    )
     low, high = float(found.radius_lower), float(found.radius_upper)
     sag = 1.0 / curvature - math.sqrt(1.0 / curvature**2 - high * high)
     height = gap + sag
