@@ -2,6 +2,7 @@
 
 scenes           Scene files in TOML: read completely, or refused with all errors.
 structure        Tables of plain values to scene objects.
+meniscus_amount  Amount of liquid that a file gives by a contact radius, or by a coverage, at a gap.
 unstructure      Scene objects to tables of plain values, and the names of their kinds in files.
 results          Result files: npz with a JSON header, and CSV.
 contact_results  Contact results as arrays and a header of plain values, and back.

@@ -19,12 +19,14 @@ from ..errors import DescriptionError, nearest
 from ..liquids.liquid import Liquid
 from ..liquids.temperature_laws import TemperatureLaw
 from ..scene.effect import EffectRegistry
-from ..scene.interface import Body
+from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
 from ..scene.materials import Material, Stack
+from ..scene.meniscus import Meniscus
 from ..scene.surfaces import Surface
 from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
+from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .unstructure import (
     ARRAY_FIELDS,
     LAW_KINDS,
@@ -160,8 +162,11 @@ def _resolved(kind: type) -> None:
     attrs.resolve_types(kind, localns=names)
 
 
-def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
-    """Structure an attrs class: quantities with units; unknown keys refused with a suggestion."""
+def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any], Any]:
+    """Structure an attrs class: quantities with units; unknown keys refused with a suggestion.
+
+    Keys of `more` may be suggested besides; who calls the hook has taken them out.
+    """
     _resolved(kind)
     hooks = {
         a.name: override(struct_hook=_quantity(kind, a))
@@ -180,7 +185,7 @@ def _attrs_class(kind: type) -> Callable[[Any, Any], Any]:
                     f"{kind.__name__}.{key}",
                     value[key],
                     "be a known key",
-                    hint=renamed(key) or _owners(kind, key) + nearest(key, known),
+                    hint=renamed(key) or _owners(kind, key) + nearest(key, (*known, *more)),
                 )
         return inner(value, target)
 
@@ -198,6 +203,20 @@ def _material(value: Any, _: Any) -> Material:
     if isinstance(value, str):
         return load_material(value)
     made: Material = _MATERIAL(value, Material)
+    return made
+
+
+def _meniscus(value: Any, _: Any) -> Meniscus:
+    """A table of a meniscus; its amount may be a radius or a coverage at a gap."""
+    given = amount_of(value) if isinstance(value, Mapping) else {}
+    rest = {key: value[key] for key in value if key not in given} if given else value
+    made: Meniscus = _MENISCUS(rest, Meniscus)
+    return with_amount(made, given) if given else made
+
+
+def _interface(value: Any, _: Any) -> Interface:
+    made: Interface = _INTERFACE(value, Interface)
+    check_flat(value, made)
     return made
 
 
@@ -270,6 +289,8 @@ for _matches, _hook in (
     (lambda kind: kind is Material, _material),
     (lambda kind: kind == Material | Stack | None, _solid),
     (lambda kind: kind is Body, _body),
+    (lambda kind: kind is Meniscus, _meniscus),
+    (lambda kind: kind is Interface, _interface),
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
@@ -278,6 +299,7 @@ for _matches, _hook in (
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these use for their fields.
 _LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs_class(Body)
+_MENISCUS, _INTERFACE = _attrs_class(Meniscus, AMOUNT_KEYS), _attrs_class(Interface)
 _LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
 _law = _tagged("law", LAW_KINDS)
 
