@@ -55,7 +55,9 @@ def pulled_together(
     whole window, and where the bodies touch everywhere it does not pull at all. The force is a sum
     over pixels and has steps: if the two sides meet at one, N is there, and `Balance.imbalance` is
     its height. Then loads above N are tried, by factors of four: a change of sign is another
-    equilibrium, and more than one means that the bodies snap in when pressed beyond the second.
+    equilibrium, and more than one means that the bodies snap in when pressed beyond the second. A
+    film that repels carries part of W: it pushes the harder the closer the bodies are, so that one
+    load below W balances, if the film does not carry all of W where the bodies first touch.
     """
     area = plan.grid.area
     imposed = mean_pressure * area
@@ -79,13 +81,17 @@ def pulled_together(
             f"the bodies cannot carry the load of {imposed:.6g} N at the hardness that its "
             "displacement leads to; lower the load"
         )
-    largest = imposed + term.largest_force(first.contact)
-    if plan.hardness is not None:
-        largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
-    found, is_settled = _smallest(plan, attempt, first, largest)
-    others = _further(attempt, found, largest)
+    others: tuple[float, ...] = ()
+    if first.excess < 0.0:
+        found, is_settled = _pushed_apart(plan, attempt, first)
+    else:
+        largest = imposed + term.largest_force(first.contact)
+        if plan.hardness is not None:
+            largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
+        found, is_settled = _smallest(plan, attempt, first, largest)
+        others = _further(attempt, found, largest)
     # At a step of the force the balance says how much of it acts.
-    force = found.load - imposed if found.load > imposed else term.force_of(found.part)
+    force = found.load - imposed if found.load != imposed else term.force_of(found.part)
     gap = abs(found.excess) / found.load if found.load > 0.0 else 0.0
     relative = force / imposed if imposed > 0.0 else math.inf
     part = term.balanced(found.part, Balance(force, relative, (found.load, *others), gap))
@@ -142,6 +148,35 @@ def _secant(before: _Trial[Part], now: _Trial[Part]) -> float:
     slope = (now.excess - before.excess) / (now.load - before.load)
     ahead = now.excess / max(-slope, 0.25)
     return now.load + ahead
+
+
+def _pushed_apart(
+    plan: ContactPlan, attempt: _Attempt[Part], first: _Trial[Part]
+) -> tuple[_Trial[Part], bool]:
+    """The load between none and the imposed one that a film which repels leaves to the contact."""
+    tolerance = max(plan.accuracy.outer_rtol, 1e-9)
+    low, high = attempt(0.0, None), first
+    if low is None or low.excess <= 0.0:
+        # Where the bodies touch without a load, the force is all that is out of balance.
+        push = first.load - low.excess if low is not None else math.inf
+        raise InfeasibleError(
+            f"the film pushes the bodies apart with {push:.6g} N where they first touch, and the "
+            f"load is {first.load:.6g} N: they float on it; raise the load, lower the contact "
+            "angles or the film_thickness, or use FilmMeniscus without self_consistent"
+        )
+    halves = False  # where secants do not, as at a step of the force
+    for _ in range(_MAX_ITERATIONS):
+        best = min(low, high, key=lambda trial: abs(trial.excess))
+        width = high.load - low.load
+        if abs(best.excess) <= tolerance * best.load or width <= tolerance * high.load:
+            return best, True
+        share = 0.5 if halves else low.excess / (low.excess - high.excess)
+        trial = attempt(low.load + share * width, high)
+        if trial is None:
+            break
+        low, high = (low, trial) if trial.excess < 0.0 else (trial, high)
+        halves = not halves and high.load - low.load > 0.5 * width
+    return best, False
 
 
 def _further(attempt: _Attempt[Part], found: _Trial[Part], largest: float) -> tuple[float, ...]:

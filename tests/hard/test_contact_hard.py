@@ -528,12 +528,12 @@ PULL = 2.0 * math.pi * BALL * 0.07275  # cos + cos = 1
 RIGID = ck.Material(young_modulus=1e15, poisson_ratio=NU)
 
 
-def ball_on_film(force, solid=RIGID, grid=96, width=6.0 * RIM):
+def ball_on_film(force, solid=RIGID, grid=96, width=6.0 * RIM, wet=FILM):
     return solved(
         film(1e-9),
         lower=solid,
         surface=ck.Paraboloid(radius=BALL),
-        meniscus=FILM,
+        meniscus=wet,
         grid=grid,
         width=width,
         periodic=False,
@@ -592,6 +592,30 @@ def test_a_load_below_the_hardness_has_an_equilibrium_with_any_film(modulus, thi
     run = solved(film(thickness), limit, lower=solid, meniscus=wet, pressure=pressure)
     assert run.max_pressure <= solid.hardness * (1.0 + 1e-12)
     assert pressure < run.mean_pressure < solid.hardness
+    assert balanced(run) < 2e-2  # steps of whole pixels
+
+
+REPELLED = ck.Meniscus(  # cos + cos = -1
+    liquid=WATER, contact_angle_lower=2.0 * math.pi / 3.0, contact_angle_upper=2.0 * math.pi / 3.0
+)
+
+
+def test_a_stiff_ball_floats_on_a_film_that_repels_until_the_load_exceeds_its_push():
+    """The push of a stiff ball is the classical force with the other sign, at any load."""
+    run = ball_on_film(3.0 * PULL, wet=REPELLED)
+    assert run.of(ck.FilmMeniscus).force == pytest.approx(-PULL, rel=2e-2)
+    assert run.load == pytest.approx(2.0 * PULL, rel=2e-2)
+    assert run.load == pytest.approx(3.0 * PULL + run.of(ck.FilmMeniscus).force, rel=1e-5)
+    with pytest.raises(ck.InfeasibleError, match="they float on it; raise the load, lower the"):
+        ball_on_film(0.9 * PULL, wet=REPELLED)
+
+
+@pytest.mark.parametrize("thickness", [1e-10, 1e-9])
+def test_a_film_that_repels_carries_a_part_of_the_load(thickness):
+    run = solved(film(thickness), meniscus=REPELLED, pressure=3e7)
+    part = run.of(ck.FilmMeniscus)
+    assert len(part.equilibria) == 1
+    assert 0.0 < run.mean_pressure < 0.5 * 3e7
     assert balanced(run) < 2e-2  # steps of whole pixels
 
 

@@ -267,6 +267,18 @@ def test_the_smoothest_surface_of_the_source_states_the_size_in_balance():
     assert text in stated["film force over load"].detail
 
 
+def test_a_film_that_repels_is_out_of_range_as_well():
+    film = ck.FilmMeniscus(film_thickness=2e-9)
+    given = scene(pressure=3e7, effects=(ck.HalfSpace(), film))
+    wet = evolve(given.interface.meniscus, contact_angle_lower=2.5, contact_angle_upper=2.5)
+    given = evolve(given, interface=evolve(given.interface, meniscus=wet))
+    reported, out = solved(given)
+    part = reported.of(ck.FilmMeniscus)
+    assert part.relative_force < -0.1
+    assert "film force over load" in out
+    assert part.self_consistent_force < 0.0
+
+
 def test_a_weak_film_is_not_estimated():
     reported, out = filmed(3e9)
     part = reported.of(ck.FilmMeniscus)

@@ -147,7 +147,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
 
     def needs_balance(self, contact: Contact, part: FilmPart) -> bool:
         """See `LoadTerm.needs_balance`."""
-        return _is_only_reported(self, contact) and part.relative_force > _WEAK
+        return _is_only_reported(self, contact) and abs(part.relative_force) > _WEAK
 
     def estimated(self, part: FilmPart, force: float | None) -> FilmPart:
         """See `LoadTerm.estimated`."""
@@ -162,9 +162,9 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         return (
             ValidityNumber(
                 name="film force over load",
-                value=part.relative_force,
+                value=abs(part.relative_force),
                 high=_WEAK,
-                detail="as published, the film is reported and does not press the bodies together; "
+                detail="as published, the film is reported and is no part of the load; "
                 f"use FilmMeniscus(self_consistent=True){size}",
             ),
         )
