@@ -78,22 +78,35 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
+_LARGEST = 1e60  # its fourth power, times what multiplies it, still fits into a double
+
+
+def _within(owner: object, attribute: Attribute[Any], value: float) -> None:
+    """Refuse a number whose powers would overflow."""
+    if abs(value) > _LARGEST:
+        cure = "no quantity in SI units is as large; check its unit"
+        raise refuse(owner, attribute, value, f"be at most {_LARGEST:g} in size", cure)
+
+
 def finite(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """Refuse anything but a finite number."""
+    """Refuse anything but a finite number, of a size that has a meaning."""
     if not _is_number(value):
         raise refuse(owner, attribute, value, "be a finite number")
+    _within(owner, attribute, value)
 
 
 def positive(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """Refuse anything but a positive, finite number."""
+    """Refuse anything but a positive, finite number, of a size that has a meaning."""
     if not (_is_number(value) and value > 0.0):
         raise refuse(owner, attribute, value, "be positive and finite")
+    _within(owner, attribute, value)
 
 
 def non_negative(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    """Refuse negative numbers, infinity and nan."""
+    """Refuse negative numbers, infinity and nan, and sizes without a meaning."""
     if not (_is_number(value) and value >= 0.0):
         raise refuse(owner, attribute, value, "be zero or positive, and finite")
+    _within(owner, attribute, value)
 
 
 def fraction(owner: object, attribute: Attribute[Any], value: Any) -> None:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from attrs import Factory, evolve, field, frozen
 
 from ..accuracy import Accuracy
-from ..errors import InfeasibleError, PlanError
+from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..liquids.liquid import LiquidState
 from ..scene.effect import EffectRegistry, check_listed
-from ..scene.loading import Approach, ContactLoading
+from ..scene.loading import Approach, ContactLoading, Pressing
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat
@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 __all__ = ["ContactPlan", "plan_contact", "unprepared_plan"]
 
 _SINGLE_ROLES = (PressureBound, LoadTerm, DisplacementTerm)  # one effect of each at most
+_LARGEST = 1e3  # pressure over E*, or approach over window: beyond, round-off is all there is
+_WIDEST = 1e6  # side of a window [m]
 
 
 def _hardness(plan: ContactPlan) -> HardnessLaw | None:
@@ -151,6 +153,7 @@ class ContactPlan(ScenePlan):
             As `plan` does.
         """
         made = evolve(self, scene=evolve(self.scene, loading=loading))
+        _check_size(made)
         _check_load(made)
         _check_approach(made)
         return made
@@ -213,10 +216,12 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_effects(scene)
     accuracy = accuracy or Accuracy.standard
     grid = grid_of(scene, accuracy)
+    _check_window(grid)
     if scene.window.periodic is None and not grid.periodic:  # a measured surface states so
         scene = evolve(scene, window=evolve(scene.window, periodic=False))
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
+    _check_size(made)
     _check_load(made)
     return made
 
@@ -278,6 +283,47 @@ def _check_liquid(made: ContactPlan) -> None:
     ]
     if problems:
         raise PlanError("; ".join(problems))
+
+
+def _check_window(grid: Grid) -> None:
+    """Refuse a window whose powers do not fit into the numbers of a computer."""
+    sides = [count * size for count, size in zip(grid.shape, grid.pixel_size, strict=True)]
+    if not max(sides) <= _WIDEST:
+        raise DescriptionError(
+            "the window",
+            max(sides),
+            f"be at most {_WIDEST:g} along a side",
+            unit="m",
+            hint="check the unit of Window.width and height, or of the pixel_size of a map",
+        )
+
+
+def _check_size(made: ContactPlan) -> None:
+    """Refuse a load or an approach far beyond what the elastic bodies could answer."""
+    loading, load = made.scene.loading, made.mean_pressure
+    materials = [m for stack in made.scene.interface.stacks for m in stack.materials]
+    modulus = min(material.plane_strain_modulus for material in materials)
+    if load is not None and not load <= _LARGEST * modulus:
+        is_force = isinstance(loading, Pressing) and loading.force is not None
+        name, unit, factor = ("force", "N", made.grid.area) if is_force else ("pressure", "Pa", 1.0)
+        raise DescriptionError(
+            f"loading.{name}",
+            getattr(loading, name, load),
+            f"be at most {_LARGEST * modulus * factor:.3g}, {_LARGEST:g} times the E* of "
+            f"{modulus:.3g} Pa of the softest material over the window",
+            unit=unit,
+            hint="linear elasticity ends far below; check the units of load, window and "
+            "young_modulus",
+        )
+    side = max(n * size for n, size in zip(made.grid.shape, made.grid.pixel_size, strict=True))
+    if isinstance(loading, Approach) and loading.approach > _LARGEST * side:
+        raise DescriptionError(
+            "loading.approach",
+            loading.approach,
+            f"be at most {_LARGEST * side:.3g}, {_LARGEST:g} times the window",
+            unit="m",
+            hint="linear elasticity ends far below; check the units of approach and window",
+        )
 
 
 def _check_load(made: ContactPlan) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..errors import ConvergenceError, DescriptionError
+import numpy as np
+
+from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..scene.validity import warn
@@ -22,7 +25,6 @@ from .validity import check_contact
 from .work import WorkCounter
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     Map = NDArray[np.float64]
@@ -142,6 +144,7 @@ def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answ
     else:
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)
+    _check_fits(plan, contact)
     for effect in plan.scene.effects:
         begun = time.perf_counter()
         if type(effect) not in parts and (part := effect.observe(contact)) is not None:
@@ -150,6 +153,21 @@ def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answ
             parts[type(effect)] = part
             counter.clock(effect.name, begun)
     return _Answer(solved, contact, parts)
+
+
+def _check_fits(plan: ContactPlan, contact: Contact) -> None:
+    """Refuse a contact whose numbers left the range of a computer's on the way."""
+    load = plan.mean_pressure
+    is_lost = load is not None and load > 0.0 and not contact.pressure.any()
+    if not is_lost and math.isfinite(float(contact.pressure.sum() + contact.gap.sum())):
+        return
+    (ny, nx), (dy, dx) = plan.grid.shape, plan.grid.pixel_size
+    imposed = "" if load is None else f", a mean pressure of {load:.3g} Pa"
+    raise InfeasibleError(
+        "the numbers of this contact are too large or too small for a computer to hold: heights "
+        f"over {float(np.ptp(plan.heights)):.3g} m, a window of {nx * dx:.3g} m by {ny * dy:.3g} m"
+        f"{imposed}; check their units, and those of young_modulus"
+    )
 
 
 def _result(plan: ContactPlan, answer: _Answer, counter: WorkCounter) -> ContactResult:

@@ -31,6 +31,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarni
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
 BARE = ck.Material(name="bare", young_modulus=1e9, poisson_ratio=0.3)
 FILM = ck.Layer(material=BARE, thickness=1e-9)
+SOFT = ck.Material(name="soft", young_modulus=1.0, poisson_ratio=0.3)
 COATED = ck.Stack(layers=(FILM,), substrate=STEEL)
 ROUGH = ck.GaussianRoughness(rms=1e-9, correlation_length=1e-7, cutoff=6e-8)
 SELF_AFFINE = ck.SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=2e-7, cutoff=6e-8)
@@ -413,6 +414,62 @@ def test_all_that_is_lacking_is_reported_at_once():
         effects=(HALF_SPACE, ck.HardnessLimit(), WET, ck.FrictionCoupling()),
         solid=COATED,
     )
+
+
+@pytest.mark.parametrize(
+    ("loading", "given", "parts"),
+    [
+        (
+            ck.Pressing(pressure=1e15),
+            {},
+            (
+                "loading.pressure must be at most 2.31e+14, 1000 times the E*",
+                "got 1000000000000000.0",
+            ),
+        ),
+        (ck.Pressing(force=1e3), {}, ("loading.force must be at most 231, 1000", "[N], got 1000")),
+        (
+            ck.Pressing(pressure=1e6),
+            {"solid": ck.Material(young_modulus=1.0, poisson_ratio=0.3)},
+            ("at most 1.1e+03, 1000 times the E* of 1.1 Pa", "check the units of load, window"),
+        ),
+        (
+            ck.Pressing(pressure=1e6),
+            {"solid": ck.Stack(layers=[attrs.evolve(FILM, material=SOFT)], substrate=STEEL)},
+            ("of the softest material", "got 1000000.0; linear elasticity ends far below"),
+        ),
+        (
+            ck.Approach(approach=1.0),
+            {"window": ck.Window(width=1e-6, periodic=False)},
+            ("loading.approach must be at most 0.001, 1000 times the window [m], got 1.0",),
+        ),
+        (
+            PRESSURE,
+            {"window": ck.Window(width=1e9)},
+            ("the window must be at most 1e+06 along a side [m], got 1000000000.0; check the",),
+        ),
+    ],
+)
+def test_what_would_overflow_is_refused_with_its_field_unit_and_cure(loading, given, parts):
+    effects = (LAYERED,)
+    refuses_plan(*parts, effects=effects, error=ck.DescriptionError, loading=loading, **given)
+
+
+def test_another_load_on_a_plan_is_held_to_the_same():
+    plan = ck.plan(scene(), ck.Accuracy(grid=64))
+    words = ("loading.pressure must be at most", "got 1e+20")
+    refuses(lambda: plan.with_loading(ck.Pressing(pressure=1e20)), *words)
+
+
+@pytest.mark.filterwarnings("ignore:overflow:RuntimeWarning")
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
+def test_numbers_that_overflow_on_the_way_are_no_result():
+    sharp = scene(
+        surface=ck.Paraboloid(radius=1e-300), window=ck.Window(width=1e-6, periodic=False)
+    )
+    plan = ck.plan(sharp, ck.Accuracy(grid=32))
+    words = ("too large or too small for a computer", "a window of 1e-06 m", "1e+06 Pa; check")
+    refuses(lambda: ck.solve(plan), *words, error=ck.InfeasibleError)
 
 
 def test_a_load_beyond_the_hardness_is_infeasible_with_both_numbers():

@@ -13,7 +13,7 @@ from contactkit.validators import as_pair, as_tuple, choice, optional, part
 
 # Validator, what it takes, what it refuses beside what is never a number, and its words.
 NUMBERS = [
-    (validators.finite, [0, -1.5, 1e300], [None], FINITE),
+    (validators.finite, [0, -1.5, 1e60], [None], FINITE),
     (validators.positive, [1, 5e-324], [0, 0.0, -1.0, None], POSITIVE),
     (validators.non_negative, [0, 0.0, 1.0], [-5e-324, None], NON_NEGATIVE),
     (validators.fraction, [0.0, 0.5, 1], [-0.1, 1.0 + 1e-15, None], BETWEEN),
@@ -34,6 +34,17 @@ def test_a_validator_takes_what_it_says_and_nothing_else(check, taken, refused, 
     kind = holder(check)
     assert [kind(value).field for value in taken] == taken
     assert misfits([(kind(taken[-1]), "field", "m", expected, refused)]) == {}
+
+
+@pytest.mark.parametrize("check", [validators.finite, validators.positive, validators.non_negative])
+@pytest.mark.parametrize("value", [1.1e60, 1e300])
+def test_a_number_without_a_meaning_is_refused(check, value):
+    words = f"Holder.field must be at most 1e+60 in size [m], got {value!r}; no quantity in SI"
+    refuses(lambda: holder(check)(value), words)
+
+
+def test_a_size_counts_without_its_sign():
+    refuses(lambda: holder(validators.finite)(-1e300), "must be at most 1e+60 in size [m], got -1e")
 
 
 def test_degrees_are_suspected():
