@@ -7,4 +7,5 @@ couette_flat      Couette film between sliding flats; contact-angle hysteresis.
 couette_sphere    Couette film under a sliding sphere.
 couette_reynolds  Sphere sliding in a round film: drag from Reynolds' equation.
 dimensionless     Dimensionless numbers for the range of validity.
+reynolds          Reynolds' equation in 2-D: any face, any gap, cavities with memory.
 """

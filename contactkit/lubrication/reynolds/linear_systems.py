@@ -1,0 +1,134 @@
+"""Sparse linear systems of the film: SuperLU, and CHOLMOD or multigrid where they are installed.
+
+All matrices have positive diagonals, no positive entry beside them, and columns that are
+diagonally dominant, so that elimination without pivoting is stable and an ordering for symmetric
+matrices can be used throughout.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...errors import ConvergenceError, DescriptionError, MissingExtraError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["SOLVERS", "choose_solver", "solve_sparse"]
+
+SOLVERS = ("superlu", "cholmod", "amg")
+LARGE = 90_000
+"""Unknowns from which a solver other than SuperLU pays."""
+_PACKAGES = {"cholmod": "sksparse", "amg": "pyamg"}
+
+
+def choose_solver(asked: str | None, size: int) -> str:
+    """Linear solver for a number of unknowns.
+
+    Parameters
+    ----------
+    asked : str, optional
+        "superlu", "cholmod" (package scikit-sparse) or "amg" (package pyamg). None: SuperLU up to
+        90 000 unknowns, beyond that CHOLMOD or else multigrid if it is installed.
+    size : int
+        Number of unknowns.
+
+    Raises
+    ------
+    DescriptionError
+        If the name is none of these.
+    MissingExtraError
+        If what is asked for is not installed.
+
+    Examples
+    --------
+    >>> choose_solver(None, 1000)
+    'superlu'
+    """
+    if asked is None:
+        if size <= LARGE:
+            return "superlu"
+        there = (name for name in ("cholmod", "amg") if importlib.util.find_spec(_PACKAGES[name]))
+        return next(there, "superlu")
+    if asked not in SOLVERS:
+        expected = f"be one of {', '.join(map(repr, SOLVERS))}"
+        raise DescriptionError("solver", asked, expected)
+    package = _PACKAGES.get(asked)
+    if package is not None and importlib.util.find_spec(package) is None:
+        name = {"sksparse": "scikit-sparse", "pyamg": "pyamg"}[package]
+        raise MissingExtraError(
+            f"solver={asked!r} needs {package}, which is not installed: pip install {name}, or "
+            "leave the solver out",
+            name=package,
+        )
+    return asked
+
+
+def solve_sparse(matrix: Any, right: Array, solver: str, is_symmetric: bool) -> Array:
+    """Solve a sparse system.
+
+    Parameters
+    ----------
+    matrix : sparse array, shape (n, n)
+        The matrix, CSR or CSC.
+    right : ndarray, shape (n,) or (n, k)
+        Right-hand sides.
+    solver : str
+        See `choose_solver`. An unsymmetric system is always solved by SuperLU.
+    is_symmetric : bool
+        Whether the matrix is symmetric and positive definite.
+
+    Raises
+    ------
+    ConvergenceError
+        If the matrix is singular: some liquid is connected to no reservoir.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csc_array
+    >>> solve_sparse(csc_array([[2.0, -1.0], [-1.0, 2.0]]), np.array([1.0, 1.0]), "superlu", True)
+    array([1., 1.])
+    """
+    if solver == "cholmod" and is_symmetric:
+        from scipy.sparse import csc_matrix
+        from sksparse.cholmod import cholesky
+
+        return np.asarray(cholesky(csc_matrix(matrix))(right))
+    if solver == "amg" and is_symmetric:
+        return _multigrid(matrix, right)
+    from scipy.sparse.linalg import splu
+
+    try:
+        factor = splu(
+            matrix.tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+    except RuntimeError as error:
+        raise ConvergenceError(f"the film has no unique pressure: {error}") from error
+    found = np.asarray(factor.solve(right))
+    if not np.isfinite(found).all():
+        raise ConvergenceError("the film has no unique pressure: its matrix is singular")
+    return found
+
+
+def _multigrid(matrix: Any, right: Array) -> Array:
+    """Conjugate gradients preconditioned by algebraic multigrid (Ruge and Stueben)."""
+    import pyamg
+
+    levels = pyamg.ruge_stuben_solver(matrix.tocsr(), max_coarse=200)
+    columns = right[:, None] if right.ndim == 1 else right
+    found = []
+    for column in columns.T:
+        residuals: list[float] = []
+        x = levels.solve(column, tol=1e-12, maxiter=100, accel="cg", residuals=residuals)
+        if residuals[-1] > 1e-9 * max(float(np.linalg.norm(column)), 1e-300):
+            raise ConvergenceError(f"multigrid stopped at a residual of {residuals[-1]:.3g}", x)
+        found.append(x)
+    return np.asarray(found[0] if right.ndim == 1 else np.stack(found, axis=1))
