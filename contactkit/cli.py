@@ -256,7 +256,9 @@ def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
     """Write a native FMU; return its description and the file."""
     from .fmu.native.build import build_native, native_scene
     from .fmu.native.drive import build_native_drive, build_native_stop
+    from .fmu.native.tip import build_native_tip
     from .fmu.python.build import FMUS
+    from .models.micromirror.scene import MicromirrorScene
     from .scene.scenes import ContactScene
 
     fmi: Literal[2, 3] = 3 if parsed.fmi == "3" else 2
@@ -268,6 +270,11 @@ def _build_native(parsed: argparse.Namespace) -> tuple[str, Path]:
         values = {} if isinstance(what, str) else what.fmu_start().values
         path = build_native_stop(parsed.out, start=values, fmi=fmi)
         return f"contact-stop, native, FMI {fmi}.0", path
+    is_mirror = isinstance(getattr(what, "scene", None), MicromirrorScene)
+    if parsed.model is None and (what == "tip-contact" or is_mirror):
+        values = {} if isinstance(what, str) else what.fmu_start().values
+        path = build_native_tip(parsed.out, start=values, fmi=fmi)
+        return f"tip-contact, native, FMI {fmi}.0", path
     scene, start = native_scene(what, parsed.model)
     film_alone = "stiction-force" in (parsed.what, parsed.model)
     model: Literal["stiction-mass", "stiction-force"] = (

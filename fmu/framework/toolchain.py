@@ -91,7 +91,8 @@ def kernel_sources(fmi: int = 2) -> dict[str, bytes]:
     """Return the sources of the kernel for a version of FMI, by file name."""
     folder = Path(__file__).parents[1] / "native" / "kernel"
     other = f"fmi{5 - fmi}"
-    files = sorted(path for path in folder.iterdir() if path.suffix in (".c", ".h"))
+    found = (path for path in folder.rglob("*") if path.suffix in (".c", ".h"))
+    files = sorted(found, key=lambda path: path.name)
     return {path.name: path.read_bytes() for path in files if not path.name.startswith(other)}
 
 

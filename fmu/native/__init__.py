@@ -2,6 +2,8 @@
 
 build        Writing native FMUs: one C kernel for all models, and the tables of one scene.
 drive        Writing native FMUs without a film: ``valve-drive``, ``contact-stop``.
+tip          Writing the native FMU ``tip-contact``: film and site of a tip as tables, the tip
+             in C.
 faces        The load-displacement curve of rough faces as the numbers that the C kernel reads.
 film         The film of a scene as the numbers that the C kernel of a native FMU reads.
 tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.

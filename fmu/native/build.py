@@ -238,7 +238,8 @@ def native_scene(what: Any, model: Model | None = None) -> NativeScene:
     if name not in _SLAVES:
         raise PlanError(
             f"{name} has no native form as a film in this version, only {' and '.join(_SLAVES)} "
-            f"have, and valve-drive and contact-stop without one; leave out --native"
+            "have; build the others by their names, or by contactkit.fmu.native.drive and "
+            "contactkit.fmu.native.tip"
         )
     own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
     slave = _SLAVES[own]

@@ -91,8 +91,21 @@ IDENTIFIERS = (
     "scale",
     "k_body",
     "d_max0",
+    "z",
+    "vz",
+    "az",
+    "F_film",
+    "W_visc",
+    "W_land",
+    "t_free",
+    "t_land",
+    "n_land",
+    "F_max",
+    "W_plastic",
+    "N",
+    "h_free",
 )
-_MODELS = ("stiction-mass", "stiction-force", "valve-drive", "contact-stop")
+_MODELS = ("stiction-mass", "stiction-force", "valve-drive", "contact-stop", "tip-contact")
 _TYPES = {"real": 1.0, "integer": 2.0, "enumeration": 4.0, "boolean": 8.0}
 _CAUSALITIES = ("input", "output", "parameter")
 _MAGIC = b"CKFILM03"

@@ -17,7 +17,7 @@ CATEGORIES = {
     "logStatusError": "Why the FMU refuses to go on, and what to do about it.",
     "logAll": "Everything.",
 }
-_HELD = ("t_break", "t_release", "u")  # real outputs that change at events only
+_HELD = ("t_break", "t_release", "t_free", "t_land", "u")  # real outputs that change at events only
 
 
 def description_files(

@@ -21,6 +21,7 @@ _ABOUT = {
     "stiction-force": ("StictionForce", "Liquid film between two bodies"),
     "valve-drive": ("ValveDrive", "Electromagnet, return spring and opposite stop of a valve"),
     "contact-stop": ("ContactStop", "Rough faces that meet at an end stop"),
+    "tip-contact": ("TipContact", "Spring tips on a landing site"),
 }
 
 

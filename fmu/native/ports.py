@@ -108,7 +108,7 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
 def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
     """Parameters that mean nothing for a scene, or that its tables have fixed."""
     viscosity, surface_tension = free_liquid(prepared)
-    absent = set()
+    absent = {"N"}
     if not viscosity:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
     if not surface_tension:

@@ -57,7 +57,7 @@ from ..framework.ports import Port, grouped, input_port, output_port, size_port,
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
 
-__all__ = ["TipContact", "TipLaw", "TipStatus"]
+__all__ = ["TipContact", "TipLaw", "TipStatus", "check_tip"]
 
 
 class TipStatus(IntEnum):
@@ -238,6 +238,24 @@ def tip_scene(values: Mapping[str, Any]) -> SeparationScene:
     return scene
 
 
+def check_tip(values: Mapping[str, Any], *, has_curve: bool) -> None:
+    """Refuse damping that a tip or its site cannot have.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the parameter.
+    """
+    critical, damping = 2.0 * math.sqrt(values["k"] * values["m"]), values["d_stop"]
+    if not values["c"] < critical:
+        expected = f"be less than critical, {critical:.9g} N.s/m"
+        raise DescriptionError("c", values["c"], expected, unit="N.s/m")
+    if damping > 0.0 and not has_curve:
+        raise DescriptionError(
+            "d_stop", damping, "be 0 on a rigid site", unit="s/m", hint="build the FMU with a curve"
+        )
+
+
 def tip_values(tip: SeparationScene) -> dict[str, Any]:
     """Start values of the FMU for a scene of one tip.
 
@@ -308,6 +326,7 @@ class TipContact(PortSlave):
         """See `PortSlave.prepare`."""
         values = self.values
         self.plan = plan(tip_scene(values), Accuracy(time_rtol=values["rtol"]))
+        check_tip(values, has_curve="curve" in self.data)
         self.stop = self._site()
         if values["z"] <= 0.0:
             self.state = landed_start(self.plan, stop=self.stop, height=values["z"])
@@ -319,18 +338,10 @@ class TipContact(PortSlave):
 
     def _site(self) -> TipStop | None:
         """Faces of apex and site, if the build has a curve of them."""
-        damping = self.values["d_stop"]
-        if "curve" in self.data:
-            return TipStop(LoadDisplacementCurve.from_data(self.data["curve"]), damping)
-        if damping > 0.0:
-            raise DescriptionError(
-                "d_stop",
-                damping,
-                "be 0 on a rigid site",
-                unit="s/m",
-                hint="build the FMU with a curve",
-            )
-        return None
+        if "curve" not in self.data:
+            return None
+        curve = LoadDisplacementCurve.from_data(self.data["curve"])
+        return TipStop(curve, self.values["d_stop"])
 
     def refresh(self) -> None:
         """See `PortSlave.refresh`: the springs answer to height and speed at once."""

@@ -9,9 +9,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ...errors import ConvergenceError
 from ...numerics.roots import first_true
 
 __all__ = ["Flight", "Root", "landing_time"]
+
+
+_MOST_SWINGS = 62_500  # that are followed in one flight
 
 
 class Root(NamedTuple):
@@ -62,6 +66,11 @@ class Flight(NamedTuple):
 def landing_time(flight: Flight, root: Root, left: float) -> float | None:
     """Time [s], at most `left`, after which a swinging tip first lands; None if it does not.
 
+    Raises
+    ------
+    ConvergenceError
+        If that time holds more than 62500 swings.
+
     Examples
     --------
     A tip that hangs still, under a root that comes down from 1 um at 1 m/s:
@@ -85,7 +94,14 @@ def landing_time(flight: Flight, root: Root, left: float) -> float | None:
         return -root.after(time).speed - flight.at(time)[1]
 
     # A sixteenth of a swing at a time: between two of them there is at most one lowest point.
-    pieces = max(1, math.ceil(left * flight.frequency * 16.0 / (2.0 * math.pi)))
+    swings = left * flight.frequency / (2.0 * math.pi)
+    if not swings <= _MOST_SWINGS:
+        raise ConvergenceError(
+            f"a step of {left:.6g} s holds more than {_MOST_SWINGS} swings of a free tip; take "
+            "shorter steps",
+            root,
+        )
+    pieces = max(1, math.ceil(16.0 * swings))
     low, sinking, near = 0.0, sinks(0.0) > 0.0, 1e-16 * left
     for i in range(1, pieces + 1):
         high = left * i / pieces

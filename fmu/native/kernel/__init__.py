@@ -1,1 +1,4 @@
-"""The C kernel of native FMUs."""
+"""The C kernel of native FMUs.
+
+tips  The tips of ``tip-contact`` in C: their motion, flight and impacts.
+"""

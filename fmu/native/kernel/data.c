@@ -1,5 +1,5 @@
-/* The file that an FMU brings: which variables it has, and the tables of its film, or of the faces
-   of a drive or a stop. It is called film.bin in all of them.
+/* The file that an FMU brings: which variables it has, and the tables of its film, and of the faces of
+   a drive, a stop or the site of tips. It is called film.bin in all of them.
 
    Written by fmu/native/data.py: 8 letters, a checksum and a count of 8 bytes each, 40 letters of
    the GUID, then that many doubles; little-endian. Nothing in it is trusted. */
@@ -131,7 +131,7 @@ static void read_film(stream *s, ck_film *film) {
 
 static void read_ports(stream *s, ck_data *data) {
     int i;
-    data->kind = whole(s, CK_STICTION_MASS, CK_CONTACT_STOP);
+    data->kind = whole(s, CK_STICTION_MASS, CK_TIP_CONTACT);
     data->port_count = whole(s, 1, CK_VARIABLES);
     for (i = 0; s->fine && i < data->port_count; i++) {
         ck_port *port = &data->ports[i];
@@ -172,11 +172,11 @@ static void read_faces(stream *s, ck_faces *faces) {
     }
 }
 
-/* What a stop has besides: areas, and the work that is dissipated. */
+/* What a stop has besides, and the site of tips, if it deforms: areas, and the work that is dissipated. */
 static void read_stop(stream *s, ck_faces *faces) {
     int i;
     read_faces(s, faces);
-    if (!faces->is_there) s->fine = 0;
+    if (!faces->is_there) return;
     read_curve(s, &faces->area, 1);
     read_curve(s, &faces->plastic, 0);
     if (faces->count) read_curve(s, &faces->dissipated, 0);
@@ -243,10 +243,12 @@ const char *ck_data_read(const char *path, ck_data *data) {
         read_faces(&s, &data->faces);
     } else if (data->kind == CK_CONTACT_STOP) {
         read_stop(&s, &data->faces);
+        if (!data->faces.is_there) s.fine = 0;
     } else { /* a node of a table has four numbers, and there are fewer cells than nodes */
         data->cells = s.cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
         if (!s.cells) return "there is no memory for it";
         read_scene(&s, &data->scene);
+        if (data->kind == CK_TIP_CONTACT) read_stop(&s, &data->faces);
     }
     return s.fine && s.next == s.end ? NULL : "what it says makes no sense";
 }

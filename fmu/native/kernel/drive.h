@@ -34,7 +34,7 @@ typedef struct {
     ck_curve first, residual;
     double ends[CK_UNLOADING_CURVES];
     ck_curve unloading[CK_UNLOADING_CURVES];
-    /* only of a stop: areas over the approach, and over those at the ends of the unloading curves,
+    /* only of a stop and of tips: areas over the approach, and over those at the ends of the unloading curves,
        and the work dissipated up to a maximum approach */
     ck_curve area, plastic, dissipated, areas[CK_UNLOADING_CURVES];
 } ck_faces;
@@ -69,6 +69,8 @@ typedef struct {
 } ck_touching;
 
 ck_touching ck_faces_touching(const ck_faces *faces, const ck_pressed *pressed, double largest);
+/* Force and its slope at an approach, after a largest one. */
+double ck_faces_force(const ck_faces *faces, double approach, double largest, double *slope);
 double ck_faces_residual(const ck_faces *faces, double largest);
 double ck_faces_dissipated(const ck_faces *faces, double largest);
 

@@ -109,7 +109,7 @@ static double unloading(const ck_faces *faces, const ck_curve *first, const ck_c
     return value;
 }
 
-static double force_at(const ck_faces *faces, double approach, double largest, double *slope) {
+double ck_faces_force(const ck_faces *faces, double approach, double largest, double *slope) {
     double first, force, whole, by_approach, unused, most = faces->first.end;
     mixture m;
     if (largest > most) largest = most;
@@ -129,7 +129,7 @@ static double shared(const ck_faces *faces, double approach, double largest, dou
     double near = faces->first.end, found = near < approach ? near : 0.5 * approach;
     int i;
     for (i = 0; i < ROUNDS; i++) {
-        double force = force_at(faces, found, largest, &slope), step;
+        double force = ck_faces_force(faces, found, largest, &slope), step;
         double excess = found + force / stiffness - approach;
         if (excess > 0.0) high = found;
         else low = found;
@@ -147,7 +147,7 @@ ck_pressed ck_faces_pressed(const ck_faces *faces, double approach, double large
     ck_pressed found = {0.0, 0.0, approach};
     if (approach > 0.0 && stiffness > 0.0)
         found.approach = shared(faces, approach, largest, stiffness);
-    found.force = force_at(faces, found.approach, largest, &found.slope);
+    found.force = ck_faces_force(faces, found.approach, largest, &found.slope);
     if (stiffness > 0.0) found.slope = found.slope * stiffness / (found.slope + stiffness);
     return found;
 }

@@ -87,7 +87,7 @@ static int step(ck_model *model, double time, double length) {
     int trouble;
     if (state->rate != 0.0 && state->values[CK_DF_EXT] != 0.0) return rate_twice(model);
     pull.force = state->values[CK_F_EXT], pull.time = now->time;
-    pull.rate = state->values[CK_DF_EXT] + state->rate;
+    pull.rate = state->values[CK_DF_EXT] + state->rate, pull.bend = 0.0;
     trouble = ck_advance(&model->scene, now, &pull, length);
     if (trouble || !isfinite(now->gap + now->speed + now->work)) {
         ck_motion where = *now;

@@ -27,13 +27,15 @@ static const char *const NAMES[CK_VARIABLES] = {
     "h_stop", "k_stop", "d_stop", "t_delay", "T_period", "t_on", "U_boost", "t_boost",
     "U_hold", "U_off", "n_cycles",
     "F_el", "contact_area", "plastic_area", "d", "d_max", "d_res", "W_d", "n_beyond",
-    "h_touch", "side", "scale", "k_body", "d_max0"};
+    "h_touch", "side", "scale", "k_body", "d_max0",
+    "z", "vz", "az", "F_film", "W_visc", "W_land", "t_free", "t_land", "n_land", "F_max", "W_plastic",
+    "N", "h_free"};
 
 const char *ck_name(int id) { return NAMES[id]; }
 
 const ck_kind *ck_model_kind(const ck_model *model) {
     static const ck_kind *const kinds[] = {&ck_stiction_mass, &ck_stiction_force, &ck_valve_drive,
-                                           &ck_contact_stop};
+                                           &ck_contact_stop, &ck_tip_contact};
     return kinds[model->data.kind];
 }
 
@@ -141,7 +143,8 @@ int ck_model_set(ck_model *model, unsigned reference, int types, double value) {
     model->state.values[port->id] = value;
     if (port->id == CK_RTOL) model->state.has_rtol = 1;
     if (model->state.phase < CK_STEPPING) model->state.stale = 1;
-    else if (ck_model_kind(model)->follows) model->state.shown = 0, model->state.driven.ahead = 0.0;
+    else if (ck_model_kind(model)->follows)
+        model->state.shown = 0, model->state.driven.ahead = model->state.tip.ahead = 0.0;
     return CK_OK;
 }
 
@@ -376,7 +379,8 @@ int ck_model_restore(ck_model *model, const ck_state *state) {
 /* Outputs that are no continuous numbers change in event mode only, and the event a step ended for
    is applied in it. Between two events the host sees what it has seen; `latest` is what is true. */
 static const int HELD[CK_HELD] = {CK_STATE,     CK_LIMIT,    CK_T_BREAK, CK_T_RELEASE, CK_N_BREAK,
-                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U, CK_N_BEYOND};
+                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U, CK_N_BEYOND,
+                                  CK_T_FREE,    CK_T_LAND,   CK_N_LAND};
 
 static int holds(const ck_model *model) {
     return model->event_mode && model->state.phase == CK_STEPPING;

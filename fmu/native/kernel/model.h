@@ -2,7 +2,8 @@
 
    Common to all models (model.c): ports, phases, refusals. `stiction-mass` is in mass.c, a mass
    with its film; `stiction-force` in force.c, a film for a tool that owns the mass; `valve-drive`
-   in drive.c and `contact-stop` in stop.c, which have no film. Which of them an instance is says its file of data.
+   in drive.c and `contact-stop` in stop.c, which have no film; `tip-contact` in tip.c, spring tips with
+   theirs. Which of them an instance is says its file of data.
 
    A step that cannot be taken is discarded: its reason is logged, nothing has changed, and a shorter
    one may do. Any other failure is logged with its cure and remembered: outputs stay at their last
@@ -16,7 +17,10 @@
 
 #include <stdint.h>
 
-enum { CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1, CK_VALVE_DRIVE = 2, CK_CONTACT_STOP = 3 };
+enum {
+    CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1, CK_VALVE_DRIVE = 2, CK_CONTACT_STOP = 3,
+    CK_TIP_CONTACT = 4
+};
 /* Types of variables, as bits: a call of one version of FMI may take several of them. */
 enum { CK_REAL = 1, CK_INTEGER = 2, CK_ENUMERATION = 4, CK_BOOLEAN = 8 };
 enum { CK_INPUT = 0, CK_OUTPUT = 1, CK_PARAMETER = 2 };
@@ -38,10 +42,12 @@ enum {
     CK_U_HOLD, CK_U_OFF, CK_N_CYCLES,
     CK_F_EL, CK_CONTACT_AREA, CK_PLASTIC_AREA, CK_D, CK_D_MAX, CK_D_RES, CK_W_D, CK_N_BEYOND,
     CK_H_TOUCH, CK_SIDE, CK_SCALE, CK_K_BODY, CK_D_MAX0,
+    CK_Z, CK_VZ, CK_AZ, CK_F_FILM, CK_W_VISC, CK_W_LAND, CK_T_FREE, CK_T_LAND, CK_N_LAND, CK_F_MAX,
+    CK_W_PLASTIC, CK_N, CK_H_FREE,
     CK_VARIABLES
 };
 
-enum { CK_HELD = 10 }; /* outputs that change at events only */
+enum { CK_HELD = 13 }; /* outputs that change at events only */
 
 typedef struct {
     int id, type, causality;
@@ -55,7 +61,7 @@ typedef struct {
     int kind, port_count;
     ck_port ports[CK_VARIABLES];
     ck_scene scene; /* of a film */
-    ck_faces faces; /* of a drive, or a stop */
+    ck_faces faces; /* of a drive, a stop, or the site of tips */
     double *numbers;
     ck_cell *cells;
     int hints[CK_FILMS * (CK_LAWS + 1) * CK_PIECES];
@@ -84,6 +90,15 @@ typedef struct {
     int beyond, padding;
 } ck_stopped;
 
+/* What a tip remembers besides its motion: its impulse on the root and its losses; the approach of
+   apex and site, or the residual indentation while they are apart, the maximum approach, and the
+   largest force of the site; for how long the root has gone on since it was set. */
+typedef struct {
+    double impulse, loss, landing_time, free_time;
+    double depth, residual, largest, peak, ahead;
+    int free, touching, landings, padding;
+} ck_tip;
+
 /* Everything that changes, in one piece without pointers. `stale`: the parameters were set since
    the outputs were made; `shown`: the outputs in `values` are those of the state it is in; `event`:
    outputs that change in event mode only are not. */
@@ -93,10 +108,11 @@ typedef struct {
     double latest[CK_HELD]; /* of outputs that event mode changes */
     double time, start_time, stop_time, last_step, rate, pull;
     double end; /* of the last step, where it paused */
-    ck_motion motion; /* of stiction-mass */
+    ck_motion motion; /* of stiction-mass, and of a tip */
     ck_memory memory; /* of stiction-force */
     ck_driven driven; /* of valve-drive */
     ck_stopped stopped; /* of contact-stop */
+    ck_tip tip; /* of tip-contact */
     int phase, failed, stale, shown, event;
     int has_rtol; /* the host has set `rtol`: its tolerance does not stand for it any more */
 } ck_state;
@@ -128,7 +144,7 @@ typedef struct {
     int (*rate)(const ck_model *model, int output, double *rate);
 } ck_kind;
 
-extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive, ck_contact_stop;
+extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive, ck_contact_stop, ck_tip_contact;
 
 /* Reading the file (data.c); the message says what is wrong with it, NULL if nothing is. */
 const char *ck_data_read(const char *path, ck_data *data);

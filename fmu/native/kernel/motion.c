@@ -391,22 +391,25 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     return CK_DONE;
 }
 
+/* One internal step towards a time, cut at the first event inside it. */
+int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end) {
+    if (!state->in_contact) return step_once(scene, state, pull, end);
+    rest_once(scene, state, pull, end);
+    return CK_DONE;
+}
+
 /* Advance by a time under a pull, however stiff the film; less if the motion pauses. */
 int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt) {
     double end = state->time + dt;
-    int i;
+    int i, trouble;
     for (i = 0; i <= scene->max_steps; i++) {
         if (end - state->time <= 1e-13 * ck_larger(fabs(end), dt)) {
             state->time = end;
             return CK_DONE;
         }
         if (state->pending) return CK_DONE;
-        if (state->in_contact) {
-            rest_once(scene, state, pull, end);
-        } else {
-            int trouble = step_once(scene, state, pull, end);
-            if (trouble) return trouble;
-        }
+        trouble = ck_internal_step(scene, state, pull, end);
+        if (trouble) return trouble;
     }
     return CK_TOO_MANY_STEPS;
 }

@@ -38,6 +38,7 @@ enum { CK_CONTACT = 1, CK_STUCK = 2, CK_FULL = 3, CK_BRIDGE = 4, CK_BROKEN = 5 }
 void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);
 void ck_resolve(const ck_scene *scene, ck_motion *state); /* make happen what is pending */
+int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end);
 int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt);
 int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *acting,
               const ck_forces *forces, double pull);

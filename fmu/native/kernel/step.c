@@ -32,7 +32,8 @@ typedef struct {
 } stage;
 
 double ck_pull_at(const ck_pull *pull, double time) {
-    return pull->force + pull->rate * (time - pull->time);
+    double since = time - pull->time;
+    return pull->force + since * (pull->rate + pull->bend * since);
 }
 
 /* Gap and its first two derivatives by q; 0 outside the range of q. */
@@ -209,14 +210,15 @@ static int finish(const ck_problem *p, double dt, double s, const double rates[3
 static double guess(const ck_problem *p, double dt, double s, double floor, double rates[3]) {
     double h0 = p->begin.gap, v0 = p->begin.speed, first = v0 / h0, swing = (1.0 + s) * v0;
     double residual[3], matrix[3][3], change[3], reach = 0.0, size;
+    double rate = p->pull.rate + 2.0 * p->pull.bend * (p->begin.time - p->pull.time);
     stage at[3];
     int i;
     for (i = 0; i < 3; i++) {
-        double dq = ck_nodes[i] * dt * first, dv = swing * dq;
+        double since = ck_nodes[i] * dt, dq = since * first, dv = swing * dq;
         at[i].first = h0, at[i].swing = swing;
         at[i].at.speed = v0 + dv;
         at[i].by_gap = p->net_by_gap, at[i].by_speed = p->net_by_speed;
-        at[i].net = p->net + p->pull.rate * ck_nodes[i] * dt + p->net_by_gap * h0 * dq +
+        at[i].net = p->net + since * (rate + p->pull.bend * since) + p->net_by_gap * h0 * dq +
                     p->net_by_speed * dv;
     }
     rates[0] = rates[1] = rates[2] = first;

@@ -8,6 +8,7 @@
 
 typedef struct {
     double force, rate, time; /* the pull at a time and its rate */
+    double bend;              /* half the slope of the rate */
 } ck_pull;
 
 typedef struct {

@@ -23,6 +23,7 @@ import contactkit as ck
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.native.drive import build_native_drive, build_native_stop
+from contactkit.fmu.native.tip import build_native_tip
 from contactkit.fmu.python.build import FMUS, build
 
 HERE = Path(__file__).parent
@@ -65,7 +66,13 @@ RUNS = {
 NATIVE = (
     [
         (model, fmi)
-        for model in ("stiction-mass", "stiction-force", "valve-drive", "contact-stop")
+        for model in (
+            "stiction-mass",
+            "stiction-force",
+            "valve-drive",
+            "contact-stop",
+            "tip-contact",
+        )
         for fmi in (2, 3)
     ]
     if HAS_CC
@@ -88,6 +95,8 @@ def build_one(name: str, folder: Path) -> Path:
         return build_native_drive(out, curve=rough() if fmi == "2" else None, **more)
     if model == "contact-stop":
         return build_native_stop(out, curve=rough(), **more)
+    if model == "tip-contact":
+        return build_native_tip(out, curve=rough(1e-8) if fmi == "2" else None, **more)
     scene = SCENES["drop"]
     effects = (*scene.effects, ck.TensionLimit(tension=1e6))
     scene = attrs.evolve(scene, effects=effects)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fmpy
+from drive_faces import ball
 from hosts_fmus import CASES
 from native_scenes import DROP, FACE, scene
 
@@ -10,6 +11,7 @@ import contactkit as ck
 from contactkit.fmu.framework.toolchain import PLATFORMS
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.native.drive import build_native_drive
+from contactkit.fmu.native.tip import build_native_tip
 
 __all__ = ["LIBRARIES", "every_fmu", "library_of"]
 
@@ -38,7 +40,7 @@ def liquid(name):
 
 
 def build_all(folder):
-    """FMUs of all platforms: cases A and B with the mass inside, a film alone, a drive."""
+    """FMUs of all platforms: cases A and B with the mass inside, a film alone, a drive, tips."""
     film = scene(gap=5e-6, volume=DROP)
     for fmi in (2, 3):
         for name in "AB":
@@ -46,6 +48,8 @@ def build_all(folder):
             build_native(case_scene(name), path, start=liquid(name), fmi=fmi, **EVERY)
         build_native(film, folder / f"film-{fmi}.fmu", model="stiction-force", fmi=fmi, **EVERY)
         build_native_drive(folder / f"drive-{fmi}.fmu", fmi=fmi, **EVERY)
+        tip = folder / f"tip-{fmi}.fmu"
+        build_native_tip(tip, start={"V": 1.3e-24}, curve=ball(), fmi=fmi, **EVERY)
     for path in folder.glob("*.fmu"):
         fmpy.extract(str(path), str(path.with_suffix("")))
 

@@ -28,6 +28,7 @@ def fmus(shelf):
 
 STATES = ("h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "F_peak", "t_release")
 PULLS = ("F_ext", "F_mag", "F_spring", "F_stop", "i", "u", "flux")
+TIPS = ("F", "F_mean", "h", "v", "F_film", "J", "t_break", "t_land", "d_max", "F_max", "W_land")
 FORCES = ("F", "F_m", "F_v", "c", "k", "J", "F_mean", "coupling_error", "H_stable")
 
 
@@ -65,7 +66,20 @@ def drive_rows(start, put, step, outputs):
     return rows
 
 
-RUNS = {"mass-A": release_rows, "film": film_rows, "drive": drive_rows}
+def tip_rows(start, put, step, outputs):
+    """Forces of tips that are pulled off, fall back and rebound."""
+    start({"z": -1e-8})
+    rows, length = [], 2e-8
+    for i in range(60):
+        up = i < 30
+        height = -1e-8 + 0.2 * length * i if up else 1.1e-7 - 0.2 * length * (i - 30)
+        put({"z": height, "vz": 0.2 if up else -0.2, "az": 0.0})
+        step(i * length, length)
+        rows.append(outputs(TIPS))
+    return rows
+
+
+RUNS = {"mass-A": release_rows, "film": film_rows, "drive": drive_rows, "tip": tip_rows}
 _HERE: dict[str, list] = {}
 
 
@@ -115,7 +129,7 @@ def start_of(host, references):
 @pytest.mark.parametrize("fmu", RUNS)
 @pytest.mark.parametrize(("name", "fmi"), LIBRARIES)
 def test_every_platform_finds_the_same(fmus, name, fmi, fmu):
-    """All outputs in every step, of a release, a film that breaks, and a drive."""
+    """All outputs in every step, of a release, a film that breaks, a drive, and tips."""
     host, references = emulated(fmus, name, fmi, fmu)
 
     def step(time, length):
@@ -138,6 +152,9 @@ def test_every_platform_finds_the_same(fmus, name, fmi, fmu):
     elif fmu == "film":
         assert found[-1][0] == 0.0  # it broke on the way
         assert found[-21][0] != 0.0
+    elif fmu == "tip":
+        assert 0.0 < found[30][-5] < found[-1][-4]  # it broke, then landed
+        assert found[-1][-3] > 0.0
 
 
 FOLDERS = [

@@ -161,7 +161,7 @@ def test_going_back_to_a_state_gives_the_same_again(host):
     [
         ({"V": 0.0, "A_H": 0.0}, "V must be positive, or A_H"),
         ({"h_free": 3e-10}, "h_free must exceed h0 = 4e-10 m"),
-        ({"c": 1.0}, "SpringTips.damping must be less than critical"),
+        ({"c": 1.0}, "c must be less than critical, 4e-08 N.s/m"),
     ],
 )
 def test_an_impossible_tip_is_refused(host, start, message):

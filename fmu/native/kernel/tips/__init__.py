@@ -1,0 +1,1 @@
+"""The tips of ``tip-contact`` in C: their motion, flight and impacts."""

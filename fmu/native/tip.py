@@ -1,0 +1,109 @@
+"""Writing the native FMU ``tip-contact``: film and site of a tip as tables, the tip in C."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+from attrs import evolve
+
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
+from ..contents.end_stop import bake
+from ..framework.description import Description
+from ..framework.ports import Port, Value, start_value
+from ..slaves.tip_contact import PORTS, TipContact, check_tip, tip_scene
+from .build import chosen_platforms, target, write_native
+from .description import CATEGORIES
+from .faces import stop_numbers
+from .film import FilmNumbers, film_numbers, free_liquid
+
+__all__ = ["build_native_tip"]
+
+_FIXED = frozenset(("R", "A_H", "V", "theta1", "theta2", "profile"))
+"""Parameters that the tables of the forces hold."""
+
+
+def build_native_tip(
+    out: str | os.PathLike[str],
+    *,
+    start: Mapping[str, Any] | None = None,
+    curve: LoadDisplacementCurve | None = None,
+    platforms: Sequence[str] | None = None,
+    compiler: str = "auto",
+    fmi: Literal[2, 3] = 2,
+) -> Path:
+    """Write a ``tip-contact`` that runs without Python (co-simulation).
+
+    It has the variables of the Python FMU of that name, but for the parameters that its tables
+    hold: radius of the apex, Hamaker constant, volume, contact angles and profile of the meniscus.
+    A dry tip has no properties of the liquid, either.
+
+    Parameters
+    ----------
+    out : path
+        The file to write, ``*.fmu``.
+    start : mapping, optional
+        Start values by variable of the Python FMU, those that the tables hold among them; a text
+        carries its unit (``"100 nm"``). As in `build`, a ``curve`` may be among them.
+    curve : LoadDisplacementCurve, optional
+        Apex and site; a rigid site without one.
+    platforms, compiler, fmi
+        See `native_build.build_native`. In FMI 3.0 a step never ends early.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    DescriptionError
+        If a name, a start value, the curve, a platform or a version is not possible.
+    ContactkitError
+        If a force cannot be tabulated, or a compiler is missing.
+    """
+    place = target(out, fmi)
+    given = dict(start or {})
+    if curve is not None:
+        given["curve"] = curve
+    site = bake("tip-contact", given).get("curve")
+    values: dict[str, Value] = TipContact.start_values()
+    values |= {name: start_value(PORTS, name, value) for name, value in given.items()}
+    check_tip(values, has_curve=site is not None)
+    scene = tip_scene(values)
+    film = film_numbers(scene)
+    ports = _ports(film)
+    about = Description(
+        identifier="tip_contact",
+        guid="",
+        tool="contactkit",
+        ports=ports,
+        start={port.name: values[port.name] for port in ports},
+        summary=TipContact.summary.partition(" (")[0],
+        log_categories=CATEGORIES,
+        experiment=TipContact.experiment,
+    )
+    faces = [0.0] if site is None else stop_numbers(LoadDisplacementCurve.from_data(site))
+    tables = [*film.numbers, *faces]
+    names = chosen_platforms(platforms)
+    return write_native("tip-contact", about, tables, place, fmi, names, compiler, scene)
+
+
+def _ports(film: FilmNumbers) -> tuple[Port, ...]:
+    """Variables of the Python FMU that the tables leave free, and within what they hold."""
+    viscosity, surface_tension = free_liquid(film.prepared)
+    liquid = {"eta": viscosity, "gamma": surface_tension}
+    absent = _FIXED | {name for name, value in liquid.items() if not value}
+    there = [port for port in PORTS if port.name not in absent]
+    names = {port.name for port in there}
+    return tuple(_port(port, names, film.lowest) for port in there)
+
+
+def _port(port: Port, names: set[str], lowest: float) -> Port:
+    if port.name == "h0":
+        return evolve(port, exclusive=False, minimum=lowest)
+    if port.depends_on is None:
+        return port
+    return evolve(port, depends_on=tuple(name for name in port.depends_on if name in names))
