@@ -77,6 +77,21 @@ _STYLE: Any = {
 }
 
 _THREE = ("#1f4e79", "#2a9d8f", "#c1440e")  # exact, arc, as published
+_MANY = (  # as many methods as a figure compares
+    "#1f4e79",
+    "#c1440e",
+    "#2a9d8f",
+    "#e9a23b",
+    "#6a4c93",
+    "#8ab17d",
+    "#d1495b",
+    "#6c757d",
+    "#8d6b3d",
+    "#4aa3df",
+    "#111111",
+    "#b5179e",
+)
+_LEFT = "not tried"  # how a point begins that was left out
 
 
 def figure(
@@ -274,19 +289,22 @@ def work_precision(
 ) -> Axes:
     """Draw error against seconds, a line for each method; errors of models are horizontal.
 
-    `beside` puts the legend at the side of the panel, else below it.
+    The legend names the settings that a method refuses or fails at, which have no place in the
+    panel. `beside` puts it at the side of the panel, else below it.
     """
     ax = ax if ax is not None else figure()[1]
     methods = list(dict.fromkeys(p.method for p in found.points))
-    for method, marker in zip(methods, cycle(markers), strict=False):  # repeated as needed
+    looks = zip(cycle(_MANY), cycle(markers), strict=False)  # repeated as needed
+    for method, (color, marker) in zip(methods, looks, strict=False):
         points = [p for p in found.points if p.method == method]
         good = [p for p in points if p.error == p.error]
+        bad = [p.label for p in points if p.error != p.error and not p.problem.startswith(_LEFT)]
         style = "--" if any(p.is_model for p in points) else "-"
         drawn = [max(p.error, 1e-16) for p in good]
-        ax.plot([p.seconds for p in good], drawn, style, marker=marker, label=method)
-        for p in points:
-            if p.error != p.error and not p.problem.startswith("not tried"):
-                ax.plot([], [], "x", color="k", label=f"{method}, {p.label}: failed")
+        settings = f": {', '.join(bad)}" if good else ""
+        label = f"{method}\n  no answer{settings}" if bad else method
+        seconds = [p.seconds for p in good]
+        ax.plot(seconds, drawn, style, color=color, marker=marker, label=label)
     worst = [p.error for p in found.points if p.error == p.error]
     low = 0.1 * min(found.floor, *worst)
     ax.axhspan(low, found.floor, color="0.9", label="error of the reference")

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
+from contactkit.app.cost.separation import other_menisci
 from contactkit.app.run.injector.cosimulation import cosimulate_cases
 from contactkit.app.run.injector.cycles import cycles, dry_delay, run_error
 from contactkit.app.run.injector.report import report
@@ -146,3 +147,11 @@ def test_the_scene_becomes_the_parameters_of_the_fmu(device):
     assert values["R"] == pytest.approx(3.175e-3)
     assert values["dp_cav"] == 1e6
     assert values["h_break"] == pytest.approx(20e-6)
+
+
+def test_the_menisci_that_cost_compares_fit_into_the_fmu(device):
+    """Else a line of the figure is empty."""
+    compared = other_menisci(device.scene.separation(device.scene.temperature))
+    assert set(compared) == {"meniscus as an arc", "published meniscus, Eq. (3.11)"}
+    laws = {name: mass_values(film)["meniscus_law"] for name, film in compared.items()}
+    assert list(laws.values()) == ["ARC", "PUBLISHED"]

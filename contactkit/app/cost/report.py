@@ -47,7 +47,7 @@ def _write(found: WorkPrecision, out: Path) -> tuple[Path, ...]:
 def _draw(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
     from ...plot import separation as plot
 
-    made, ax = plot.figure(size=(8.0, 5.2))
+    made, ax = plot.figure(size=(9.6, 5.4))
     plot.work_precision(found, ax, "osD^vP*X<>hdp")
     plot.title(ax, f"{name}: what accuracy costs")
     return (plot.save(made, out / "cost"),)
