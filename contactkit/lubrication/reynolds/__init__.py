@@ -5,6 +5,7 @@ face             A face on a grid: cells of film, reservoirs, pockets, walls.
 gaps             Gap maps: flat, tilted, domed, wavy, with recesses, measured.
 film             A film and its states: forces, volumes, power.
 solve            Pressure at an instant, steady sliding, a step in time.
+motion           Films in time: a prescribed gap, a mass that is pulled.
 discretisation   Finite volumes: conductances, transport by walls, volumes.
 mesh             Unknowns and the sides of the cells.
 complementarity  Full and torn cells: active set, Fischer-Burmeister.
@@ -31,6 +32,7 @@ _HOMES = {
     "Intersection": "shapes",
     "Pocket": "face",
     "Polygon": "shapes",
+    "PullState": "motion",
     "Recess": "gaps",
     "Rectangle": "shapes",
     "Ring": "shapes",
@@ -43,7 +45,9 @@ _HOMES = {
     "face_from_image": "face",
     "face_from_level": "face",
     "face_from_mask": "face",
+    "follow_gap": "motion",
     "gap_map": "gaps",
+    "pull_apart": "motion",
     "rasterise": "face",
     "solve_pressure": "solve",
     "steady_film": "solve",
