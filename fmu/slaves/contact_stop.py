@@ -69,10 +69,13 @@ _PORTS = (
         "d_max",
         "m",
         "largest approach so far, at the end of a step",
+        ("d_max0",),
         display_unit="um",
         nominal=1e-7,
     ),
-    output_port("d_res", "m", "approach at which they detach after it", display_unit="um"),
+    output_port(
+        "d_res", "m", "approach at which they detach after it", ("d_max0",), display_unit="um"
+    ),
     output_port("W", "J", "work dissipated by plasticity since the start", nominal=1e-6),
     output_port("W_d", "J", "work dissipated by damping since the start", nominal=1e-6),
     output_port(

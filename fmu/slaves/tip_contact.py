@@ -75,9 +75,8 @@ class TipLaw(IntEnum):
     ARC = 2
 
 
-_SPRING = ("z", "k", "N")
-_START = ("z", "h0")
-_FILM = (*_START, "R", "A_H", "gamma", "theta1", "theta2", "V", "profile")
+_FILM = ("z", "h0", "R", "A_H", "gamma", "theta1", "theta2", "V", "profile")
+_SITE = (*_FILM, "k")  # how deep a tip that starts landed presses a compliant site
 
 
 _GROUPS = {
@@ -102,12 +101,12 @@ _PORTS = (
         "F",
         "N",
         "force of all tips on the root, > 0 holds it down",
-        (*_SPRING, "vz", "c"),
+        (*_SITE, "N", "vz", "c"),
         display_unit="nN",
         nominal=1e-7,
     ),
     output_port("F_mean", "N", "mean of F over the last step", display_unit="nN", nominal=1e-7),
-    output_port("h", "m", "gap under a tip", _START, display_unit="nm", nominal=1e-8),
+    output_port("h", "m", "gap under a tip", _SITE, display_unit="nm", nominal=1e-8),
     output_port("v", "m/s", "speed of a tip", ("vz",), nominal=0.1),
     output_port(
         "F_film",
@@ -134,15 +133,23 @@ _PORTS = (
         "d",
         "m",
         "approach of apex and site, or their residual indentation; 0 if rigid",
-        _START,
+        _SITE,
         display_unit="nm",
         nominal=1e-9,
     ),
-    output_port("d_max", "m", "largest approach of a tip so far; 0 if rigid", display_unit="nm"),
     output_port(
-        "F_max", "N", "largest force of the site on a tip so far; 0 if rigid", display_unit="nN"
+        "d_max", "m", "largest approach of a tip so far; 0 if rigid", _SITE, display_unit="nm"
     ),
-    output_port("W_plastic", "J", "work that yielding took, of all tips", nominal=1e-17),
+    output_port(
+        "F_max",
+        "N",
+        "largest force of the site on a tip so far; 0 if rigid",
+        _SITE,
+        display_unit="nN",
+    ),
+    output_port(
+        "W_plastic", "J", "work that yielding took, of all tips", (*_SITE, "N"), nominal=1e-17
+    ),
     Port(
         "N",
         "-",
