@@ -127,7 +127,9 @@ class Instance:
             slave.instantiate(callbacks=self._callbacks(), loggingOn=True)
         except Exception as error:  # fmpy raises no narrower one
             said = "".join(f"; it said: {line}" for line in self.log[-1:])
-            raise ContactkitError(f"the FMU {path} cannot be loaded here: {error}{said}") from error
+            raise ContactkitError(
+                f"the FMU {path} cannot be loaded here: {error}{said}; build it on this computer"
+            ) from error
         return slave
 
     def _callbacks(self) -> Any:

@@ -114,7 +114,9 @@ def fmi_headers(fmi: int = 2) -> dict[str, bytes]:
     try:
         return {name: (folder / name).read_bytes() for name in _HEADERS[fmi]}
     except OSError as error:
-        raise ContactkitError(f"fmpy came without the headers of FMI: {error}") from error
+        raise ContactkitError(
+            f"fmpy came without the headers of FMI: {error}; reinstall fmpy"
+        ) from error
 
 
 def compile_kernel(sources: Path, name: str, out: Path, compiler: str = "auto") -> None:
@@ -157,7 +159,10 @@ def compile_kernel(sources: Path, name: str, out: Path, compiler: str = "auto") 
             env=os.environ | {"SOURCE_DATE_EPOCH": "315532800", "ZERO_AR_DATE": "1"},
         )
         if done.returncode or not made.exists():
-            raise ContactkitError(f"the kernel could not be compiled for {name}:\n{done.stderr}")
+            raise ContactkitError(
+                f"the kernel could not be compiled for {name}; set CC to another compiler of C99, "
+                f"or pip install contactkit[native]. It said:\n{done.stderr}"
+            )
         shutil.copy(made, out)
 
 
@@ -197,7 +202,10 @@ def join_macs(libraries: Sequence[bytes]) -> bytes:
     for library in libraries:
         magic, kind, variant = struct.unpack("<III", library[:12])
         if magic != 0xFEEDFACF:
-            raise ContactkitError("the compiler did not write a library for a Mac")
+            raise ContactkitError(
+                "the compiler did not write a library for a Mac; pip install contactkit[native], "
+                "which compiles for it"
+            )
         places += struct.pack(">IIIII", kind, variant, offset + len(body), len(library), align)
         body += library + b"\0" * (-len(library) % (1 << align))
     return (head + places).ljust(1 << align, b"\0") + body

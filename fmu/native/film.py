@@ -188,8 +188,8 @@ def _law_table(
         return tabulate(force, edges, folds=tuple(folds), stays=stays)
     except ConvergenceError as error:
         raise ConvergenceError(
-            f"{type(effect).__name__} has no native form: {error}; take profile='arc' if it is a "
-            "meniscus, or build the Python FMU, without --native",
+            f"{type(effect).__name__} has no native form: {error}; or take profile='arc' if it is "
+            "a meniscus, or build the Python FMU, without --native",
             error.result,
         ) from error
 

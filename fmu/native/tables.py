@@ -109,7 +109,7 @@ def _power(function: Callable[[float], float], low: float, high: float) -> int:
     a = low * (1.0 + 1e-9)
     b = min(a * 1.01, 0.5 * (low + high))
     first, second = function(a), function(b)
-    if first == 0.0 or second / first <= 0.0:
+    if first == 0.0 or not 0.0 < second / first < math.inf:  # nan is refused with the values
         return 0
     return min(max(round(-math.log(second / first) / math.log(b / a)), 0), _STEEPEST)
 
@@ -150,7 +150,9 @@ def _piece(
         curve += [float(value) for value in bend(places[begin:])]
         if len(x) > _MOST_NODES:
             raise ConvergenceError(
-                f"a force is too rough for a table between gaps of {low:g} m and {high:g} m", x
+                f"a force is too rough for a table between gaps of {low:g} m and {high:g} m; put "
+                "edges where its slope jumps",
+                x,
             )
     return Piece(low, high, folds, power, x, y, slope, curve)
 
@@ -167,7 +169,9 @@ def _series(
 
     series = Chebyshev.interpolate(scaled, _DEGREE, [a, b])
     if not np.all(np.isfinite(series.coef)):
-        raise ConvergenceError("a force is no finite number somewhere along its table", (a, b))
+        raise ConvergenceError(
+            "a force is no finite number somewhere along its table; end the table before", (a, b)
+        )
     size, change = (float(np.max(np.abs(series.coef[i:]))) for i in (0, 1))
     # A force that vanishes like x^2 / ln x needs the finer stretches the nearer they are to x = 0.
     near = min(max(b, _CLOSE), 1.0) if folds else 1.0
@@ -176,7 +180,11 @@ def _series(
     series = series.trim(noise)  # it would grow in the slopes
     tail = float(np.max(np.abs(series.coef[_DEGREE - 2 :]), initial=0.0))
     if b - a <= least and tail > max(_NOISE * size, _NOTHING * whole):
-        raise ConvergenceError(f"a force is too rough for a table: {tail / size:.1e} off", (a, b))
+        raise ConvergenceError(
+            f"a force is too rough for a table: {tail / size:.1e} off; put edges where its slope "
+            "jumps",
+            (a, b),
+        )
     # Where the values fall by orders of ten, the small ones are to be as good as the large ones.
     first, last = np.abs(series(np.array([a, b])))
     is_even = min(first, last) > 0.2 * size or size < _NOTHING * whole

@@ -70,7 +70,9 @@ def find_closure(*modules: str, at_once: bool = False) -> Closure:
         seen.add(name)
         spec = _find(name)
         if spec is None or spec.origin is None:
-            raise ContactkitError(f"the FMU needs module {name}, which does not exist")
+            raise ContactkitError(
+                f"the FMU needs module {name}, which does not exist; reinstall contactkit"
+            )
         path = _path_in_package(name, spec)
         closure.sources[path] = _with_bundled_attrs(path, Path(spec.origin).read_bytes())
         inner, outer = _imports(name, spec, at_once)

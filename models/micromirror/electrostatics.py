@@ -220,7 +220,8 @@ def pull_in(electrode: Electrode, stiffness: float) -> PullIn:
     if electrode.gap >= electrode.outer and excess(0.999999 * high) > 0.0:
         raise InfeasibleError(
             "the plate never meets the electrode, and no voltage pulls it in: its gap of "
-            f"{electrode.gap:g} m exceeds its reach of {electrode.outer:g} m"
+            f"{electrode.gap:g} m exceeds its reach of {electrode.outer:g} m; "
+            "lower Electrode.gap, or raise Electrode.outer"
         )
     tilt = bracketed_root(excess, 0.0, 0.999999 * high)
     return PullIn(tilt, math.sqrt(stiffness * tilt / torque(electrode, tilt, 1.0)))

@@ -103,7 +103,10 @@ class _Integration:
             self._leave_if_pulled()
             self._piece(stop)
             if len(self.pieces) > _MOST_PIECES:
-                raise ConvergenceError(f"events follow each other without end at {self.time:g} s")
+                raise ConvergenceError(
+                    f"events follow each other without end at {self.time:g} s: tips land and leave "
+                    "again; end earlier, or give their sites more SpringTips.landing_damping"
+                )
 
     # equations --------------------------------------------------------------------------------
 
@@ -176,7 +179,9 @@ class _Integration:
             **method,
         )
         if not solution.success or solution.sol is None:
-            raise ConvergenceError(f"scipy stopped at {self.time:g} s: {solution.message}")
+            raise ConvergenceError(
+                f"scipy stopped at {self.time:g} s: {solution.message} Use a larger rtol"
+            )
         self.n_steps += len(solution.t) - 1
         self.n_evaluations += solution.nfev
         at = partial(_at, solution.sol, self.origin, tuple(self.modes))

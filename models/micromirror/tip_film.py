@@ -70,7 +70,10 @@ def _kelvin(scene: SeparationScene, humidity: float) -> tuple[float, float]:
     liquid = scene.meniscus.liquid
     state = liquid.at(scene.temperature)
     if state.missing("surface_tension"):
-        raise InfeasibleError(f"{liquid.name} has no surface tension [N/m], and holds no meniscus")
+        raise InfeasibleError(
+            f"{liquid.name} has no surface tension [N/m], and holds no meniscus; give "
+            "Liquid.surface_tension, or another liquid"
+        )
     tension = state.surface_tension
     volume = liquid.molar_volume(scene.temperature)
     return laplace_pressure(volume, scene.temperature, humidity) / tension, tension

@@ -227,7 +227,11 @@ def _accepted(
         if ratio <= 1.0:
             return length, end, _CONTROL.following(length, ratio)
         length = _CONTROL.shorter(length, ratio)
-    raise ConvergenceError(f"no step of an impact of a tip meets {rtol:g} at {time:g} s", state)
+    raise ConvergenceError(
+        f"no step of an impact of a tip meets Accuracy.time_rtol = {rtol:g} at {time:g} s; loosen "
+        "it",
+        state,
+    )
 
 
 def _shortened(

@@ -8,10 +8,15 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
 from contactkit.app.scenes import OpenedMicromirror, open_scene
-from contactkit.errors import DescriptionError, PlanError
+from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
+from contactkit.models.micromirror import monolithic, tip_impact
 from contactkit.models.micromirror.electrostatics import Electrode
+from contactkit.models.micromirror.flight import Root
 from contactkit.models.micromirror.mirror import Hinge, Mirror, SpringTips, Waveform
+from contactkit.models.micromirror.tip import advance_tip, free_start
+from contactkit.models.micromirror.tip_film import condensed_volume, tip_law
 
 MODEL = Path(__file__).parents[2] / "models" / "micromirror" / "micromirror.toml"
 HINGE = Hinge(inertia=2e-24, stiffness=2e-13)
@@ -108,3 +113,53 @@ def test_cost_needs_a_pulse_that_releases(scene):
     weak = evolve(weak, study=evolve(weak.study, patience=1e-6))
     with pytest.raises(PlanError, match="cost needs a pulse that releases; 24 V do not"):
         OpenedMicromirror(weak).cost(None, lambda fraction: None, 1e-6)
+
+
+# Failures of what is computed: each names a cure --------------------------------------------------
+
+
+def flip(scene):
+    """The monolithic model of a first flip, dry."""
+    mirror = evolve(scene.mirror, waveform=evolve(scene.mirror.waveform, start_delay=0.0, flips=1))
+    made = tip_law(scene.tip, 0.0)
+    return monolithic.simulate_monolithic(mirror, made, scene.start, 5e-6)
+
+
+def test_events_without_end_name_a_cure(scene, monkeypatch):
+    monkeypatch.setattr(monolithic, "_MOST_PIECES", 1)
+    with pytest.raises(ConvergenceError, match=r"without end at .*; end earlier, or give"):
+        flip(scene)
+
+
+def test_a_solver_that_gives_up_names_a_cure(scene, monkeypatch):
+    class Failed:
+        success, sol, message = False, None, "It failed."
+
+    monkeypatch.setattr(monolithic, "solve_ivp", lambda *_, **__: Failed())
+    with pytest.raises(ConvergenceError, match=r"scipy stopped at 0 s: It failed\. Use a larger"):
+        flip(scene)
+
+
+def test_an_impact_that_no_step_meets_names_a_cure(scene, monkeypatch):
+    error = (1.0, 1.0, 0.0, 0.0)
+    monkeypatch.setattr(tip_impact, "_step", lambda *given: (given[2], error))
+    curve = LoadDisplacementCurve(
+        approach=(1e-9, 2e-9),
+        force=(1e-6, 3e-6),
+        contact_area=(1e-16, 2e-16),
+        plastic_area=(0.0, 0.0),
+        elastic_limit=2e-9,
+        nominal_area=1e-13,
+    )
+    stop = tip_impact.TipStop(curve)
+    made = tip_law(scene.tip, 0.0)
+    with pytest.raises(ConvergenceError, match=r"time_rtol = 1e-07 at .* s; loosen it"):
+        advance_tip(made, 0.0, free_start(made, 1e-9, -1.0), Root(1e-9), 2e-8, stop)
+
+
+def test_a_liquid_without_surface_tension_names_a_cure(scene):
+    meniscus = scene.tip.interface.meniscus
+    bare = evolve(meniscus, liquid=evolve(meniscus.liquid, surface_tension=None))
+    tip = evolve(scene.tip, interface=evolve(scene.tip.interface, meniscus=bare))
+    with pytest.raises(InfeasibleError, match=r"holds no meniscus; give Liquid\.surface_tension"):
+        condensed_volume(tip, 0.5)

@@ -27,6 +27,7 @@ if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
 from contactkit.capillary.exact.bridge import bridge
+from contactkit.errors import ConvergenceError
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
@@ -246,6 +247,18 @@ def test_a_fold_is_followed_to_its_end():
     piece = table.pieces[0]
     assert piece.x[0] == 0.0
     assert piece.y[0] == pytest.approx(1.0, abs=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda gap: abs(gap - 3e-5), r"too rough for a table: .*put edges where its slope jumps"),
+        (lambda gap: float("nan"), r"no finite number somewhere .*; end the table before"),
+    ],
+)
+def test_what_cannot_be_tabulated_names_a_cure(function, message):
+    with pytest.raises(ConvergenceError, match=message):
+        tabulate(function, (1e-8, 1e-4))
 
 
 @pytest.mark.parametrize("name", ["A", "D"])
