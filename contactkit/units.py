@@ -149,6 +149,17 @@ def _symbol(text: str) -> tuple[float, dict[str, int]] | None:
     return None
 
 
+def _spelt(text: str) -> str:
+    """Known symbols that differ in their capitals only, as a question; else some examples."""
+    known = (
+        p + s for s, (_, _, takes) in _SYMBOLS.items() for p in (_PREFIXES if takes else ("",))
+    )
+    close = [repr(one) for one in known if one.casefold() == text.casefold()]
+    if close:
+        return f"did you mean {' or '.join(close)}?"
+    return "for example 'um', 'mN/m', 'mPa.s', 'mm2/s', 'kg/m3', 'deg', 'degC'"
+
+
 @lru_cache(maxsize=256)
 def parse_unit(text: str) -> Unit:
     """Read a unit such as ``mN/m``, ``Pa.s``, ``kg/m3`` or ``-`` (no unit).
@@ -177,7 +188,7 @@ def parse_unit(text: str) -> Unit:
                 "unit",
                 text,
                 f"be made of known symbols ({part!r} is not one)",
-                hint="for example 'um', 'mN/m', 'mPa.s', 'mm2/s', 'kg/m3', 'deg', 'degC'",
+                hint=_spelt(match[1] if match else part),
             )
         power = int(match[2] or 1) * (-1 if sign == "/" else 1)
         factor *= found[0] ** power

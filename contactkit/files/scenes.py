@@ -82,7 +82,7 @@ def read_tables(path: str | Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise DescriptionError("file", str(path), "exist") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        comma = re.search(r"= *-?\d+,\d+ *$", _line_of(path, str(error)))
+        comma = re.search(r"= *-?\d+,\d+ *(?=[,}#]|$)", _line_of(path, str(error)))
         cure = "; a decimal comma? write a point" if comma else ""
         raise FileError(path.name, f"not TOML: {error}{cure}") from None
     except OSError as error:

@@ -274,6 +274,21 @@ IN_FILES = {
         "not TOML",
         "a decimal comma? write a point",
     ),
+    "a decimal comma in a table on one line": (
+        'loading = { kind = "imposed-force", mass = 0,02, force = 40 }',
+        "not TOML",
+        "a decimal comma? write a point",
+    ),
+    "a unit with a capital": (
+        FILM.replace('"20 g"', '"0.02 KG"'),
+        "unit must be made of known symbols ('KG' is not one)",
+        "did you mean 'kg'?",
+    ),
+    "a unit in capitals, of which there are two": (
+        FILM + '[[effects]]\neffect = "tension-limit"\ntension = "1 MPA"\n',
+        "('MPA' is not one)",
+        "did you mean 'mPa' or 'MPa'?",
+    ),
     "a pull that pushes": (
         FILM.replace('"40 N"', '"-40 N"'),
         "loading.force is -40 N and never opens the gap",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import subprocess
 import sys
@@ -144,6 +145,13 @@ def test_a_package_that_is_missing_is_named_with_its_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "fmpy", None)
     with pytest.raises(MissingExtraError, match=r"checking an FMU needs fmpy.*contactkit\[fmu\]"):
         require("fmpy", "checking an FMU")
+
+
+def test_pictures_without_matplotlib_name_the_extra(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.delitem(sys.modules, "contactkit.plot.separation", raising=False)
+    with pytest.raises(MissingExtraError, match=r"needs matplotlib.*contactkit\[plot\]"):
+        importlib.import_module("contactkit.plot.separation")
 
 
 def test_an_import_that_fails_for_another_reason_is_a_defect(monkeypatch, capsys):
