@@ -6,6 +6,9 @@ gaps             Gap maps: flat, tilted, domed, wavy, with recesses, measured.
 film             A film and its states: forces, volumes, power.
 solve            Pressure at an instant, steady sliding, a step in time.
 motion           Films in time: a prescribed gap, a mass that is pulled.
+damping          Damping laws c(h) of full films: closed forms and tables, without numpy.
+shape_factor     Damping laws of any face, rough ones too, by the solver.
+rough_flow       Steady flow through rough gaps: flow factors, leakage.
 discretisation   Finite volumes: conductances, transport by walls, volumes.
 mesh             Unknowns and the sides of the cells.
 complementarity  Full and torn cells: active set, Fischer-Burmeister.
@@ -22,36 +25,54 @@ Examples
 from ..._lazy import lazy_names
 
 _HOMES = {
+    "DampingLaw": "damping",
     "Difference": "shapes",
     "Disc": "shapes",
+    "DomeDamping": "damping",
     "Ellipse": "shapes",
     "Face": "face",
     "Film": "film",
     "FilmState": "film",
+    "FlowFactors": "rough_flow",
     "Hole": "face",
     "Intersection": "shapes",
+    "Leakage": "rough_flow",
     "Pocket": "face",
     "Polygon": "shapes",
+    "PowerDamping": "damping",
     "PullState": "motion",
     "Recess": "gaps",
     "Rectangle": "shapes",
     "Ring": "shapes",
     "Sector": "shapes",
+    "TabulatedDamping": "damping",
     "Union": "shapes",
     "Waviness": "gaps",
     "at_rest": "solve",
     "carried_rate": "solve",
+    "disc_damping": "damping",
+    "dome_damping": "damping",
+    "ellipse_damping": "damping",
     "equilateral_triangle": "shapes",
+    "face_damping": "shape_factor",
     "face_from_image": "face",
     "face_from_level": "face",
     "face_from_mask": "face",
+    "flow_factors": "rough_flow",
     "follow_gap": "motion",
     "gap_map": "gaps",
+    "leakage": "rough_flow",
     "pull_apart": "motion",
     "rasterise": "face",
+    "recess_damping": "damping",
+    "rectangle_damping": "damping",
+    "ring_damping": "damping",
+    "rough_damping": "shape_factor",
     "solve_pressure": "solve",
     "steady_film": "solve",
     "step_film": "solve",
+    "tabulate_damping": "shape_factor",
+    "triangle_damping": "damping",
 }
 
 __all__ = sorted(_HOMES)

@@ -108,6 +108,8 @@ def solve_sparse(matrix: Any, right: Array, solver: str, is_symmetric: bool) -> 
             matrix.tocsc(),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
+            relax=8,
+            panel_size=1,  # twice as fast as the default here: supernodes are small
             options={"SymmetricMode": True},
         )
     except RuntimeError as error:

@@ -117,12 +117,12 @@ def make_mesh(face: Face, tied: NDArray[np.int64] | None = None) -> Mesh:
     sides, rim = _sides(face, number)
     rim_number = number[rim.beyond]
     i, j = number[sides.low], number[sides.high]
-    k = number[rim.cell]
-    held = rim_number >= 0
-    # Order of the values: see `conductance_matrix`.
-    rows = np.concatenate([i, j, i, j, k, rim_number[held], k[held], rim_number[held]])
-    columns = np.concatenate([i, j, j, i, k, rim_number[held], rim_number[held], k[held]])
-    pattern = _pattern(rows, columns, size)
+    k, held = number[rim.cell], rim_number >= 0
+    # Cells of one unknown, or that wrap round to each other, may have several sides in common.
+    wraps = any(on and count < 3 for on, count in zip(face.periodic, face.shape, strict=True))
+    pattern = _pattern((i, j), k, (k[held], rim_number[held]), size)
+    if tied is not None or face.pockets or wraps:
+        pattern = _merged(pattern, size)
     region, is_enclosed = _regions(size, pattern, k[~held])
     return Mesh(number, size, area, loaded, sides, rim, pattern, rim_number, region, is_enclosed)
 
@@ -267,10 +267,37 @@ def _regions(size: int, pattern: Pattern, at_reservoir: Indices) -> tuple[Indice
     return region, is_enclosed
 
 
-def _pattern(rows: Indices, columns: Indices, size: int) -> Pattern:
-    """CSR pattern of entries that may meet in the same place."""
-    key = rows * size + columns
-    place, slot = np.unique(key, return_inverse=True)
-    row, column = np.divmod(place, max(size, 1))
+def _pattern(
+    sides: tuple[Indices, Indices],
+    at_rim: Indices,
+    to_pocket: tuple[Indices, Indices],
+    size: int,
+) -> Pattern:
+    """CSR pattern, with a slot for each value in the order of `discretise`."""
+    i, j = sides
+    k, pocket = to_pocket
+    own = np.arange(size)
+    rows = np.concatenate([i, j, k, pocket, own])
+    columns = np.concatenate([j, i, pocket, k, own])
+    # Sorted by row: by hand, so that no entries are summed.
+    order = np.argsort(rows, kind="stable")
+    place = np.empty(rows.size, dtype=np.int64)
+    place[order] = np.arange(rows.size)
+    forth, back, out, back_in, diagonal = np.split(
+        place, np.cumsum([i.size, i.size, k.size, k.size])
+    )
+    slot = np.concatenate(
+        [diagonal[i], diagonal[j], forth, back, diagonal[at_rim], diagonal[pocket], out, back_in]
+    )
+    starts = np.concatenate([[0], np.cumsum(np.bincount(rows, minlength=size))])
+    return Pattern(slot, columns[order].astype(np.int32), starts.astype(np.int32))
+
+
+def _merged(pattern: Pattern, size: int) -> Pattern:
+    """The same pattern with entries of the same place as one."""
+    rows = np.repeat(np.arange(size), np.diff(pattern.starts))
+    place, first = np.unique(rows * size + pattern.columns, return_inverse=True)
+    row, column = np.divmod(place, size)
     starts = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=size))])
+    slot = first[pattern.slot]
     return Pattern(slot, column.astype(np.int32), starts.astype(np.int32))
