@@ -5,11 +5,13 @@ Counts are asserted, nanoseconds only printed.
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 import subprocess
 import sys
 import zipfile
+from itertools import count, islice
 from pathlib import Path
 
 import pytest
@@ -17,9 +19,13 @@ import pytest
 pytest.importorskip("pythonfmu")
 pytest.importorskip("fmpy")
 
+from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
+from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import fmi_headers, kernel_sources, local
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.native.drive import build_native_drive
+from contactkit.fmu.native.tip import build_native_tip
+from contactkit.fmu.python.build import build
 
 if shutil.which("cc") is None or not sys.platform.startswith("linux"):
     pytest.skip("needs a C compiler and a linker that wraps", allow_module_level=True)
@@ -118,3 +124,39 @@ def test_do_step_of_the_drive_in_a_host_in_c(benchmark, host, step, tmp_path):
         "us per doStep": 1e-3 * step_ns,
         "us per set, doStep, get": 1e-3 * exchange_ns,
     }
+
+
+SITE = LoadDisplacementCurve(
+    approach=(1e-11, 1e-10, 1e-9, 4e-9),
+    force=tuple(1.66e7 * d**1.5 for d in (1e-11, 1e-10, 1e-9, 4e-9)),  # a ball of aluminium
+    contact_area=(3e-18, 3e-17, 3e-16, 1.2e-15),
+    plastic_area=(0.0,) * 4,
+    elastic_limit=4e-9,
+    nominal_area=1e-13,
+)
+TIPS = {"dry": {}, "wet": {"V": 1.3e-24}, "compliant": {"curve": SITE, "d_stop": 1.0}}
+
+
+@pytest.mark.parametrize("kind", TIPS)
+@pytest.mark.parametrize("language", ["C", "Python"])
+def test_tips_that_are_shaken(benchmark, tmp_path, language, kind):
+    """125 steps of 20 ns through fmpy, in each of which three inputs are set."""
+    path, start = tmp_path / "x.fmu", dict(TIPS[kind])
+    if language == "C":
+        build_native_tip(path, start=start, platforms=[local()], compiler="cc")
+    else:
+        build("tip-contact", path, start=start)
+    step, w = 2e-8, 2.0 * math.pi * 2e6
+    with Instance(path) as tips:
+        tips.start({"z": 5e-8}, 1.0)
+        inputs, counter = tips.references("z", "vz", "az"), count()
+
+        def run():
+            for i in islice(counter, 125):
+                s, c = 1e-7 * math.sin(w * i * step), 1e-7 * math.cos(w * i * step)
+                tips.set(inputs, [5e-8 + s, w * c, -w * w * s])
+                tips.step(i * step, step)
+
+        benchmark.pedantic(run, rounds=8)
+        assert tips.get_integers(tips.references("n_land"))[0] >= 20
+    benchmark.extra_info["us per step"] = 8e3 * benchmark.stats.stats.min
