@@ -301,8 +301,11 @@ def _check_window(grid: Grid) -> None:
 def _check_size(made: ContactPlan) -> None:
     """Refuse a load or an approach far beyond what the elastic bodies could answer."""
     loading, load = made.scene.loading, made.mean_pressure
-    materials = [m for stack in made.scene.interface.stacks for m in stack.materials]
-    modulus = min(material.plane_strain_modulus for material in materials)
+    # Of the stiffest layer, as a soft one may be thin.
+    modulus = min(
+        max(material.plane_strain_modulus for material in stack.materials)
+        for stack in made.scene.interface.stacks
+    )
     if load is not None and not load <= _LARGEST * modulus:
         is_force = isinstance(loading, Pressing) and loading.force is not None
         name, unit, factor = ("force", "N", made.grid.area) if is_force else ("pressure", "Pa", 1.0)
@@ -310,7 +313,7 @@ def _check_size(made: ContactPlan) -> None:
             f"loading.{name}",
             getattr(loading, name, load),
             f"be at most {_LARGEST * modulus * factor:.3g}, {_LARGEST:g} times the E* of "
-            f"{modulus:.3g} Pa of the softest material over the window",
+            f"{modulus:.3g} Pa of the softer body over the window",
             unit=unit,
             hint="linear elasticity ends far below; check the units of load, window and "
             "young_modulus",
