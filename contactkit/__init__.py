@@ -12,18 +12,19 @@ Examples
 >>> scene = ck.SeparationScene(
 ...     interface=ck.Interface(lower=face, upper=face, meniscus=film),
 ...     loading=ck.ImposedSpeed(speed=0.04, initial_gap=5e-6, final_gap=25e-6),
-...     effects=(ck.MeniscusForce(), ck.ViscousForce(), ck.TensionLimit(tension=1e6)),
+...     effects=(ck.MeniscusForce(), ck.ViscousForce(), ck.TensionLimit(strength=1e6)),
 ... )
 >>> print(ck.plan(scene))
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower', radius='arc')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
-  on   tension-limit       the liquid cannot be pulled below a given pressure (tension=1000000.0, ambient_pressure=101325.0, cavity='truncated')
+  on   tension-limit       the liquid tears at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
   off  shear-limit         wall shear stress bounded by a limiting shear strength
   off  rupture             the film breaks at a gap
   off  van-der-waals-force van der Waals attraction of the solids
   off  adhesive-contact    adhesion of a sphere that has touched
   off  asperity-menisci    menisci at the summits of a rough face
+  the liquid tears 10 bar below ambient, a cavity is 1.01325 bar below it
 """
 
 from __future__ import annotations

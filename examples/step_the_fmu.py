@@ -35,7 +35,7 @@ def scene() -> ck.SeparationScene:
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
         loading=loading,
-        effects=(ck.MeniscusForce(), ck.ViscousForce(), ck.TensionLimit(tension=1e6)),
+        effects=(ck.MeniscusForce(), ck.ViscousForce(), ck.TensionLimit(strength=1e6)),
     )
 
 

@@ -61,7 +61,7 @@ def release_scene(release_cases):
         if effects is None:
             effects = (ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce())
             if case["dp_cav"]:
-                effects += (ck.TensionLimit(tension=case["dp_cav"]),)
+                effects += (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),)
         imposed = {
             "initial_gap": case["h0"],
             "final_gap": case["h_rel"],

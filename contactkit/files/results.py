@@ -19,7 +19,7 @@ from ..errors import ContactkitError, DescriptionError
 from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.curve_result import Work
-from ..separation.motion.state import MotionState
+from ..separation.motion.state import restored_state
 from ..separation.plan import plan
 from ..separation.results import SeparationResult
 from ..separation.sliding.plan import plan_sliding
@@ -209,7 +209,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         header["message"],
         columns,
         header["impulses"],
-        MotionState(**state) if state is not None else None,
+        restored_state(state) if state is not None else None,
         check(made, columns),
         Work(**header["work"]),
     )

@@ -55,6 +55,7 @@ _T = TypeVar("_T")
 _RENAMED = {
     "opening": """[loading] with kind = "imposed-speed", "imposed-force" or "imposed-time\"""",
     "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
+    "tension": "strength, the tension at which the whole liquid tears",
     "sliding": """[loading] with kind = "sliding\"""",
 }
 

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from attrs import field, frozen
 
 from ..scene.column import Column
+from .cavity.law import CavityLaw
 from .effects.base import ForceLaw, Limiter, LimitKind, SeparationForce
 from .effects.viscous import ViscousForce, ViscousLaw
 from .integrator.radau import Forces
@@ -31,6 +32,8 @@ class Film:
     limits: tuple[tuple[LimitKind, Limiter], ...]
     end: float
     full_gap: float
+    cavity: CavityLaw | None = None
+    """How the film tears, where that is remembered; None if its limits need no memory."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     recontact: float = field(init=False)
@@ -84,8 +87,14 @@ class Film:
         }
         if not laws:
             return None
-        limits, end = ((), math.inf) if broken else (self.limits, self.end)
-        return Film(MappingProxyType(laws), limits, end, self.full_gap)
+        if broken:
+            return Film(MappingProxyType(laws), (), math.inf, self.full_gap)
+        return Film(MappingProxyType(laws), self.limits, self.end, self.full_gap, self.cavity)
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether a limit of the liquid is among what acts."""
+        return bool(self.limits) or self.cavity is not None
 
     def static_force(self, gap: float) -> float:
         """Sum of the forces [N] that do not depend on speed, at a gap [m]."""
@@ -124,11 +133,8 @@ class Film:
         relative: they never straddle the speed at which the limit sets in.
         """
         near = gap * (1.0 + _DIFFERENCE)
-        static = static_near = damping = damping_near = 0.0
-        for force in self._static:
-            static += force(gap, 0.0)
-            static_near += force(near, 0.0)
-        static_by_gap = (static_near - static) / (near - gap)
+        static, static_by_gap = self.static_slope(gap)
+        damping = damping_near = 0.0
         if self._viscous is not None:
             damping, damping_near = self._viscous.force(gap, 1.0), self._viscous.force(near, 1.0)
         viscous, limit = (
@@ -141,6 +147,15 @@ class Film:
         faster = speed * (1.0 + _DIFFERENCE)
         by_speed = (self.viscous_force(gap, faster)[0] - viscous) / (faster - speed)
         return Forces(static, static_by_gap, viscous, by_gap, by_speed, limit)
+
+    def static_slope(self, gap: float) -> tuple[float, float]:
+        """Sum of the forces [N] that do not depend on speed, and its slope over the gap [N/m]."""
+        near = gap * (1.0 + _DIFFERENCE)
+        static = static_near = 0.0
+        for force in self._static:
+            static += force(gap, 0.0)
+            static_near += force(near, 0.0)
+        return static, (static_near - static) / (near - gap)
 
     @staticmethod
     def acting_limit(forces: Forces) -> LimitKind:

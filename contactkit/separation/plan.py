@@ -20,6 +20,7 @@ from ..scene.scenes import SeparationScene
 from ..scene.validity import ValidityNumber
 from ..units import length_text, nm
 from .bodies import check_bodies, check_rim
+from .cavity.law import CavityLaw
 from .columns import COLUMNS
 from .effects.as_published import mixed
 from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, LimitKind, SeparationForce
@@ -263,16 +264,21 @@ def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
 def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     laws: dict[type[SeparationForce], ForceLaw] = {}
     limits: list[tuple[LimitKind, Limiter]] = []
+    cavity: CavityLaw | None = None
     end = math.inf
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
             laws[type(effect)] = effect.prepare(prepared)
         elif isinstance(effect, FilmLimit):
-            limits.append((effect.limit, effect.prepare(prepared)))
+            tears = effect.cavity_law(prepared)
+            if tears is None:
+                limits.append((effect.limit, effect.prepare(prepared)))
+            else:
+                cavity = tears
         elif isinstance(effect, FilmEnd):
             end = effect.prepare(prepared)
     end = min([end, *(law.end for law in laws.values())])
-    return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap)
+    return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap, cavity)
 
 
 def _rewetted(prepared: PreparedScene[SeparationScene], film: Film) -> dict[float, Film]:

@@ -13,14 +13,23 @@ from numpy.typing import NDArray
 from ..scene.loading import ImposedSpeed, ImposedTime
 from ..units import length_text
 from .curve_result import Work
-from .effects.base import LIMIT, FilmStatus, LimitKind
+from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .film import Film
 from .plan import Plan
 from .results import SeparationResult, with_late_curves
+from .torn_path import TornPoint, torn_points
 from .validity import check
 
-__all__ = ["at_speed", "broke", "frozen", "newtonian_impulses", "simulated", "within_time"]
+__all__ = [
+    "at_speed",
+    "broke",
+    "frozen",
+    "newtonian_impulses",
+    "simulated",
+    "torn_row",
+    "within_time",
+]
 
 
 def frozen(values: object) -> NDArray[np.float64]:
@@ -63,6 +72,10 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
     """Forces along the gap at an imposed speed."""
     speed, gaps = loading.speed, _grid(plan)
     rows = [_forces(plan, gap, speed) for gap in gaps]
+    torn = _torn(plan, loading, gaps)
+    rows = [_with_torn(row, point) for row, point in zip(rows, torn, strict=False)] + rows[
+        len(torn) :
+    ]
     columns = {
         "time": frozen([(gap - loading.initial_gap) / speed for gap in gaps]),
         "gap": frozen(gaps),
@@ -78,10 +91,13 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
             running = _running(law.force, speed, gaps, end)
             impulses[kind.column.impulse.name] = running[-1]
     if plan.has(ViscousForce):
-        running = _running(lambda gap, v: film.viscous_force(gap, v)[0], speed, gaps, film.end)
+        running = [point.impulse for point in torn]
+        running += [running[-1]] * (len(gaps) - len(torn)) if torn else []
+        if not torn:
+            running = _running(lambda gap, v: film.viscous_force(gap, v)[0], speed, gaps, film.end)
         columns["viscous_impulse"] = frozen(running)
         impulses |= newtonian_impulses(plan)
-        if plan.film.limits:
+        if film.is_limited:
             impulses["viscous_impulse"] = running[-1]
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
@@ -90,13 +106,42 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
     return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)
 
 
+def _torn(plan: Plan, loading: ImposedSpeed, gaps: list[float]) -> list[TornPoint]:
+    """Film that tears, at each gap up to its end; none for a film that does not remember it."""
+    film, law = plan.film, plan.film.cavity
+    if law is None:
+        return []
+    start, speed = loading.initial_gap, loading.speed
+    times = [(gap - start) / speed for gap in gaps if gap <= film.end]
+    rtol = plan.accuracy.time_rtol
+    return torn_points(film, law, lambda time: (start + speed * time, speed), times, rtol)
+
+
+def _with_torn(row: dict[str, float], point: TornPoint) -> dict[str, float]:
+    """Row of a curve with the viscous force of a film that tears in place of that of a full one."""
+    return row | torn_row(point) | {"pull": row["pull"] - row["viscous_force"] + point.force}
+
+
+def torn_row(point: TornPoint) -> dict[str, float]:
+    """Columns of a film that tears."""
+    radius, void = (column.name for column in CAVITY)
+    return {
+        "viscous_force": point.force,
+        LIMIT.name: float(point.limit),
+        radius: point.radius,
+        void: point.void,
+    }
+
+
 def simulated(plan: Plan) -> list[str]:
     """Names of the curves that the effects of a plan give at each gap and speed."""
     names = [column.name for column in plan.film.static_columns]
     if plan.film.has_viscous:
         names += ["viscous_force", "newtonian_force"]
-    if plan.film.limits:
+    if plan.film.is_limited:
         names.append(LIMIT.name)
+    if plan.film.cavity is not None:
+        names += [column.name for column in CAVITY]
     return names
 
 
@@ -116,6 +161,7 @@ def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
         "viscous_force": viscous,
         "newtonian_force": newtonian,
         LIMIT.name: float(limit),
+        **{column.name: 0.0 for column in CAVITY},
         "film_status": float(FilmStatus.BROKEN if broken else whole),
     }
 

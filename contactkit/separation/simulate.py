@@ -198,6 +198,8 @@ def _columns(
         "viscous_force": [row.viscous for row in rows],
         "newtonian_force": [_newtonian_force(plan, s) for s in states],
         "limit": [row.limit for row in rows],
+        "cavity_radius": [row.cavity_radius for row in rows],
+        "void_volume": [row.void for row in rows],
     }
     columns |= {name: frozen(curves[name]) for name in simulated(plan)}
     if plan.has(ViscousForce):

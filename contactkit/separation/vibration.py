@@ -27,8 +27,10 @@ from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .plan import Plan
-from .prescribed import frozen, simulated
+from .prescribed import frozen, simulated, torn_row
 from .results import SeparationResult, with_late_curves
+from .torn_cycles import TornCycles, torn_cycles
+from .torn_path import TornPoint
 from .validity import check
 
 if TYPE_CHECKING:
@@ -41,6 +43,7 @@ __all__ = ["NODES", "PANELS", "VibrationPath", "panels", "vibrating"]
 PANELS, NODES = 40, 4
 """Panels of a cycle, and nodes of each."""
 
+_MOST_TORN = 2000  # cycles of a film that tears: some minutes
 _MOST_GRADED = 0.9  # amplitude over mean gap up to which panels follow the gap
 
 
@@ -182,11 +185,13 @@ def vibrating(
             f"reaches {film.end:g} m at most; shake less, or change Vibration.phase"
         )
     end = min(end, breaks)
-    cycles = [_cycle(plan, path, *span) for span in _drawn(plan, path, end)]
+    spans = _drawn(plan, path, end)
+    torn = _torn(plan, path, spans)
+    cycles = [_cycle(plan, path, *span, torn) for span in spans]
     starts, totals = _sums(path, cycles)
-    columns = _curves(plan, path, cycles, starts)
+    columns = _curves(plan, path, cycles, starts, torn)
     impulses = {plan.columns[name].impulse.name: total for name, total in totals.items()}
-    impulses["steady_pull_impulse"] = _steady_impulse(plan, path, end)
+    impulses["steady_pull_impulse"] = _steady_impulse(plan, path, end, torn)
     if plan.has(ViscousForce):
         newtonian = film.newtonian_impulse(path.gap(0.0), path.gap(end))
         impulses["newtonian_impulse"] = newtonian
@@ -228,7 +233,13 @@ def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, flo
     frequency, most = path.vibration.frequency, max(plan.accuracy.points, 8)
     whole = math.floor(end * frequency * (1.0 + 1e-12))
     places = np.arange(whole)
-    if whole > most:
+    if plan.film.cavity is not None:  # each cycle begins with what the last one left
+        if whole > _MOST_TORN:
+            raise InfeasibleError(
+                f"{whole} cycles are too many for a film that remembers where it was torn: at most "
+                f'{_MOST_TORN}; open faster, or take TensionLimit(cavity="truncated")'
+            )
+    elif whole > most:
         means = np.geomspace(path.begin, path.mean((whole - 1) / frequency), most)
         places = np.unique(np.rint((means - path.begin) / path.rise * frequency).astype(int))
     spans = [(k / frequency, (k + 1) / frequency) for k in places.tolist()]
@@ -238,10 +249,31 @@ def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, flo
     return spans
 
 
-def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
+def _torn(plan: Plan, path: VibrationPath, spans: list[tuple[float, float]]) -> TornCycles | None:
+    """Film that tears, at the edges of the panels; None if it has no memory."""
+    film, law = plan.film, plan.film.cavity
+    if law is None:
+        return None
+    edges = [panels(path, *span, film.kinks)[0] for span in spans]
+    times: list[float] = np.unique(np.concatenate(edges)).tolist()
+
+    def shaken(time: float) -> tuple[float, float]:
+        return path.gap(time), path.speed(time)
+
+    def steady(time: float) -> tuple[float, float]:
+        return path.mean(time), path.rise
+
+    return torn_cycles(film, law, shaken, steady, times, plan.accuracy.time_rtol)
+
+
+def _forces(
+    plan: Plan, gap: float, speed: float, torn: TornPoint | None = None
+) -> dict[str, float]:
     """Each force [N] at a gap and a speed by the name of its column, and the pull."""
     found = dict(plan.film.static_forces(gap))
-    if plan.has(ViscousForce):
+    if torn is not None:
+        found["viscous_force"] = torn.force
+    elif plan.has(ViscousForce):
         found["viscous_force"] = plan.film.viscous_force(gap, speed)[0]
     return found | {"pull": sum(found.values())}
 
@@ -268,7 +300,9 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
     return found
 
 
-def _cycle(plan: Plan, path: VibrationPath, start: float, end: float) -> _Cycle:
+def _cycle(
+    plan: Plan, path: VibrationPath, start: float, end: float, torn: TornCycles | None
+) -> _Cycle:
     """Impulses over a cycle, by Gauss quadrature in the graded phase."""
     edges, times, weights = panels(path, start, end, plan.film.kinks)
     if onsets := _onsets(plan, path, edges.tolist()):
@@ -278,6 +312,10 @@ def _cycle(plan: Plan, path: VibrationPath, start: float, end: float) -> _Cycle:
     for name in rows[0]:
         force = np.array([row[name] for row in rows]).reshape(times.shape)
         running[name] = np.concatenate([[0.0], np.cumsum((weights * force).sum(axis=1))])
+    if torn is not None:
+        viscous = torn.running(edges)
+        running["pull"] += viscous - running["viscous_force"]
+        running["viscous_force"] = viscous
     return _Cycle(edges, running)
 
 
@@ -307,7 +345,11 @@ def _sums(path: VibrationPath, cycles: list[_Cycle]) -> tuple[dict[str, Floats],
 
 
 def _curves(
-    plan: Plan, path: VibrationPath, cycles: list[_Cycle], starts: dict[str, Floats]
+    plan: Plan,
+    path: VibrationPath,
+    cycles: list[_Cycle],
+    starts: dict[str, Floats],
+    torn: TornCycles | None,
 ) -> dict[str, Floats]:
     """Curves over the cycles that were computed."""
     times = [cycle.times[:-1] for cycle in cycles]
@@ -315,15 +357,16 @@ def _curves(
     sizes = [len(part) for part in times]
     moments = np.concatenate(times).tolist()
     points = [(path.gap(t), path.speed(t)) for t in moments]
-    rows = [_row(plan, gap, speed) for gap, speed in points]
-    steady = [_steady_pull(plan, path, t) for t in moments]
+    shaken = [torn.shaken[t] if torn is not None else None for t in moments]
+    rows = [_row(plan, *point, film) for point, film in zip(points, shaken, strict=True)]
+    steady = [_steady_pull(plan, path, t, torn) for t in moments]
     columns = {
         "time": frozen(moments),
         "gap": frozen([gap for gap, _ in points]),
         "speed": frozen([speed for _, speed in points]),
         "mean_gap": frozen([path.mean(t) for t in moments]),
         "pull": frozen([row["pull"] for row in rows]),
-        "mean_pull": frozen(np.repeat(_cycle_means(plan, path, cycles), sizes)),
+        "mean_pull": frozen(np.repeat(_cycle_means(plan, path, cycles, torn), sizes)),
         "steady_pull": frozen(steady),
         "film_status": frozen([row["film_status"] for row in rows]),
     } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
@@ -336,7 +379,9 @@ def _curves(
     return columns
 
 
-def _cycle_means(plan: Plan, path: VibrationPath, cycles: list[_Cycle]) -> list[float]:
+def _cycle_means(
+    plan: Plan, path: VibrationPath, cycles: list[_Cycle], torn: TornCycles | None
+) -> list[float]:
     """Pull [N], mean of each cycle; of a part at the end, mean of the last whole period."""
     period = 1.0 / path.vibration.frequency
     means = []
@@ -344,29 +389,32 @@ def _cycle_means(plan: Plan, path: VibrationPath, cycles: list[_Cycle]) -> list[
         start, end = float(cycle.times[0]), float(cycle.times[-1])
         if end - start < period * (1.0 - 1e-6) and end > period:
             start = end - period
-            cycle = _cycle(plan, path, start, end)
+            cycle = _cycle(plan, path, start, end, torn)
         means.append(cycle.total("pull") / (end - start))
     return means
 
 
-def _row(plan: Plan, gap: float, speed: float) -> dict[str, float]:
+def _row(plan: Plan, gap: float, speed: float, torn: TornPoint | None) -> dict[str, float]:
     """What the curves show at a gap and a speed."""
     film = plan.film
-    row = _forces(plan, gap, speed)
+    row = _forces(plan, gap, speed, torn)
     if plan.has(ViscousForce):
         row["newtonian_force"] = film.newtonian_force(gap, speed)
     row[LIMIT.name] = float(film.viscous_force(gap, speed)[1])
+    row |= torn_row(torn) if torn is not None else {}
     row["film_status"] = float(FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE)
     return row
 
 
-def _steady_pull(plan: Plan, path: VibrationPath, time: float) -> float:
+def _steady_pull(plan: Plan, path: VibrationPath, time: float, torn: TornCycles | None) -> float:
     """Pull [N] at a time without the vibration; 0 where the film would have broken."""
     gap = path.mean(time)
-    return _forces(plan, gap, path.rise)["pull"] if gap <= plan.film.end else 0.0
+    if gap > plan.film.end:
+        return 0.0
+    return _forces(plan, gap, path.rise, torn.steady[time] if torn is not None else None)["pull"]
 
 
-def _steady_impulse(plan: Plan, path: VibrationPath, end: float) -> float:
+def _steady_impulse(plan: Plan, path: VibrationPath, end: float, torn: TornCycles | None) -> float:
     """Impulse [N.s] of the pull without the vibration over the same time."""
     last = min(end, (plan.film.end - path.begin) / path.rise)
     marks = [path.begin, *plan.film.kinks, path.mean(last)]
@@ -375,6 +423,7 @@ def _steady_impulse(plan: Plan, path: VibrationPath, end: float) -> float:
         edges = np.geomspace(low, high, 65)
         for a, b in pairwise(edges.tolist()):
             for node, weight in zip(*gauss_legendre(NODES), strict=True):
-                pull = _forces(plan, a + node * (b - a), path.rise)["pull"]
+                found = _forces(plan, a + node * (b - a), path.rise)
+                pull = found["pull"] - (found["viscous_force"] if torn is not None else 0.0)
                 total += weight * (b - a) * pull / path.rise
-    return total
+    return total + (torn.steady_impulse if torn is not None else 0.0)

@@ -55,7 +55,9 @@ def scene(case: dict[str, Any]) -> ck.SeparationScene:
         stiffness=case["k_s"],
         rise_time=case["tau"],
     )
-    limit = (ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()
+    limit = (
+        (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),) if case["dp_cav"] else ()
+    )
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
         loading=loading,
@@ -257,7 +259,11 @@ def tension_table() -> str:
         cells = []
         for temperature in temperatures:
             film = injector.separation(temperature, limited=math.isfinite(bar))
-            swap = (ck.TensionLimit(tension=bar * 1e5),) if math.isfinite(bar) else ()
+            swap = (
+                (ck.TensionLimit(strength=bar * 1e5, cavity="truncated"),)
+                if math.isfinite(bar)
+                else ()
+            )
             others = tuple(e for e in film.effects if not isinstance(e, ck.TensionLimit))
             made = ck.plan(evolve(film, effects=(*others, *swap)))
             delay = simulate_monolithic(made, injector.valve, 5e-3).cycles[0].release_time

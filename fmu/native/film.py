@@ -9,7 +9,7 @@ from typing import NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...errors import ConvergenceError, DescriptionError
+from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
@@ -107,6 +107,11 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         fractions.append(fraction)
     tension = scene.effect(TensionLimit)
     reynolds = tension is not None and tension.cavity == "reynolds"
+    if prepared.film.cavity is not None:
+        raise PlanError(
+            "TensionLimit.cavity = 'mass-conserving' has no native form; take "
+            "cavity='truncated', or build the Python FMU, without --native"
+        )
     is_sphere = not interface.is_flat
     lowest = max(1e-13, 1e-3 * loading.initial_gap)
     numbers = [

@@ -32,7 +32,7 @@ from ...separation.effects.registry import (
     ViscousForce,
 )
 from ...separation.motion.advance import advance
-from ...separation.motion.state import MotionState, Pull, outputs, start
+from ...separation.motion.state import MotionState, Pull, outputs, restored_state, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
 from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
@@ -171,7 +171,7 @@ PLACES: Mapping[str, Place] = {
             MeniscusLaw.PUBLISHED: "as-published",
         },
     ),
-    "dp_cav": Place("tension", TensionLimit, nothing=0.0),
+    "dp_cav": Place("strength", TensionLimit, nothing=0.0),
     "tau_lim": Place("strength", ShearLimit, nothing=0.0),
     "h_break": Place("gap", Rupture, nothing=0.0),
 }
@@ -214,7 +214,8 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
         evolve(e, radius="disc") if isinstance(e, MeniscusForce) and e.takes_printed() else e
         for e in made.effects
     )
-    return evolve(made, effects=tuple(effects))
+    cut_off = (evolve(e, cavity="truncated") if isinstance(e, TensionLimit) else e for e in effects)
+    return evolve(made, effects=tuple(cut_off))
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -285,7 +286,7 @@ def with_numbers(prepared: PreparedScene[SeparationScene]) -> SeparationScene:
         surface_tension=state.given("surface_tension"),
     )
     effects = tuple(
-        TensionLimit(tension=effect.pressure_drop, cavity=effect.cavity)
+        TensionLimit(strength=effect.tension, cavity=effect.cavity)
         if isinstance(effect, TensionLimit)
         else effect
         for effect in scene.effects
@@ -331,8 +332,9 @@ class StictionMass(PortSlave):
 
     def _show(self, pull: float) -> None:
         values, state = self.values, self.state
-        values["F"], values["F_m"], values["F_v"], status, limit = outputs(self.plan, state, pull)
-        values["state"], values["limit"] = int(status), int(limit)
+        shown = outputs(self.plan, state, pull)
+        values["F"], values["F_m"], values["F_v"] = shown.film, shown.static, shown.viscous
+        values["state"], values["limit"] = int(shown.status), int(shown.limit)
         values["h"], values["v"] = state.gap, state.speed
         values["J"] = state.impulses["viscous_impulse"]
         values["J_m"] = state.impulses.get("meniscus_impulse", 0.0)
@@ -348,4 +350,4 @@ class StictionMass(PortSlave):
 
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
-        self.state = MotionState(**hidden["motion"])
+        self.state = restored_state(hidden["motion"])

@@ -50,7 +50,7 @@ from ...separation.effects.registry import (
     VanDerWaalsForce,
     ViscousForce,
 )
-from ...separation.motion.state import MotionState
+from ...separation.motion.state import restored_state
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
 from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
@@ -408,4 +408,4 @@ class TipContact(PortSlave):
 
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
-        self.state = TipState(MotionState(**hidden["motion"]), **hidden["tip"])
+        self.state = TipState(restored_state(hidden["motion"]), **hidden["tip"])

@@ -79,7 +79,7 @@ class InjectorScene:
         kept = tuple(e for e in self.effects if limited or not isinstance(e, TensionLimit))
         if tension is not None:
             kept = tuple(
-                evolve(e, tension=tension) if isinstance(e, TensionLimit) else e for e in kept
+                evolve(e, strength=tension) if isinstance(e, TensionLimit) else e for e in kept
             )
         return SeparationScene(
             name=self.name,

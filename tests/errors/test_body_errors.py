@@ -41,7 +41,7 @@ FOLLOW = (
     (VISCOUS,),
     (ck.ViscousForce(closure="flooded"),),
     (ck.ViscousForce(closure="as-published"),),
-    (VISCOUS, ck.TensionLimit(tension=1e5)),
+    (VISCOUS, ck.TensionLimit(strength=1e5, cavity="truncated")),
     (VISCOUS, ck.ShearLimit(strength=1e3)),
     (ck.VanDerWaalsForce(**ATTRACTION),),
 )

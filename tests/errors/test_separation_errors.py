@@ -46,7 +46,12 @@ def refuses_plan(*parts, error=ck.PlanError, **given):
 # Numbers of scene objects -----------------------------------------------------------------------
 
 ACCURACY = ck.Accuracy()
-LIMIT, SHEAR, BREAK = ck.TensionLimit(tension=1e6), ck.ShearLimit(strength=1e6), ck.Rupture()
+TORN = ck.TensionLimit(strength=1e6, cavity_pressure=0.0)
+LIMIT, SHEAR, BREAK = (
+    ck.TensionLimit(strength=1e6, cavity="truncated"),
+    ck.ShearLimit(strength=1e6),
+    ck.Rupture(),
+)
 ATTRACTION = ck.VanDerWaalsForce(hamaker_constant=1e-19)
 MOIST = ck.Meniscus(liquid=OIL, pressure=-1e6)
 HUMID = ck.Meniscus(liquid=OIL, relative_humidity=0.5)
@@ -86,8 +91,9 @@ FIELDS = [
     (PULLED, "rest_gap", "m", NON_NEGATIVE, [-1e-9, None]),
     (PULLED, "time_limit", "s", POSITIVE, [0.0, -1.0, None]),
     (scene(VISCOUS), "temperature", "K", POSITIVE, [0.0, -20.0, None]),
-    (LIMIT, "tension", "Pa", POSITIVE, [0.0, -1e5, "vacuum", None]),
+    (LIMIT, "strength", "Pa", POSITIVE, [0.0, -1e5, "vacuum", None]),
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
+    (TORN, "cavity_pressure", "Pa", FINITE, []),
     (SHEAR, "strength", "Pa", POSITIVE, [0.0, -1e5, None]),
     (BREAK, "gap", "m", POSITIVE, [0.0, -1e-6]),
     (ATTRACTION, "hamaker_constant", "J", POSITIVE, [0.0, -1e-19, None]),
@@ -476,7 +482,7 @@ effect = "viscous-force"
 
 [[effects]]
 effect = "tension-limit"
-tension = "1 bar"
+strength = "1 bar"
 """
 
 
@@ -494,7 +500,7 @@ def test_a_right_file_is_read(tmp_path):
     found = ck.load_scene(write(tmp_path))
     assert found.loading.initial_gap == 2e-6
     assert found.interface.meniscus.contact_angle_lower == math.pi / 3.0
-    assert found.effects == (VISCOUS, ck.TensionLimit(tension=1e5))
+    assert found.effects == (VISCOUS, ck.TensionLimit(strength=1e5))
     assert found.temperature == 313.15
 
 
@@ -618,7 +624,7 @@ def test_several_mistakes_are_listed_at_once(tmp_path):
         tmp_path,
         ('"2 um"', '"-2 um"'),
         ('"30 mN/m"', '"30 Pa"'),
-        ('tension = "1 bar"', 'tention = "1 bar"'),
+        ('strength = "1 bar"', 'strenght = "1 bar"'),
         ("viscous-force", "viscos-force"),
     )
     with pytest.raises(ck.DescriptionError, match="cannot be used") as error:
@@ -628,7 +634,7 @@ def test_several_mistakes_are_listed_at_once(tmp_path):
     for field in (
         "ImposedSpeed.initial_gap",
         "Liquid.surface_tension",
-        "TensionLimit.tention",
+        "TensionLimit.strenght",
         "effect",
     ):
         assert sum(line.strip().startswith(field) for line in lines) == 1

@@ -310,8 +310,8 @@ IN_FILES = {
         "it belongs to self-affine-roughness; known: rms, correlation_length, cutoff, seed",
     ),
     "a field of another effect": (
-        FILM + 'tension = "1 bar"\n',
-        "ViscousForce.tension must be a known key",
+        FILM + 'cavity_pressure = "1 bar"\n',
+        "ViscousForce.cavity_pressure must be a known key",
         "it belongs to tension-limit",
     ),
 }

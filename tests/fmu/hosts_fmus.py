@@ -53,7 +53,11 @@ def native_fmu(folder, model, name, fmi=2, **changes):
         effects=(
             ck.MeniscusForce(profile="as-published", radius="disc"),
             ck.ViscousForce(),
-            *((ck.TensionLimit(tension=case["dp_cav"]),) if case["dp_cav"] else ()),
+            *(
+                (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),)
+                if case["dp_cav"]
+                else ()
+            ),
         ),
     )
     given = {key: start[key] for key in ("eta", "gamma", "F_ext") if key in start}

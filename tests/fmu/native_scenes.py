@@ -58,12 +58,14 @@ SCENES = {
     "unequal angles": scene(volume=1e-11, angles=(1.0, 2.0)),
     "repelled, many": scene(volume=DROP, angles=(math.pi, math.radians(120.0)), count=3),
     "arc, many": scene(volume=DROP, effects=(ck.MeniscusForce(profile="arc"), FORCES[1]), count=4),
-    "sphere": scene(**SPHERE, angles=(0.5, 0.7), effects=(*FORCES, ck.TensionLimit())),
+    "sphere": scene(
+        **SPHERE, angles=(0.5, 0.7), effects=(*FORCES, ck.TensionLimit(cavity="truncated"))
+    ),
     "rewetting": scene(
         volume=DROP,
         rest=4e-6,
         final=8e-4,
-        effects=(*FORCES, ck.TensionLimit(tension=1e6)),
+        effects=(*FORCES, ck.TensionLimit(strength=1e6, cavity="truncated")),
         rewetting=0.5,
     ),
     "solids": scene(
@@ -72,7 +74,7 @@ SCENES = {
         effects=(*FORCES, ck.VanDerWaalsForce(hamaker_constant=1e-19)),
         final=1e-3,
     ),
-    "stieber": scene(gap=5e-6, effects=(*FORCES, ck.TensionLimit(tension=1e5, cavity="reynolds"))),
+    "stieber": scene(gap=5e-6, effects=(*FORCES, ck.TensionLimit(strength=1e5, cavity="reynolds"))),
     "shear": scene(gap=1e-7, effects=(*FORCES, ck.ShearLimit(strength=1e5))),
 }
 

@@ -74,7 +74,7 @@ def test_a_limited_impulse_is_as_exact_for_a_small_film_as_for_a_large_one(
         face = ck.Flat(radius=1e-3 * size)
         scene = film_scene(
             VISCOUS,
-            ck.TensionLimit(tension=1e5),
+            ck.TensionLimit(strength=1e5, cavity="truncated"),
             lower=face,
             upper=face,
             liquid={"viscosity": viscosity},
@@ -91,7 +91,13 @@ def test_a_limited_impulse_is_as_exact_for_a_small_film_as_for_a_large_one(
 
 def test_a_limited_impulse_is_the_integral_of_its_curve(film_scene):
     film = {"volume": filled(1e-6)}
-    scene = film_scene(VISCOUS, ck.TensionLimit(tension=1e4), film=film, speed=1e-3, final_gap=5e-5)
+    scene = film_scene(
+        VISCOUS,
+        ck.TensionLimit(strength=1e4, cavity="truncated"),
+        film=film,
+        speed=1e-3,
+        final_gap=5e-5,
+    )
     result = ck.simulate(ck.plan(scene, ck.Accuracy(points=4001)))
     trapezium = np.trapezoid(result["viscous_force"], result.time)
     # 4000 panels over a factor of 50 in the gap: (1e-3)^2 of curvature.

@@ -26,7 +26,7 @@ def approx(value, rel):
 
 
 FORCES = (ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce())
-LIMITED = (*FORCES, ck.TensionLimit(tension=1e5), ck.ShearLimit(strength=1e6))
+LIMITED = (*FORCES, ck.TensionLimit(strength=1e5, cavity="truncated"), ck.ShearLimit(strength=1e6))
 
 
 @attrs.frozen
@@ -94,7 +94,10 @@ def test_a_film_without_limits_resists_opening_as_it_resists_closing(film, speed
 @given(film=films, speed=decades(-9.0, 1.0))
 def test_tension_acts_on_opening_only(film, speed):
     """Closing, the pressure rises: the film is as strong as without the limit."""
-    free, limited = film.plan(), film.plan(*FORCES, ck.TensionLimit(tension=10.0))
+    free, limited = (
+        film.plan(),
+        film.plan(*FORCES, ck.TensionLimit(strength=10.0, cavity="truncated")),
+    )
     assert limited.film.viscous_force(film.gap, -speed) == free.film.viscous_force(film.gap, -speed)
 
 
@@ -207,7 +210,10 @@ def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
     )
     assume(film.tension * force / length < 10.0)
     stress = force / length**2
-    limits = (ck.TensionLimit(tension=1e5 * stress), ck.ShearLimit(strength=1e6 * stress))
+    limits = (
+        ck.TensionLimit(strength=1e5 * stress, cavity="truncated"),
+        ck.ShearLimit(strength=1e6 * stress),
+    )
     two = released(
         scaled,
         *FORCES,
@@ -322,9 +328,9 @@ effects = st.tuples(
     st.builds(ck.ViscousForce, closure=st.sampled_from(["volume-conserving", "flooded"])),
     st.builds(
         ck.TensionLimit,
-        tension=st.just("vapour") | positives,
+        strength=st.just("vapour") | positives,
         ambient_pressure=positives,
-        cavity=st.sampled_from(["truncated", "reynolds"]),
+        cavity=st.sampled_from(["mass-conserving", "truncated", "reynolds"]),
     ),
     st.builds(ck.ShearLimit, strength=positives),
     st.builds(ck.Rupture, gap=st.none() | lengths),

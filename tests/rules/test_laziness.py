@@ -98,7 +98,7 @@ for meniscus in (ck.MeniscusForce(), ck.MeniscusForce(profile="as-published")):
             interface=ck.Interface(lower=face, upper=face, meniscus=film),
             loading=ck.ImposedForce(initial_gap=1e-6, final_gap=1e-5, force=10.0, mass=1e-3),
             effects=(meniscus, ck.ViscousForce(), ck.ShearLimit(strength=1e6), ck.Rupture(gap=5e-6),
-                     ck.TensionLimit(tension=1e6, cavity=cavity)),
+                     ck.TensionLimit(strength=1e6, cavity=cavity)),
         ))
         state = ck.advance(made, start(made), ck.Pull(10.0), 0.01)
         outputs(made, state, 10.0)

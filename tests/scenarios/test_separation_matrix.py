@@ -36,7 +36,7 @@ EFFECTS = (
     ck.ViscousForce(),
     ck.ViscousForce(closure="as-published"),
     ck.ViscousForce(closure="flooded"),
-    ck.TensionLimit(tension=1e6),
+    ck.TensionLimit(strength=1e6, cavity="truncated"),
     ck.ShearLimit(strength=1e6),
     ck.Rupture(),
     ck.Rupture(criterion="zero-neck"),

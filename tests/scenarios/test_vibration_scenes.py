@@ -19,7 +19,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarni
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=870.0)
 FACE = ck.Flat(radius=1e-3)
 VISCOUS, MENISCUS = ck.ViscousForce(), ck.MeniscusForce(profile="arc")
-TENSION = ck.TensionLimit(tension=1e5)
+TENSION = ck.TensionLimit(strength=1e5, cavity="truncated")
 
 
 def approx(value, rel=1e-9):

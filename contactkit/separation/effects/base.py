@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
     from ...scene.validity import ValidityNumber
+    from ..cavity.law import CavityLaw
     from ..plan import Plan
     from ..results import SeparationResult
     from .prepared import PreparedScene
@@ -73,6 +74,11 @@ class LimitKind(IntEnum):
 
 
 LIMIT = Column("limit", "-", "limit that acts")
+CAVITY = (
+    Column("cavity_radius", "m", "radius of the cavity", "#00798c"),
+    Column("void_volume", "m3", "void in the films", "#00798c", ":"),
+)
+"""Curves of a film that tears and remembers it."""
 
 
 class RunCurves(NamedTuple):
@@ -253,6 +259,10 @@ class FilmLimit(SeparationEffect):
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """Do the work that depends on neither gap nor speed."""
+
+    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> CavityLaw | None:
+        """Film that tears, for a limit with a memory; it then has no `Limiter`."""
+        return None
 
     def part(self, result: SeparationResult) -> LimitPart:
         """See `SeparationEffect.part`."""

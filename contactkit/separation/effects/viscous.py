@@ -17,8 +17,9 @@ from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
 from ...scene.validity import ValidityNumber
 from ...units import si
-from ...validators import choice, positive
-from .base import FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
+from ...validators import choice, finite, optional, positive
+from ..cavity.law import CavityLaw
+from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
 from .meniscus import MeniscusForce
@@ -313,62 +314,125 @@ def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> 
 
 @frozen(kw_only=True)
 class TensionLimit(FilmLimit):
-    """The liquid cannot be pulled below a given pressure.
+    """The liquid tears where its tension exceeds its strength, and a cavity opens.
+
+    A liquid has two numbers: the tension at which it tears while it is whole, and the
+    pressure of the cavity it leaves. The second is a hole filled with vapour or air, whatever the
+    first was.
 
     Parameters
     ----------
-    tension : float or "vapour"
-        Tensile strength of the liquid, as a drop below ambient pressure [Pa]; ``"vapour"``: down to
-        (nearly) vacuum, that is `ambient_pressure`. Oils are known to hold 1 to 10 bar for
+    strength : float or "vapour"
+        Tensile strength of the whole liquid, as a drop below ambient pressure [Pa]; ``"vapour"``:
+        down to (nearly) vacuum, that is `ambient_pressure`. Oils are known to bear 1 to 10 bar for
         milliseconds.
+    cavity_pressure : float, optional
+        Absolute pressure in the cavity [Pa], for ``cavity="mass-conserving"``. None: that of
+        vapour, nearly 0, or that at which the liquid tears where this is above. A liquid that
+        goes on to bear its strength at the edge of the cavity has `ambient_pressure` less
+        `strength`, which may be below 0.
     ambient_pressure : float
         Pressure around the film [Pa].
-    cavity : {"truncated", "reynolds"}
-        Pressure profile cut off at the limit; or, between flats, a cavity whose edge has no
-        pressure slope (Swift-Stieber). The second gives up to 15 % less force.
+    cavity : {"mass-conserving", "truncated", "reynolds"}
+        ``"mass-conserving"`` (Jakobsson, Floberg and Olsson), between flats: the cavity has an
+        edge, and what was torn is remembered until liquid has come back to it. The others
+        remember nothing, and have one pressure, at which the liquid also tears: ``"truncated"``,
+        the pressure profile cut off (Gumbel); ``"reynolds"``, between flats, a cavity whose edge
+        has no pressure slope (Swift-Stieber), right while an opening film tears further.
 
     Notes
     -----
-    Acts while the gap opens. A cavity with a memory of its own is left out.
+    The film tears in its centre, where the tension is highest, and the cavity is round. The film is
+    whole again when liquid has filled it, and then has its strength again at once. Meniscus forces
+    are those of a film without a cavity.
     """
 
     name: ClassVar[str] = "tension-limit"
     limit: ClassVar[LimitKind] = LimitKind.TENSION
-    summary: ClassVar[str] = "the liquid cannot be pulled below a given pressure"
+    summary: ClassVar[str] = "the liquid tears at a tension and leaves a cavity"
     takes_pressure: ClassVar[bool] = True
 
-    tension: float | Literal["vapour"] = field(default="vapour", metadata=si("Pa"))
+    strength: float | Literal["vapour"] = field(default="vapour", metadata=si("Pa"))
+    cavity_pressure: float | None = field(
+        default=None, validator=optional(finite), metadata=si("Pa")
+    )
     ambient_pressure: float = field(default=101_325.0, validator=positive, metadata=si("Pa"))
-    cavity: Literal["truncated", "reynolds"] = field(
-        default="truncated", validator=choice("truncated", "reynolds")
+    cavity: Literal["mass-conserving", "truncated", "reynolds"] = field(
+        default="mass-conserving", validator=choice("mass-conserving", "truncated", "reynolds")
     )
 
-    @tension.validator
-    def _check_tension(self, attribute: object, value: object) -> None:
+    @strength.validator
+    def _check_strength(self, attribute: object, value: object) -> None:
         if value != "vapour":
             positive(self, attribute, value)  # type: ignore[arg-type]
 
+    def __attrs_post_init__(self) -> None:
+        pressure, where = self.cavity_pressure, "TensionLimit.cavity_pressure"
+        if pressure is None:
+            return
+        if self.cavity != "mass-conserving":
+            hint = f'cavity="{self.cavity}" has one pressure; give strength alone'
+            raise DescriptionError(where, pressure, "not be given", unit="Pa", hint=hint)
+        lowest, ambient = self.ambient_pressure - self.tension, self.ambient_pressure
+        if not lowest * (1.0 - 1e-12) - 1e-9 * ambient <= pressure < ambient:
+            expected = f"lie between {lowest:g} Pa, at which the liquid tears, and {ambient:g} Pa"
+            hint = "it is absolute; the liquid tears at ambient_pressure less strength"
+            raise DescriptionError(where, pressure, expected, unit="Pa", hint=hint)
+
+    @classmethod
+    def curves(cls) -> tuple[Column, ...]:
+        """See `SeparationEffect.curves`."""
+        return (*super().curves(), *CAVITY)
+
     @property
-    def pressure_drop(self) -> float:
-        """Largest drop below ambient pressure [Pa]."""
-        return self.ambient_pressure if self.tension == "vapour" else float(self.tension)
+    def tension(self) -> float:
+        """Tension at which the whole liquid tears [Pa], as a drop below ambient pressure."""
+        return self.ambient_pressure if self.strength == "vapour" else float(self.strength)
+
+    @property
+    def cavity_drop(self) -> float:
+        """Ambient pressure less that of the cavity [Pa]."""
+        if self.cavity != "mass-conserving":
+            return self.tension
+        if self.cavity_pressure is not None:
+            return min(self.ambient_pressure - self.cavity_pressure, self.tension)
+        return min(self.ambient_pressure, self.tension)
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
+        if self.cavity == "mass-conserving":
+            return ("mass-conserving cavity; Jakobsson and Floberg 1957, Olsson 1965",)
         if self.cavity == "reynolds":
             return ("Swift-Stieber condition at the cavity edge; Resch and Scheidl 2014",)
         return ("parabolic pressure truncated at the limit; Scheidl and Gradl 2016",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
-        if self.cavity == "reynolds" and not scene.interface.is_flat:
+        if self.cavity != "truncated" and not scene.interface.is_flat:
             return ('two flats (or cavity="truncated")',)
+        if self.cavity == "mass-conserving" and scene.effect(ShearLimit) is not None:
+            return ('no ShearLimit beside it (or cavity="truncated")',)
         return ()
+
+    def notes(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `SeparationEffect.notes`."""
+        if self.cavity != "mass-conserving":
+            return ()
+        tears, drop = self.tension / 1e5, self.cavity_drop / 1e5
+        return (f"the liquid tears {tears:g} bar below ambient, a cavity is {drop:g} bar below it",)
+
+    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> CavityLaw | None:
+        """See `FilmLimit.cavity_law`."""
+        if self.cavity != "mass-conserving":
+            return None
+        film = viscous_film(prepared)
+        viscosity, rim = prepared.liquid.viscosity, film.rim * film.rim
+        return CavityLaw(film.menisci, rim, film.volume, viscosity, self.tension, self.cavity_drop)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
-        film, drop = viscous_film(prepared), self.pressure_drop
+        film, drop = viscous_film(prepared), self.tension
         n, radius, height = film.menisci, film.radius, film.height
         disc = (
             film_limits.disc_tension_reynolds

@@ -28,10 +28,11 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
+from .tableau import ERROR, GAMMA, NODES, STAGES
+
 __all__ = [
-    "NODES",
-    "WEIGHTS",
     "Forces",
+    "Memory",
     "Point",
     "Problem",
     "Step",
@@ -41,17 +42,8 @@ __all__ = [
     "step",
 ]
 
-_R6 = math.sqrt(6.0)
-NODES = _C1, _C2, _ = ((4.0 - _R6) / 10.0, (4.0 + _R6) / 10.0, 1.0)
-_A = (
-    ((88.0 - 7.0 * _R6) / 360.0, (296.0 - 169.0 * _R6) / 1800.0, (-2.0 + 3.0 * _R6) / 225.0),
-    ((296.0 + 169.0 * _R6) / 1800.0, (88.0 + 7.0 * _R6) / 360.0, (-2.0 - 3.0 * _R6) / 225.0),
-    ((16.0 - _R6) / 36.0, (16.0 + _R6) / 36.0, 1.0 / 9.0),
-)
-WEIGHTS = _A[2]
-# Error estimate: gamma0 of the real eigenvalue of A^-1 and the weights of the stage increments.
-_GAMMA0 = 3.0 + 3.0 ** (2.0 / 3.0) - 3.0 ** (1.0 / 3.0)
-_E1, _E2, _E3 = (-13.0 - 7.0 * _R6) / 3.0, (-13.0 + 7.0 * _R6) / 3.0, -1.0 / 3.0
+_C1, _C2, _ = NODES
+_E1, _E2, _E3 = ERROR
 
 _MOST_ITERATIONS = 12
 _LINEAR = 1e-4  # relative change over which the slopes at the start are good enough
@@ -82,6 +74,17 @@ class Forces(NamedTuple):
     limit: Any = None
 
 
+class Memory(NamedTuple):
+    """Forces with a memory at the stages of a step.
+
+    `error` [-] is that of what is remembered at its end, and `found` what is to be kept of it.
+    """
+
+    forces: tuple[Forces, Forces, Forces]
+    error: float
+    found: Any
+
+
 class Problem(NamedTuple):
     """Equation of motion of one step, its initial point, and the scales of its errors."""
 
@@ -98,6 +101,8 @@ class Problem(NamedTuple):
     size: float  # sum of the forces that deliver momentum [N]; those that cancel count too
     delivered: float  # momentum delivered so far [N.s]
     scale: float  # speed at which the film balances the other forces [m/s]
+    # Forces with a memory: of a length [s], and gap [m] and speed [m/s] at each stage.
+    remembered: Callable[[float, Sequence[tuple[float, float]]], Memory | None] | None = None
 
     def net(self, pull: float, gap: float, forces: Forces) -> float:
         """Net force on the mass [N]."""
@@ -119,6 +124,7 @@ class Step(NamedTuple):
     gap_error: float
     speed_error: float
     evaluations: int
+    memory: Memory | None = None
 
 
 # The innermost records are plain tuples: NamedTuples of Python cost a tenth of a doStep here.
@@ -172,7 +178,15 @@ def step(problem: Problem, dt: float, s: float | None = None) -> Step | None:
         stages = _stages(begin.gap, dt, s, rates)
         if stages is None:
             return None
-        found = [problem.forces(gap, speed) for _, gap, speed, _, _ in stages]
+        places = [(gap, speed) for _, gap, speed, _, _ in stages]
+        memory = None
+        if problem.remembered is None:
+            found: Sequence[Forces] = [problem.forces(gap, speed) for gap, speed in places]
+        else:
+            memory = problem.remembered(dt, places)
+            if memory is None:
+                return None
+            found = memory.forces
         lines = [_line(problem, *one) for one in zip(stages, found, pulls, strict=True)]
         solved = _newton(mass, dt, begin.speed, lines)
         if solved is None:
@@ -189,7 +203,8 @@ def step(problem: Problem, dt: float, s: float | None = None) -> Step | None:
         is_met = contraction * size <= 0.03 * rtol and contraction * left <= rtol * momentum
         is_stalled = iteration > 1 and previous <= size < _ROUND_OFF
         if is_met or (is_stalled and left <= 1e-7 * momentum):
-            return _finished(problem, dt, s, rates, (stages, found), 3 * iteration + 3)
+            done = _finished(problem, dt, s, rates, (stages, found), 3 * iteration + 3)
+            return done if done is None or memory is None else done._replace(memory=memory)
         if iteration > 5 and size > previous:
             return None
     return None
@@ -231,7 +246,7 @@ def _first_guess(
 def _stages(gap: float, dt: float, s: float, rates: _Three) -> list[_Stage] | None:
     """Stages for rates of the coordinate [1/s]; None where one is outside its range."""
     found = []
-    for row, rate in zip(_A, rates, strict=True):
+    for row, rate in zip(STAGES, rates, strict=True):
         q = dt * (row[0] * rates[0] + row[1] * rates[1] + row[2] * rates[2])
         place = coordinate(gap, s, q)
         if place is None or not 1e-100 < place[0] < math.inf:
@@ -264,7 +279,7 @@ def _newton(
         dt * (g3 * p3 + d3 * w3),
     )
     own1, own2, own3 = d1 * p1, d2 * p2, d3 * p3
-    (a11, a12, a13), (a21, a22, a23), (a31, a32, a33) = _A
+    (a11, a12, a13), (a21, a22, a23), (a31, a32, a33) = STAGES
     u, v, w, inertia = a11 * both1, a12 * both2, a13 * both3, mass * w1
     a0 = mass * p1 + dt * (a11 * (inertia - own1) - (u * a11 + v * a21 + w * a31))
     a1 = dt * (a12 * (inertia - own2) - (u * a12 + v * a22 + w * a32))
@@ -325,7 +340,7 @@ def _finished(
     by_gap = -problem.stiffness - first.static_by_gap - first.viscous_by_gap
     j11, j12 = -v0 * (1.0 + s) / h0, 1.0 / h0
     j21, j22 = by_gap * h0 / mass, -first.viscous_by_speed / mass
-    g = _GAMMA0 / dt
+    g = GAMMA / dt
     det = (g - j11) * (g - j22) - j12 * j21
     zq = (_E1 * q1 + _E2 * q2 + _E3 * q3) / dt
     zv = (_E1 * (v1 - v0) + _E2 * (v2 - v0) + _E3 * (v3 - v0)) / dt
@@ -384,7 +399,8 @@ def relative_error(problem: Problem, taken: Step, length: float, missed: float =
     wrong = max(problem.mass * taken.speed_error, film, abs(missed))
     # A mass that the film leads has no momentum to speak of; its speed is still asked for.
     of_speed = taken.speed_error / (speed + problem.scale)
-    return max(taken.gap_error, wrong / momentum, 0.1 * of_speed) / problem.rtol
+    kept = taken.memory.error if taken.memory is not None else 0.0
+    return max(taken.gap_error, wrong / momentum, 0.1 * of_speed, kept) / problem.rtol
 
 
 def against_halves(problem: Problem, taken: Step, length: float) -> Step | None:

@@ -13,11 +13,14 @@ from ...errors import ConvergenceError, DescriptionError
 from ...numerics.events import EventStep, step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
+from ..cavity.events import after_event
+from ..cavity.law import CavityLaw
+from ..cavity.path import PathPoint, along_path
+from ..cavity.stages import shown_cavity
+from ..cavity.state import Cavity, Phase
 from ..effects.viscous import ViscousForce
 from ..integrator.dense_output import peak, work
 from ..integrator.radau import (
-    NODES,
-    WEIGHTS,
     Forces,
     Point,
     Problem,
@@ -26,7 +29,9 @@ from ..integrator.radau import (
     relative_error,
     step,
 )
+from ..integrator.tableau import NODES, WEIGHTS
 from ..plan import Film, Plan
+from .cavity import after, cavity_film, cut_at_event, cut_before_step
 from .events import SAME, apply_event, next_event
 from .state import MotionState, Pull, PullLaw, acting_film
 
@@ -96,6 +101,9 @@ def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> 
     if state.speed < 0.0 and state.gap <= rest_gap * (1.0 + SAME):
         return state._replace(in_contact=True, gap=rest_gap, speed=0.0)
     film = acting_film(plan, state)
+    torn = cut_before_step(film, state.cavity, (state.gap, state.speed))
+    if torn is not None:
+        return state._replace(cavity=torn, step=0.0)
     problem = _problem(plan, film, state, pull)
     if problem.size <= _NO_FORCE:
         if _is_at_rest(problem):
@@ -107,6 +115,9 @@ def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> 
 def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     """Rest on the asperities until the pull exceeds what holds the bodies together."""
     loading, film = plan.scene.imposed_force, acting_film(plan, state)
+    law = film.cavity if film is not None else None
+    if film is not None and law is not None and state.cavity.phase is not Phase.FULL:
+        return _rest_on_cavity(plan, film, law, state, pull, end)
     forces = film.static_forces(state.gap) if film is not None else {}
     holding = loading.stiffness * (state.gap - loading.initial_gap) + sum(forces.values())
     leaves = True
@@ -124,6 +135,44 @@ def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionSt
     )
 
 
+def _rest_on_cavity(
+    plan: Plan, film: Film, law: CavityLaw, state: MotionState, pull: PullLaw, end: float
+) -> MotionState:
+    """Rest while liquid returns to the cavity, which pulls the bodies together meanwhile."""
+    loading, gap = plan.scene.imposed_force, state.gap
+    forces = film.static_forces(gap)
+    holding = loading.stiffness * (gap - loading.initial_gap) + sum(forces.values())
+    rtol = plan.accuracy.time_rtol
+
+    def place(time: float) -> tuple[float, float]:
+        return gap, 0.0
+
+    def leaves(time: float, cavity: Cavity) -> bool:
+        return pull(time) > holding + shown_cavity(law, cavity, gap, 0.0).force
+
+    if leaves(state.time, state.cavity):
+        return state._replace(in_contact=False, step=0.0)
+    point = next(along_path(law, state.cavity, place, state.time, end, rtol, state.step))
+    if leaves(point.time, point.cavity):
+
+        def until(time: float) -> PathPoint:
+            return list(along_path(law, state.cavity, place, state.time, time, rtol))[-1]
+
+        begun = state.time + 1e-12 * (point.time - state.time)
+        when = first_true(lambda time: leaves(time, until(time).cavity), begun, point.time)
+        point = until(when)._replace(step=0.0)
+    elapsed = point.time - state.time
+    grown = {f"{c.impulse.name}": elapsed * forces[c.name] for c in film.static_columns}
+    grown[_VISCOUS] = point.impulse or 0.0
+    return state._replace(
+        time=point.time,
+        in_contact=not leaves(point.time, point.cavity),
+        cavity=point.cavity,
+        step=point.step if point.cavity.phase is not Phase.FULL else 0.0,
+        impulses=_added(state.impulses, grown),
+    )
+
+
 def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[str, float]:
     return {**impulses, **{name: impulses.get(name, 0.0) + more[name] for name in more}}
 
@@ -132,7 +181,9 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
     loading, mass = plan.scene.imposed_force, _mass(plan)
     gap, speed = state.gap, state.speed
+    torn = cavity_film(film, state.cavity, (gap, speed))
     forces = film.forces if film is not None else _no_forces
+    forces = forces if torn is None else torn.forces
     first = forces(gap, speed)
     damping = film.damping(gap) if film is not None else 0.0
     spring = loading.stiffness * abs(gap - loading.initial_gap)
@@ -144,7 +195,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         stiffness=loading.stiffness,
         slack_gap=loading.initial_gap,
         forces=forces,
-        has_limits=film is not None and bool(film.limits),
+        has_limits=film is not None and film.is_limited,
         exponent=film.exponent(gap) if film is not None else 0.0,
         begin=Point(state.time, gap, speed),
         first=first,
@@ -153,6 +204,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         delivered=state.applied_impulse + mass * abs(speed),
         # Where no force acts yet, a film still has a scale: differences of speed count.
         scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
+        remembered=torn.remembered if torn is not None else None,
     )
 
 
@@ -211,6 +263,17 @@ def _stepped(
     event = next_event(plan, film, state, taken.stages[2].gap)
     if event is not None:
         taken, length = _step_to_gap(problem, taken, length, event)
+    turn, cavity = None, state.cavity
+    law = film.cavity if film is not None else None
+    if law is not None:
+        turn = cut_at_event(problem, law, cavity, taken, length)
+        if turn is not None:
+            (taken, length), event = turn, None
+        if length == 0.0:
+            return state._replace(cavity=after_event(law, cavity, state.gap, state.speed))
+        cavity = after(law, cavity, taken, (problem.begin.gap, problem.begin.speed))
+        if turn is not None:
+            cavity = after_event(law, cavity, *taken.stages[2][1:])
     _, gap, speed = taken.stages[2]
     grown = _impulses(film, taken, length)
     highest, when = _peak(state, problem, taken, length)
@@ -218,12 +281,13 @@ def _stepped(
         time=end if length == left else state.time + length,
         gap=gap,
         speed=speed,
+        cavity=cavity,
         impulses=_added(state.impulses, grown),
         dissipated_work=state.dissipated_work + _work(problem, taken),
         applied_impulse=state.applied_impulse + length * problem.size,
         peak_force=highest,
         peak_time=when,
-        step=following,
+        step=following if turn is None else 0.0,
         n_steps=state.n_steps + 1,
         n_rejected=state.n_rejected + rejected,
         n_evaluations=state.n_evaluations + evaluations,

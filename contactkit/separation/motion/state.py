@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from attrs import field, frozen
 
 from ...units import si
+from ..cavity.stages import shown_cavity
+from ..cavity.state import FULL, Cavity, Phase, restored_cavity
 from ..effects.base import FilmStatus, LimitKind
 from ..plan import Film, Plan
 
@@ -18,6 +20,7 @@ __all__ = [
     "Pull",
     "acting_film",
     "outputs",
+    "restored_state",
     "start",
 ]
 
@@ -49,6 +52,7 @@ class MotionState(NamedTuple):
     in_contact: bool = False  # at rest on the asperities
     armed: bool = True  # closed since the last release, so that the next one counts
     detached: bool = False  # the solids have pulled off each other
+    cavity: Cavity = FULL  # of the film, where the scene has one that is remembered
     impulses: Mapping[str, float] = {}  # of each force of the scene [N.s], never changed in place
     dissipated_work: float = 0.0
     applied_impulse: float = 0.0  # sum of all |force| dt, the scale of the momentum error
@@ -76,9 +80,17 @@ class Outputs(NamedTuple):
     viscous: float
     status: FilmStatus
     limit: LimitKind
+    cavity_radius: float = 0.0  # of each film [m]
+    void: float = 0.0  # volume without liquid within the films [m3]
 
 
 _NOTHING = Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
+
+
+def restored_state(saved: Mapping[str, Any]) -> MotionState:
+    """State of the numbers and lists that one is saved as."""
+    state = MotionState(**saved)
+    return state._replace(cavity=restored_cavity(state.cavity))
 
 
 def start(plan: Plan) -> MotionState:
@@ -107,6 +119,10 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
         return _NOTHING
     gap, speed = state.gap, state.speed
     static, (viscous, limit) = film.static_force(gap), film.viscous_force(gap, speed)
+    radius = void = 0.0
+    if film.cavity is not None and state.cavity.phase is not Phase.FULL:
+        shown = shown_cavity(film.cavity, state.cavity, gap, speed)
+        viscous, radius, void, limit = *shown, LimitKind.TENSION
     net = pull - loading.stiffness * (gap - loading.initial_gap) - static
     if speed <= 0.0 < pull and net <= 0.0:
         status = FilmStatus.STUCK
@@ -116,4 +132,4 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
         status = FilmStatus.BROKEN
     else:
         status = FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE
-    return Outputs(static + viscous, static, viscous, status, limit)
+    return Outputs(static + viscous, static, viscous, status, limit, radius, void)

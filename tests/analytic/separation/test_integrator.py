@@ -13,8 +13,6 @@ import contactkit as ck
 from contactkit.lubrication import squeeze_film
 from contactkit.separation.integrator.dense_output import peak, work
 from contactkit.separation.integrator.radau import (
-    NODES,
-    WEIGHTS,
     Forces,
     Point,
     Problem,
@@ -22,6 +20,7 @@ from contactkit.separation.integrator.radau import (
     relative_error,
     step,
 )
+from contactkit.separation.integrator.tableau import NODES, WEIGHTS
 from contactkit.separation.motion.state import start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
@@ -283,14 +282,16 @@ RUNS = {
     "flooded": (scene(EXACT, volume=None), 40.0, 4e-4),
     "pulled together": (scene(EXACT, speed=1e-3), -20.0, 4e-4),
     "no meniscus": (scene(), 40.0, 4e-4),
-    "tension": (scene((*EXACT, ck.TensionLimit(tension=1e6))), 40.0, 4e-4),
+    "tension": (scene((*EXACT, ck.TensionLimit(strength=1e6, cavity="truncated"))), 40.0, 4e-4),
     "tension and shear": (
-        scene((*EXACT, ck.TensionLimit(tension=3e6), ck.ShearLimit(strength=2e4))),
+        scene(
+            (*EXACT, ck.TensionLimit(strength=3e6, cavity="truncated"), ck.ShearLimit(strength=2e4))
+        ),
         40.0,
         4e-4,
     ),
     "breaks and flies": (
-        scene((*EXACT, ck.Rupture(gap=5.2e-6), ck.TensionLimit(tension=1e4))),
+        scene((*EXACT, ck.Rupture(gap=5.2e-6), ck.TensionLimit(strength=1e4, cavity="truncated"))),
         40.0,
         2e-4,
     ),

@@ -98,7 +98,7 @@ def build_one(name: str, folder: Path) -> Path:
     if model == "tip-contact":
         return build_native_tip(out, curve=rough(1e-8) if fmi == "2" else None, **more)
     scene = SCENES["drop"]
-    effects = (*scene.effects, ck.TensionLimit(tension=1e6))
+    effects = (*scene.effects, ck.TensionLimit(strength=1e6, cavity="truncated"))
     scene = attrs.evolve(scene, effects=effects)
     return build_native(scene, out, model=model, **more)
 

@@ -93,7 +93,7 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     gaps = np.geomspace(1.1 * numbers(name).lowest, high, 301).tolist()
     speeds = np.linspace(-1e-3, 1.0, 301).tolist()
     limits = {effect.name: effect for effect in scene.effects}
-    tension = getattr(limits.get("tension-limit"), "pressure_drop", 0.0)
+    tension = getattr(limits.get("tension-limit"), "tension", 0.0)
     strength = getattr(limits.get("shear-limit"), "strength", 0.0)
     fixed, fixed_slope, viscous, _, _, _ = kernel_forces(
         probe, numbers(name).numbers, tmp_path, gaps, speeds, tension, strength

@@ -391,7 +391,7 @@ def held_scene():
         effects=(
             ck.MeniscusForce(profile="arc"),
             ck.ViscousForce(),
-            ck.TensionLimit(tension=2e5),
+            ck.TensionLimit(strength=2e5, cavity="truncated"),
             ck.ShearLimit(strength=3e6),
             ck.Rupture(gap=9e-5),
         ),
@@ -471,7 +471,7 @@ def test_what_the_parameters_do_not_hold_is_refused(changes, message):
 def test_the_pressure_around_limits_a_liquid_that_boils():
     scene = held_scene()
     kept = tuple(e for e in scene.effects if not isinstance(e, ck.TensionLimit))
-    boils = ck.TensionLimit(tension="vapour", ambient_pressure=5e4)
+    boils = ck.TensionLimit(strength="vapour", ambient_pressure=5e4, cavity="truncated")
     assert mass_values(attrs.evolve(scene, effects=(*kept, boils)))["dp_cav"] == 5e4
 
 

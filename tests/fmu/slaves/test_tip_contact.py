@@ -179,7 +179,7 @@ def test_a_scene_it_cannot_hold_is_refused(scene):
 
     import contactkit as ck
 
-    limited = evolve(scene, effects=(*scene.effects, ck.TensionLimit()))
+    limited = evolve(scene, effects=(*scene.effects, ck.TensionLimit(cavity="truncated")))
     with pytest.raises(PlanError, match="tip-contact has no TensionLimit"):
         tip_start(limited, 0.5)
     printed = tuple(

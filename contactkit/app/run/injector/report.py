@@ -43,7 +43,7 @@ def _held_by(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
 def _tension(run: InjectorRun) -> float:
     """Tensile strength [Pa] of the oil in a run; inf without a limit."""
     limit = run.plan.scene.effect(TensionLimit)
-    return math.inf if limit is None else limit.pressure_drop
+    return math.inf if limit is None else limit.tension
 
 
 def _limit_text(run: InjectorRun) -> str:

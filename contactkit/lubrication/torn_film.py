@@ -1,0 +1,193 @@
+r"""Memory of a film that was torn: the gap at which the edge of the cavity passed each radius.
+
+Nothing flows within a cavity between faces that move apart, so that the liquid there stays what it
+was when the edge passed: :math:`\theta h = h_b(y)`, with :math:`y = r^2`. The void up to an edge is
+
+.. math:: W = \pi \int_0^y (h - h_b) \, dy' = \pi y h - M(y)
+
+While the edge recedes each step of time adds a piece, in which y and h_b are cubics of a parameter
+from 0 to 1: over y alone h_b would have a square root where the edge turns. Plain floats only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+__all__ = [
+    "Edge",
+    "Torn",
+    "cut",
+    "edge_of",
+    "grown",
+    "piece_at",
+    "outermost",
+    "piece_along",
+    "torn_to",
+    "void_within",
+]
+
+Piece = tuple[float, ...]
+"""Coefficients of y (4, [m2]) and of h_b (4, [m]) in the parameter, and M at its start [m3]."""
+Torn = tuple[Piece, ...]
+"""Pieces from the centre outwards."""
+
+_MOST = 64  # pieces that are kept
+
+
+class Edge(NamedTuple):
+    """Edge of a cavity: the square of its radius [m2], and the gap at which it was there [m]."""
+
+    square: float
+    torn_gap: float
+
+
+def piece_at(square: float, gap: float) -> Piece:
+    """Piece from the centre to an edge, which was torn at once at one gap [m]."""
+    return (0.0, square, 0.0, 0.0, gap, 0.0, 0.0, 0.0, 0.0)
+
+
+def piece_along(before: float, squares: Sequence[float], gaps: Sequence[float]) -> Piece:
+    """Piece through the start of a step and its three stages.
+
+    Parameters
+    ----------
+    before : float
+        Liquid within the edge at the start, M [m3].
+    squares, gaps : sequence of 4 floats
+        Square of the radius of the edge [m2], and the gap [m], at the parameters of `NODES`.
+    """
+    return (*_cubic(squares), *_cubic(gaps), before)
+
+
+_R6 = math.sqrt(6.0)
+_NODES = (0.0, (4.0 - _R6) / 10.0, (4.0 + _R6) / 10.0, 1.0)
+
+
+def _cubic(f: Sequence[float]) -> tuple[float, float, float, float]:
+    """Coefficients of the cubic through values at the start of a step and its stages."""
+    x = _NODES
+    d1 = [(f[i + 1] - f[i]) / (x[i + 1] - x[i]) for i in range(3)]
+    d2 = [(d1[i + 1] - d1[i]) / (x[i + 2] - x[i]) for i in range(2)]
+    d = (d2[1] - d2[0]) / x[3]
+    c = d2[0] - d * (x[0] + x[1] + x[2])
+    return f[0], d1[0] - d2[0] * x[1] + d * x[1] * x[2], c, d
+
+
+def _square(piece: Piece, t: float) -> float:
+    return piece[0] + t * (piece[1] + t * (piece[2] + t * piece[3]))
+
+
+def _gap(piece: Piece, t: float) -> float:
+    return piece[4] + t * (piece[5] + t * (piece[6] + t * piece[7]))
+
+
+def _rate(piece: Piece, t: float) -> float:
+    return piece[1] + t * (2.0 * piece[2] + 3.0 * t * piece[3])
+
+
+def _liquid(piece: Piece, t: float) -> float:
+    r"""Liquid M up to a parameter [m3], :math:`\pi \int h_b \, dy`; exact."""
+    _, y1, y2, y3, h0, h1, h2, h3, before = piece
+    y2, y3 = 2.0 * y2, 3.0 * y3  # of the slope
+    total = (h3 * y3) / 6.0
+    total = total * t + (h2 * y3 + h3 * y2) / 5.0
+    total = total * t + (h1 * y3 + h2 * y2 + h3 * y1) / 4.0
+    total = total * t + (h0 * y3 + h1 * y2 + h2 * y1) / 3.0
+    total = total * t + (h0 * y2 + h1 * y1) / 2.0
+    return before + math.pi * t * (total * t + h0 * y1)
+
+
+def torn_to(torn: Torn) -> float:
+    """Liquid within the outermost edge that is remembered, M [m3]."""
+    return _liquid(torn[-1], 1.0) if torn else 0.0
+
+
+def outermost(torn: Torn) -> float:
+    """Square of the radius of the outermost edge that is remembered [m2]."""
+    return _square(torn[-1], 1.0) if torn else 0.0
+
+
+def void_within(torn: Torn, gap: float) -> float:
+    """Void within the outermost edge that is remembered [m3], at a gap [m]."""
+    return math.pi * gap * _square(torn[-1], 1.0) - torn_to(torn)
+
+
+def edge_of(torn: Torn, gap: float, void: float) -> Edge:
+    """Edge of the cavity of a given void [m3] at a gap [m].
+
+    The outermost one that is remembered if the void is not smaller than that holds, as where the
+    film was just torn; none (0) if there is no void in a gap that has opened since.
+    """
+    if not torn:
+        return Edge(0.0, gap)
+    if void <= 0.0 < void_within(torn, gap):
+        return Edge(0.0, torn[0][4])
+    index, t = _place(torn, gap, void)
+    piece = torn[index]
+    return Edge(_square(piece, t), _gap(piece, t))
+
+
+def _place(torn: Torn, gap: float, void: float) -> tuple[int, float]:
+    """Index of the piece in which the edge is, and the parameter there."""
+    reach, index, last = math.pi * gap, 0, len(torn) - 1
+    while index < last and reach * torn[index + 1][0] - torn[index + 1][8] < void:
+        index += 1
+    piece = torn[index]
+    below = reach * piece[0] - piece[8] - void
+    above = reach * _square(piece, 1.0) - _liquid(piece, 1.0) - void
+    if above <= 0.0:
+        return index, 1.0
+    low, high, t = 0.0, 1.0, below / (below - above)
+    for _ in range(60):
+        miss = reach * _square(piece, t) - _liquid(piece, t) - void
+        low, high = (t, high) if miss < 0.0 else (low, t)
+        slope = math.pi * _rate(piece, t) * (gap - _gap(piece, t))
+        guess = t - miss / slope if slope > 0.0 else -1.0
+        guess = guess if low < guess < high else 0.5 * (low + high)
+        if abs(guess - t) <= 1e-15 or abs(miss) <= 1e-16 * void:
+            break
+        t = guess
+    return index, t
+
+
+def cut(torn: Torn, gap: float, void: float) -> Torn:
+    """Forget what was torn beyond the edge of a cavity of a given void [m3] at a gap [m]."""
+    if not torn:
+        return ()
+    index, t = _place(torn, gap, void)
+    piece = torn[index]
+    scales = (1.0, t, t * t, t * t * t)
+    shorter = [c * scale for c, scale in zip(piece[:8], scales + scales, strict=True)]
+    return (*torn[:index], (*shorter, piece[8]))
+
+
+def grown(torn: Torn, piece: Piece) -> Torn:
+    """Memory with one more piece; where there are too many, two become one.
+
+    The one that stands for two neighbours has their ends and their liquid, so that no volume is
+    lost; they are those over which radius and gap change least.
+    """
+    torn = (*torn, piece)
+    if len(torn) <= _MOST:
+        return torn
+    ends = [(one[0], one[4]) for one in torn] + [(_square(piece, 1.0), _gap(piece, 1.0))]
+
+    def lost(i: int) -> float:
+        (low, begin), (high, end) = ends[i], ends[i + 2]
+        return (high - low) * abs(end - begin)
+
+    index = min(range(len(torn) - 1), key=lost)
+    first, second = torn[index : index + 2]
+    return (*torn[:index], _joined(first, second), *torn[index + 2 :])
+
+
+def _joined(first: Piece, second: Piece) -> Piece:
+    """Piece that stands for two neighbours: straight in y, and a parabola of their liquid."""
+    low, high = first[0], _square(second, 1.0)
+    begin, end = first[4], _gap(second, 1.0)
+    liquid, width = _liquid(second, 1.0) - first[8], high - low
+    mean = liquid / (math.pi * width) if width > 0.0 else 0.5 * (begin + end)
+    bulge = 6.0 * (mean - 0.5 * (begin + end))
+    return (low, width, 0.0, 0.0, begin, end - begin + bulge, -bulge, 0.0, first[8])

@@ -1,0 +1,8 @@
+"""Cavity of a film between flats that is pulled apart, with the memory of what was torn.
+
+law     The film and the two tensions of its liquid, made ready.
+state   Cavity at an instant: full, receding, returning; what is remembered.
+stages  Void and forces at the stages of a step of Radau's method.
+events  Where a cavity is born, where its edge turns, where the film is full again.
+path    Steps of a cavity whose film moves as imposed.
+"""

@@ -1,0 +1,104 @@
+"""Events of a cavity: its birth, the turns of its edge, and the film that is full again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...lubrication.disc_cavity import receding_edge
+from ...lubrication.torn_film import (
+    cut,
+    grown,
+    outermost,
+    piece_along,
+    piece_at,
+    torn_to,
+    void_within,
+)
+from .law import CavityLaw
+from .stages import CavityStages
+from .state import FULL, Cavity, Phase
+
+__all__ = ["after_event", "after_step", "beyond_event", "born", "is_torn_by"]
+
+_HEALED = 1e-10  # void over the largest of a cavity, at which the film counts as full
+_RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than rounding
+
+
+def is_torn_by(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> bool:
+    """Whether a full film tears at a gap [m] and a speed [m/s]."""
+    return cavity.phase is Phase.FULL and law.tension(gap, speed) >= law.strength
+
+
+def born(law: CavityLaw, gap: float, speed: float) -> Cavity:
+    """Cavity that opens at once where the liquid tears: from its strength to its cavity."""
+    rim, _ = law.rim(gap, 0.0)
+    fraction = receding_edge(law.tension(gap, speed) / law.drop)
+    torn = (piece_at(fraction * rim, gap),)
+    return Cavity(Phase.RECEDING, 0.0, fraction, torn)
+
+
+def beyond_event(
+    law: CavityLaw,
+    cavity: Cavity,
+    solved: CavityStages | None,
+    begin: tuple[float, float],
+    places: Sequence[tuple[float, float]],
+) -> tuple[float, float]:
+    """Distance beyond the next event of a cavity, at the start of a step and at its end [-].
+
+    Below zero before it. `begin` and `places` are the gap [m] and the speed [m/s] at the start and
+    at the stages.
+    """
+    if solved is None:
+        highest = max(law.tension(*place) for place in places)
+        return law.tension(*begin) / law.strength - 1.0, highest / law.strength - 1.0
+    if cavity.phase is Phase.RECEDING:
+        first, last = _edge_rates(cavity, solved)
+        size = abs(first) + abs(last) or 1.0
+        return -first / size, -last / size
+    last, left = solved.spots[2], _HEALED * cavity.largest
+    if last.growth < 0.0 and solved.voids[2] <= left:
+        size = cavity.void + abs(solved.voids[2]) + left
+        return min((left - cavity.void) / size, 0.0), (left - solved.voids[2]) / size
+    return -1.0, -last.returns / (abs(last.growth) + abs(last.returns) + 1e-300) - _RECEDES
+
+
+def _edge_rates(cavity: Cavity, solved: CavityStages) -> tuple[float, float]:
+    """Change of the square of the edge at the start and at the end of a step [m2 per step]."""
+    piece = piece_along(0.0, _squares(cavity, solved), (0.0, 0.0, 0.0, 0.0))
+    return piece[1], piece[1] + 2.0 * piece[2] + 3.0 * piece[3]
+
+
+def _squares(cavity: Cavity, solved: CavityStages) -> tuple[float, ...]:
+    """Square of the edge [m2] where the memory ends, and at the stages."""
+    return (outermost(cavity.torn), *(spot.edge_square for spot in solved.spots))
+
+
+def after_step(
+    law: CavityLaw,
+    cavity: Cavity,
+    solved: CavityStages,
+    begin: tuple[float, float],
+    gaps: tuple[float, float, float],
+) -> Cavity:
+    """Cavity at the end of a step."""
+    void, spot = solved.voids[2], solved.spots[2]
+    torn = cavity.torn
+    if cavity.phase is Phase.RECEDING:
+        squares = _squares(cavity, solved)
+        torn = grown(torn, piece_along(torn_to(torn), squares, (begin[0], *gaps)))
+    largest = max(cavity.largest, void)
+    return cavity._replace(void=void, fraction=spot.fraction, torn=torn, largest=largest)
+
+
+def after_event(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cavity:
+    """Cavity after the event at the end of a step, at a gap [m] and a speed [m/s]."""
+    if cavity.phase is Phase.FULL:
+        return born(law, gap, speed)
+    if cavity.phase is Phase.RECEDING:
+        void = void_within(cavity.torn, gap)
+        return cavity._replace(phase=Phase.RETURNING, void=void)
+    if cavity.void <= 2.0 * _HEALED * cavity.largest:
+        return FULL
+    torn = cut(cavity.torn, gap, cavity.void)
+    return cavity._replace(phase=Phase.RECEDING, torn=torn)

@@ -1,0 +1,51 @@
+"""State of a cavity, as floats that can be saved."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+from ...lubrication.torn_film import Torn
+
+__all__ = ["FULL", "Cavity", "Phase", "restored_cavity"]
+
+
+class Phase(IntEnum):
+    """Motion of the liquid at the edge of the cavity; the kernel in C has the same numbers."""
+
+    FULL = 0
+    RECEDING = 1
+    RETURNING = 2
+
+
+class Cavity(NamedTuple):
+    """Cavity in one film.
+
+    `void` is the volume without liquid [m3], `fraction` that of the disc within the edge, (c/R)^2;
+    `torn` remembers at which gap each radius was torn, and `largest` is the largest void
+    that it had [m3].
+    """
+
+    phase: Phase = Phase.FULL
+    void: float = 0.0
+    fraction: float = 0.0
+    torn: Torn = ()
+    largest: float = 0.0
+
+
+FULL = Cavity()
+"""A film without a cavity."""
+
+
+def restored_cavity(saved: Sequence[Any]) -> Cavity:
+    """Cavity of the numbers and lists that one is saved as.
+
+    Examples
+    --------
+    >>> restored_cavity([0, 0.0, 0.0, [], 0.0]) == FULL
+    True
+    """
+    phase, void, fraction, torn, largest = saved
+    pieces = tuple(tuple(float(number) for number in piece) for piece in torn)
+    return Cavity(Phase(phase), float(void), float(fraction), pieces, float(largest))

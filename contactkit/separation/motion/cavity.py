@@ -1,0 +1,100 @@
+"""A film with a cavity in a step of the motion: its forces, and the events that end the step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from attrs import field, frozen
+
+from ...numerics.events import EventStep, step_to_event
+from ..cavity.events import after_event, after_step, beyond_event, is_torn_by
+from ..cavity.law import CavityLaw
+from ..cavity.stages import CavityForce, Spot, force_at, solved_stages, spot_at
+from ..cavity.state import Cavity, Phase
+from ..effects.base import LimitKind
+from ..film import Film
+from ..integrator.radau import Forces, Memory, Problem, Step, step
+
+__all__ = ["CavityFilm", "after", "cavity_film", "cut_at_event", "cut_before_step"]
+
+_EVENT = 1e-11  # what an event of a cavity may be missed by, over its scale
+_ONE = tuple[float, float]
+
+
+@frozen(eq=False)
+class CavityFilm:
+    """A film, its cavity at the start of a step, and where its edge is."""
+
+    film: Film
+    law: CavityLaw
+    cavity: Cavity
+    begin: _ONE
+    _spot: Spot = field(init=False, repr=False)
+
+    @_spot.default
+    def _find_spot(self) -> Spot:
+        return spot_at(self.law, self.cavity, *self.begin, self.cavity.void)
+
+    def forces(self, gap: float, speed: float) -> Forces:
+        """Forces near the start, with an edge and a rim that stay."""
+        return self._forces(gap, force_at(self.law, self._spot, gap, speed))
+
+    def _forces(self, gap: float, held: CavityForce) -> Forces:
+        static, by_gap = self.film.static_slope(gap)
+        return Forces(static, by_gap, held.force, held.by_gap, held.by_speed, LimitKind.TENSION)
+
+    def remembered(self, dt: float, places: Sequence[_ONE]) -> Memory | None:
+        """Forces at the stages of a step, with the voids that belong to them."""
+        solved = solved_stages(self.law, self.cavity, self.begin, dt, places)
+        if solved is None:
+            return None
+        one, two, three = (
+            self._forces(gap, held) for (gap, _), held in zip(places, solved.forces, strict=True)
+        )
+        return Memory((one, two, three), solved.error, solved)
+
+
+def after(law: CavityLaw, cavity: Cavity, taken: Step, begin: _ONE) -> Cavity:
+    """Cavity at the end of a step of a film that has one."""
+    if taken.memory is None:
+        return cavity
+    gaps = tuple(point.gap for point in taken.stages)
+    return after_step(law, cavity, taken.memory.found, begin, gaps)
+
+
+def cavity_film(film: Film | None, cavity: Cavity, begin: _ONE) -> CavityFilm | None:
+    """Film with its cavity at a gap [m] and a speed [m/s]; None where it has none."""
+    if film is None or film.cavity is None or cavity.phase is Phase.FULL:
+        return None
+    return CavityFilm(film, film.cavity, cavity, begin)
+
+
+def cut_before_step(film: Film | None, cavity: Cavity, place: _ONE) -> Cavity | None:
+    """Cavity of a film that tears where it is; None if it does not."""
+    if film is None or film.cavity is None or not is_torn_by(film.cavity, cavity, *place):
+        return None
+    return after_event(film.cavity, cavity, *place)
+
+
+def cut_at_event(
+    problem: Problem, law: CavityLaw, cavity: Cavity, taken: Step, length: float
+) -> EventStep[Step] | None:
+    """Step that ends at the first event of a cavity; None if there is none in it.
+
+    Of length 0 if the event is where the step starts.
+    """
+    begin = (problem.begin.gap, problem.begin.speed)
+
+    def both(one: Step) -> tuple[float, float]:
+        solved = one.memory.found if one.memory is not None else None
+        places = [(point.gap, point.speed) for point in one.stages]
+        return beyond_event(law, cavity, solved, begin, places)
+
+    behind, ahead = both(taken)
+    if ahead <= 0.0:
+        return None
+    if behind >= 0.0:
+        return EventStep(taken, 0.0)
+    return step_to_event(
+        lambda dt: step(problem, dt), lambda one: both(one)[1], behind, taken, length, _EVENT
+    )
