@@ -100,6 +100,7 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         If the scene cannot be planned, or a force is too rough for a table.
     """
     prepared = plan(scene, accuracy)
+    reaching = _reaching(prepared)
     interface, loading = scene.interface, scene.loading
     fractions = [1.0]
     fraction = scene.meniscus.rewetting
@@ -124,9 +125,18 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         float(len(fractions)),
     ]
     for one in fractions:
-        numbers += _film(prepared, one, lowest)
+        numbers += _film(reaching, one, lowest)
     force = prepared.film.static_force(loading.initial_gap)
     return FilmNumbers(numbers, lowest, force, prepared.prepared)
+
+
+def _reaching(made: Plan) -> Plan:
+    """Plan whose laws are known up to their ends: in a host a motion may exceed `final_gap`."""
+    ends = [law.end for law in made.film.laws.values() if law.known_to < law.end < _INF]
+    if not ends:
+        return made
+    loading = evolve(made.scene.imposed_force, final_gap=max(ends))
+    return plan(evolve(made.scene, loading=loading), made.accuracy)
 
 
 def _film(made: Plan, fraction: float, lowest: float) -> list[float]:

@@ -38,6 +38,7 @@ from ...models.micromirror.tip import (
     free_start,
     landed_start,
     tip_force,
+    tip_plan,
 )
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
@@ -51,7 +52,7 @@ from ...separation.effects.registry import (
     ViscousForce,
 )
 from ...separation.motion.state import restored_state
-from ...separation.plan import Plan, plan
+from ...separation.plan import Plan
 from ..framework.places import Place, differences, read, write
 from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
 from ..framework.slave import PortSlave
@@ -332,7 +333,7 @@ class TipContact(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         values = self.values
-        self.plan = plan(tip_scene(values), Accuracy(time_rtol=values["rtol"]))
+        self.plan = tip_plan(tip_scene(values), Accuracy(time_rtol=values["rtol"]))
         check_tip(values, has_curve="curve" in self.data)
         self.stop = self._site()
         if values["z"] <= 0.0:

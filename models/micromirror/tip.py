@@ -28,10 +28,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from attrs import evolve
+
+from ...accuracy import Accuracy
 from ...errors import ConvergenceError, DescriptionError
+from ...scene.scenes import SeparationScene
 from ...separation.motion.advance import internal_step
 from ...separation.motion.state import MotionState, acting_film, outputs
-from ...separation.plan import Plan
+from ...separation.plan import Plan, plan
 from .flight import Flight, Root, landing_time
 from .tip_impact import Contact, Impact, ImpactEnd, TipStop, follow_impact, rest_depth
 
@@ -47,6 +51,7 @@ __all__ = [
     "landed_start",
     "pressed",
     "tip_force",
+    "tip_plan",
 ]
 
 
@@ -91,6 +96,20 @@ def free_gap(plan: Plan) -> float:
     """Gap [m] beyond which a tip is free: `final_gap`, or where the film breaks beyond."""
     end = plan.film.end
     return max(plan.scene.imposed_force.final_gap, end if math.isfinite(end) else 0.0)
+
+
+def tip_plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
+    """Plan of a tip, whose laws are known up to the gap at which it is free.
+
+    A tip is held up to the end of its film, even beyond `final_gap`; laws of a sphere, however,
+    are only made up to twice that gap.
+    """
+    made = plan(scene, accuracy)
+    loading = made.scene.imposed_force
+    if free_gap(made) <= loading.final_gap:
+        return made
+    further = evolve(loading, final_gap=free_gap(made))
+    return plan(evolve(made.scene, loading=further), made.accuracy)
 
 
 def landed_start(

@@ -24,8 +24,8 @@ from ...capillary.kelvin import kelvin_radius, laplace_pressure
 from ...errors import InfeasibleError
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import MeniscusForce, ViscousForce
-from ...separation.plan import Plan, plan
-from .tip import free_gap
+from ...separation.plan import Plan
+from .tip import free_gap, tip_plan
 
 if TYPE_CHECKING:
     import numpy as np
@@ -141,7 +141,7 @@ def tip_scene(scene: SeparationScene, humidity: float) -> SeparationScene:
 @lru_cache(maxsize=64)
 def tip_law(scene: SeparationScene, humidity: float, rtol: float = 1e-7) -> Plan:
     """Plan of one tip at a humidity: its `film` is the law the motion is stepped with."""
-    return plan(tip_scene(scene, humidity), Accuracy(time_rtol=rtol))
+    return tip_plan(tip_scene(scene, humidity), Accuracy(time_rtol=rtol))
 
 
 @lru_cache(maxsize=64)

@@ -80,7 +80,7 @@ SCENES = {
 
 
 TIP = {"lower": ck.Flat(), "upper": ck.Sphere(radius=1e-6), "gap": 1e-10, "mass": 1e-12}
-TIP |= {"final": 1e-7, "stiffness": 0.0}
+TIP |= {"final": 1e-6, "stiffness": 0.0}
 STUCK = ck.AdhesiveContact(model="jkr", work_of_adhesion=0.05, reduced_modulus=1e9)
 SUMMITS = ck.AsperityMenisci(
     asperities=ck.AsperityPopulation(density=1e12, radius=1e-6, rms_height=5e-9),

@@ -11,12 +11,15 @@ import pytest
 from master_cases import film_values
 from native_scenes import (
     ANGLES,
+    FORCES,
     HAS_CC,
     HERE,
     OIL,
     SCENES,
+    SPHERE,
     bare_meniscus,
     compile_c,
+    scene,
     write_sources,
 )
 from selection import quick
@@ -234,6 +237,22 @@ def test_motion_is_that_of_the_python_model(name, tmp_path):
             assert found["n_release"] == state.n_releases
             assert (found["state"], found["limit"]) == (forces.status, forces.limit)
     assert name in ("flooded", "shear") or state.n_breaks or state.n_releases
+
+
+@pytest.mark.slow
+def test_a_meniscus_is_known_up_to_its_end(tmp_path):
+    """Beyond the gap of its release a mass goes on, under a sphere up to a rupture."""
+    found = []
+    for final in (2.5e-7, 3e-5):
+        given = SPHERE | {"final": final, "angles": (0.5, 0.7), "effects": FORCES}
+        path = build_native(scene(**given), tmp_path / "x.fmu", platforms=[local()], compiler="cc")
+        with Instance(path) as host:
+            host.start({"k_s": 0.0}, 1.0)
+            host.set(host.references("F_ext"), [1e-3])
+            host.step(0.0, 5e-3)
+            found.append(host.get(host.references("h", "F_m", "J_m")))
+    assert found[0] == pytest.approx(found[1], rel=1e-7)
+    assert 6e-7 < found[0][0] < 1e-3
 
 
 def test_a_table_of_a_power_has_two_nodes():

@@ -345,6 +345,15 @@ def test_the_profile_is_in_its_tables(tmp_path, open_fmu, pair):
     assert host.get("F_film") != pytest.approx(exact.get("F_film"), rel=1e-3)
 
 
+def test_its_film_is_known_up_to_its_end(tmp_path, open_fmu, pair):
+    """Whatever gap beyond which solids let a tip free it was built with."""
+    path = build_native_tip(tmp_path / "near.fmu", start=WET | {"h_free": 1e-9}, **ONE)
+    host = open_fmu(path).start(z=-1e-8)
+    _, slave = pair("wet", h_free=1e-9, z=-1e-8)
+    follow(host, slave, steady(-1e-8, 0.2, 30))
+    assert host.get("t_free") == pytest.approx(host.get("t_break"))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_both_versions_of_fmi_give_the_same_bits(shelf, kind):

@@ -111,6 +111,34 @@ def test_the_force_follows_the_root_at_once(host):
     assert host.get("h") == pytest.approx(4e-10)
 
 
+def test_a_film_is_known_up_to_its_end(wet_slave):
+    """A tip is held up to there, so a smaller gap beyond which solids let it free is no other."""
+    near, far = wet_slave(h_free=1e-9), wet_slave(h_free=1e-8)
+    for i in range(30):
+        for slave in (near, far):
+            slave.values.update(z=-1e-8 + 0.2 * i * STEP, vz=0.2)
+            assert slave.do_step(i * STEP, STEP), slave.failure
+        for name in ("h", "v", "J", "F_film", "W_visc"):
+            assert near.values[name] == pytest.approx(far.values[name], rel=1e-6, abs=1e-30), i
+    assert near.values["t_break"] == pytest.approx(near.values["t_free"])
+    assert near.values["state"] == TipStatus.FREE
+
+
+@pytest.fixture
+def wet_slave():
+    """Start a slave with a meniscus whose arc ends at 36 nm."""
+
+    def started(**values):
+        slave = TipContact(instance_name="wet")
+        slave.setup_experiment(0.0)
+        slave.values |= {"V": 1.3e-24, "profile": TipLaw.ARC, "z": -1e-8, **values}
+        slave.enter_initialization_mode()
+        slave.exit_initialization_mode()
+        return slave
+
+    return started
+
+
 def test_tips_start_free_over_their_site_and_land(host):
     host.start(z=1e-7)
     assert host.get("state") == TipStatus.FREE
