@@ -18,6 +18,7 @@ from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError, nearest
 from ..liquids.liquid import Liquid
 from ..liquids.temperature_laws import TemperatureLaw
+from ..lubrication.reynolds.damping import DampingLaw
 from ..scene.effect import EffectRegistry
 from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
@@ -26,6 +27,7 @@ from ..scene.meniscus import Meniscus
 from ..scene.surfaces import Surface
 from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
+from .face_tables import DAMPING_KINDS, FACE_TABLES, FaceTable
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .unstructure import (
     ARRAY_FIELDS,
@@ -267,6 +269,15 @@ def _bool(value: Any, _: Any) -> bool:
     return value
 
 
+def _damping(value: Any, _: Any) -> DampingLaw:
+    """A table of a face, or of a law as a result file holds it."""
+    if isinstance(value, Mapping) and "law" in value:
+        made: DampingLaw = _DAMPING(value, DampingLaw)
+        return made
+    face: FaceTable = _FACE(value, FaceTable)
+    return face.law()
+
+
 def _solid(value: Any, _: Any) -> Material | Stack | None:
     """A material, by name or as a table; a stack, which has a substrate; or "rigid"."""
     if value is None or value == "rigid":
@@ -292,6 +303,7 @@ for _matches, _hook in (
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),
+    (lambda kind: kind is DampingLaw, _damping),
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
@@ -303,6 +315,7 @@ _LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs
 _MENISCUS, _INTERFACE = _attrs_class(Meniscus, AMOUNT_KEYS), _attrs_class(Interface)
 _LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
 _law = _tagged("law", LAW_KINDS)
+_DAMPING, _FACE = _tagged("law", DAMPING_KINDS), _tagged("face", FACE_TABLES)
 
 
 def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:

@@ -34,6 +34,7 @@ __all__ = [
     "unstructure",
     "with_arrays",
 ]
+from .face_tables import DAMPING_KINDS
 
 if TYPE_CHECKING:
     import numpy as np
@@ -63,6 +64,7 @@ _TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
     ("shape", SURFACE_KINDS),
     ("kind", LOADING_KINDS),
     ("law", LAW_KINDS),
+    ("law", DAMPING_KINDS),
 )
 # Fields that may hold an array, and their alternative in a file.
 ARRAY_FIELDS: dict[tuple[type, str], str] = {

@@ -54,7 +54,7 @@ def film_shape(
     n = meniscus.count
     volume = math.inf if meniscus.volume is None else meniscus.volume / n
     # The faces are shared out: n films, each with its part of the area.
-    rim = interface.rim_radius / math.sqrt(n)
+    rim = _face_radius(scene) / math.sqrt(n)
     pressure = scene.liquid_pressure
     if pressure is not None:
         return _at_pressure(scene, liquid.surface_tension, pressure, rim)
@@ -63,6 +63,12 @@ def film_shape(
     return _under_sphere(
         n, volume, rim, interface.sphere_radius, scene.initial_gap, constant_radius
     )
+
+
+def _face_radius(scene: SeparationScene | SlidingScene) -> float:
+    """Radius [m] of the face, or of a disc as large as the one that an effect brings."""
+    brought = (getattr(effect, "face_radius", None) for effect in scene.effects)
+    return next((radius for radius in brought if radius), scene.interface.rim_radius)
 
 
 def _between_flats(n: int, volume: float, rim: float, start: float, constant: bool) -> FilmShape:

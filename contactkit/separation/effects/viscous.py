@@ -12,12 +12,13 @@ from ...errors import DescriptionError
 from ...lubrication import dimensionless as numbers
 from ...lubrication import film_limits
 from ...lubrication import squeeze_film as squeeze
+from ...lubrication.reynolds.damping import DampingLaw
 from ...scene.column import Column
 from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
 from ...scene.validity import ValidityNumber
 from ...units import si
-from ...validators import choice, finite, optional, positive
+from ...validators import choice, finite, optional, part, positive
 from ..cavity.law import CavityLaw
 from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
@@ -140,6 +141,12 @@ class ViscousForce(SeparationForce):
         radius though the volume is given, and Eq. (3.26) under a sphere; for reproduction only,
         with what is wrong in ``result.errata``.
 
+    damping : DampingLaw, optional
+        Law c(h) of a face that is no plain disc: a ring, a rectangle, a recess, any planform or gap
+        map, made once by `contactkit.lubrication.reynolds` (in a file: ``damping = { face =
+        "ring", radius = "3 mm", hole_radius = "1 mm" }``). The film is flooded to its rims and
+        does not tear. None: the disc of the interface, or the sphere.
+
     Notes
     -----
     Valid for r/h > 5 and for a reduced Reynolds number below 1: both are printed with a result.
@@ -155,6 +162,12 @@ class ViscousForce(SeparationForce):
         default="volume-conserving",
         validator=choice("volume-conserving", "flooded", "as-published"),
     )
+    damping: DampingLaw | None = field(default=None, validator=optional(part(DampingLaw)))
+
+    @property
+    def face_radius(self) -> float | None:
+        """Radius [m] of a disc as large as the face of `damping`; None without one."""
+        return None if self.damping is None else math.sqrt(self.damping.area / math.pi)
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -167,6 +180,8 @@ class ViscousForce(SeparationForce):
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.cites`."""
         flats, sphere = self.sources
+        if self.damping is not None:
+            return (f"Reynolds 1886: {self.damping.source}",)
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     @classmethod
@@ -187,7 +202,7 @@ class ViscousForce(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
-        return needs_extent(scene)
+        return needs_extent(scene) if self.damping is None else _needs_of_face(scene)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
         """See `SeparationForce.prepare`."""
@@ -226,7 +241,38 @@ class ViscousForce(SeparationForce):
         return {"mean_viscous_force": (self.part(result).mean_force(), "N")}
 
 
+def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
+    """What the law of a face does not go with."""
+    interface, meniscus = scene.interface, scene.meniscus
+    needs = {
+        "two flats": interface.is_flat,
+        "a flooded film, without interface.meniscus.volume or a pressure": meniscus.volume is None
+        and scene.liquid_pressure is None,
+        "interface.meniscus.count = 1: a law is that of the whole face": meniscus.count == 1,
+        "no radius of a Flat face: the law has its own extent": scene.effect(MeniscusForce)
+        is not None
+        or math.isinf(interface.rim_radius),
+        "no TensionLimit or ShearLimit: they know a disc only": scene.effect(TensionLimit) is None
+        and scene.effect(ShearLimit) is None,
+        'closure="volume-conserving", which a flooded face leaves alone': not keeps_radius(scene),
+    }
+    return tuple(need for need, is_met in needs.items() if not is_met)
+
+
+def _face_law(damping: DampingLaw, viscosity: float) -> ViscousLaw:
+    def force(gap: float, speed: float) -> float:
+        return viscosity * damping.coefficient(gap) * speed
+
+    def impulse(start: float, end: float) -> float:
+        return viscosity * damping.impulse(start, end)
+
+    return ViscousLaw(force, exponent=damping.exponent, impulse=impulse)
+
+
 def _law(prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
+    effect = prepared.scene.effect(ViscousForce)
+    if effect is not None and effect.damping is not None:
+        return _face_law(effect.damping, prepared.liquid.viscosity)
     film, viscosity = viscous_film(prepared), prepared.liquid.viscosity
     kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
     if math.isinf(film.sphere_radius):
