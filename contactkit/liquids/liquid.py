@@ -27,6 +27,7 @@ LAWS: tuple[type[TemperatureLaw], ...] = (
 
 _MAX_SURFACE_TENSION = 10.0  # [N/m]
 _MAX_MOLAR_MASS = 10.0  # [kg/mol]
+_MIN_BULK_MODULUS = 1e5  # [Pa]; foams are softer
 
 
 @frozen
@@ -41,6 +42,7 @@ class LiquidState:
     _viscosity: float | None
     _density: float | None
     temperature: float = field(metadata=si("K"))
+    _bulk_modulus: float | None = None
 
     @property
     def surface_tension(self) -> float:
@@ -56,6 +58,11 @@ class LiquidState:
     def density(self) -> float:
         """Density [kg/m3]."""
         return self._known("density")
+
+    @property
+    def bulk_modulus(self) -> float:
+        """Bulk modulus [Pa]."""
+        return self._known("bulk_modulus")
 
     def given(self, name: str) -> float | None:
         """Return a property by its name; None if the liquid does not give it."""
@@ -118,6 +125,14 @@ def _molar(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, f"be at most {_MAX_MOLAR_MASS:g}", cure)
 
 
+def _bulk(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything but a positive number; the hint suggests GPa for one far too small."""
+    positive(owner, attribute, value)
+    if value < _MIN_BULK_MODULUS:
+        cure = f"was it given in GPa? write '{value:g} GPa' in a file, or {value:g}e9"
+        raise refuse(owner, attribute, value, f"be at least {_MIN_BULK_MODULUS:g}", cure)
+
+
 @frozen(kw_only=True)
 class Liquid(Described):
     """A Newtonian liquid; properties that no effect needs may be omitted.
@@ -137,6 +152,9 @@ class Liquid(Described):
         Density [kg/m3].
     molar_mass : float, optional
         Molar mass [kg/mol], for a liquid that condenses from its vapour.
+    bulk_modulus : float, optional
+        Bulk modulus [Pa] at low pressure, without bubbles. Films are taken for incompressible; it
+        says how far they are.
     source : str
         Source of the constants; laws carry their own source.
 
@@ -187,6 +205,7 @@ class Liquid(Described):
     molar_mass: float | None = field(
         default=None, validator=optional(_molar), metadata=si("kg/mol")
     )
+    bulk_modulus: float | None = field(default=None, validator=optional(_bulk), metadata=si("Pa"))
     source: str = ""
 
     def __attrs_post_init__(self) -> None:
@@ -227,7 +246,9 @@ class Liquid(Described):
         if kinematic is not None and density is not None:
             viscosity = kinematic * density
         surface_tension = _value(self.surface_tension, temperature)
-        return LiquidState(surface_tension, viscosity, density, float(temperature))
+        return LiquidState(
+            surface_tension, viscosity, density, float(temperature), self.bulk_modulus
+        )
 
     def molar_volume(self, temperature: float) -> float:
         """Molar volume [m3/mol] at `temperature` [K].

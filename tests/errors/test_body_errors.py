@@ -153,7 +153,24 @@ COATED = ck.Stack(layers=(ck.Layer(material=STEEL, thickness=1e-6),), substrate=
 OF_SOLIDS = ck.AdhesiveContact(work_of_adhesion=0.05)
 
 
-@pytest.mark.parametrize("effects", FOLLOW + REFUSE + UNAWARE, ids=name)
+RIGID = [
+    effects
+    for effects in FOLLOW + REFUSE + UNAWARE
+    if not any(isinstance(effect, ck.ViscousForce) for effect in effects)
+]
+
+
+def test_a_viscous_film_takes_solids_for_its_validity_alone():
+    effects = (ck.ViscousForce(),)
+    soft = ck.Body(solid=ck.Material(name="rubber", young_modulus=1e6, poisson_ratio=0.49))
+    plans = [ck.plan(scene(*effects, lower=lower)) for lower in (ck.Body(), soft)]
+    rigid, bending = (ck.simulate(plan) for plan in plans)
+    np.testing.assert_array_equal(rigid["viscous_force"], bending["viscous_force"])
+    number = {n.name: n for n in bending.validity}["bending of the faces over the gap"]
+    assert number.is_valid is False
+
+
+@pytest.mark.parametrize("effects", RIGID, ids=name)
 @pytest.mark.parametrize("side", ["lower", "upper"])
 def test_a_solid_that_no_effect_uses_is_refused(effects, side):
     surface = ck.Flat() if side == "lower" else BALL

@@ -445,7 +445,14 @@ def test_a_model_outside_its_range_says_which_and_by_how_much():
 
 def test_what_a_validity_number_lacks_is_named(viscous_only):
     missing = [str(number) for number in viscous_only.validity if number.value is None]
-    assert missing == ["Reynolds number: not evaluated, liquid.density [kg/m3] is not given"]
+    rigid = "not evaluated, no body has a solid (a Material or a Stack): the faces are rigid"
+    assert missing == [
+        "Reynolds number: not evaluated, liquid.density [kg/m3] is not given",
+        "pressure over bulk modulus: not evaluated, liquid.bulk_modulus [Pa] is not given",
+        f"bending of the faces over the gap: {rigid}",
+        f"soft-face number: {rigid}",
+        "weight of the film over its pressure: not evaluated, liquid.density [kg/m3] is not given",
+    ]
 
 
 # Files --------------------------------------------------------------------------------------

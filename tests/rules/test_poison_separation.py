@@ -127,6 +127,8 @@ VALIDITY = {
     ck.ViscousForce: {
         "lubrication.dimensionless.reynolds_number",
         "lubrication.dimensionless.slenderness",
+        "lubrication.dimensionless.inertia_fraction",
+        "lubrication.dimensionless.rim_fraction",
     },
     ck.MeniscusForce: {"lubrication.dimensionless.bond_number"},
 }

@@ -5,6 +5,7 @@ registry         Effects that a separation scene may list.
 prepared         Scene with its liquid at temperature and the shape of its film.
 film_shape       Shape of the film with an upright rim: radius and height over the gap.
 viscous          Viscous force of the film, and its limits: tension and shear.
+film_validity    Numbers of validity of a viscous film: compression, soft faces, weight.
 constant_force   Time to open the film under a constant pull, without inertia.
 meniscus         Meniscus force, and the choice of its profile.
 meniscus_flat    Meniscus force between flats: free, or pinned at the rim.

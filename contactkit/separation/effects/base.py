@@ -171,7 +171,10 @@ class SeparationEffect(Effect):
 
     @property
     def takes_solids(self) -> bool:
-        """Whether it uses the solids of the bodies; where no effect does, the plan refuses them."""
+        """Whether it uses the solids of the bodies, if only to say whether they are rigid enough.
+
+        Where no effect does, the plan refuses them.
+        """
         return False
 
     def liquid_needs(self, scene: Any) -> tuple[str, ...]:

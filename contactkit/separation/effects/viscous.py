@@ -23,6 +23,7 @@ from ..cavity.law import CavityLaw
 from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
+from .film_validity import film_numbers
 from .meniscus import MeniscusForce
 
 if TYPE_CHECKING:
@@ -150,6 +151,9 @@ class ViscousForce(SeparationForce):
     Notes
     -----
     Valid for r/h > 5 and for a reduced Reynolds number below 1: both are printed with a result.
+    Compression of the liquid, deformation of the bodies and the weight of the film are left out;
+    how large they are is printed too, where the liquid has a bulk modulus and a density, and a
+    body a solid.
     """
 
     name: ClassVar[str] = "viscous-force"
@@ -190,6 +194,11 @@ class ViscousForce(SeparationForce):
         newtonian = Column("newtonian_force", "N", "viscous force without limits", "#c1440e", ":")
         so_far = Column("viscous_impulse", "N.s", "viscous impulse so far", "#c1440e")
         return (cls.column, newtonian, so_far)
+
+    @property
+    def takes_solids(self) -> bool:
+        """See `SeparationEffect.takes_solids`: they say whether the faces are stiff enough."""
+        return True
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.liquid_needs`: a film of fixed pressure has a height as well."""
@@ -607,6 +616,8 @@ def _validity(
         reynolds = max(
             numbers.reynolds_number(density, v, film.height(h), viscosity) for h, v in path
         )
+    inertia = _size(film, reynolds, numbers.inertia_fraction)
+    rim = _size(film, slenderness, numbers.rim_fraction)
     return (
         ValidityNumber(
             name="Reynolds number",
@@ -614,17 +625,32 @@ def _validity(
             high=1.0,
             detail="liquid.density [kg/m3] is not given"
             if density is None
-            else "inertia of the film is left out",
-            source="rho h' h/eta",
+            else f"inertia of the film is left out{inertia}",
+            source="rho h' h/eta; 5/28 of it between flats, Kuzma 1967",
         ),
         ValidityNumber(
             name="slenderness of the film",
             value=slenderness,
             low=5.0,
-            detail="lubrication wants a film much wider than high",
-            source="Reynolds 1886",
+            detail=f"lubrication wants a film much wider than high{rim}",
+            source="Reynolds 1886; at a flooded rim 16 h/(3 pi r), Hasimoto 1958",
         ),
+        *film_numbers(prepared, viscous_film(prepared), path, _strength(prepared.scene)),
     )
+
+
+def _strength(scene: SeparationScene) -> float:
+    """Tension at which the liquid of a scene tears [Pa]; inf if it never does."""
+    limit = scene.effect(TensionLimit)
+    return limit.tension if limit is not None else math.inf
+
+
+def _size(film: FilmShape, number: float | None, fraction: Callable[[float], float]) -> str:
+    """What a number in its range leaves out between flats, as a fraction of the force."""
+    if number is None or not math.isinf(film.sphere_radius):
+        return ""
+    size = fraction(number) if number > 0.0 else math.inf
+    return f", about {size:.2g} of the force" if size < 1.0 else ""
 
 
 def _against_meniscus(

@@ -66,7 +66,8 @@ def liquids() -> dict[str, Liquid]:
 def value_of(key: str, given: Any) -> Any:
     if isinstance(given, dict):
         return law_of(given)
-    return parse_quantity(given, "kg/mol", key) if key == "molar_mass" else given
+    unit = {"molar_mass": "kg/mol", "bulk_modulus": "Pa"}.get(key)
+    return parse_quantity(given, unit, key) if unit else given
 
 
 # Walther ------------------------------------------------------------------------------------
