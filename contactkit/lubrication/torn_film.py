@@ -184,10 +184,20 @@ def grown(torn: Torn, piece: Piece) -> Torn:
 
 
 def _joined(first: Piece, second: Piece) -> Piece:
-    """Piece that stands for two neighbours: straight in y, and a parabola of their liquid."""
+    """Piece that stands for two neighbours and holds their liquid, in which y and h_b ascend.
+
+    h_b is straight, and y a cubic that is flat at one end; where that cannot hold the liquid, the
+    far end of h_b moves in: a gap beyond that at which the film tore would be a void below zero.
+    """
     low, high = first[0], _square(second, 1.0)
     begin, end = first[4], _gap(second, 1.0)
     liquid, width = _liquid(second, 1.0) - first[8], high - low
     mean = liquid / (math.pi * width) if width > 0.0 else 0.5 * (begin + end)
-    bulge = 6.0 * (mean - 0.5 * (begin + end))
-    return (low, width, 0.0, 0.0, begin, end - begin + bulge, -bulge, 0.0, first[8])
+    share = (mean - begin) / (end - begin) if end != begin else 0.5
+    bend = min(max(4.0 * share - 2.0, -1.0), 1.0)
+    if share < 0.25:
+        end = begin + 4.0 * (mean - begin)
+    elif share > 0.75:
+        begin = end - 4.0 * (end - mean)
+    along = (1.0 - bend, 0.0, bend) if bend >= 0.0 else (1.0 - 2.0 * bend, 3.0 * bend, -bend)
+    return (low, *(width * one for one in along), begin, end - begin, 0.0, 0.0, first[8])

@@ -28,6 +28,7 @@ __all__ = [
     "Restorable",
 ]
 
+_LIMITS = ("dp_cav", "dp_tear", "tau_lim")
 Pulling = Callable[[float], float]
 """Pull [N] at a time [s]."""
 
@@ -138,7 +139,8 @@ class FilmSide(Restorable):
         own: dict[str, float | str] = {"h": gap, "v": speed, "m_ref": mass, "exchange": exchange}
         self.start({**values, **own}, None)
         self.first_gap = gap
-        self.has_limits = max(self.get(self.references("dp_cav", "tau_lim"))) > 0.0
+        limits = [name for name in _LIMITS if name in self.variables]
+        self.has_limits = max(self.get(self.references(*limits))) > 0.0
         return self.look()
 
     def look(self) -> Reaction:

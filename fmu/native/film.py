@@ -9,18 +9,23 @@ from typing import NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...errors import ConvergenceError, DescriptionError, PlanError
+from ...errors import ConvergenceError, DescriptionError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
 from ...separation.effects.film_shape import FilmShape
 from ...separation.effects.prepared import PreparedScene, with_fraction
-from ...separation.effects.viscous import TensionLimit, ViscousLaw, viscous_film
+from ...separation.effects.viscous import (
+    TensionLimit,
+    ViscousForce,
+    ViscousLaw,
+    viscous_film,
+)
 from ...separation.film import Film
 from ...separation.plan import Plan, plan
 from .tables import Table, tabulate
 
-__all__ = ["FINE", "FilmNumbers", "film_numbers", "free_liquid", "moving"]
+__all__ = ["FINE", "FilmNumbers", "can_tear", "film_numbers", "free_liquid", "moving"]
 
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
@@ -108,11 +113,6 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         fractions.append(fraction)
     tension = scene.effect(TensionLimit)
     reynolds = tension is not None and tension.cavity == "reynolds"
-    if prepared.film.cavity is not None:
-        raise PlanError(
-            "TensionLimit.cavity = 'mass-conserving' has no native form; take "
-            "cavity='truncated', or build the Python FMU, without --native"
-        )
     is_sphere = not interface.is_flat
     lowest = max(1e-13, 1e-3 * loading.initial_gap)
     numbers = [
@@ -151,7 +151,20 @@ def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
     for effect in made.scene.effects:
         if isinstance(effect, SeparationForce):
             numbers += _law(made.prepared, effect, film.laws[type(effect)], lowest)
-    return numbers + _shape(prepared, film, lowest).numbers()
+    return numbers + _shape(prepared, film, lowest).numbers() + _disc(prepared, film)
+
+
+def can_tear(scene: SeparationScene) -> bool:
+    """Whether the film of a scene may have a cavity: one between flats, with a viscous force."""
+    return scene.interface.is_flat and scene.effect(ViscousForce) is not None
+
+
+def _disc(prepared: PreparedScene[SeparationScene], film: Film) -> list[float]:
+    """Square of the rim [m2] and volume [m3] of one film, for its cavity; 0 if it can have none."""
+    if not can_tear(prepared.scene):
+        return [0.0, 0.0]
+    shape = viscous_film(prepared)
+    return [shape.rim * shape.rim, shape.volume]
 
 
 def _law(

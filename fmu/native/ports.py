@@ -15,17 +15,16 @@ from attrs import evolve
 from ...errors import DescriptionError
 from ...scene.scenes import SeparationScene
 from ...separation.effects.prepared import PreparedScene
-from ...separation.effects.registry import (
-    AdhesiveContact,
-    ViscousForce,
-)
+from ...separation.effects.registry import AdhesiveContact, TensionLimit, ViscousForce
 from ...separation.effects.viscous import keeps_radius
+from ..framework.places import read
 from ..framework.ports import Port, Value
 from ..slaves.stiction_force import PORTS as FORCE_PORTS
 from ..slaves.stiction_mass import PLACES, with_numbers
 from ..slaves.stiction_mass import PORTS as MASS_PORTS
+from ..slaves.tension import TENSIONS, tension_limit, tension_values
 from .data import IDENTIFIERS
-from .film import free_liquid
+from .film import can_tear, free_liquid
 
 __all__ = ["MODELS", "Model", "check_free", "check_start", "native_ports", "start_of"]
 
@@ -38,9 +37,9 @@ MODELS: Mapping[Model, tuple[Port, ...]] = {
 
 _OF_MASS = {
     name: name
-    for name in ("h0", "h_break", "dp_cav", "tau_lim", "m", "v0", "k_s", "h_rel", "h_min")
+    for name in ("h0", "h_break", *TENSIONS, "tau_lim", "m", "v0", "k_s", "h_rel", "h_min")
 }
-_OF_FILM = {name: name for name in ("h0", "h_break", "dp_cav", "tau_lim")} | {
+_OF_FILM = {name: name for name in ("h0", "h_break", *TENSIONS, "tau_lim")} | {
     "h": "h0",
     "v": "v0",
     "m_ref": "m",
@@ -113,6 +112,8 @@ def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
     if not surface_tension:
         absent.add("gamma")
+    if not viscosity or not can_tear(prepared.scene):
+        absent |= {"dp_tear", "dp_hold", "r_cav", "V_void"}
     return absent
 
 
@@ -130,7 +131,8 @@ def start_of(
         raise DescriptionError("m", None, "be given", unit="kg")
     named = _OF_MASS if model == "stiction-mass" else _OF_FILM
     settled = with_numbers(prepared)
-    values: dict[str, Value] = {name: PLACES[of].read(settled) for name, of in named.items()}
+    own = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
+    values: dict[str, Value] = {name: own[of] for name, of in named.items()}
     viscosity, surface_tension = free_liquid(prepared)
     return values | {"eta": viscosity, "gamma": surface_tension}
 
@@ -162,6 +164,7 @@ def check_start(ports: tuple[Port, ...], values: Mapping[str, Value]) -> None:
     DescriptionError
         Naming the two.
     """
+    tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
     gap = values["h0"]
     if values.get("h_rel", math.inf) <= gap:
         raise DescriptionError("h_rel", values["h_rel"], f"exceed h0 = {gap:g} m", unit="m")

@@ -5,7 +5,8 @@ any two gaps, however long the step. For the static force, and where a limit of 
 the way matters: the gap is taken to move at its mean speed, which leaves out O(H^3) of the impulse
 of a step of length H. Along that way the integrals are by panels in ln h between the kinks of the
 forces, narrower towards the gap at which the film breaks, where the slope of a bridge has no bound:
-1e-7 of the static impulse over a gap ratio of 1e3, 1e-5 of the viscous one under limits.
+1e-7 of the static impulse over a gap ratio of 1e3, 1e-5 of the viscous one under limits. A film
+with a cavity is followed along the same path in steps of time, with what it remembers.
 """
 
 from __future__ import annotations
@@ -17,6 +18,10 @@ from typing import NamedTuple
 
 from ...numerics.quadrature import LOBATTO_5, gauss_legendre
 from ...numerics.roots import first_true
+from ...separation.cavity.events import is_torn_by
+from ...separation.cavity.law import CavityLaw
+from ...separation.cavity.path import along_path
+from ...separation.cavity.state import FULL, Cavity, Phase
 from ...separation.effects.base import LimitKind
 from ...separation.plan import Film
 
@@ -28,6 +33,7 @@ _MOST = 200  # panels of a way, but for kinks and ruptures: of a gap ratio of 1e
 _PANELS = 4  # at least, to look for limits on the way
 _NEAR = 1e-4  # panel over gap at the end of the film
 _NEAR_ONSET = 1e-4  # of a panel, to the onset of a limit: the force is smooth to first order there
+_VOID = 1e-9  # error of the void in a step of time, over the volume of the film
 _GAUSS = tuple(zip(*gauss_legendre(3), strict=True))
 # The ends of Lobatto's rule are those of the panels next to it, and known there.
 _LOBATTO = tuple(zip(*LOBATTO_5, strict=True))[1:-1]
@@ -37,17 +43,25 @@ _EDGE = LOBATTO_5[1][0]
 class Travel(NamedTuple):
     """Viscous and other impulse [N.s], and the fraction of the step after which the film is broken.
 
-    `broken` is 1 if it is not; `last` is the static force at the end [N].
+    `broken` is 1 if it is not; `last` is the static force at the end [N], and `cavity` that there;
+    `changed` is the fraction of the step after which the film tore last, or was whole again.
     """
 
     viscous: float
     static: float
     broken: float
     last: float = 0.0
+    cavity: Cavity = FULL
+    changed: float = 0.0
 
 
 def travel(
-    film: Film, begin: float, end: float, length: float, first: float | None = None
+    film: Film,
+    begin: float,
+    end: float,
+    length: float,
+    first: float | None = None,
+    cavity: Cavity = FULL,
 ) -> Travel:
     """Impulses of a film over a step from one gap to another.
 
@@ -61,6 +75,8 @@ def travel(
         Length of the step [s], positive.
     first : float, optional
         What does not depend on speed at the begin [N], if it is known already.
+    cavity : Cavity
+        Of the film at the begin.
     """
     fraction = 1.0
     if end > film.end:
@@ -69,7 +85,32 @@ def travel(
     first = film.static_force(begin) if first is None else first
     last = first if end == begin else film.static_force(end)
     static = length * _static_mean(film, begin, end, first, last)
-    return Travel(_viscous(film, begin, end, length), static, fraction, last)
+    if film.cavity is None:
+        return Travel(_viscous(film, begin, end, length), static, fraction, last)
+    viscous, cavity, changed = _with_memory(film.cavity, film, cavity, begin, end, length)
+    return Travel(viscous, static, fraction, last, cavity, fraction * changed / length)
+
+
+def _with_memory(
+    law: CavityLaw, film: Film, cavity: Cavity, begin: float, end: float, length: float
+) -> tuple[float, Cavity, float]:
+    """Viscous impulse of a film that remembers its cavity [N.s], the cavity, and its last change.
+
+    That is the time [s] since the begin at which the film tore, or was full again.
+    """
+    speed, total, gap, changed = (end - begin) / length, 0.0, begin, 0.0
+
+    def place(time: float) -> tuple[float, float]:
+        return begin + speed * time, speed
+
+    is_whole = cavity.phase is Phase.FULL and not is_torn_by(law, cavity, begin, speed)
+    for point in along_path(law, cavity, place, 0.0, length, _VOID):
+        after, cavity = place(point.time)[0], point.cavity
+        total += film.newtonian_impulse(gap, after) if point.impulse is None else point.impulse
+        if is_whole is not (cavity.phase is Phase.FULL):
+            is_whole, changed = not is_whole, point.time
+        gap = after
+    return total, cavity, changed
 
 
 def _static_mean(film: Film, begin: float, end: float, first: float, last: float) -> float:

@@ -15,12 +15,17 @@ from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
 from ...accuracy import Accuracy
+from ...separation.cavity.events import born, is_torn_by
+from ...separation.cavity.stages import Spot, force_at
+from ...separation.cavity.state import FULL, Cavity, Phase, restored_cavity
 from ...separation.effects.base import FilmStatus, LimitKind
+from ...separation.integrator.radau import Forces
 from ...separation.plan import Film, Plan, plan
 from ..framework.ports import Port, find_port, grouped, input_port, output_port, size_port
 from ..framework.slave import PortSlave
 from . import stiction_mass
 from .film_travel import Travel, travel
+from .tension import TENSIONS
 
 __all__ = ["Exchange", "StictionForce"]
 
@@ -35,7 +40,7 @@ class Exchange(IntEnum):
 _MOTION = ("h", "v")
 _FILM = ("h0", "R", "V", "N", "h_break")
 _MENISCUS = ("h", *_FILM, "gamma", "theta1", "theta2", "meniscus_law")
-_VISCOUS = (*_MOTION, *_FILM, "eta", "dp_cav", "tau_lim")
+_VISCOUS = (*_MOTION, *_FILM, "eta", *TENSIONS, "tau_lim")
 _ALL = tuple(dict.fromkeys((*_VISCOUS, *_MENISCUS)))
 _KEPT = (
     "h0",
@@ -49,7 +54,7 @@ _KEPT = (
     "V",
     "N",
     "meniscus_law",
-    "dp_cav",
+    *TENSIONS,
     "tau_lim",
 )
 _DOUBT = 0.2  # coupling error beyond which the flag is raised
@@ -61,7 +66,7 @@ _GROUPS = {
     "geometry": ("h0", "R"),
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m_ref", "exchange"),
-    "limits": ("dp_cav", "tau_lim"),
+    "limits": (*TENSIONS, "tau_lim"),
 }
 
 _PORTS = (
@@ -136,6 +141,8 @@ _PORTS = (
         _MENISCUS,
         display_unit="um",
     ),
+    output_port("r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", nominal=1e-3),
+    output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
     output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     output_port("n_break", "-", "number of ruptures so far", kind="integer"),
     size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
@@ -162,6 +169,7 @@ class _Memory(NamedTuple):
     static: float
     volume_fraction: float = 1.0
     broken: bool = False
+    cavity: Cavity = FULL
 
 
 class StictionForce(PortSlave):
@@ -211,6 +219,8 @@ class StictionForce(PortSlave):
                 F_v=0.0,
                 c=0.0,
                 k=0.0,
+                r_cav=0.0,
+                V_void=0.0,
                 H_stable=_ENDLESS,
                 h_above=0.0,
                 state=int(FilmStatus.BROKEN),
@@ -218,7 +228,7 @@ class StictionForce(PortSlave):
                 h_below=values["h0"] if values["h0"] < gap and values["rewet"] > 0.0 else 0.0,
             )
             return
-        found = film.forces(gap, speed)
+        found, edge = self._forces(film, gap, speed)
         damping = found.viscous_by_speed
         whole = gap <= film.full_gap * (1.0 + _SAME)
         values.update(
@@ -227,6 +237,8 @@ class StictionForce(PortSlave):
             F_v=found.viscous,
             c=damping,
             k=found.static_by_gap + found.viscous_by_gap,
+            r_cav=edge,
+            V_void=values["N"] * self.memory.cavity.void,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
             state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE),
             limit=int(film.acting_limit(found)),
@@ -240,6 +252,20 @@ class StictionForce(PortSlave):
                 break
         values["h_above"], values["h_below"] = above, below
 
+    def _forces(self, film: Film, gap: float, speed: float) -> tuple[Forces, float]:
+        """Forces with a cavity whose edge and rim stay, and the radius of the edge [m], or 0."""
+        found, law, before = film.forces(gap, speed), film.cavity, self.memory.gap
+        cavity = self.memory.cavity
+        if law is not None and is_torn_by(law, cavity, gap, speed):
+            cavity, before = born(law, gap, speed), gap
+        if law is None or cavity.phase is Phase.FULL:
+            return found, 0.0
+        rim, _ = law.rim(before, cavity.void)
+        edge = cavity.fraction * rim
+        held = force_at(law, Spot(cavity.fraction, edge, rim, 0.0, 0.0, 0.0), gap, speed)
+        static, by_gap, *_ = found
+        return Forces(static, by_gap, *held, LimitKind.TENSION), math.sqrt(edge)
+
     def advance(self, time: float, step: float) -> None:
         """See `PortSlave.advance`: the motion that was set is where the step ends."""
         before, values = self.memory, self.values
@@ -252,12 +278,17 @@ class StictionForce(PortSlave):
         self._doubt(step, before.damping)
         if film is not None and self._film() is None:
             self.event(f"film broke at t = {values['t_break']:.9g} s")
+        elif (now := self.memory.cavity.phase) is not (was := before.cavity.phase):
+            if was is Phase.FULL:
+                self.event(f"film torn at t = {time + done.changed * step:.9g} s")
+            elif now is Phase.FULL:
+                self.event(f"film whole again at t = {time + done.changed * step:.9g} s")
 
     def _go(self, step: float) -> tuple[Film | None, Travel]:
         """Film on the way of the step, and what it gives there; one that re-wets, from h0 on."""
         before, film, gap = self.memory, self._film(), self.values["h"]
         if film is not None:
-            return film, travel(film, before.gap, gap, step, before.static)
+            return film, travel(film, before.gap, gap, step, before.static, before.cavity)
         start, rewet = self.values["h0"], self.values["rewet"]
         if rewet > 0.0 and gap < start < before.gap:
             film = self.plan.film_with(rewet)
@@ -285,7 +316,7 @@ class StictionForce(PortSlave):
             return _Memory(gap, 0.0, 0.0, fraction, True)
         now = self.plan.film_with(fraction)
         static = done.last if now is film else now.static_force(gap)
-        return _Memory(gap, now.damping(gap), static, fraction, False)
+        return _Memory(gap, now.damping(gap), static, fraction, False, done.cavity)
 
     def _doubt(self, step: float, damping: float) -> None:
         """Compare the force at the end with that on the way, and the step with m/c."""
@@ -303,11 +334,12 @@ class StictionForce(PortSlave):
 
     def hidden_state(self) -> Mapping[str, Any]:
         """See `PortSlave.hidden_state`."""
-        return {"memory": list(self.memory)}
+        return {"memory": self.memory._asdict()}
 
     def restore_hidden_state(self, hidden: Mapping[str, Any]) -> None:
         """See `PortSlave.restore_hidden_state`."""
-        self.memory = _Memory(*hidden["memory"])
+        memory = _Memory(**hidden["memory"])
+        self.memory = memory._replace(cavity=restored_cavity(memory.cavity))
 
 
 def _warning(step: float, stable: float, error: float) -> str:

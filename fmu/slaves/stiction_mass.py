@@ -37,6 +37,7 @@ from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
 from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
 from ..framework.slave import PortSlave
+from .tension import TENSIONS, tension_limit, tension_values
 
 __all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
 
@@ -60,7 +61,7 @@ _GROUPS = {
     "geometry": ("h0", "R"),
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m", "v0", "k_s", "h_rel", "h_min"),
-    "limits": ("dp_cav", "tau_lim"),
+    "limits": (*TENSIONS, "tau_lim"),
     "numerics": ("rtol",),
 }
 
@@ -101,6 +102,8 @@ _PORTS = (
         enumeration=LimitKind,
         start=LimitKind.NONE,
     ),
+    output_port("r_cav", "m", "radius of the cavity", display_unit="mm", nominal=1e-3),
+    output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
     output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     output_port("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
     output_port("F_peak", "N", "largest force of the film so far", nominal=10.0),
@@ -138,7 +141,13 @@ _PORTS = (
         enumeration=MeniscusLaw,
         start=MeniscusLaw.EXACT,
     ),
-    size_port("dp_cav", "Pa", "tensile strength of the liquid; 0: no limit", 0.0, "bar"),
+    size_port("dp_cav", "Pa", "tension at which the pressure is cut off; 0: no limit", 0.0, "bar"),
+    size_port(
+        "dp_tear", "Pa", "tensile strength of the whole liquid; 0: it does not tear", 0.0, "bar"
+    ),
+    size_port(
+        "dp_hold", "Pa", "ambient pressure less that in the cavity; 0: as dp_tear", 0.0, "bar"
+    ),
     size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     tolerance(1e-8),
 )
@@ -171,11 +180,10 @@ PLACES: Mapping[str, Place] = {
             MeniscusLaw.PUBLISHED: "as-published",
         },
     ),
-    "dp_cav": Place("strength", TensionLimit, nothing=0.0),
     "tau_lim": Place("strength", ShearLimit, nothing=0.0),
     "h_break": Place("gap", Rupture, nothing=0.0),
 }
-"""Where each parameter of the film and the mass stands in a scene."""
+"""Where each parameter of the film and the mass stands in a scene, but for its tension limit."""
 
 _FILM = SeparationScene(
     interface=Interface(
@@ -207,15 +215,15 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
         raise DescriptionError(
             "h_min", values["h_min"], f"not exceed h0 = {values['h0']!r} m", unit="m"
         )
+    limit = tension_limit(values)
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
     # The law PUBLISHED is that of an upright disc, as documented.
-    effects = (
+    effects = [
         evolve(e, radius="disc") if isinstance(e, MeniscusForce) and e.takes_printed() else e
         for e in made.effects
-    )
-    cut_off = (evolve(e, cavity="truncated") if isinstance(e, TensionLimit) else e for e in effects)
-    return evolve(made, effects=tuple(cut_off))
+    ]
+    return evolve(made, effects=(*effects, limit) if limit is not None else tuple(effects))
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -237,7 +245,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     if against:
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
     settled = _same_form(with_numbers(prepare_scene(scene)))
-    values = read(PLACES, settled)
+    values = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
     lost = differences(settled, scene_of(numbers), _NOT_HELD)
     if lost:
@@ -285,14 +293,14 @@ def with_numbers(prepared: PreparedScene[SeparationScene]) -> SeparationScene:
         viscosity=state.given("viscosity"),
         surface_tension=state.given("surface_tension"),
     )
-    effects = tuple(
-        TensionLimit(strength=effect.tension, cavity=effect.cavity)
-        if isinstance(effect, TensionLimit)
-        else effect
-        for effect in scene.effects
-    )
+    effects = [e for e in scene.effects if not isinstance(e, TensionLimit)]
+    limit = scene.effect(TensionLimit)
+    settled = tension_limit(tension_values(limit) | {"tau_lim": 0.0})
+    if limit is not None and settled is not None:
+        is_cut = limit.cavity != "mass-conserving"
+        effects.append(evolve(settled, cavity=limit.cavity) if is_cut else settled)
     interface = evolve(scene.interface, meniscus=evolve(meniscus, liquid=liquid))
-    return evolve(scene, interface=interface, effects=effects)
+    return evolve(scene, interface=interface, effects=tuple(effects))
 
 
 class StictionMass(PortSlave):
@@ -329,12 +337,18 @@ class StictionMass(PortSlave):
             self.event(f"released at t = {values['t_release']:.9g} s")
         if state.n_breaks > before.n_breaks:
             self.event(f"film broke at t = {values['t_break']:.9g} s")
+        begin = self.start_time
+        if state.n_tears > before.n_tears:
+            self.event(f"film torn at t = {begin + state.tear_time:.9g} s")
+        if state.n_heals > before.n_heals:
+            self.event(f"film whole again at t = {begin + state.heal_time:.9g} s")
 
     def _show(self, pull: float) -> None:
         values, state = self.values, self.state
         shown = outputs(self.plan, state, pull)
         values["F"], values["F_m"], values["F_v"] = shown.film, shown.static, shown.viscous
         values["state"], values["limit"] = int(shown.status), int(shown.limit)
+        values["r_cav"], values["V_void"] = shown.cavity_radius, shown.void
         values["h"], values["v"] = state.gap, state.speed
         values["J"] = state.impulses["viscous_impulse"]
         values["J_m"] = state.impulses.get("meniscus_impulse", 0.0)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ...lubrication.disc_cavity import receding_edge
 from ...lubrication.torn_film import (
     cut,
+    edge_of,
     grown,
     outermost,
     piece_along,
@@ -18,9 +19,11 @@ from .law import CavityLaw
 from .stages import CavityStages
 from .state import FULL, Cavity, Phase
 
-__all__ = ["after_event", "after_step", "beyond_event", "born", "is_torn_by"]
+__all__ = ["after_event", "after_jump", "after_step", "beyond_event", "born", "is_torn_by"]
 
 _HEALED = 1e-10  # void over the largest of a cavity, at which the film counts as full
+_SAME = 1e-12  # squares of the edge that are closer, relatively, are one
+_SHALLOW = 1e-6  # depth of the void at the edge, over the gap, where round-off moves the edge
 _RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than rounding
 
 
@@ -60,6 +63,9 @@ def beyond_event(
     if last.growth < 0.0 and solved.voids[2] <= left:
         size = cavity.void + abs(solved.voids[2]) + left
         return min((left - cavity.void) / size, 0.0), (left - solved.voids[2]) / size
+    gap = places[2][0]
+    if gap - edge_of(cavity.torn, gap, solved.voids[2]).torn_gap <= _SHALLOW * gap:
+        return -1.0, -1.0
     return -1.0, -last.returns / (abs(last.growth) + abs(last.returns) + 1e-300) - _RECEDES
 
 
@@ -102,3 +108,24 @@ def after_event(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cav
         return FULL
     torn = cut(cavity.torn, gap, cavity.void)
     return cavity._replace(phase=Phase.RECEDING, torn=torn)
+
+
+def after_jump(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cavity:
+    """Cavity at a gap [m] after the speed has jumped to another one [m/s].
+
+    The full film tears, or the edge jumps to where the liquid then recedes from it, at one gap; if
+    that is within the edge, liquid returns from where it is.
+    """
+    if cavity.phase is Phase.FULL:
+        return born(law, gap, speed) if is_torn_by(law, cavity, gap, speed) else cavity
+    recedes = cavity.phase is Phase.RECEDING
+    rim, _ = law.rim(gap, cavity.void)
+    fraction = receding_edge(law.tension(gap, speed, cavity.void) / law.drop)
+    here = outermost(cavity.torn) if recedes else edge_of(cavity.torn, gap, cavity.void).square
+    if fraction * rim > here * (1.0 + _SAME):
+        torn = cavity.torn if recedes else cut(cavity.torn, gap, cavity.void)
+        jump = (here, fraction * rim - here, 0.0, 0.0, gap, 0.0, 0.0, 0.0, torn_to(torn))
+        return Cavity(Phase.RECEDING, cavity.void, fraction, grown(torn, jump), cavity.largest)
+    if recedes and fraction * rim < here * (1.0 - _SAME):
+        return after_event(law, cavity, gap, speed)
+    return cavity

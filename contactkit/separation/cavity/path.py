@@ -9,7 +9,7 @@ from ...errors import ConvergenceError
 from ...numerics.events import step_to_event
 from ...numerics.step_size import StepSize
 from ..integrator.tableau import NODES, WEIGHTS
-from .events import after_event, after_step, beyond_event, is_torn_by
+from .events import after_event, after_jump, after_step, beyond_event, is_torn_by
 from .law import CavityLaw
 from .stages import CavityStages, solved_stages
 from .state import Cavity, Phase
@@ -60,6 +60,8 @@ def along_path(
 ) -> Iterator[PathPoint]:
     """Steps of a cavity along an imposed path, which is smooth from one time [s] to another.
 
+    The speed may jump at the begin.
+
     Parameters
     ----------
     law, cavity
@@ -79,6 +81,7 @@ def along_path(
         If no step meets the tolerance.
     """
     time, planned = begin, step or _FIRST * (end - begin)
+    cavity = after_jump(law, cavity, *place(begin))
     for _ in range(_MOST_STEPS):
         here = place(time)
         if is_torn_by(law, cavity, *here):

@@ -93,6 +93,22 @@ def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionS
 
 def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     """Take one internal step towards the time `end` [s], cut at the first event inside it."""
+    return _with_times(state, _one_step(plan, state, pull, end))
+
+
+def _with_times(before: MotionState, state: MotionState) -> MotionState:
+    """State with the time at which its film tore in a step, or was full again."""
+    was, now = before.cavity.phase is Phase.FULL, state.cavity.phase is Phase.FULL
+    if was is now:
+        return state
+    if was:
+        return state._replace(tear_time=state.time, n_tears=state.n_tears + 1)
+    if state.broken:
+        return state
+    return state._replace(heal_time=state.time, n_heals=state.n_heals + 1)
+
+
+def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     rest_gap = plan.scene.imposed_force.rest_gap
     if state.in_contact:
         return _rest(plan, state, pull, end)

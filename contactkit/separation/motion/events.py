@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ...numerics.events import first_crossing
+from ..cavity.state import FULL
 from ..plan import Film, Plan
 from .state import MotionState
 
@@ -50,7 +51,9 @@ def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -
                 n_releases=state.n_releases + 1,
             )
         if film is not None and gap == film.end:
-            state = state._replace(broken=True, break_time=state.time, n_breaks=state.n_breaks + 1)
+            state = state._replace(
+                broken=True, cavity=FULL, break_time=state.time, n_breaks=state.n_breaks + 1
+            )
         if film is not None and gap == film.release:
             state = state._replace(detached=True)
         return state

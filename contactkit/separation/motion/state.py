@@ -59,8 +59,12 @@ class MotionState(NamedTuple):
     break_time: float = -1.0
     release_time: float = -1.0
     release_speed: float = 0.0
+    tear_time: float = -1.0  # the film tore last
+    heal_time: float = -1.0  # a torn film was full again last
     n_breaks: int = 0
     n_releases: int = 0
+    n_tears: int = 0
+    n_heals: int = 0
     peak_force: float = 0.0
     peak_time: float = -1.0
     step: float = 0.0  # length of the next internal step

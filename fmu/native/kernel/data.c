@@ -127,6 +127,9 @@ static void read_film(stream *s, ck_film *film) {
         read_table(s, &law->table);
     }
     read_table(s, &film->shape);
+    film->rim_square = number(s);
+    film->volume = number(s);
+    if (!(film->rim_square >= 0.0 && film->volume >= 0.0)) s->fine = 0;
 }
 
 static void read_ports(stream *s, ck_data *data) {
@@ -208,7 +211,7 @@ static FILE *open_file(const char *path) {
 static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
     char magic[8];
     uint64_t head[2];
-    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM03", 8) != 0)
+    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM04", 8) != 0)
         return "it is no file of this FMU";
     if (fread(head, 8, 2, file) != 2 || fread(data->guid, 1, 40, file) != 40)
         return "it is cut short";

@@ -7,6 +7,8 @@
 #ifndef CK_FILM_H
 #define CK_FILM_H
 
+#include "cavity.h"
+
 #include <stddef.h>
 
 #define CK_LAWS 8    /* most forces of one film */
@@ -46,6 +48,7 @@ typedef struct {
     int count;
     ck_law laws[CK_LAWS];
     ck_table shape; /* square of the radius between flats, height less gap under a sphere */
+    double rim_square, volume; /* of one film between flats, for a cavity; 0: it can have none */
 } ck_film;
 
 /* What acts in a state, with the parameters of the liquid in. */
@@ -55,6 +58,7 @@ typedef struct {
     int any, limited, is_sphere, reynolds;
     double viscosity, surface_tension, tension, strength, sphere_radius, menisci;
     double end, release;
+    const ck_cavity_law *law; /* how the film tears, where that is remembered, or NULL */
 } ck_acting;
 
 /* Forces at a gap and a speed, with slopes by gap and by speed. */

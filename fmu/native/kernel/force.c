@@ -7,9 +7,11 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define SAME 1e-9  /* gaps closer than this, relatively, are one */
 #define DOUBT 0.2  /* coupling error beyond which the flag is raised */
+#define VOID 1e-9  /* error of the void in a step of time, over the volume of the film */
 #define MOST_STOPS 1000
 
 enum { EXCHANGE_FORCE = 1 };
@@ -23,6 +25,7 @@ static void start(ck_model *model) {
     ck_forces found;
     memory->gap = v[CK_H0];
     memory->film = memory->broken = memory->detached = memory->pending = CK_NONE;
+    memset(&memory->cavity, 0, sizeof memory->cavity);
     ck_act(&model->scene, 0, 0, 0, &acting);
     ck_forces_at(&acting, memory->gap, 0.0, &found);
     memory->damping = found.resistance;
@@ -50,9 +53,34 @@ static double gap_of(const ck_model *model) {
     return memory->pending ? memory->gap : model->state.values[CK_H];
 }
 
+/* Forces at a gap and a speed with a cavity whose edge and rim stay, and the radius of the edge. */
+static void forces_of(const ck_model *model, const ck_acting *acting, double gap, double speed,
+                      ck_forces *found, double *radius) {
+    static const ck_cavity whole;
+    const ck_memory *memory = &model->state.memory;
+    const ck_cavity_law *law = acting->any ? acting->law : NULL;
+    ck_place at = {gap, speed};
+    double fraction = memory->cavity.fraction, before = memory->gap, ignored;
+    ck_spot spot;
+    *radius = 0.0;
+    ck_forces_at(acting, gap, speed, found);
+    if (!law) return;
+    if (ck_is_torn_by(law, &memory->cavity, at)) {
+        fraction = ck_receding_edge(ck_tension_at(law, gap, speed, whole.hollow) / law->drop);
+        before = gap;
+    } else if (memory->cavity.phase == CK_WHOLE) {
+        return;
+    }
+    memset(&spot, 0, sizeof spot);
+    spot.rim = ck_rim(law, before, memory->cavity.hollow, &ignored);
+    spot.fraction = fraction, spot.edge = fraction * spot.rim;
+    ck_forces_with(acting, &spot, at, found);
+    *radius = sqrt(spot.edge);
+}
+
 /* Slope of an output by an input; 0 if the tables do not tell it. */
 static int slope(const ck_model *model, int unknown, int known, double *found) {
-    double gap = gap_of(model);
+    double gap = gap_of(model), radius;
     ck_acting acting;
     ck_forces f;
     *found = 0.0;
@@ -60,7 +88,7 @@ static int slope(const ck_model *model, int unknown, int known, double *found) {
     if (unknown == CK_H_ABOVE || unknown == CK_H_BELOW) return 1;
     if (unknown != CK_F && unknown != CK_F_M && unknown != CK_F_V) return 0;
     act_at(model, gap, &acting);
-    ck_forces_at(&acting, gap, model->state.values[CK_V], &f);
+    forces_of(model, &acting, gap, model->state.values[CK_V], &f, &radius);
     if (unknown != CK_F_V && known == CK_H) *found += f.fixed_by_gap;
     if (unknown != CK_F_M) *found += known == CK_H ? f.viscous_by_gap : f.viscous_by_speed;
     return 1;
@@ -91,11 +119,11 @@ static void marks(const ck_model *model, const ck_acting *acting, int broken, do
 }
 
 static int show(ck_model *model) {
-    double *v = model->state.values, gap = gap_of(model), above, below;
+    double *v = model->state.values, gap = gap_of(model), above, below, radius;
     ck_acting acting;
     ck_forces f;
     int broken = act_at(model, gap, &acting);
-    ck_forces_at(&acting, gap, v[CK_V], &f);
+    forces_of(model, &acting, gap, v[CK_V], &f, &radius);
     if (!isfinite(f.fixed + f.viscous) || !isfinite(f.viscous_by_speed) ||
         !isfinite(f.fixed_by_gap + f.viscous_by_gap))
         return 0;
@@ -107,6 +135,7 @@ static int show(ck_model *model) {
                   : gap <= acting.film->full_gap * (1.0 + SAME) ? CK_FULL
                                                                 : CK_BRIDGE;
     v[CK_LIMIT] = f.limit + 1;
+    v[CK_R_CAV] = radius, v[CK_V_VOID] = broken ? 0.0 : model->scene.menisci * model->state.memory.cavity.hollow;
     v[CK_H_ABOVE] = above < HUGE_VAL ? above : 0.0;
     v[CK_H_BELOW] = below;
     return 1;
@@ -117,6 +146,7 @@ static void settle(ck_model *model, double time) {
     double *v = model->state.values;
     if (memory->pending == CK_RUPTURE) {
         memory->broken = 1;
+        memset(&memory->cavity, 0, sizeof memory->cavity);
         v[CK_T_BREAK] = time, v[CK_N_BREAK] += 1.0;
     } else if (memory->pending == CK_REWETTING) {
         memory->broken = 0, memory->film = model->scene.film_count - 1;
@@ -141,8 +171,30 @@ static void apply_event(ck_model *model, double gap, int rising, double time) {
     else if (!rising && gap <= model->scene.recontact * (1.0 + SAME)) memory->detached = 0;
 }
 
-/* Integrate over the motion of the step, from kink to kink. */
-static ck_impulse go(ck_model *model, double time, double step, double target) {
+/* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
+   stretch at which it tore or was whole again last. nan if there is no way. */
+static double with_memory(ck_model *model, const ck_acting *acting, double from, double to, double length,
+                          double *changed) {
+    ck_cavity *cavity = &model->state.memory.cavity;
+    ck_place at = {from, (to - from) / length};
+    int was = cavity->phase == CK_WHOLE && !ck_is_torn_by(acting->law, cavity, at), full, found;
+    double total = 0.0, part, gap = from;
+    ck_path path;
+    ck_path_begin(&path, acting->law, cavity, at, length, VOID, 0.0);
+    while ((found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
+        double after = path.time == length ? to : path.first + path.speed * path.time;
+        total += full && after != gap
+                     ? ck_along(acting, gap, after, (after - gap) / path.speed).viscous
+                     : part;
+        if (was != (cavity->phase == CK_WHOLE)) was = !was, *changed = path.time;
+        gap = after;
+    }
+    return found == CK_PATH_END ? total : NAN;
+}
+
+/* Integrate over the motion of the step, from kink to kink; `changed` is when the film tore last, or
+   was whole again. */
+static ck_impulse go(ck_model *model, double time, double step, double target, double *changed) {
     ck_memory *memory = &model->state.memory;
     double begin = memory->gap, gap = begin, pace = step / (target - begin);
     int rising = target > begin, i;
@@ -159,6 +211,11 @@ static ck_impulse go(ck_model *model, double time, double step, double target) {
             if (!rising && below > target) next = below;
             part = next == gap ? (ck_impulse){0.0, 0.0}
                                : ck_along(&acting, gap, next, (next - gap) * pace);
+        }
+        if (acting.any && acting.law && (begin == target || next != gap)) {
+            double length = begin == target ? step : (next - gap) * pace, since = -1.0;
+            part.viscous = with_memory(model, &acting, gap, next, length, &since);
+            if (since >= 0.0) *changed = time + (begin == target ? 0.0 : (gap - begin) * pace) + since;
         }
         sum.viscous += part.viscous, sum.fixed += part.fixed;
         gap = next;
@@ -209,11 +266,21 @@ static void tell(ck_model *model) {
     model->say(model->host, CK_OK, "logEvents", message);
 }
 
+static void tell_cavity(ck_model *model, int was, double time) {
+    int now = model->state.memory.cavity.phase;
+    char message[80];
+    if ((was == CK_WHOLE) == (now == CK_WHOLE) || model->state.memory.broken) return;
+    snprintf(message, sizeof message, "%s at t = %.9g s",
+             now == CK_WHOLE ? "film whole again" : "film torn", time);
+    model->say(model->host, CK_OK, "logEvents", message);
+}
+
 static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state;
     ck_state before = *state;
     double *v = state->values;
-    ck_impulse done = go(model, time, length, v[CK_H]);
+    double changed = time;
+    ck_impulse done = go(model, time, length, v[CK_H], &changed);
     double elapsed = state->memory.pending ? state->end - time : length;
     ck_acting acting;
     ck_forces found;
@@ -229,6 +296,7 @@ static int step(ck_model *model, double time, double length) {
     ck_act(&model->scene, state->memory.film, state->memory.broken, 0, &acting);
     ck_forces_at(&acting, gap_of(model), 0.0, &found);
     state->memory.damping = found.resistance;
+    tell_cavity(model, before.memory.cavity.phase, changed);
     state->shown = 1;
     v[CK_J] += done.viscous, v[CK_J_M] += done.fixed;
     if (elapsed > 0.0) {

@@ -30,14 +30,16 @@ static int show(ck_model *model) {
     const ck_motion *motion = &model->state.motion;
     ck_acting acting;
     ck_forces found;
+    ck_spot spot;
     ck_act(&model->scene, motion->film, motion->broken, motion->detached, &acting);
-    ck_forces_at(&acting, motion->gap, motion->speed, &found);
+    ck_forces_of(&acting, motion, &found, &spot);
     if (!isfinite(found.fixed + found.viscous) || !isfinite(motion->work + motion->speed)) return 0;
     v[CK_H] = motion->gap, v[CK_V] = motion->speed;
     v[CK_F] = found.fixed + found.viscous, v[CK_F_M] = found.fixed, v[CK_F_V] = found.viscous;
     v[CK_J] = motion->viscous_impulse, v[CK_J_M] = motion->fixed_impulse, v[CK_W] = motion->work;
     v[CK_STATE] = ck_status(&model->scene, motion, &acting, &found, model->state.pull);
     v[CK_LIMIT] = found.limit + 1;
+    v[CK_R_CAV] = sqrt(spot.edge), v[CK_V_VOID] = model->scene.menisci * motion->cavity.hollow;
     v[CK_T_BREAK] = motion->breaks ? clock_at(model, motion->break_time) : -1.0;
     v[CK_T_RELEASE] = motion->releases ? clock_at(model, motion->release_time) : -1.0;
     v[CK_F_PEAK] = motion->peak_force;
@@ -66,6 +68,15 @@ static void tell(ck_model *model, const ck_motion *before) {
     }
     if (now->breaks > before->breaks) {
         snprintf(message, sizeof message, "film broke at t = %.9g s", clock_at(model, now->break_time));
+        model->say(model->host, CK_OK, "logEvents", message);
+    }
+    if (now->tears > before->tears) {
+        snprintf(message, sizeof message, "film torn at t = %.9g s", clock_at(model, now->tear_time));
+        model->say(model->host, CK_OK, "logEvents", message);
+    }
+    if (now->heals > before->heals) {
+        snprintf(message, sizeof message, "film whole again at t = %.9g s",
+                 clock_at(model, now->heal_time));
         model->say(model->host, CK_OK, "logEvents", message);
     }
 }
@@ -99,7 +110,7 @@ static int step(ck_model *model, double time, double length) {
     if (now->pending && state->end < time + length) /* a ramp goes on from where it is */
         state->values[CK_F_EXT] = state->pull;
     state->shown = 0; /* outputs are made once they are read */
-    if (now->releases > before.releases || now->breaks > before.breaks) tell(model, &before);
+    tell(model, &before);
     return CK_OK;
 }
 

@@ -29,7 +29,8 @@ static const char *const NAMES[CK_VARIABLES] = {
     "F_el", "contact_area", "plastic_area", "d", "d_max", "d_res", "W_d", "n_beyond",
     "h_touch", "side", "scale", "k_body", "d_max0",
     "z", "vz", "az", "F_film", "W_visc", "W_land", "t_free", "t_land", "n_land", "F_max", "W_plastic",
-    "N", "h_free"};
+    "N", "h_free",
+    "r_cav", "V_void", "dp_tear", "dp_hold"};
 
 const char *ck_name(int id) { return NAMES[id]; }
 
@@ -165,10 +166,32 @@ const char *ck_wrong(ck_model *model, int id, const char *must, int other, const
     return model->wrong;
 }
 
+/* The tensions at which the films tear, and that of their cavities; what is wrong with them. */
+static const char *tear(ck_model *model, double strength, double hold) {
+    const double *v = model->state.values;
+    ck_scene *scene = &model->scene;
+    int i;
+    if (hold > strength) return ck_wrong(model, CK_DP_HOLD, "not exceed", CK_DP_TEAR, "Pa");
+    if (strength > 0.0 && v[CK_DP_CAV] > 0.0)
+        return ck_wrong(model, CK_DP_TEAR, "be 0 beside", CK_DP_CAV, "Pa");
+    if (strength > 0.0 && v[CK_TAU_LIM] > 0.0)
+        return ck_wrong(model, CK_DP_TEAR, "be 0 beside", CK_TAU_LIM, "Pa");
+    for (i = 0; i < scene->film_count; i++) {
+        const ck_film *film = &scene->films[i];
+        ck_cavity_law *law = &scene->laws[i];
+        law->menisci = scene->menisci, law->viscosity = scene->viscosity;
+        law->rim_square = film->rim_square, law->volume = film->volume;
+        law->strength = film->rim_square > 0.0 ? strength : 0.0;
+        law->drop = hold > 0.0 ? hold : strength;
+    }
+    return NULL;
+}
+
 /* What models of a film take from their parameters; the message says what is wrong with them. */
 const char *ck_common_parameters(ck_model *model) {
     const double *v = model->state.values;
     ck_scene *scene = &model->scene;
+    const char *problem;
     int i;
     *scene = model->data.scene;
     scene->pauses = model->pauses;
@@ -177,6 +200,8 @@ const char *ck_common_parameters(ck_model *model) {
     scene->initial_gap = v[CK_H0];
     scene->viscosity = v[CK_ETA], scene->surface_tension = v[CK_GAMMA];
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];
+    problem = tear(model, v[CK_DP_TEAR], v[CK_DP_HOLD]);
+    if (problem) return problem;
     for (i = 0; i < scene->film_count; i++) {
         double breaks = v[CK_H_BREAK] > 0.0 ? v[CK_H_BREAK] : scene->films[i].breaks;
         double end = film_end(scene, &scene->films[i]);
@@ -365,7 +390,8 @@ int ck_model_restore(ck_model *model, const ck_state *state) {
     int count = model->data.kind >= CK_VALVE_DRIVE ? 1 : model->data.scene.film_count;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
         state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
-        state->memory.film < 0 || state->memory.film >= count)
+        state->memory.film < 0 || state->memory.film >= count ||
+        !ck_is_cavity(&state->motion.cavity) || !ck_is_cavity(&state->memory.cavity))
         return ck_model_fail(model, "the FMU state is not one of this FMU; take it from this FMU, "
                                     "and keep its bytes unchanged");
     model->state = *state;

@@ -44,6 +44,7 @@ enum {
     CK_H_TOUCH, CK_SIDE, CK_SCALE, CK_K_BODY, CK_D_MAX0,
     CK_Z, CK_VZ, CK_AZ, CK_F_FILM, CK_W_VISC, CK_W_LAND, CK_T_FREE, CK_T_LAND, CK_N_LAND, CK_F_MAX,
     CK_W_PLASTIC, CK_N, CK_H_FREE,
+    CK_R_CAV, CK_V_VOID, CK_DP_TEAR, CK_DP_HOLD,
     CK_VARIABLES
 };
 
@@ -71,6 +72,7 @@ typedef struct {
 typedef struct {
     double gap, damping;
     int film, broken, detached, pending; /* as in ck_motion */
+    ck_cavity cavity;
 } ck_memory;
 
 enum { CK_RATES = 6 };

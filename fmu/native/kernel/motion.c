@@ -8,6 +8,7 @@
 #define SHORT 1e-2 /* change of the coordinate up to which the quadrature of the method does */
 #define SAME 1e-11    /* two gaps closer than this, relatively, are one */
 #define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts */
+#define TURN 1e-11    /* what an event of a cavity may be missed by, over its scale */
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
 void ck_start(const ck_scene *scene, ck_motion *state) {
@@ -17,6 +18,7 @@ void ck_start(const ck_scene *scene, ck_motion *state) {
     state->speed = state->in_contact ? 0.0 : scene->initial_speed;
     state->armed = 1;
     state->break_time = state->release_time = state->peak_time = -1.0;
+    state->tear_time = state->heal_time = -1.0;
 }
 
 /* What acts: all, or what a broken film and parted solids leave. */
@@ -42,6 +44,24 @@ void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acti
     acting->strength = scene->strength;
     acting->sphere_radius = scene->sphere_radius;
     acting->menisci = scene->menisci;
+    acting->law = !broken && scene->laws[number].strength > 0.0 ? &scene->laws[number] : NULL;
+}
+
+static ck_place place_of(const ck_motion *state) { return (ck_place){state->gap, state->speed}; }
+
+/* Whether a film acts that has a cavity now. */
+static int is_hollow(const ck_acting *acting, const ck_motion *state) {
+    return acting->any && acting->law && state->cavity.phase != CK_WHOLE;
+}
+
+void ck_forces_of(const ck_acting *acting, const ck_motion *state, ck_forces *found, ck_spot *spot) {
+    memset(spot, 0, sizeof *spot);
+    if (!is_hollow(acting, state)) {
+        ck_forces_at(acting, state->gap, state->speed, found);
+        return;
+    }
+    ck_spot_at(acting->law, &state->cavity, place_of(state), state->cavity.hollow, spot);
+    ck_forces_with(acting, spot, place_of(state), found);
 }
 
 int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *acting,
@@ -60,6 +80,8 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     double holding = scene->stiffness * (state->gap - scene->initial_gap), film, low = state->time;
     double leave = end, elapsed;
     ck_act(scene, state->film, state->broken, state->detached, &acting);
+    /* Nothing tore at a smaller gap than this, so that no void is left here. */
+    if (state->cavity.phase != CK_WHOLE) memset(&state->cavity, 0, sizeof state->cavity);
     film = ck_fixed_force(&acting, state->gap);
     if (ck_pull_at(pull, low) - holding - film > 0.0) {
         leave = low;
@@ -81,7 +103,11 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
 static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
                  const ck_pull *pull, ck_problem *p, ck_forces *first) {
     double drive = ck_pull_at(pull, state->time), spring, crossing;
-    if (state->known) {
+    p->cavity = is_hollow(acting, state) ? &state->cavity : NULL;
+    if (p->cavity) {
+        ck_forces_of(acting, state, first, &p->spot);
+        p->exponent = ck_film_exponent(state->gap, first);
+    } else if (state->known) {
         *first = state->here;
         p->exponent = state->exponent;
     } else {
@@ -324,6 +350,7 @@ static void accumulate(const ck_problem *p, const ck_forces *first, const ck_ste
 void ck_resolve(const ck_scene *scene, ck_motion *state) {
     if (state->pending == CK_RUPTURE) {
         state->broken = 1;
+        memset(&state->cavity, 0, sizeof state->cavity);
         state->break_time = state->time;
         state->breaks++;
     } else if (state->pending == CK_REWETTING) {
@@ -353,6 +380,58 @@ static void apply_event(const ck_scene *scene, const ck_acting *acting, ck_motio
     if (event == scene->rest_gap) state->in_contact = 1, state->speed = 0.0;
 }
 
+typedef struct {
+    const ck_problem *problem;
+    ck_step *taken;
+} turning;
+
+/* How far a step ends beyond an event of the cavity, and begins. */
+static void beyond(const ck_problem *p, const ck_cavity *cavity, const ck_step *taken,
+                   double *behind, double *ahead) {
+    ck_place begin = {p->begin.gap, p->begin.speed}, at[3];
+    int i;
+    for (i = 0; i < 3; i++) at[i].gap = taken->stages[i].gap, at[i].speed = taken->stages[i].speed;
+    ck_beyond_event(p->acting->law, cavity, p->cavity ? &taken->hollow : NULL, begin, at, behind, ahead);
+}
+
+static const ck_cavity WHOLE;
+
+static int turn_trial(void *context, double length, double *missed) {
+    turning *t = (turning *)context;
+    double ignored;
+    ck_step again;
+    if (!ck_attempt(t->problem, length, &again)) return 0;
+    *t->taken = again;
+    beyond(t->problem, t->problem->cavity ? t->problem->cavity : &WHOLE, t->taken, &ignored, missed);
+    return 1;
+}
+
+/* Cut a step at the first event of its cavity; 0 if there is none. */
+static int cut_at_turn(const ck_problem *p, ck_step *taken, double *length) {
+    turning context = {p, taken};
+    double behind, ahead;
+    if (!p->acting->any || !p->acting->law) return 0;
+    beyond(p, p->cavity ? p->cavity : &WHOLE, taken, &behind, &ahead);
+    if (ahead <= 0.0) return 0;
+    *length = behind >= 0.0
+                  ? 0.0
+                  : ck_step_to_event(turn_trial, &context, behind, ahead, *length, TURN);
+    return 1;
+}
+
+/* Keep what the cavity is after a step, and after the event at its end. */
+static void keep_cavity(const ck_problem *p, const ck_step *taken, int turn, ck_motion *state) {
+    if (p->cavity) {
+        double gaps[3];
+        int i;
+        for (i = 0; i < 3; i++) gaps[i] = taken->stages[i].gap;
+        ck_cavity_step(&state->cavity, &taken->hollow, p->begin.gap, gaps);
+    }
+    if (turn)
+        ck_cavity_event(p->acting->law, &state->cavity,
+                        (ck_place){taken->stages[2].gap, taken->stages[2].speed});
+}
+
 /* Take one internal step, shortened to the first event inside it. */
 static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end) {
     ck_acting acting;
@@ -360,13 +439,18 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     ck_forces first;
     ck_step taken;
     double left = end - state->time, length, error = HUGE_VAL, following, event, asked;
-    int rejected = 0;
+    int rejected = 0, turn;
     if (state->gap < NOTHING) return CK_NO_STEP;
     if (state->speed < 0.0 && state->gap <= scene->rest_gap * (1.0 + SAME)) {
         state->in_contact = 1, state->gap = scene->rest_gap, state->speed = 0.0, state->known = 0;
         return CK_DONE;
     }
     ck_act(scene, state->film, state->broken, state->detached, &acting);
+    if (acting.any && acting.law && ck_is_torn_by(acting.law, &state->cavity, place_of(state))) {
+        ck_cavity_event(acting.law, &state->cavity, place_of(state));
+        state->step = 0.0, state->known = 0;
+        return CK_DONE;
+    }
     pose(scene, &acting, state, pull, &p, &first);
     if (p.size <= NO_FORCE) expect(&p, &first, 0.5 * fabs(ck_pull_at(pull, end)));
     asked = state->step > 0.0 ? state->step : first_step(&p, left);
@@ -384,8 +468,17 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
     event = next_event(scene, &acting, state, taken.stages[2].gap);
     if (event >= 0.0) length = locate(&p, length, event, &taken);
+    turn = cut_at_turn(&p, &taken, &length);
+    if (turn) event = -1.0;
+    if (length == 0.0) {
+        ck_cavity_event(acting.law, &state->cavity, place_of(state));
+        state->known = 0;
+        return CK_DONE;
+    }
+    keep_cavity(&p, &taken, turn, state);
     accumulate(&p, &first, &taken, length, state);
-    state->step = following;
+    state->step = turn ? 0.0 : following;
+    if (turn) state->known = 0;
     if (event >= 0.0) apply_event(scene, &acting, state, event), state->known = 0;
     if (state->pending && !scene->pauses) ck_resolve(scene, state);
     return CK_DONE;
@@ -393,9 +486,14 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
 
 /* One internal step towards a time, cut at the first event inside it. */
 int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end) {
-    if (!state->in_contact) return step_once(scene, state, pull, end);
-    rest_once(scene, state, pull, end);
-    return CK_DONE;
+    int was = state->cavity.phase, trouble = CK_DONE, now;
+    if (state->in_contact) rest_once(scene, state, pull, end);
+    else trouble = step_once(scene, state, pull, end);
+    now = state->cavity.phase;
+    if (was == CK_WHOLE && now != CK_WHOLE) state->tear_time = state->time, state->tears++;
+    if (was != CK_WHOLE && now == CK_WHOLE && !state->broken)
+        state->heal_time = state->time, state->heals++;
+    return trouble;
 }
 
 /* Advance by a time under a pull, however stiff the film; less if the motion pauses. */

@@ -17,6 +17,7 @@ typedef struct {
     double recontact; /* gap of re-contact of detached solids */
     double mass, initial_gap, initial_speed, stiffness, release_gap, rest_gap, rtol;
     double viscosity, surface_tension, tension, strength;
+    ck_cavity_law laws[CK_FILMS]; /* of films that tear and remember it, where strength is not 0 */
 } ck_scene;
 
 typedef struct {
@@ -29,6 +30,9 @@ typedef struct {
     ck_forces here;        /* forces at this gap and speed, and the exponent of the viscous one */
     double exponent;
     int64_t known; /* whether the last step told them */
+    double tear_time, heal_time;
+    int tears, heals; /* of the film: into a cavity, and full again */
+    ck_cavity cavity;
 } ck_motion;
 
 enum { CK_NONE = 0, CK_RUPTURE = 1, CK_REWETTING = 2 };
@@ -37,6 +41,8 @@ enum { CK_CONTACT = 1, CK_STUCK = 2, CK_FULL = 3, CK_BRIDGE = 4, CK_BROKEN = 5 }
 
 void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);
+/* Forces at the gap and speed of a state, with its cavity, and where the edge of that is. */
+void ck_forces_of(const ck_acting *acting, const ck_motion *state, ck_forces *found, ck_spot *spot);
 void ck_resolve(const ck_scene *scene, ck_motion *state); /* make happen what is pending */
 int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double end);
 int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt);

@@ -16,13 +16,13 @@
 
 const double ck_nodes[3] = {(4.0 - R6) / 10.0, (4.0 + R6) / 10.0, 1.0};
 const double ck_weights[3] = {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0};
-static const double A[3][3] = {
+const double ck_stages[3][3] = {
     {(88.0 - 7.0 * R6) / 360.0, (296.0 - 169.0 * R6) / 1800.0, (-2.0 + 3.0 * R6) / 225.0},
     {(296.0 + 169.0 * R6) / 1800.0, (88.0 + 7.0 * R6) / 360.0, (-2.0 - 3.0 * R6) / 225.0},
     {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0}};
 /* 3 + 3^(2/3) - 3^(1/3), and the weights of the stage increments */
-static const double GAMMA0 = 3.6378342527444957;
-static const double E[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0};
+const double ck_gamma = 3.6378342527444957;
+const double ck_estimate[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0};
 
 typedef struct {
     double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
@@ -67,9 +67,30 @@ static double net_of(const ck_problem *p, const ck_point *at, const ck_forces *f
            (forces->viscous + forces->fixed);
 }
 
+static void hold(const ck_held *held, ck_forces *found) {
+    found->viscous = held->force, found->viscous_by_gap = held->by_gap;
+    found->viscous_by_speed = held->by_speed, found->limit = 1;
+}
+
+void ck_forces_with(const ck_acting *acting, const ck_spot *spot, ck_place at, ck_forces *found) {
+    ck_held held;
+    ck_forces_at(acting, at.gap, at.speed, found);
+    ck_held_at(acting->law, spot, at, &held);
+    hold(&held, found);
+}
+
+/* Void and forces at the stages of a film with a cavity; 0 if they are not found. */
+static int with_cavity(const ck_problem *p, double dt, stage at[3], ck_hollow *hollow) {
+    ck_place begin = {p->begin.gap, p->begin.speed}, places[3];
+    int i;
+    for (i = 0; i < 3; i++) places[i].gap = at[i].at.gap, places[i].speed = at[i].at.speed;
+    if (!ck_hollow_solve(p->acting->law, p->cavity, begin, dt, places, hollow)) return 0;
+    for (i = 0; i < 3; i++) hold(&hollow->held[i], &at[i].forces);
+    return 1;
+}
+
 /* Net force on the mass at a stage, and its slopes. */
 static void evaluate(const ck_problem *p, stage *one) {
-    ck_forces_at(p->acting, one->at.gap, one->at.speed, &one->forces);
     one->by_gap = -p->spring - one->forces.fixed_by_gap - one->forces.viscous_by_gap;
     one->by_speed = -one->forces.viscous_by_speed;
     one->net = net_of(p, &one->at, &one->forces);
@@ -104,7 +125,7 @@ static int place_stages(const ck_problem *p, double dt, double s, const double r
     int i;
     for (i = 0; i < 3; i++) {
         double where[3];
-        double q = dt * (A[i][0] * rates[0] + A[i][1] * rates[1] + A[i][2] * rates[2]);
+        double q = dt * (ck_stages[i][0] * rates[0] + ck_stages[i][1] * rates[1] + ck_stages[i][2] * rates[2]);
         if (!ck_coordinate(p->begin.gap, s, q, where) || !(where[0] > 1e-100)) return 0;
         found[i].q = q;
         found[i].first = where[1];
@@ -123,15 +144,15 @@ static void build(const ck_problem *p, double dt, const stage at[3], double resi
     int i, j, k;
     for (j = 0; j < 3; j++) {
         double both = (at[j].by_gap * at[j].first + at[j].by_speed * at[j].swing) * dt;
-        for (k = 0; k < 3; k++) line[j][k] = both * A[j][k];
+        for (k = 0; k < 3; k++) line[j][k] = both * ck_stages[j][k];
         line[j][j] += at[j].by_speed * at[j].first;
     }
     for (i = 0; i < 3; i++) {
-        double given = A[i][0] * at[0].net + A[i][1] * at[1].net + A[i][2] * at[2].net;
+        double given = ck_stages[i][0] * at[0].net + ck_stages[i][1] * at[1].net + ck_stages[i][2] * at[2].net;
         residual[i] = p->mass * (at[i].at.speed - p->begin.speed) - dt * given;
         for (k = 0; k < 3; k++) {
-            double sum = A[i][0] * line[0][k] + A[i][1] * line[1][k] + A[i][2] * line[2][k];
-            matrix[i][k] = dt * (p->mass * at[i].swing * A[i][k] - sum);
+            double sum = ck_stages[i][0] * line[0][k] + ck_stages[i][1] * line[1][k] + ck_stages[i][2] * line[2][k];
+            matrix[i][k] = dt * (p->mass * at[i].swing * ck_stages[i][k] - sum);
         }
         matrix[i][i] += p->mass * at[i].first;
     }
@@ -165,15 +186,19 @@ static void estimate(const ck_problem *p, double g, double s, double rate, doubl
     error[1] = (j21 * a + (g - j11) * b) / det;
 }
 
+/* Whether slopes of forces may jump, or follow from a memory. */
+static int has_limits(const ck_problem *p) { return p->acting->limited || p->acting->law; }
+
 /* Net force where the first estimate leads; only far off it is asked for. */
 static double net_near(const ck_problem *p, double gap, double speed) {
     double dh = gap - p->begin.gap, dv = speed - p->begin.speed;
     ck_point there;
     ck_forces found;
-    if (fabs(dh) <= LINEAR * p->begin.gap && (!p->acting->limited || fabs(dv) <= LINEAR * fabs(speed)))
+    if (fabs(dh) <= LINEAR * p->begin.gap && (!has_limits(p) || fabs(dv) <= LINEAR * fabs(speed)))
         return p->net + p->net_by_gap * dh + p->net_by_speed * dv;
     there.time = p->begin.time, there.gap = gap, there.speed = speed;
-    ck_forces_at(p->acting, gap, speed, &found);
+    if (p->cavity) ck_forces_with(p->acting, &p->spot, (ck_place){gap, speed}, &found);
+    else ck_forces_at(p->acting, gap, speed, &found);
     return net_of(p, &there, &found);
 }
 
@@ -185,19 +210,19 @@ static int finish(const ck_problem *p, double dt, double s, const double rates[3
     int i;
     if (!place_stages(p, dt, s, rates, at)) return 0;
     for (i = 0; i < 3; i++) {
-        z[0] += E[i] * at[i].q / dt;
-        z[1] += E[i] * (at[i].at.speed - v0) / dt;
+        z[0] += ck_estimate[i] * at[i].q / dt;
+        z[1] += ck_estimate[i] * (at[i].at.speed - v0) / dt;
         taken->stages[i] = at[i].at;
         taken->coordinates[i] = at[i].q;
         taken->forces[i] = were[i].forces;
         carry(&taken->forces[i], &were[i].at, &at[i].at);
     }
     taken->film_exponent = ck_film_exponent(were[2].at.gap, &were[2].forces);
-    estimate(p, GAMMA0 / dt, s, v0 / h0, p->net / p->mass, z, error);
+    estimate(p, ck_gamma / dt, s, v0 / h0, p->net / p->mass, z, error);
     if (ck_coordinate(h0, s, error[0], where) && where[0] > 0.0 && isfinite(where[0] + error[1])) {
         /* The second estimate, from where the first one leads, ignores what decays at once. */
         double speed = v0 + error[1];
-        estimate(p, GAMMA0 / dt, s, speed / where[1], net_near(p, where[0], speed) / p->mass, z, error);
+        estimate(p, ck_gamma / dt, s, speed / where[1], net_near(p, where[0], speed) / p->mass, z, error);
     }
     taken->exponent = s;
     taken->gap_error = fabs(error[0]);
@@ -246,6 +271,9 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
         double sure = 1.0; /* by how much the next change would be smaller than this one */
         int met, stalled;
         if (!place_stages(p, dt, s, rates, at)) return 0;
+        for (i = 0; i < 3; i++)
+            ck_forces_at(p->acting, at[i].at.gap, at[i].at.speed, &at[i].forces);
+        if (p->cavity && !with_cavity(p, dt, at, &taken->hollow)) return 0;
         for (i = 0; i < 3; i++) {
             evaluate(p, &at[i]);
             if (!isfinite(at[i].net)) return 0;
@@ -258,7 +286,7 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
         if (known && size < previous) {
             /* Where forces are smooth the iteration converges with its square. */
             sure = size / previous;
-            if (!p->acting->limited && sure < 0.1) sure *= 10.0 * sure;
+            if (!has_limits(p) && sure < 0.1) sure *= 10.0 * sure;
         }
         known = 1;
         met = sure * size <= 0.03 * p->rtol && is_small(p, dt, at, residual, p->rtol / sure);
@@ -282,5 +310,6 @@ double ck_error(const ck_problem *p, const ck_step *taken, double length) {
     /* A mass that the film leads has no momentum to speak of; its speed is still asked for. */
     speed = taken->speed_error / (end + p->scale);
     worst = ck_larger(taken->gap_error, wrong / momentum);
+    if (p->cavity) worst = ck_larger(worst, taken->hollow.error);
     return ck_larger(worst, 0.1 * speed) / p->rtol;
 }

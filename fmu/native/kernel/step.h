@@ -23,6 +23,8 @@ typedef struct {
     ck_point begin;
     double exponent, size, delivered, scale;
     double net, net_by_gap, net_by_speed; /* at the start */
+    const ck_cavity *cavity; /* of the film at the start, or NULL */
+    ck_spot spot;            /* where its edge is */
 } ck_problem;
 
 typedef struct {
@@ -31,16 +33,17 @@ typedef struct {
     double coordinates[3], exponent, gap_error, speed_error;
     double film_exponent; /* n of the viscous force at the end, which falls as gap^-n */
     int iterations;       /* of the iteration for the stages */
+    ck_hollow hollow;     /* of a film with a cavity */
 } ck_step;
 
 /* As fmax, but of numbers: nan is for others to find. */
 static inline double ck_larger(double a, double b) { return a > b ? a : b; }
 static inline double ck_smaller(double a, double b) { return a < b ? a : b; }
 
-extern const double ck_nodes[3], ck_weights[3];
-
 double ck_pull_at(const ck_pull *pull, double time);
 int ck_coordinate(double gap, double s, double q, double found[3]);
+/* Forces with the cavity a film has at an edge and a rim. */
+void ck_forces_with(const ck_acting *acting, const ck_spot *spot, ck_place at, ck_forces *found);
 double ck_film_exponent(double gap, const ck_forces *forces);
 int ck_attempt(const ck_problem *problem, double length, ck_step *taken);
 double ck_error(const ck_problem *problem, const ck_step *taken, double length);

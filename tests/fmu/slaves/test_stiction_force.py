@@ -193,7 +193,7 @@ def test_a_way_through_all_numbers_has_an_end(begin, end):
     forces = []
 
     class Counted:
-        end, kinks, limits = math.inf, (), ()
+        end, kinks, limits, cavity = math.inf, (), (), None
 
         def static_force(self, gap):
             forces.append(gap)

@@ -1,0 +1,108 @@
+/* A film between flats that tears: the cavity, what it remembers, its forces and events.
+
+   As contactkit/lubrication/disc_cavity.py, torn_film.py and contactkit/separation/cavity, in the
+   same order of operations. Squares of radii in place of radii; one of `menisci` equal films. */
+
+#ifndef CK_CAVITY_H
+#define CK_CAVITY_H
+
+#define CK_TORN 64 /* pieces of the memory that are kept */
+
+enum { CK_WHOLE = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
+
+/* Square of the radius and the gap at which it was torn, both cubics of a parameter from 0 to 1, and
+   the liquid within where it begins. */
+typedef struct {
+    double y[4], h[4], before;
+} ck_piece_torn;
+
+/* Cavity in one film: void, fraction of the disc within the edge, the largest void since it was full,
+   and the memory of the torn film from the centre outwards. */
+typedef struct {
+    double hollow, fraction, largest;
+    int phase, count;
+    ck_piece_torn torn[CK_TORN];
+} ck_cavity;
+
+/* One film, its tensile strength while it is whole, as a drop of pressure, 0 if it does not tear,
+   and that of the cavity. `volume` is HUGE_VAL where the rim is flooded. */
+typedef struct {
+    double menisci, rim_square, volume, viscosity, strength, drop;
+} ck_cavity_law;
+
+typedef struct {
+    double gap, speed;
+} ck_place;
+
+/* Where the edge is; growth of the void with its slope, and what flows over the edge. */
+typedef struct {
+    double fraction, edge, rim, growth, by_void, returns;
+} ck_spot;
+
+/* Force of all films, with its slopes at an edge and a rim that stay. */
+typedef struct {
+    double force, by_gap, by_speed;
+} ck_held;
+
+/* Voids, edges and forces at the stages of a step; error of the last void over the film's volume. */
+typedef struct {
+    double voids[3];
+    ck_spot spots[3];
+    ck_held held[3];
+    double error;
+} ck_hollow;
+
+/* Numbers of Radau IIA with three stages (step.c). */
+extern const double ck_nodes[3], ck_weights[3], ck_stages[3][3], ck_estimate[3];
+extern const double ck_gamma;
+
+/* Memory (torn.c). */
+int ck_is_cavity(const ck_cavity *cavity);         /* whether its numbers are in range */
+double ck_torn_liquid(const ck_cavity *cavity);    /* within the outermost edge */
+double ck_torn_outermost(const ck_cavity *cavity); /* square of its radius */
+double ck_torn_edge(const ck_cavity *cavity, double gap, double hollow, double *torn_gap);
+void ck_torn_cut(ck_cavity *cavity, double gap, double hollow);
+void ck_torn_add(ck_cavity *cavity, const ck_piece_torn *piece);
+void ck_torn_along(ck_piece_torn *piece, double before, const double squares[4],
+                   const double gaps[4]);
+
+/* Edge and forces (cavity.c). */
+double ck_rim(const ck_cavity_law *law, double gap, double hollow, double *by_void);
+double ck_tension_at(const ck_cavity_law *law, double gap, double speed, double hollow);
+double ck_receding_edge(double sigma);
+void ck_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, double hollow,
+                ck_spot *spot);
+void ck_held_at(const ck_cavity_law *law, const ck_spot *spot, ck_place at, ck_held *held);
+int ck_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place begin, double dt,
+                    const ck_place at[3], ck_hollow *found); /* 0 if a shorter step may do */
+
+/* Events (events.c). `solved` is NULL for a film that is full. */
+int ck_is_torn_by(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at);
+void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
+                     ck_place begin, const ck_place at[3], double *behind, double *ahead);
+void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
+                    const double gaps[3]);
+void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
+void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
+
+/* A step of some length, tried: keeps it and gives by how much it ends beyond an event; 0 if there is
+   no such step, and the one before is kept. */
+typedef int (*ck_trial)(void *context, double length, double *missed);
+/* Length of the step that ends at the event; the one kept last. */
+double ck_step_to_event(ck_trial trial, void *context, double begin, double missed, double length,
+                        double enough);
+
+/* A cavity whose gap moves at one speed: steps of time up to `end` (path.c). */
+typedef struct {
+    const ck_cavity_law *law;
+    ck_cavity *cavity;
+    double first, speed, time, end, rtol, planned;
+} ck_path;
+
+enum { CK_PATH_END = 0, CK_PATH_STEP = 1, CK_PATH_LOST = 2 };
+void ck_path_begin(ck_path *path, const ck_cavity_law *law, ck_cavity *cavity, ck_place at,
+                   double end, double rtol, double step);
+/* One step; its impulse, or whether the film was full in it, which has one that needs no way. */
+int ck_path_next(ck_path *path, double *impulse, int *full);
+
+#endif

@@ -1,0 +1,162 @@
+/* Events of a cavity: its birth, the turns of its edge, and the film that is full again. As
+   contactkit/separation/cavity/events.py, and numerics/events.py for the step that ends at one. */
+
+#include "cavity.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CK_PI 3.14159265358979323846
+#define HEALED 1e-10  /* void over the largest of a cavity, at which the film counts as full */
+#define SAME 1e-12    /* squares of the edge that are closer, relatively, are one */
+#define SHALLOW 1e-6  /* depth of the void at the edge over the gap, where round-off moves the edge */
+#define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than rounding */
+#define MOST_TRIALS 60
+#define QUICK 0.01      /* fraction of a miss to which secants reduce it where they work */
+#define MOST_SECANTS 3  /* in a row that neither halve the bracket nor do that */
+
+int ck_is_torn_by(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
+    return cavity->phase == CK_WHOLE && ck_tension_at(law, at.gap, at.speed, 0.0) >= law->strength;
+}
+
+static void constant_piece(ck_piece_torn *piece, double low, double high, double gap, double before) {
+    memset(piece, 0, sizeof *piece);
+    piece->y[0] = low, piece->y[1] = high - low, piece->h[0] = gap, piece->before = before;
+}
+
+/* The liquid tears: from its strength to its cavity, at once. */
+static void born(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+    double ignored, rim = ck_rim(law, at.gap, 0.0, &ignored);
+    memset(cavity, 0, sizeof *cavity);
+    cavity->phase = CK_RECEDING;
+    cavity->fraction = ck_receding_edge(ck_tension_at(law, at.gap, at.speed, 0.0) / law->drop);
+    constant_piece(&cavity->torn[0], 0.0, cavity->fraction * rim, at.gap, 0.0);
+    cavity->count = 1;
+}
+
+static void squares_of(const ck_cavity *cavity, const ck_hollow *solved, double squares[4]) {
+    int i;
+    squares[0] = ck_torn_outermost(cavity);
+    for (i = 0; i < 3; i++) squares[i + 1] = solved->spots[i].edge;
+}
+
+/* Distance beyond the next event at the start of a step and at its end; below zero before it. */
+void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
+                     ck_place begin, const ck_place at[3], double *behind, double *ahead) {
+    const double none[4] = {0.0, 0.0, 0.0, 0.0};
+    const ck_spot *last;
+    double left, size, torn_gap, end;
+    int i;
+    if (!solved) {
+        double highest = -HUGE_VAL;
+        for (i = 0; i < 3; i++) {
+            double one = ck_tension_at(law, at[i].gap, at[i].speed, 0.0);
+            if (one > highest) highest = one;
+        }
+        *behind = ck_tension_at(law, begin.gap, begin.speed, 0.0) / law->strength - 1.0;
+        *ahead = highest / law->strength - 1.0;
+        return;
+    }
+    if (cavity->phase == CK_RECEDING) {
+        ck_piece_torn piece;
+        double squares[4], first, final;
+        squares_of(cavity, solved, squares);
+        ck_torn_along(&piece, 0.0, squares, none);
+        first = piece.y[1], final = piece.y[1] + 2.0 * piece.y[2] + 3.0 * piece.y[3];
+        size = fabs(first) + fabs(final);
+        if (size == 0.0) size = 1.0;
+        *behind = -first / size, *ahead = -final / size;
+        return;
+    }
+    last = &solved->spots[2], left = HEALED * cavity->largest, end = solved->voids[2];
+    if (last->growth < 0.0 && end <= left) {
+        size = cavity->hollow + fabs(end) + left;
+        *behind = fmin((left - cavity->hollow) / size, 0.0);
+        *ahead = (left - end) / size;
+        return;
+    }
+    *behind = *ahead = -1.0;
+    ck_torn_edge(cavity, at[2].gap, end, &torn_gap);
+    if (at[2].gap - torn_gap <= SHALLOW * at[2].gap) return;
+    *ahead = -last->returns / (fabs(last->growth) + fabs(last->returns) + 1e-300) - RECEDES;
+}
+
+/* Cavity at the end of a step. */
+void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
+                    const double gaps[3]) {
+    if (cavity->phase == CK_RECEDING) {
+        double squares[4], all[4] = {begin_gap, gaps[0], gaps[1], gaps[2]};
+        ck_piece_torn piece;
+        squares_of(cavity, solved, squares);
+        ck_torn_along(&piece, ck_torn_liquid(cavity), squares, all);
+        ck_torn_add(cavity, &piece);
+    }
+    cavity->hollow = solved->voids[2], cavity->fraction = solved->spots[2].fraction;
+    if (cavity->hollow > cavity->largest) cavity->largest = cavity->hollow;
+}
+
+/* Cavity after the event at the end of a step. */
+void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+    if (cavity->phase == CK_WHOLE) {
+        born(law, cavity, at);
+    } else if (cavity->phase == CK_RECEDING) {
+        cavity->hollow = CK_PI * at.gap * ck_torn_outermost(cavity) - ck_torn_liquid(cavity);
+        cavity->phase = CK_RETURNING;
+    } else if (cavity->hollow <= 2.0 * HEALED * cavity->largest) {
+        memset(cavity, 0, sizeof *cavity);
+    } else {
+        ck_torn_cut(cavity, at.gap, cavity->hollow);
+        cavity->phase = CK_RECEDING;
+    }
+}
+
+/* Cavity after the speed has jumped. */
+void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+    double ignored, rim, fraction, here;
+    int recedes = cavity->phase == CK_RECEDING;
+    ck_piece_torn jump;
+    if (cavity->phase == CK_WHOLE) {
+        if (ck_is_torn_by(law, cavity, at)) born(law, cavity, at);
+        return;
+    }
+    rim = ck_rim(law, at.gap, cavity->hollow, &ignored);
+    fraction = ck_receding_edge(ck_tension_at(law, at.gap, at.speed, cavity->hollow) / law->drop);
+    here = recedes ? ck_torn_outermost(cavity)
+                   : ck_torn_edge(cavity, at.gap, cavity->hollow, &ignored);
+    if (fraction * rim > here * (1.0 + SAME)) {
+        if (!recedes) ck_torn_cut(cavity, at.gap, cavity->hollow);
+        constant_piece(&jump, here, fraction * rim, at.gap, ck_torn_liquid(cavity));
+        ck_torn_add(cavity, &jump);
+        cavity->phase = CK_RECEDING, cavity->fraction = fraction;
+    } else if (recedes && fraction * rim < here * (1.0 - SAME)) {
+        ck_cavity_event(law, cavity, at);
+    }
+}
+
+/* Step that ends at an event: secants, kept inside the bracket, which is halved if they stall. */
+double ck_step_to_event(ck_trial trial, void *context, double begin, double missed, double length,
+                        double enough) {
+    double low = 0.0, high = length, last = low, missed_last = begin, width = high;
+    double size = fabs(missed), slope, guess, again;
+    int since = 0, i, found;
+    for (i = 0; i < MOST_TRIALS; i++) {
+        if (fabs(missed) <= enough || high - low <= 1e-15 * high) break;
+        if (missed < 0.0) low = length;
+        else high = length;
+        since++;
+        if (high - low <= 0.5 * width || fabs(missed) <= QUICK * size)
+            width = high - low, size = fabs(missed), since = 0;
+        slope = (missed - missed_last) / (length - last);
+        guess = slope != 0.0 ? length - missed / slope : -1.0;
+        found = low < guess && guess < high && since < MOST_SECANTS && trial(context, guess, &again);
+        while (!found) {
+            guess = 0.5 * (low + high);
+            if (guess == low || guess == high) return length;
+            found = trial(context, guess, &again);
+            if (!found) high = guess;
+        }
+        last = length, missed_last = missed;
+        length = guess, missed = again;
+    }
+    return length;
+}
