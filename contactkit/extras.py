@@ -16,6 +16,7 @@ _EXTRAS = {
     "matplotlib": "plot",
     "mpl_toolkits": "plot",
     "numba": "fast",
+    "pyamg": "films",
     "pythonfmu": "fmu",
     "ziglang": "native",
 }

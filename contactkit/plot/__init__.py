@@ -2,4 +2,5 @@
 
 separation  Figures of separations and costs; axes, legends and colours of all figures.
 contact     Figures of contacts.
+film        Figures of films on faces; animations.
 """

@@ -24,7 +24,7 @@ from .linear_systems import solve_sparse
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
     Set = NDArray[np.bool_]
 
 __all__ = ["Problem", "Solution", "solve_active_set", "solve_fischer_burmeister"]

@@ -311,7 +311,8 @@ class TabulatedDamping(DampingLaw):
         i = bisect_right(x, place) - 1
         t = (place - x[i]) / (x[i + 1] - x[i])
         ratios = [self.onsets[k] / self.coefficients[k] for k in (i, i + 1)]
-        return self.coefficient(gap) * ratios[0] ** (1.0 - t) * ratios[1] ** t
+        low, high = (math.log(ratio) for ratio in ratios)
+        return self.coefficient(gap) * math.exp(low + t * (high - low))
 
     def impulse(self, start: float, end: float) -> float:
         """See `DampingLaw.impulse`."""

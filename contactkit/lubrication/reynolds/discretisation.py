@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from .face import Face
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["Balance", "checked_gap", "discretise", "mesh_of", "per_unknown"]
 
@@ -83,10 +83,12 @@ def mesh_of(face: Face, gap: Array) -> Mesh:
         known = face.__dict__.get("_tied")
         if known is None or not np.array_equal(known[0], tied):
             known = face.__dict__["_tied"] = (tied, make_mesh(face, tied))
-        return known[1]
+        with_recesses: Mesh = known[1]
+        return with_recesses
     if "_mesh" not in face.__dict__:
         face.__dict__["_mesh"] = make_mesh(face)
-    return face.__dict__["_mesh"]
+    made: Mesh = face.__dict__["_mesh"]
+    return made
 
 
 def per_unknown(mesh: Mesh, values: Array, area: float) -> Array:
@@ -136,11 +138,9 @@ def discretise(
     reference, beyond = _reservoirs(face, mesh)
     matrix = _conductance_matrix(mesh, inner, outer)
     to_reservoir = mesh.rim_number < 0
-    source = np.bincount(
-        mesh.number[mesh.rim.cell[to_reservoir]],
-        weights=(outer * beyond)[to_reservoir],
-        minlength=mesh.size,
-    )
+    inward = (outer * beyond)[to_reservoir]
+    at_rim = mesh.number[mesh.rim.cell[to_reservoir]]
+    source = np.bincount(at_rim, weights=inward, minlength=mesh.size).astype(float)
     carried = _carried(face, mesh, height, velocity)
     transport = None
     if any(velocity):
@@ -196,7 +196,7 @@ def _transport(mesh: Mesh, carried: tuple[Array, Array]) -> tuple[Any, Array]:
     leaves, enters = start >= 0, end >= 0
     within = leaves & enters
     n = mesh.size
-    brought = np.bincount(end[enters], weights=flow[enters], minlength=n)
+    brought = np.bincount(end[enters], weights=flow[enters], minlength=n).astype(float)
     brought -= np.bincount(start[leaves], weights=flow[leaves], minlength=n)
     rows = np.concatenate([start[leaves], end[within]])
     columns = np.concatenate([start[leaves], start[within]])

@@ -23,7 +23,7 @@ from .shapes import Difference, Disc, Ring, Shape
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = [
     "Circle",
@@ -151,7 +151,7 @@ class Face:
     @cached_property
     def inside(self) -> NDArray[np.bool_]:
         """Cells of the film."""
-        return self.owner == FILM
+        return np.asarray(self.owner == FILM)
 
     @cached_property
     def loaded(self) -> NDArray[np.bool_]:
@@ -365,8 +365,8 @@ def _without_round_holes(shape: Shape, pressure: float) -> tuple[Shape, tuple[Ho
     """Round holes of a planform as holes at the pressure of the reservoir."""
     if isinstance(shape, Ring):
         hole = Disc(radius=shape.hole_radius, centre=shape.centre)
-        body = Disc(radius=shape.radius, centre=shape.centre)
-        return body, (Hole(shape=hole, pressure=pressure),)
+        whole = Disc(radius=shape.radius, centre=shape.centre)
+        return whole, (Hole(shape=hole, pressure=pressure),)
     if isinstance(shape, Difference) and isinstance(shape.second, Disc):
         body, holes = _without_round_holes(shape.first, pressure)
         # One that cuts the rim is a notch, and none that the flow runs into from all around.

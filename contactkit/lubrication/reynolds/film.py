@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .discretisation import Balance
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["Film", "FilmState"]
 

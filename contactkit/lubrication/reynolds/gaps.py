@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from .face import Face
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["Recess", "Waviness", "gap_map"]
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .face import Face
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
     Indices = NDArray[np.int64]
 
 __all__ = ["Mesh", "Rim", "Sides", "make_mesh", "recesses"]
@@ -264,7 +264,7 @@ def _regions(size: int, pattern: Pattern, at_reservoir: Indices) -> tuple[Indice
     count, region = connected_components(graph, directed=False)
     is_enclosed = np.ones(count, bool)
     is_enclosed[region[at_reservoir]] = False
-    return region, is_enclosed
+    return region.astype(np.int64), is_enclosed
 
 
 def _pattern(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from .film import FilmState
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["FlowFactors", "Leakage", "flow_factors", "leakage"]
 

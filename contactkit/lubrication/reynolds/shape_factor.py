@@ -23,7 +23,7 @@ from .solve import solve_pressure
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["face_damping", "rough_damping", "tabulate_damping"]
 

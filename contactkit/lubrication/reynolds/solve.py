@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import evolve
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from .mesh import Mesh
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["at_rest", "carried_rate", "solve_pressure", "steady_film", "step_film"]
 
@@ -405,7 +405,7 @@ def _torn(mesh: Mesh, face: Face, void: Array) -> NDArray[np.bool_]:
     return torn.reshape(face.shape)
 
 
-def _at_unknowns(mesh: Mesh, values: Array) -> Array:
+def _at_unknowns(mesh: Mesh, values: NDArray[Any]) -> NDArray[Any]:
     """Values of a map at the unknowns; where cells share one, that of the last cell."""
     found = np.zeros(mesh.size, dtype=values.dtype)
     found[mesh.number[mesh.loaded]] = values.ravel()[mesh.loaded]
@@ -425,7 +425,7 @@ def _problem(task: Task) -> tuple[Balance, Problem]:
     if task.has_memory:
         extra = balance.volume - per_unknown(mesh, task.gap, face.cell_area)
         storage = balance.volume / task.dt
-        deficit += extra / task.dt * (1.0 - _at_unknowns(mesh, task.full * 1.0))
+        deficit += extra / task.dt * (1.0 - _at_unknowns(mesh, task.full.astype(float)))
     if math.isfinite(task.dt) and balance.compliance.any():
         from scipy.sparse import diags_array
 

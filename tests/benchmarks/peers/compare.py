@@ -27,6 +27,7 @@ from report import conditions, effects_table, line, table, verdict
 
 HERE = Path(__file__).parent
 SERIAL = {"ContactMechanics"}  # one thread whatever is asked
+OF_FLOW = {"reynoldsflow"}  # by leakage.py
 
 
 def asked_for():
@@ -57,7 +58,7 @@ def solvers(given):
         found["fast"] = sys.executable
     else:
         missing["fast"] = "numba or ducc0 is not installed"
-    for name in names():
+    for name in (name for name in names() if name not in OF_FLOW):
         python, refused = given.peers / name / "bin" / "python", given.peers / f"{name}.refused"
         if refused.exists():
             missing[name] = refused.read_text(encoding="utf-8").strip()

@@ -1,0 +1,279 @@
+"""Figures of films on faces: pressure, liquid fraction, openings in time, animations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import DescriptionError
+from ..lubrication.reynolds.film import FilmState
+from ..lubrication.reynolds.motion import PullState
+from .contact import length_unit
+from .separation import COLORS, Axes, figure, legend
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+__all__ = ["animate", "instants", "liquid_fraction", "opening", "pressure"]
+
+BAR = 1e5
+_CAVITY = "#c1440e"
+Mirror = tuple[bool, bool]
+
+
+def pressure(
+    state: FilmState,
+    ax: Axes | None = None,
+    *,
+    mirror: Mirror = (False, False),
+    limits: tuple[float, float] | None = None,
+) -> Axes:
+    """Draw the pressure above ambient; the edge of a cavity is a line, what is no film is white.
+
+    Parameters
+    ----------
+    state : FilmState
+        The film.
+    ax : Axes, optional
+        Where to draw.
+    mirror : tuple of bool
+        Whether the window is half of the face along y and along x, cut at its first row or column.
+    limits : tuple of float, optional
+        Ends of the colours [bar].
+    """
+    ax = ax if ax is not None else figure(size=(5.0, 4.2))[1]
+    values = (state.pressure - state.film.ambient) / BAR
+    image = _map(state, values, ax, mirror, "viridis", limits)
+    bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
+    bar.set_label("pressure above ambient [bar]")
+    return ax
+
+
+def liquid_fraction(
+    state: FilmState, ax: Axes | None = None, *, mirror: Mirror = (False, False)
+) -> Axes:
+    """Draw the fraction of the gap that is liquid, 1 where the film is full.
+
+    Parameters
+    ----------
+    state, ax, mirror
+        See `pressure`.
+    """
+    ax = ax if ax is not None else figure(size=(5.0, 4.2))[1]
+    image = _map(state, state.liquid_fraction, ax, mirror, "Blues", (0.0, 1.0))
+    bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
+    bar.set_label("liquid fraction [-]")
+    return ax
+
+
+def instants(
+    states: Sequence[FilmState], *, mirror: Mirror = (False, False), size: float = 2.6
+) -> Figure:
+    """Draw pressure and liquid fraction at some instants, with one scale for each.
+
+    Parameters
+    ----------
+    states : sequence of FilmState
+        The film at each instant; some four are well told apart.
+    mirror
+        See `pressure`.
+    size : float
+        Width of a panel [inch].
+
+    Raises
+    ------
+    DescriptionError
+        If there is no state.
+    """
+    if not states:
+        raise DescriptionError("instants.states", 0, "be one or more states")
+    made, axes = figure(2, len(states), size=(size * len(states) + 1.0, 2.0 * size), squeeze=False)
+    limits = _pressure_limits(states)
+    for column, state in enumerate(states):
+        values = (state.pressure - state.film.ambient) / BAR
+        above = _map(state, values, axes[0, column], mirror, "viridis", limits)
+        below = _map(state, state.liquid_fraction, axes[1, column], mirror, "Blues", (0.0, 1.0))
+        gap = float(state.gap[state.film.face.loaded].min())
+        axes[0, column].set_title(_instant(state.time, gap), fontsize=9)
+        axes[0, column].set_xlabel("")
+        if column:
+            for row in (0, 1):
+                axes[row, column].set_ylabel("")
+    made.colorbar(above, ax=axes[0, :], shrink=0.9).set_label("pressure above ambient [bar]")
+    made.colorbar(below, ax=axes[1, :], shrink=0.9).set_label("liquid fraction [-]")
+    return made
+
+
+def opening(
+    states: Sequence[PullState], axes: Sequence[Axes] | None = None, *, copies: int = 1
+) -> Sequence[Axes]:
+    """Draw gap, force and size of the cavity of a pulled mass over time.
+
+    Parameters
+    ----------
+    states : sequence of PullState
+        Steps of `pull_apart`.
+    axes : sequence of Axes, optional
+        Three panels.
+    copies : int
+        As in `pull_apart`: 4 for a quarter of a face.
+
+    Raises
+    ------
+    DescriptionError
+        If there are fewer than two steps.
+    """
+    if len(states) < 2:
+        raise DescriptionError("opening.states", len(states), "be two or more steps")
+    if axes is None:
+        axes = figure(3, 1, size=(6.5, 6.5), sharex=True)[1]
+    time = np.array([s.time for s in states]) * 1e3
+    gap = [float(s.state.gap[s.state.film.face.loaded].min()) * 1e6 for s in states]
+    radius = np.sqrt([copies * s.state.cavity_area / np.pi for s in states]) * 1e3
+    face = states[0].state.film.face
+    film = float(np.sqrt(copies * face.loaded.sum() * face.cell_area / np.pi)) * 1e3
+    axes[0].plot(time, gap, color=COLORS["gap"])
+    axes[0].set(ylabel="smallest gap [um]", ylim=(0.0, None))
+    axes[1].plot(time, [s.force for s in states], color=COLORS["viscous"])
+    axes[1].set(ylabel="force of the film [N]")
+    axes[2].plot(time, radius, color=_CAVITY, label="cavity")
+    axes[2].axhline(film, color="0.5", ls=":", label="film")
+    axes[2].set(ylabel="radius of equal area [mm]", xlabel="time [ms]", ylim=(0.0, 1.15 * film))
+    legend(axes[2], loc="lower right")
+    return axes
+
+
+def animate(
+    states: Sequence[FilmState],
+    path: str | Path,
+    *,
+    mirror: Mirror = (False, False),
+    copies: int = 1,
+    rate: int = 10,
+) -> Path:
+    """Write an animation of an opening as GIF: pressure, liquid fraction, and the force so far.
+
+    Parameters
+    ----------
+    states : sequence of FilmState
+        One for each picture.
+    path : str or Path
+        File to write, ending in .gif.
+    mirror
+        See `pressure`.
+    copies : int
+        How often the window stands for the face, for the force.
+    rate : int
+        Pictures a second.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    DescriptionError
+        If there are fewer than two states, or the file is no GIF.
+    """
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    path = Path(path)
+    if len(states) < 2:
+        raise DescriptionError("animate.states", len(states), "be two or more states")
+    if path.suffix.lower() != ".gif":
+        raise DescriptionError("animate.path", str(path), "end in .gif")
+    made, axes = figure(1, 3, size=(10.5, 3.3))
+    limits = _pressure_limits(states)
+    time = [s.time * 1e3 for s in states]
+    force = [copies * s.force for s in states]
+
+    def draw(index: int) -> list[Any]:
+        state = states[index]
+        for ax in axes:
+            ax.clear()
+        values = (state.pressure - state.film.ambient) / BAR
+        _map(state, values, axes[0], mirror, "viridis", limits)
+        _map(state, state.liquid_fraction, axes[1], mirror, "Blues", (0.0, 1.0))
+        gap = float(state.gap[state.film.face.loaded].min())
+        axes[0].set_title("pressure above ambient", fontsize=9)
+        axes[1].set_title(f"liquid fraction, {_instant(state.time, gap)}", fontsize=9)
+        axes[2].plot(time, force, color="0.85")
+        axes[2].plot(time[: index + 1], force[: index + 1], color=COLORS["viscous"])
+        axes[2].plot(time[index], force[index], "o", color=COLORS["viscous"], ms=4)
+        axes[2].set(xlabel="time [ms]", ylabel="force of the film [N]")
+        return list(axes)
+
+    shown = draw(0)
+    scales = [ax.images[0] for ax in axes[:2]]
+    for ax, image, label in zip(axes, scales, ("[bar]", "[-]"), strict=False):
+        made.colorbar(image, ax=ax, shrink=0.8).set_label(label)
+    film = FuncAnimation(made, draw, frames=len(states), init_func=lambda: shown)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    film.save(path, writer=PillowWriter(fps=rate), dpi=72)
+    return path
+
+
+def _instant(time: float, gap: float) -> str:
+    factor, unit = next(
+        ((f, u) for f, u in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")) if time >= f), (1e-9, "ns")
+    )
+    size, length = length_unit(gap)
+    return f"{time / factor:.3g} {unit}, {gap / size:.3g} {length}"
+
+
+def _pressure_limits(states: Sequence[FilmState]) -> tuple[float, float]:
+    """Smallest and largest pressure above ambient in all states [bar]."""
+    values = [(s.pressure - s.film.ambient)[s.film.face.loaded] / BAR for s in states]
+    low, high = min(float(v.min()) for v in values), max(float(v.max()) for v in values)
+    return low, high if high > low else low + 1.0
+
+
+def _map(
+    state: FilmState,
+    values: NDArray[np.floating[Any]],
+    ax: Axes,
+    mirror: Mirror,
+    colours: str,
+    limits: tuple[float, float] | None,
+) -> Any:
+    """Draw a map of the film on an axis, with the edge of its cavity."""
+    face = state.film.face
+    shown = _unfold(np.ma.masked_array(values, ~face.loaded), mirror)
+    void = _unfold((face.loaded & (state.liquid_fraction < 1.0)) * 1.0, mirror)
+    (dy, dx), (y0, x0) = face.pixel_size, face.origin
+    ny, nx = face.shape
+    right, top = x0 + (nx - 0.5) * dx, y0 + (ny - 0.5) * dy
+    left = 2.0 * (x0 - 0.5 * dx) - right if mirror[1] else x0 - 0.5 * dx
+    bottom = 2.0 * (y0 - 0.5 * dy) - top if mirror[0] else y0 - 0.5 * dy
+    factor, unit = length_unit(max(right - left, top - bottom))
+    extent = (left / factor, right / factor, bottom / factor, top / factor)
+    low, high = limits if limits is not None else (None, None)
+    image = ax.imshow(
+        shown,
+        origin="lower",
+        extent=extent,
+        cmap=colours,
+        vmin=low,
+        vmax=high,
+        interpolation="nearest",
+    )
+    if 0.0 < void.mean() < 1.0 and min(void.shape) > 1:
+        ax.contour(void, levels=[0.5], colors=_CAVITY, linewidths=1.0, extent=extent)
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
+    ax.grid(visible=False)
+    return image
+
+
+def _unfold(values: Any, mirror: Mirror) -> Any:
+    """Map with its mirror images before the first row and column."""
+    for axis in (0, 1):
+        if mirror[axis]:
+            values = np.ma.concatenate(  # type: ignore[no-untyped-call]
+                [np.flip(values, axis), values], axis=axis
+            )
+    return values

@@ -1,0 +1,141 @@
+# ruff: noqa: T201
+"""Steady flow through rough gaps against `reynoldsflow`: same maps, same fluxes, seconds.
+
+    python tests/benchmarks/peers/leakage.py --sizes 128 256 512
+
+Needs the peer's interpreter of install.py (`make peers`); each solver runs in a process of its own
+on one thread. Seconds are those of the processor, the least of some, compilation left out.
+The table goes to out/bench/leakage.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+PEER = "reynoldsflow"
+DEVIATIONS = (0.2, 0.7)  # rms over mean gap: without contacts, and with 8 % of them
+WORST = 1e-8  # of the flux; both solve to a residual of 1e-12
+
+
+def rough_gap(n, deviation, seed=1):
+    """Gap of unit mean plane: Hurst 0.8 below 4 waves over the window, nothing under 8 cells."""
+    k = np.hypot(np.fft.fftfreq(n, 1.0 / n)[:, None], np.fft.rfftfreq(n, 1.0 / n))
+    amplitude = np.where((k > 0.0) & (k <= n / 8.0), np.maximum(k, 4.0) ** -1.8, 0.0)
+    noise = np.fft.rfft2(np.random.default_rng(seed).standard_normal((n, n)))
+    heights = np.fft.irfft2(amplitude * noise, s=(n, n))
+    return np.maximum(1.0 + deviation * heights / heights.std(), 0.0)
+
+
+def ours(solver):
+    """Function that gives the flux through a gap."""
+    from contactkit.lubrication import reynolds
+
+    def flux(gap):
+        size = 1.0 / len(gap)
+        found = reynolds.leakage(
+            gap, size, viscosity=1.0 / 12.0, pressure_drop=1.0, axis=0, solver=solver
+        )
+        return found.flow
+
+    return flux
+
+
+def theirs(_):
+    """The same by the peer."""
+    from reynoldsflow.transport import compute_total_flux, solve_fluid_problem
+
+    def flux(gap):
+        filtered, _, field = solve_fluid_problem(gap, p_west=1.0, p_east=0.0)
+        return compute_total_flux(filtered, field, len(gap))[0]
+
+    return flux
+
+
+def serve(name, sizes, repeats):
+    """Print flux and seconds of one solver on all gaps."""
+    flux = theirs(None) if name == PEER else ours(name)
+    flux(rough_gap(64, 0.2))
+    flux(rough_gap(64, 0.7))
+    for n in sizes:
+        for deviation in DEVIATIONS:
+            gap, best, found = rough_gap(n, deviation), float("inf"), 0.0
+            for _ in range(repeats):
+                begin = time.process_time()
+                found = float(flux(gap))
+                best = min(best, time.process_time() - begin)
+            print(json.dumps([n, deviation, found, best]), flush=True)
+
+
+def run(python, name, given):
+    """Rows of a solver by size and deviation, or why there are none."""
+    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+    command = [str(python), __file__, "--serve", name, "--repeats", str(given.repeats), "--sizes"]
+    done = subprocess.run(
+        [*command, *map(str, given.sizes)],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | threads,
+    )
+    if done.returncode:
+        return {}, (done.stderr.strip().splitlines() or ["failed"])[-1][:100]
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    return {(n, deviation): (flux, seconds) for n, deviation, flux, seconds in rows}, ""
+
+
+def main():
+    """Run all, compare, write."""
+    ask = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    ask.add_argument("--sizes", type=int, nargs="+", default=[128, 256, 512])
+    ask.add_argument("--repeats", type=int, default=3)
+    ask.add_argument("--peers", type=Path, default=Path(".venv/peers"))
+    ask.add_argument("--out", type=Path, default=Path("out/bench"))
+    ask.add_argument("--serve", help=argparse.SUPPRESS)
+    given = ask.parse_args()
+    if given.serve:
+        return serve(given.serve, given.sizes, given.repeats)
+    refused = given.peers / f"{PEER}.refused"
+    if refused.exists():
+        print(f"{PEER} left out: {refused.read_text(encoding='utf-8').strip()}")
+    solvers = {"superlu": sys.executable, "amg": sys.executable}
+    solvers[PEER] = given.peers / PEER / "bin" / "python"
+    found = {}
+    for name, python in solvers.items():
+        if not Path(python).exists():
+            print(f"{name} left out: not installed; make peers does")
+            continue
+        rows, reason = run(python, name, given)
+        if reason:
+            print(f"{name} left out: {reason}")
+        else:
+            found[name] = rows
+    lines = [
+        f"| cells | rms/mean | {' | '.join(f'{name} [s]' for name in found)} | fluxes differ |"
+    ]
+    lines.append("|---" * (len(found) + 3) + "|")
+    worst = 0.0
+    for n in given.sizes:
+        for deviation in DEVIATIONS:
+            rows = [rows[n, deviation] for rows in found.values()]
+            fluxes = [flux for flux, _ in rows]
+            differ = (max(fluxes) - min(fluxes)) / max(fluxes)
+            worst = max(worst, differ)
+            seconds = " | ".join(f"{s:.3f}" for _, s in rows)
+            lines.append(f"| {n} | {deviation} | {seconds} | {differ:.1e} |")
+    text = "\n".join(lines)
+    given.out.mkdir(parents=True, exist_ok=True)
+    (given.out / "leakage.md").write_text(text + "\n", encoding="utf-8")
+    print(text)
+    return int(worst > WORST)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
