@@ -414,6 +414,9 @@ def _with_hole(face: Face, hole: Hole | Pocket) -> Face:
     """The face with one more hole."""
     level = np.broadcast_to(hole.shape.level(face.x, face.y), face.shape)
     covered = (level > 0.0) & (face.owner == FILM)
+    if ((level > 0.0) & ((face.owner > FILM) | (face.circle >= 0))).any():
+        cure = "holes that meet are one: give the union of their shapes"
+        raise DescriptionError("hole.shape", hole.shape, "not overlap another hole", hint=cure)
     circles, circle, notes = face.circles, face.circle, face.notes
     if isinstance(hole.shape, Disc):
         (x, y), radius = hole.shape.centre, hole.shape.radius

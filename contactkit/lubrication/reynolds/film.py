@@ -165,8 +165,12 @@ class FilmState:
 
     @cached_property
     def liquid_volume(self) -> float:
-        """Volume of liquid in the film and in the gap of its pockets [m3]."""
-        return self._integral(self.liquid_fraction * self.gap)
+        """Volume of liquid in the film and its pockets [m3]."""
+        volume = self._integral(self.liquid_fraction * self.gap)
+        for number, (more, _) in enumerate(self.film.face.pockets, start=1):
+            held = self.liquid_fraction[self.film.face.owner == number]
+            volume += more * float(held.mean()) if held.size else 0.0
+        return volume
 
     @cached_property
     def void_volume(self) -> float:

@@ -48,8 +48,8 @@ class Task(NamedTuple):
     """Volume that a full film would gain over area and time [m/s]."""
     floor: Array
     """Least pressure [Pa]."""
-    full: NDArray[np.bool_]
-    """Guess of the full cells."""
+    fraction: Array
+    """Liquid fraction before the step; where it is 1 is the guess of the full cells."""
     pressure: Array
     """Pressure before the step, for the compressibility [Pa]."""
     velocity: Velocity
@@ -166,7 +166,7 @@ def solve_pressure(
         gap=height,
         growth=_rate_map(face, rate),
         floor=np.full(face.shape, floor),
-        full=np.ones(face.shape, bool),
+        fraction=np.ones(face.shape),
         pressure=face.pressure,
         velocity=_sum(lower_velocity, upper_velocity),
         dt=math.inf,
@@ -217,7 +217,7 @@ def steady_film(
         gap=checked_gap(face, gap),
         growth=np.zeros(face.shape),
         floor=np.full(face.shape, film.cavity_pressure),
-        full=np.ones(face.shape, bool),
+        fraction=np.ones(face.shape),
         pressure=face.pressure,
         velocity=velocity,
         dt=math.inf,
@@ -293,7 +293,7 @@ def step_film(
         gap=height,
         growth=(height - state.liquid_fraction * state.gap) / dt,
         floor=_floors(film, state.is_torn),
-        full=state.liquid_fraction >= 1.0,
+        fraction=state.liquid_fraction,
         pressure=state.pressure,
         velocity=_sum(lower_velocity, upper_velocity),
         dt=dt,
@@ -425,7 +425,7 @@ def _problem(task: Task) -> tuple[Balance, Problem]:
     if task.has_memory:
         extra = balance.volume - per_unknown(mesh, task.gap, face.cell_area)
         storage = balance.volume / task.dt
-        deficit += extra / task.dt * (1.0 - _at_unknowns(mesh, task.full.astype(float)))
+        deficit += extra / task.dt * (1.0 - _at_unknowns(mesh, task.fraction))
     if math.isfinite(task.dt) and balance.compliance.any():
         from scipy.sparse import diags_array
 
@@ -445,14 +445,21 @@ def _problem(task: Task) -> tuple[Balance, Problem]:
 
 def _excess(task: Task, mesh: Mesh) -> Array:
     """Flow that full cells take up between the middle of their way to the rim and their sides."""
-    gain = np.where(task.full, task.growth, 0.0).ravel()[mesh.rim.cell]
-    return mesh.rim.excess * gain * task.face.cell_area
+    is_full, rim = _is_full(task).ravel(), mesh.rim
+    both = is_full[rim.cell] & is_full[rim.beyond]  # an emptied pocket has none to give
+    gain = np.where(both, task.growth.ravel()[rim.cell], 0.0)
+    return rim.excess * gain * task.face.cell_area
+
+
+def _is_full(task: Task) -> NDArray[np.bool_]:
+    """Guess of the full cells."""
+    return task.fraction >= 1.0 - 1e-12
 
 
 def _solve(task: Task) -> tuple[Balance, Solution]:
     """Active set from the guess; then from that of a coarser grid; then Fischer-Burmeister."""
     balance, problem = _problem(task)
-    full = _at_unknowns(balance.mesh, task.full)
+    full = _at_unknowns(balance.mesh, _is_full(task))
     is_small = max(task.face.shape) < SMALLEST_GRID
     found = solve_active_set(problem, full, 99 if is_small else PATIENCE)
     count = found.iterations
@@ -478,7 +485,7 @@ def _guess_from_coarser(task: Task) -> NDArray[np.bool_] | None:
         growth=block_means(task.growth),
         floor=_every_second(task.floor),
         # Outside the planform all is full, and so are cells that are partly outside.
-        full=block_means(task.full * 1.0) >= 1.0 - 1e-12,
+        fraction=block_means(task.fraction),
         pressure=block_means(task.pressure),
     )
     balance, found = _solve(coarse)

@@ -290,6 +290,12 @@ REFUSED = [
     (lambda: reynolds.rasterise(DISC, 2), "whole number of at least 4"),
     (lambda: reynolds.rasterise(DISC, 32, window=(1.0, 2.0, 0.0, 1.0)), "overlap the planform"),
     (lambda: reynolds.face_from_level(np.full((3, 3), -1.0), 1.0), "positive in a cell"),
+    (
+        lambda: reynolds.rasterise(
+            DISC, 32, holes=[reynolds.Hole(shape=reynolds.Disc(radius=0.3 * R))] * 2
+        ),
+        "not overlap another hole",
+    ),
     (lambda: reynolds.face_from_level(np.full((3, 3), np.nan), 1.0), "finite in every cell"),
     (lambda: reynolds.face_from_image([[2.0, 0.0]], 1.0), "divide an image of 8 bits by 255"),
     (lambda: squeeze(reynolds.rasterise(DISC, 16), 0.0), "gap must be positive and finite"),
