@@ -132,8 +132,13 @@ def edge_of(torn: Torn, gap: float, void: float) -> Edge:
 def _place(torn: Torn, gap: float, void: float) -> tuple[int, float]:
     """Index of the piece in which the edge is, and the parameter there."""
     reach, index, last = math.pi * gap, 0, len(torn) - 1
-    while index < last and reach * torn[index + 1][0] - torn[index + 1][8] < void:
-        index += 1
+    while index < last:  # by halves: beyond a torn gap as wide as the present one liquid is back
+        middle = (index + last + 1) // 2
+        start = torn[middle]
+        if start[4] < gap and reach * start[0] - start[8] < void:
+            index = middle
+        else:
+            last = middle - 1
     piece = torn[index]
     below = reach * piece[0] - piece[8] - void
     above = reach * _square(piece, 1.0) - _liquid(piece, 1.0) - void
@@ -146,9 +151,11 @@ def _place(torn: Torn, gap: float, void: float) -> tuple[int, float]:
         slope = math.pi * _rate(piece, t) * (gap - _gap(piece, t))
         guess = t - miss / slope if slope > 0.0 else -1.0
         guess = guess if low < guess < high else 0.5 * (low + high)
-        if abs(guess - t) <= 1e-15 or abs(miss) <= 1e-16 * void:
+        if abs(miss) <= 1e-16 * void:
             break
-        t = guess
+        t, step = guess, guess - t
+        if abs(step) <= 1e-12:
+            break
     return index, t
 
 

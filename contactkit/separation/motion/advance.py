@@ -39,6 +39,7 @@ __all__ = ["advance", "internal_step"]
 
 _CONTROL = StepSize(order=4)  # of the estimate
 _NO_GAP = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
+_FOOT = 1e-6  # sum of the forces over the pull to come, at the foot of a ramp
 _NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
 _AT_REST = 1e-30  # fraction of the gap over which the film stops a mass at rest
 _EVENT = 1e-13  # relative distance of a gap from an event that is met
@@ -121,9 +122,9 @@ def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> Moti
     if torn is not None:
         return state._replace(cavity=torn, step=0.0)
     problem = _problem(plan, film, state, pull)
-    if problem.size <= _NO_FORCE:
-        if _is_at_rest(problem):
-            return state._replace(speed=0.0)
+    if problem.size <= _NO_FORCE and _is_at_rest(problem):
+        return state._replace(speed=0.0)
+    if problem.size <= max(_NO_FORCE, _FOOT * abs(pull(end))):
         problem = _expecting(problem, 0.5 * abs(pull(end)))  # the mean of a ramp
     return _stepped(plan, film, state, problem, end)
 
