@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -15,14 +16,23 @@ _Floats = NDArray[np.float64]
 _Watch = Callable[[float, _Floats], float]
 
 
-def slopes_of(rates: Callable[[float, _Floats], list[float]]) -> Callable[[float, _Floats], Any]:
-    """Jacobian of a spool by differences; nothing depends on its two quadratures."""
+def slopes_of(
+    rates: Callable[[float, _Floats], list[float]], sizes: Sequence[float]
+) -> Callable[[float, _Floats], Any]:
+    """Jacobian by differences along the unknowns that have a size; nothing depends on the others.
+
+    The differences are a fraction of an unknown or, near zero, of its size; they go downwards
+    where that is negative, and nothing depends on an unknown whose size is 0.
+    """
 
     def jacobian(time: float, unknowns: _Floats) -> _Floats:
-        found, here = np.zeros((5, 5)), np.array(rates(time, unknowns))
-        for column, size in enumerate((1.0, 1e-6, 1e-3)):
+        n = len(unknowns)
+        found, here = np.zeros((n, n)), np.array(rates(time, unknowns))
+        for column, size in enumerate(sizes):
+            if not size:
+                continue
             moved = unknowns.copy()
-            moved[column] += 1e-7 * max(abs(moved[column]), size)
+            moved[column] += math.copysign(1e-7, size) * max(abs(moved[column]), abs(size))
             change = moved[column] - unknowns[column]
             found[:, column] = (np.array(rates(time, moved)) - here) / change
         return found

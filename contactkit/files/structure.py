@@ -59,6 +59,7 @@ _RENAMED = {
     "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
     "tension": "strength, the tension at which the whole liquid tears",
     "sliding": """[loading] with kind = "sliding\"""",
+    "tension_limits": "strengths and cavity_pressures [Pa]: two numbers say how a liquid tears",
 }
 
 

@@ -121,6 +121,19 @@ def title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", fontsize=11)
 
 
+def note(ax: Axes, text: str, height: float, *, below: bool = False) -> None:
+    """Small note at the left of a panel, above or below a height of its data."""
+    ax.annotate(
+        text,
+        (0.0, height),
+        xycoords=("axes fraction", "data"),
+        xytext=(4, -10 if below else 3),
+        textcoords="offset points",
+        color="0.4",
+        fontsize=8,
+    )
+
+
 def legend(ax: Axes, **more: Any) -> None:
     """Legend without a frame."""
     ax.legend(**({"frameon": False, "fontsize": 9} | more))

@@ -15,6 +15,8 @@ def assumption_table(name: str) -> str:
     for line in text.partition('\ndevice = "')[2].splitlines()[1:]:
         code, _, comment = line.partition("#")
         code, comment = code.strip(), comment.strip()
+        if not line.strip():  # a comment on its own is about the file
+            open_row = False
         if code.startswith("["):
             section, open_row = code.strip("[]"), False
         elif code:

@@ -25,7 +25,13 @@ IMG = Path(__file__).parents[1] / "img"
 # (scene, command): figures by the name they have in the pages.
 SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("fuel-injector", "run"): {
-        name: name for name in ("tension-limit", "release-zoom", "delay-against-temperature")
+        name: name
+        for name in (
+            "release-zoom",
+            "one-cycle",
+            "delay-against-temperature",
+            "delay-against-strength",
+        )
     },
     ("fuel-injector", "cost"): {"cost": "cost", "coupling": "coupling"},
     ("micromirror", "run"): {

@@ -6,4 +6,5 @@ coil        An electromagnet with two poles and a moving armature: flux, current
 valve       A spool valve drawn off its end cap by an electromagnet: coil, spring, stop and drive.
 monolithic  Monolithic model of spool, film and coil, by another method than
             `contactkit.separation.motion`.
+torn_pieces  Cavity of the film in a monolithic simulation: its equation, its events, its memory.
 """

@@ -1,15 +1,16 @@
 r"""Monolithic model of spool, film and coil, by another method than `contactkit.separation.motion`.
 
-.. math:: (\ln h)' = v/h, \qquad m v' = F_{pull} - k_s (h - h_0) - F_{film}(h, v), \qquad
-          \lambda' = u(t) - R\,i(\lambda, h)
+.. math:: (\ln h)' = v/h, \qquad m v' = F_{pull} - k_s (h - h_0) - F_{film}(h, v, W), \qquad
+          \lambda' = u(t) - R\,i(\lambda, h), \qquad W' = -2\pi C(h, v, W)
 
-with the viscous impulse and the dissipated work as quadratures beside them. scipy integrates from
-one event to the next, by Radau (implicit, order 5) where a film acts and DOP853 (explicit, order
-8) where none does. Events are voltages that switch, the end cap met and left, kinks of the film
-laws, rupture, re-wetting, release, the end stop met and left, the end of the current. The laws of
-film and valve are those of the package; unknowns, time stepping and search for events are not,
-so that an agreement with `contactkit.motion`, or with its FMU coupled to that of the drive, says
-something about both.
+with the void W of a torn film, and the viscous impulse and the dissipated work as quadratures.
+scipy integrates from one event to the next, by Radau (implicit, order 5) where a film acts and
+DOP853 (explicit, order 8) where none does. Events are voltages that switch, the end cap met and
+left, kinks of the film laws, a film that tears, turns of the edge of its cavity, a film that is
+full again, rupture, re-wetting, release, the end stop met and left, the end of the current. The
+laws of film and valve are those of the package; unknowns, time stepping and search for events are
+not, so that an agreement with `contactkit.motion`, or with its FMU coupled to that of the drive,
+says something about both.
 
 Validity: as the laws themselves; the numerical error is about `rtol`. Landing on the end cap is
 inelastic, as in `contactkit.motion`: a bounce is left out.
@@ -33,9 +34,13 @@ from scipy.optimize import minimize_scalar
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import ConvergenceError, DescriptionError, PlanError, nearest
 from ...frozen import FrozenDict
-from ...separation.motion.state import MotionState, outputs
+from ...separation.cavity.events import born, is_torn_by
+from ...separation.cavity.law import CavityLaw
+from ...separation.cavity.state import FULL, Cavity, Phase
+from ...separation.motion.state import MotionState, Outputs, outputs
 from ...separation.plan import Film, Plan
 from ..ode_events import crossing, slopes_of, watch
+from . import torn_pieces
 from . import valve as law
 from .valve import Valve
 
@@ -67,6 +72,8 @@ COLUMNS: Mapping[str, str] = MappingProxyType(
         "status": "-",
         "viscous_impulse": "N.s",
         "dissipated_work": "J",
+        "void_volume": "m3",
+        "cavity_radius": "m",
     }
 )
 """The curves of a result and their units; a drive without a valve leaves those of the coil at 0."""
@@ -81,12 +88,14 @@ class Mode(NamedTuple):
     blocked: bool = False  # the diode keeps the current at zero
     heading: int = 0  # which way a gap that lies on a mark goes; 0: as the forces say
     largest: float = 0.0  # maximum approach of the rough end-stop faces so far [m]
+    cavity: Cavity = FULL  # of the film at the start of the piece
 
 
 class Piece(NamedTuple):
     """One smooth piece: what held, the voltage [V], the times of its steps [s], its unknowns.
 
-    `at` gives gap [m], speed [m/s], flux linkage [Wb], impulse [N.s] and work [J] at times.
+    `at` gives gap [m], speed [m/s], flux linkage [Wb], impulse [N.s], work [J] and the void in
+    each film [m3] at times.
     """
 
     mode: Mode
@@ -154,13 +163,13 @@ class MonolithicResult:
 
 
 def in_si(
-    solution: Callable[[Any], _Floats], origin: float, logarithmic: bool, times: Any
+    solution: Callable[[Any], _Floats], units: _Floats, logarithmic: bool, times: Any
 ) -> _Floats:
-    """Gap, speed, flux linkage, impulse and work at times, from the unknowns of the solver."""
+    """Gap, speed, flux linkage, impulse, work and void at times, from the solver's unknowns."""
     found: _Floats = np.array(solution(times))
-    found[0] = origin * (np.exp(found[0]) if logarithmic else found[0])
-    found[2] *= FLUX
-    return found
+    if logarithmic:
+        found[0] = np.exp(found[0])
+    return (found.T * units).T
 
 
 def read(
@@ -205,7 +214,7 @@ def _rows(
     mode = piece.mode
     found: list[tuple[float, ...]] = []
     for time, *unknowns in np.column_stack([times, piece.at(times).T]).tolist():
-        gap, speed, flux, impulse, work = unknowns
+        gap, speed, flux, impulse, work, void = unknowns
         electric = (0.0, 0.0, 0.0, 0.0, 0.0)
         if isinstance(drive, Valve):
             held = law.stopping(drive.stop, faces, mode.largest, gap, speed)
@@ -219,11 +228,21 @@ def _rows(
             )
         else:
             pull = drive(time)
-        now = MotionState(time, gap, speed, mode.volume_fraction, mode.broken, mode.in_contact)
-        film = outputs(plan, now, pull)
+        film = _outputs(plan, mode, (time, gap, speed, void), pull)
         forces = (pull, film.film, film.static, film.viscous, float(film.status))
-        found.append((time, gap, speed, flux, *electric, *forces, impulse, work))
+        torn = (film.void, film.cavity_radius)
+        found.append((time, gap, speed, flux, *electric, *forces, impulse, work, *torn))
     return found
+
+
+def _outputs(
+    plan: Plan, mode: Mode, now: tuple[float, float, float, float], pull: float
+) -> Outputs:
+    """Forces and cavity at a time [s], a gap [m], a speed [m/s] and a void [m3]."""
+    *place, void = now
+    cavity = mode.cavity if mode.cavity is FULL else mode.cavity._replace(void=void)
+    state = MotionState(*place, mode.volume_fraction, mode.broken, mode.in_contact, cavity=cavity)
+    return outputs(plan, state, pull)
 
 
 def _cycles(
@@ -237,7 +256,8 @@ def _cycles(
     for start, stop in zip(starts, [*starts[1:], end], strict=True):
         # No piece reaches across an energising.
         inside = [p for p in pieces if start <= 0.5 * (p.times[0] + p.times[-1]) < stop]
-        release = next((e for e in events if e.what == "released" and start <= e.time < stop), None)
+        released = (e for e in events if e.what == "released" and start <= e.time)
+        release = next((e for e in released if e.time < stop or stop == end), None)
         peak, when = max((_peak(plan, piece) for piece in inside), default=(0.0, math.nan))
         given = inside[-1].at(inside[-1].times[-1])[3] - inside[0].at(inside[0].times[0])[3]
         found.append(
@@ -258,11 +278,10 @@ def _peak(plan: Plan, piece: Piece) -> tuple[float, float]:
     """Largest force [N] of the film in a piece, and when [s]."""
     if piece.mode.broken:
         return 0.0, math.nan
-    film = plan.film_with(piece.mode.volume_fraction)
 
     def force(time: float) -> float:
-        gap, speed = piece.at(time)[:2].tolist()
-        return film.force(gap, speed)
+        gap, speed, *_, void = piece.at(time).tolist()
+        return _outputs(plan, piece.mode, (time, gap, speed, void), 0.0).film
 
     times = piece.times
     forces = [force(float(time)) for time in times]
@@ -295,6 +314,7 @@ def simulate(
     rtol: float = 1e-8,
     times: Sequence[float] | _Floats | None = None,
     faces: LoadDisplacementCurve | None = None,
+    until_release: bool = False,
 ) -> MonolithicResult:
     """Integrate spool, film and coil from time 0 to `end`.
 
@@ -312,6 +332,8 @@ def simulate(
         Where to give the curves [s]. None: at the steps of the solver, both sides of an event.
     faces : LoadDisplacementCurve, optional
         Rough faces in front of the stop of the valve, solved.
+    until_release : bool
+        End at the first release, if there is one before `end`.
 
     Raises
     ------
@@ -334,7 +356,7 @@ def simulate(
     run = _Run(plan, drive, loading.moving_mass, rtol, faces)
     switches = law.switching_times(drive.profile, 0.0, end) if isinstance(drive, Valve) else []
     for start, stop in pairwise([0.0, *switches, end]):
-        run.to(start, stop)
+        run.to(start, stop, until_release)
     sampled = None if times is None else np.asarray(times, dtype=np.float64)
     return read(
         plan, drive, run.pieces, run.events, sampled, (run.n_steps, run.n_evaluations), faces
@@ -342,7 +364,7 @@ def simulate(
 
 
 class _Run:
-    """A simulation on its way; `state` is gap, speed, flux linkage, impulse and work, in SI units.
+    """A simulation on its way; `state` is gap, speed, flux linkage, impulse, work and void, in SI.
 
     The unknowns of the solver are ln(h/h_0) while a film acts, else h/h_0, and the others scaled.
     """
@@ -364,20 +386,25 @@ class _Run:
         if self.valve is not None:  # an explicit method must not try to step far into the stop
             self._longest = 2.0 * math.sqrt(mass / self.valve.stop.stiffness)
         speed = 0.0 if self.mode.in_contact else loading.initial_speed
-        self.state = np.array([loading.initial_gap, speed, 0.0, 0.0, 0.0])
+        self.state = np.array([loading.initial_gap, speed, 0.0, 0.0, 0.0, 0.0])
+        scale = torn_pieces.void_scale(plan.film.cavity, loading.initial_gap)
+        self.units = np.array([loading.initial_gap, 1.0, FLUX, 1.0, 1.0, scale])
         self.pieces: list[Piece] = []
         self.events: list[Event] = []
         self.n_evaluations = self.n_steps = 0
+        self.released = False
 
-    def to(self, start: float, stop: float) -> None:
-        """Integrate from one jump of the voltage to the next."""
+    def to(self, start: float, stop: float, until_release: bool) -> None:
+        """Integrate from one jump of the voltage to the next, or to the first release."""
+        if until_release and self.released:
+            return
         self.time = start
         if self.valve is not None:
             # In the middle, where rounding of the switching times does not matter.
             self.applied = law.voltage(self.valve.profile, 0.5 * (start + stop))
             blocked = self.applied <= 0.0 and self.state[2] <= 0.0
             self.mode = self.mode._replace(blocked=blocked)
-        while self.time < stop:
+        while self.time < stop and not (until_release and self.released):
             if self.mode.in_contact and self._balance(self.time, self.state[2]) > 0.0:
                 self._leave()
             self._piece(stop)
@@ -394,6 +421,11 @@ class _Run:
     def film(self) -> Film | None:
         """The film, None while it is broken."""
         return None if self.mode.broken else self.plan.film_with(self.mode.volume_fraction)
+
+    @property
+    def tearing(self) -> CavityLaw | None:
+        """Law of the cavity of the film; None where it has none, or nothing is left to tear."""
+        return self.film.cavity if self.film is not None else None
 
     def _pull(self, time: float, flux: float, gap: float, speed: float) -> float:
         if isinstance(self.drive, Valve):
@@ -413,20 +445,25 @@ class _Run:
         film, mass, applied, pull = self.film, self.mass, self.applied, self._pull
         coil = self.valve.coil if self.valve is not None and not self.mode.blocked else None
         stiffness, origin = self.loading.stiffness, self.loading.initial_gap
-        in_contact = self.mode.in_contact
+        in_contact, cavity, tearing = self.mode.in_contact, self.mode.cavity, self.tearing
+        scale = float(self.units[5])
 
         def rates(time: float, unknowns: _Floats) -> list[float]:
-            place, speed, scaled, _, _ = unknowns.tolist()
+            place, speed, scaled, _, _, void = unknowns.tolist()
             flux, gap = FLUX * scaled, origin * (place if film is None else math.exp(place))
             rise = law.flux_rate(coil, flux, gap, applied) / FLUX if coil is not None else 0.0
             if in_contact:
-                return [0.0, 0.0, rise, 0.0, 0.0]
+                return [0.0, 0.0, rise, 0.0, 0.0, 0.0]
             net = pull(time, flux, gap, speed) - stiffness * (gap - origin)
             if film is None:
-                return [speed / origin, net / mass, rise, 0.0, 0.0]
-            viscous = film.viscous_force(gap, speed)[0]
+                return [speed / origin, net / mass, rise, 0.0, 0.0, 0.0]
+            growth = 0.0
+            if tearing is None or cavity is FULL:
+                viscous = film.viscous_force(gap, speed)[0]
+            else:
+                viscous, growth = torn_pieces.torn_film(tearing, cavity, gap, speed, scale * void)
             net -= film.static_force(gap) + viscous
-            return [speed / gap, net / mass, rise, viscous, viscous * speed]
+            return [speed / gap, net / mass, rise, viscous, viscous * speed, growth / scale]
 
         return rates
 
@@ -434,8 +471,12 @@ class _Run:
 
     def _piece(self, stop: float) -> None:
         """Integrate to the first event, or to `stop`, and apply the event."""
-        film, rates, watched = self.film, self._rates(), self._watched()
-        method: dict[str, Any] = {"method": "Radau", "jac": slopes_of(rates)}
+        self._tear_at_once()
+        film, rates, watched = self.film, self._rates(), self._watched(self._rates())
+        # A void that is a little smaller is one that the film remembers, a larger one is not.
+        voids = () if self.mode.cavity is FULL else (0.0, 0.0, -1e-3)
+        slopes = slopes_of(rates, (1.0, 1e-6, 1e-3, *voids))
+        method: dict[str, Any] = {"method": "Radau", "jac": slopes}
         if film is None and not self.mode.in_contact:
             method = {"method": "DOP853", "max_step": self._longest}
         solution = solve_ivp(
@@ -456,10 +497,10 @@ class _Run:
             )
         self.n_steps += len(solution.t) - 1
         self.n_evaluations += solution.nfev
-        at = partial(in_si, solution.sol, self.loading.initial_gap, film is not None)
+        at = partial(in_si, solution.sol, self.units, film is not None)
         self.pieces.append(Piece(self.mode, self.applied, solution.t, at))
         self.time, self.state = float(solution.t[-1]), at(solution.t[-1])
-        self.mode = self.mode._replace(heading=0)
+        self.mode = self.mode._replace(heading=0, cavity=self._remembered(solution.t, at))
         if solution.status == 1:
             next(
                 action
@@ -468,30 +509,97 @@ class _Run:
             )()
 
     def _unknowns(self, state: _Floats) -> _Floats:
-        unknowns: _Floats = state / np.array([self.loading.initial_gap, 1.0, FLUX, 1.0, 1.0])
+        unknowns: _Floats = state / self.units
         if self.film is not None:
             unknowns[0] = math.log(unknowns[0])
         return unknowns
 
     def _sizes(self) -> _Floats:
         """Sizes below which relative errors of the unknowns do not count."""
-        return np.array([1.0, max(1e-3 * abs(self.state[1]), 1e-6), 1e-3, 1e-3, 1e-6])
+        return np.array([1.0, max(1e-3 * abs(self.state[1]), 1e-6), 1e-3, 1e-3, 1e-6, 1.0])
 
-    def _watched(self) -> list[tuple[_Watch, Callable[[], None]]]:
+    def _watched(self, rates: _Rates) -> list[tuple[_Watch, Callable[[], None]]]:
         """What may end a piece, and what to do then."""
         found: list[tuple[_Watch, Callable[[], None]]] = []
         if self.mode.in_contact:
             found.append((watch(self._leaving, 1), self._leave))
         else:
             for mark, way in self._marks():
-                level = self._unknowns(np.array([mark, 0.0, 0.0, 0.0, 0.0]))[0]
+                level = self._unknowns(np.array([mark, *[0.0] * 5]))[0]
                 found.append((crossing(level, way), partial(self._arrive, mark, way)))
+            found += self._turns_of_cavity(rates)
         if self.faces is not None and self._depth() > 0.0:
             turns = watch(lambda time, unknowns: float(unknowns[1]), -1 if self.pressing else 1)
             found.append((turns, self._turn))
         if self.valve is not None and self.applied <= 0.0 and not self.mode.blocked:
             found.append((watch(lambda time, unknowns: float(unknowns[2]), -1), self._block))
         return found
+
+    # cavity -----------------------------------------------------------------------------------
+
+    def _turns_of_cavity(self, rates: _Rates) -> list[tuple[_Watch, Callable[[], None]]]:
+        """Events of the cavity in its present phase, and what to do then."""
+        tears, cavity = self.tearing, self.mode.cavity
+        if tears is None:
+            return []
+
+        def place(unknowns: _Floats) -> tuple[float, float, float]:
+            now = in_si(lambda _: unknowns, self.units, True, 0.0)
+            return float(now[0]), float(now[1]), float(now[5])
+
+        def torn(time: float, unknowns: _Floats) -> float:
+            return tears.tension(*place(unknowns)) / tears.strength - 1.0
+
+        def recedes(time: float, unknowns: _Floats) -> float:
+            acceleration = rates(time, unknowns)[1]
+            return torn_pieces.still_recedes(tears, *place(unknowns), acceleration)
+
+        def returns(time: float, unknowns: _Floats) -> float:
+            return torn_pieces.liquid_returns(tears, cavity, *place(unknowns))
+
+        def left(time: float, unknowns: _Floats) -> float:
+            return place(unknowns)[2] / cavity.largest - torn_pieces.HEALED
+
+        if cavity.phase is Phase.FULL:
+            return [(watch(torn, 1), self._tear)] if math.isfinite(tears.strength) else []
+        if cavity.phase is Phase.RECEDING:
+            return [(watch(recedes, -1), self._turn_edge)]
+        return [(watch(left, -1), self._fill), (watch(returns, -1), self._grow_again)]
+
+    def _remembered(self, times: _Floats, at: Callable[[Any], _Floats]) -> Cavity:
+        """Cavity at the end of a piece, with what was torn in it."""
+        tears, cavity = self.tearing, self.mode.cavity
+        if tears is None or cavity.phase is not Phase.RECEDING:
+            return cavity
+        return torn_pieces.remembered(tears, cavity, times, lambda now: at(now)[[0, 1, 5]])
+
+    def _tear_at_once(self) -> None:
+        """Let a film tear that moves too fast for its strength where a piece begins."""
+        tears, (gap, speed) = self.tearing, self.state[:2].tolist()
+        if tears is not None and is_torn_by(tears, self.mode.cavity, gap, speed):
+            self._tear()
+
+    def _tear(self) -> None:
+        tears, (gap, speed) = self.tearing, self.state[:2].tolist()
+        if tears is not None:
+            self.mode = self.mode._replace(cavity=born(tears, gap, speed))
+            self._note("film tears")
+
+    def _turn_edge(self) -> None:
+        cavity = torn_pieces.turned(self.mode.cavity, float(self.state[0]))
+        self.state[5] = cavity.void
+        self.mode = self.mode._replace(cavity=cavity)
+        self._note("liquid returns")
+
+    def _grow_again(self) -> None:
+        gap, void = self.state[[0, 5]].tolist()
+        self.mode = self.mode._replace(cavity=torn_pieces.grows_again(self.mode.cavity, gap, void))
+        self._note("cavity grows again")
+
+    def _fill(self) -> None:
+        self.state[5] = 0.0
+        self.mode = self.mode._replace(cavity=FULL)
+        self._note("film is full again")
 
     def _leaving(self, time: float, unknowns: _Floats) -> float:
         return self._balance(time, FLUX * unknowns[2])
@@ -547,8 +655,10 @@ class _Run:
         film = self.film
         if mark == self.loading.final_gap:
             self._note("released")
+            self.released = True
         if film is not None and mark == film.end:
-            self.mode = self.mode._replace(broken=True)
+            self.state[5] = 0.0
+            self.mode = self.mode._replace(broken=True, cavity=FULL)
             self._note("film breaks")
 
     def _fall(self, mark: float) -> None:
@@ -559,5 +669,5 @@ class _Run:
             self._note("film wets again")
         if mark == self.loading.rest_gap:
             self._note("meets the end cap")
-            self.mode = self.mode._replace(in_contact=True)
-            self.state[1] = 0.0
+            self.mode = self.mode._replace(in_contact=True, cavity=FULL)
+            self.state[[1, 5]] = 0.0

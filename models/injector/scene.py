@@ -12,7 +12,7 @@ from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import SeparationEffect, TensionLimit
 from ...units import celsius, si
-from ...validators import as_tuple, part, positive
+from ...validators import as_tuple, finite, part, positive
 from .valve import Valve
 
 if TYPE_CHECKING:
@@ -24,6 +24,11 @@ __all__ = ["InjectorScene", "Study", "end_stop_faces"]
 def _all_positive(study: object, attribute: Any, values: tuple[float, ...]) -> None:
     for value in values:
         positive(study, attribute, value)
+
+
+def _all_finite(study: object, attribute: Any, values: tuple[float, ...]) -> None:
+    for value in values:
+        finite(study, attribute, value)
 
 
 def _temperatures(study: object, attribute: Any, values: tuple[float, ...]) -> None:
@@ -42,8 +47,12 @@ class Study:
     ----------
     temperatures : tuple of float
         Temperatures of the oil [K].
-    tension_limits : tuple of float
-        Tensions [Pa] the figure of the delays compares, beside none.
+    strengths : tuple of float
+        Tensile strengths of the oil [Pa], drops below ambient pressure, over which a figure shows
+        the delay.
+    cavity_pressures : tuple of float
+        Pressures in the cavity once the oil has torn [Pa], absolute, that the figures compare,
+        beside an oil that goes on to sustain its strength. Below zero: a tension.
     communication_step : float
         Communication step of the co-simulation [s].
     """
@@ -51,8 +60,11 @@ class Study:
     temperatures: tuple[float, ...] = field(
         converter=tuple, validator=_temperatures, metadata=si("K")
     )
-    tension_limits: tuple[float, ...] = field(
+    strengths: tuple[float, ...] = field(
         default=(), converter=tuple, validator=_all_positive, metadata=si("Pa")
+    )
+    cavity_pressures: tuple[float, ...] = field(
+        default=(), converter=tuple, validator=_all_finite, metadata=si("Pa")
     )
     communication_step: float = field(validator=positive, metadata=si("s"))
 
@@ -69,24 +81,53 @@ class InjectorScene:
     valve: Valve
     study: Study
 
+    @property
+    def tension_limit(self) -> TensionLimit | None:
+        """Tension limit of the file; None if its oil never tears."""
+        return next((e for e in self.effects if isinstance(e, TensionLimit)), None)
+
     def separation(
-        self, temperature: float, *, limited: bool = True, tension: float | None = None
+        self,
+        temperature: float,
+        *,
+        tears: bool = True,
+        strength: float | None = None,
+        cavity_pressure: float | None = None,
     ) -> SeparationScene:
         """Film of the injector at a temperature [K].
 
-        Without its tension limit if not `limited`, with another tension [Pa] if one is given.
+        Parameters
+        ----------
+        temperature : float
+            Temperature of the oil [K].
+        tears : bool
+            Whether the oil tears as the file says; if not, it never does.
+        strength : float, optional
+            Another tensile strength [Pa] than that of the file.
+        cavity_pressure : float, optional
+            Another pressure in the cavity [Pa], absolute. Never below that at which the whole oil
+            tears, so that -inf is an oil that goes on to sustain its strength.
         """
-        kept = tuple(e for e in self.effects if limited or not isinstance(e, TensionLimit))
-        if tension is not None:
-            kept = tuple(
-                evolve(e, strength=tension) if isinstance(e, TensionLimit) else e for e in kept
-            )
+
+        def torn(limit: TensionLimit) -> TensionLimit:
+            bears = limit.tension if strength is None else strength
+            if limit.cavity != "mass-conserving":
+                return evolve(limit, strength=bears)
+            held = limit.cavity_pressure if cavity_pressure is None else cavity_pressure
+            held = None if held is None else max(held, limit.ambient_pressure - bears)
+            return evolve(limit, strength=bears, cavity_pressure=held)
+
+        effects = tuple(
+            torn(e) if isinstance(e, TensionLimit) else e
+            for e in self.effects
+            if tears or not isinstance(e, TensionLimit)
+        )
         return SeparationScene(
             name=self.name,
             temperature=temperature,
             interface=self.interface,
             loading=self.loading,
-            effects=kept,
+            effects=effects,
         )
 
     @property

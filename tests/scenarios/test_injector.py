@@ -5,18 +5,22 @@ from __future__ import annotations
 import csv
 import json
 import math
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
 from attrs import evolve
 
+import contactkit as ck
 from contactkit.app.cost.separation import other_menisci
 from contactkit.app.run.injector.cosimulation import cosimulate_cases
-from contactkit.app.run.injector.cycles import cycles, dry_delay, run_error
+from contactkit.app.run.injector.cycles import cycles, delay, dry_delay, run_error
 from contactkit.app.run.injector.report import report
 from contactkit.app.scenes import open_scene
+from contactkit.files.scenes import structure
 from contactkit.fmu.slaves.stiction_mass import mass_values
+from contactkit.models.injector.scene import Study
 from contactkit.separation.effects.base import LimitKind
 from contactkit.units import celsius
 
@@ -43,55 +47,58 @@ def runs(short):
 
 
 @pytest.mark.slow
-def test_with_the_tension_limit_every_cycle_is_released_in_about_half_a_millisecond(short, runs):
+def test_what_the_cavity_holds_decides_how_long_the_spool_sticks(short, runs):
     for run in runs:
-        if run.limited:
-            delays = [cycle.delay for cycle in cycles(run, short.scene)]
-            assert len(delays) == 2
-            assert delays == pytest.approx([0.466e-3] * 2, rel=0.03)
+        first, second = (cycle.delay for cycle in cycles(run, short.scene))
+        if run.sustained:
+            cold = run.temperature < 273.0
+            assert first == pytest.approx(0.5545e-3 if cold else 0.5089e-3, rel=1e-3)
+        else:
+            assert first == pytest.approx(0.3422e-3, rel=1e-3)
+        assert second < first  # from a gap that has not closed
 
 
 @pytest.mark.slow
-def test_without_it_the_cold_spool_is_not_released_within_the_pulse(short, runs):
-    cold, warm = (run for run in runs if not run.limited)
-    assert all(math.isnan(cycle.delay) for cycle in cycles(cold, short.scene))
-    assert all(
-        cycle.delay == pytest.approx(2.63e-3, rel=0.01) for cycle in cycles(warm, short.scene)
-    )
+def test_an_oil_that_never_tears_does_not_release_the_spool_within_the_pulse(short):
+    for temperature in short.scene.study.temperatures:
+        assert math.isnan(delay(short.scene, temperature, tears=False))
 
 
 @pytest.mark.slow
 def test_the_fmu_pair_agrees_with_the_monolithic_model(short, runs):
-    """At 5 us the coupling is second order and 3e-6 off."""
+    """At 5 us the coupling is second order; a film that tears is a kink within a step."""
     for run in runs:
-        error = run_error(run, cycles(run, short.scene))
-        assert math.isnan(error) or error < 5e-6
+        assert run_error(run, cycles(run, short.scene)) < 2e-4
 
 
 @pytest.mark.slow
-def test_the_viscous_film_holds_the_spool_and_the_limit_cuts_it_off(short, runs):
-    run = next(run for run in runs if run.limited)
-    first = cycles(run, short.scene)[0]
-    assert first.viscous_impulse > 20.0 * first.meniscus_impulse > 0.0
-    assert 0.3 < first.limited_fraction < 0.9
-    cap = math.pi * 3.175e-3**2 * 1e6
-    assert 0.9 * cap < first.peak_force < 1.05 * cap
+def test_a_torn_film_holds_no_more_than_the_pressure_in_its_cavity(short, runs):
+    area = math.pi * 3.175e-3**2
+    for run in runs:
+        first = cycles(run, short.scene)[0]
+        assert 0.3 < first.torn_fraction < 0.9
+        assert first.meniscus_impulse == 0.0 < first.viscous_impulse
+        torn = run.coupled["r_cav"] > 0.0
+        drop = 1e6 if run.sustained else 101325.0
+        assert 0.8 * area * drop < run.coupled["F_v"][torn].max() < area * drop
+        assert run.coupled["F_peak"][-1] >= 0.5e6 * area * (1.0 - 1e-6)
 
 
 @pytest.mark.slow
 def test_a_dry_spool_is_faster_than_any_other(short, runs):
     dry = dry_delay(short.scene)
     assert dry == pytest.approx(0.319e-3, rel=0.01)
-    delays = [cycle.delay for run in runs for cycle in cycles(run, short.scene)]
-    assert all(math.isnan(delay) or delay > dry for delay in delays)
+    # Of the first cycle: later ones start from a gap that has not closed.
+    assert all(cycles(run, short.scene)[0].delay > dry for run in runs)
 
 
 @pytest.mark.slow
 def test_momentum_balances_over_the_first_opening(short, runs):
     """Pull less film is the momentum of the spool; the pull is sampled at 5 us."""
-    run = next(run for run in runs if run.limited)
+    run = next(run for run in runs if run.sustained)
     signals, time = run.coupled, run.coupled.time
-    end = int(np.searchsorted(time, signals["t_release"][-1] - short.scene.valve.profile.period))
+    released = short.scene.valve.profile.start_delay + cycles(run, short.scene)[0].delay
+    end = int(np.searchsorted(time, released))
     moving = (signals["v"] != 0.0) & (np.arange(len(time)) <= end)
     first = int(np.argmax(moving)) - 1
     given = np.trapezoid(signals["F_ext"][first : end + 1], time[first : end + 1])
@@ -105,12 +112,14 @@ def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
     made = report(short.scene, runs, tmp_path)
     files = (*made.files, *made.draw())
     names = {path.name for path in files}
-    assert {"release-zoom.png", "delay-against-temperature.png", "tension-limit.png"} <= names
-    assert {"force-balance_minus20degC.png", "signals_80degC.csv", "signals_80degC.npz"} <= names
+    assert {"release-zoom.png", "delay-against-temperature.png", "one-cycle.png"} <= names
+    assert {"force-balance_minus20degC.png", "delay-against-strength.png"} <= names
+    assert {"signals_80degC.csv", "signals_80degC.npz", "signals_80degC_sustained.csv"} <= names
     assert all(path.stat().st_size > 1000 for path in files)
     assert "coupling" in made.text
-    assert "never" in made.text
-    assert made.scalars["release_delay_80degC_limited"][1] == "s"
+    assert "an oil of up to 25.7 bar tears" in made.text
+    assert "from cold to warm: never, never" in made.text
+    assert made.scalars["release_delay_80degC_sustained"][1] == "s"
     with (tmp_path / "signals_80degC.csv").open() as file:
         heading = next(csv.reader(file))
     assert heading[0] == "time [s]"
@@ -124,13 +133,12 @@ def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_limit_is_reported_when_it_acts(runs):
-    run = next(run for run in runs if run.limited)
-    acts = run.coupled["limit"] == LimitKind.TENSION
-    assert acts.any()
-    assert np.all(run.coupled["F_v"][acts] > 0.0)
-    free = next(run for run in runs if not run.limited)
-    assert not np.any(free.coupled["limit"] == LimitKind.TENSION)
+def test_the_limit_is_reported_while_the_film_is_torn(runs):
+    for run in runs:
+        acts = run.coupled["limit"] == LimitKind.TENSION
+        assert acts.any()
+        assert np.array_equal(acts, run.coupled["V_void"] > 0.0)
+        assert np.all(run.coupled["V_void"] < math.pi * 3.175e-3**2 * run.coupled["h"])
 
 
 def test_the_plan_says_what_is_simulated(device):
@@ -145,13 +153,43 @@ def test_the_scene_becomes_the_parameters_of_the_fmu(device):
     assert film == device.scene.separation(device.scene.temperature)
     assert values == mass_values(film)
     assert values["R"] == pytest.approx(3.175e-3)
-    assert values["dp_cav"] == 1e6
-    assert values["h_break"] == pytest.approx(20e-6)
+    assert (values["dp_tear"], values["dp_hold"], values["dp_cav"]) == (1e6, 101325.0, 0.0)
+    assert values["V"] == values["h_break"] == 0.0
+
+
+def test_an_oil_may_be_another_one(device):
+    scene = device.scene
+
+    def drops(**oil):
+        limit = scene.separation(293.15, **oil).effect(ck.TensionLimit)
+        return limit.tension, limit.cavity_drop
+
+    assert drops() == (1e6, 101325.0)
+    assert drops(strength=2e6) == (2e6, 101325.0)
+    assert drops(cavity_pressure=-4e5) == (1e6, 501325.0)
+    assert drops(cavity_pressure=-math.inf) == (1e6, 1e6)
+    assert drops(strength=3e5, cavity_pressure=-9e5) == (3e5, 3e5)  # not below where it tears
+    assert scene.separation(293.15, tears=False).effect(ck.TensionLimit) is None
+
+
+def test_the_key_of_earlier_files_names_the_new_ones():
+    text = (MODELS / "injector" / "fuel_injector.toml").read_text("utf-8")
+    tables = tomllib.loads(text.replace("strengths =", "tension_limits ="))
+    with pytest.raises(ck.DescriptionError, match=r"tension_limits.*strengths and"):
+        structure(tables["study"], Study, "old.toml")
 
 
 def test_the_menisci_that_cost_compares_fit_into_the_fmu(device):
-    """Else a line of the figure is empty."""
-    compared = other_menisci(device.scene.separation(device.scene.temperature))
+    """Else a line of the figure is empty, of an injector whose film has a free surface."""
+    flooded = device.scene.separation(device.scene.temperature)
+    drop = evolve(flooded.meniscus, volume=math.pi * 3.175e-3**2 * 5e-6)
+    film = evolve(
+        flooded,
+        interface=evolve(flooded.interface, meniscus=drop),
+        effects=(ck.MeniscusForce(), *flooded.effects),
+    )
+    assert not other_menisci(flooded)
+    compared = other_menisci(film)
     assert set(compared) == {"meniscus as an arc", "published meniscus, Eq. (3.11)"}
     laws = {name: mass_values(film)["meniscus_law"] for name, film in compared.items()}
     assert list(laws.values()) == ["ARC", "PUBLISHED"]

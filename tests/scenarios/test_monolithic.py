@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 from pathlib import Path
 
@@ -22,18 +23,27 @@ from contactkit.separation.plan import plan
 from contactkit.units import celsius
 
 MODEL = Path(__file__).parents[2] / "models" / "injector" / "fuel_injector.toml"
+DATA = Path(__file__).parents[1] / "data"
 
 
-def injector(temperature=20.0, without=(), **loading):
+def injector(temperature=20.0, without=(), *, sustained=False, **loading):
     tables = read_tables(MODEL)
     valve = structure(tables.pop("valve"), Valve, MODEL.name)
     for key in ("device", "study"):
         tables.pop(key)
     scene = structure(tables, ck.SeparationScene, MODEL.name)
+    effects = [e for e in scene.effects if not isinstance(e, tuple(without))]
+    if sustained:
+        effects = [
+            evolve(e, cavity_pressure=e.ambient_pressure - e.tension)
+            if isinstance(e, ck.TensionLimit)
+            else e
+            for e in effects
+        ]
     return evolve(
         scene,
         temperature=celsius(temperature),
-        effects=[e for e in scene.effects if not isinstance(e, tuple(without))],
+        effects=effects,
         loading=evolve(scene.loading, **loading),
     ), valve
 
@@ -114,7 +124,7 @@ def test_the_time_step_of_contactkit_agrees_with_the_monolithic_solver(name, run
 def test_a_smaller_tolerance_gives_a_smaller_error(release_cases, release_scene):
     case, values = release_cases["A"]["case"], release_cases["A"]["values"]
     errors, steps = [], []
-    for rtol in (1e-4, 1e-6, 1e-8):
+    for rtol in (1e-3, 1e-5, 1e-7):
         result = simulate(plan(release_scene("A")), ramp(case), 1.01 * values["t_rel"], rtol=rtol)
         errors.append(abs(released(result).time / values["t_rel"] - 1.0))
         steps.append(result.n_steps)
@@ -127,44 +137,52 @@ def test_a_smaller_tolerance_gives_a_smaller_error(release_cases, release_scene)
 
 @pytest.fixture(scope="module")
 def firing():
-    """Five cycles at three temperatures, with and without the tension limit."""
+    """Two cycles at three temperatures: a cavity of vapour, an oil that sustains its strength."""
     found = {}
     for temperature in (-20, 20, 80):
-        for limit, without in ((True, ()), (False, (ck.TensionLimit,))):
-            scene, valve = injector(temperature, without)
-            found[temperature, limit] = simulate(plan(scene), valve, 51e-3)
+        for sustained in (False, True):
+            scene, valve = injector(temperature, sustained=sustained)
+            found[temperature, sustained] = simulate(plan(scene), valve, 21e-3, rtol=1e-7)
     return found
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("temperature", "milliseconds"), [(-20, 0.47283), (20, 0.47034), (80, 0.45927)]
+    ("temperature", "vapour", "bears"),
+    [(-20, 0.34223, 0.55449), (20, 0.34219, 0.54110), (80, 0.34200, 0.50889)],
 )
-def test_with_a_tension_limit_every_temperature_fires_every_time(firing, temperature, milliseconds):
-    result = firing[temperature, True]
-    assert len(result.cycles) == 5
-    for cycle in result.cycles:
-        assert cycle.release_time * 1e3 == pytest.approx(milliseconds, abs=2e-5)
-        assert cycle.start_gap == pytest.approx(5e-6, rel=1e-9)
-        # The film can pull no harder than 10 bar over the face, and the meniscus.
-        assert 30.0 < cycle.peak_force < 1e6 * math.pi * 3.175e-3**2 + 0.5
-    whats = [event.what for event in result.events]
-    for what in (
-        "leaves the end cap",
-        "film breaks",
-        "current ends",
-        "film wets again",
-        "meets the end cap",
-    ):
-        assert whats.count(what) == 5
+def test_what_the_cavity_holds_decides_when_the_spool_is_released(
+    firing, temperature, vapour, bears
+):
+    area = math.pi * 3.175e-3**2
+    for sustained, milliseconds in ((False, vapour), (True, bears)):
+        result = firing[temperature, sustained]
+        first, second = result.cycles
+        assert first.release_time * 1e3 == pytest.approx(milliseconds, rel=2e-4)
+        # The closing spool stops short of the end cap, and has less film to leave then.
+        assert second.release_time < first.release_time
+        assert second.start_gap > 5.2e-6
+        # Half of its strength over the face tears it; a cavity holds no more than its drop.
+        torn = result["cavity_radius"] > 0.0
+        assert first.peak_force > 0.5e6 * area * (1.0 - 1e-6)
+        assert result["film_force"][torn].max() < (1e6 if sustained else 101325.0) * area
+        whats = [event.what for event in result.events]
+        assert whats.count("film tears") >= 1
+        assert "film breaks" not in whats
 
 
 @pytest.mark.slow
-def test_without_a_tension_limit_only_the_warm_valve_fires(firing):
-    for temperature in (-20, 20):
-        assert all(math.isnan(cycle.release_time) for cycle in firing[temperature, False].cycles)
-    warm = [cycle.release_time for cycle in firing[80, False].cycles]
-    assert warm == pytest.approx([2.6283e-3] * 5, rel=1e-4)
+def test_a_warm_film_is_full_again_within_a_cycle_and_a_cold_one_is_not(firing):
+    for sustained in (False, True):
+        assert firing[80, sustained]["void_volume"][-1] == 0.0
+        assert firing[-20, sustained]["void_volume"][-1] > 0.0
+
+
+def test_an_oil_that_never_tears_does_not_let_the_valve_fire():
+    for temperature in (-20, 20, 80):
+        scene, valve = injector(temperature, [ck.TensionLimit])
+        (cycle,) = simulate(plan(scene), valve, 5e-3).cycles
+        assert math.isnan(cycle.release_time)
 
 
 @pytest.mark.slow
@@ -179,32 +197,86 @@ def test_it_is_the_injector_of_the_source(firing):
 
 
 def test_energy_of_the_monolithic_model_is_conserved():
-    """Spool and film between leaving the end cap and meeting the stop."""
-    scene, valve = injector(80.0)
-    result = simulate(plan(scene), valve, 1.46e-3, rtol=1e-10)
+    """Spool and film between leaving the end cap and meeting the stop; the void is work too."""
+    scene, valve = injector(80.0, sustained=True)
+    result = simulate(plan(scene), valve, 1.51e-3, rtol=1e-9)
     moving = result["gap"] > scene.loading.rest_gap
     gap, speed = result["gap"][moving], result["speed"][moving]
     put_in = np.trapezoid(result["pull"][moving], gap)
-    meniscus = np.trapezoid(result["meniscus_force"][moving], gap)
     kinetic = 0.5 * 0.02 * speed[-1] ** 2
-    assert put_in == pytest.approx(kinetic + meniscus + result["dissipated_work"][-1], rel=1e-4)
+    assert put_in == pytest.approx(kinetic + result["dissipated_work"][-1], rel=1e-4)
+    assert result["dissipated_work"][-1] > 1e6 * result["void_volume"][-1] > 0.0
+
+
+# the torn film -------------------------------------------------------------------------------
+
+
+def torn_scene(strength, drop, volume=None, viscosity=0.1):
+    face, ambient = ck.Flat(radius=3.175e-3), 1e5
+    oil = ck.Liquid(name="oil", viscosity=viscosity)
+    limit = ck.TensionLimit(
+        strength=strength, cavity_pressure=ambient - drop, ambient_pressure=ambient
+    )
+    return ck.SeparationScene(
+        interface=ck.Interface(
+            lower=face, upper=face, meniscus=ck.Meniscus(liquid=oil, volume=volume)
+        ),
+        loading=ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02),
+        effects=(ck.ViscousForce(), limit),
+    )
+
+
+DROP = math.pi * 3.175e-3**2 * 5e-6  # [m3]
+
+
+@pytest.mark.parametrize(
+    ("name", "scene"),
+    [
+        ("pull_flooded_jfo_0.1", torn_scene(1e6, 1e6)),
+        ("pull_free_jfo_two_pressures_0.3", torn_scene(1e6, 1e5, DROP, 0.3)),
+        ("pull_free_jfo_1.0", torn_scene(1e6, 1e6, DROP, 1.0)),
+        ("pull_flooded_jfo_dp1.25e+06", torn_scene(1.25e6, 1.25e6, None, 0.3)),
+    ],
+)
+def test_a_film_that_tears_is_released_as_by_the_exact_edge(name, scene):
+    cases = json.loads((DATA / "film.json").read_text("utf-8"))
+    values = next(case["values"] for case in cases["cases"] if case["id"] == name)
+    result = simulate(
+        plan(scene), lambda time: 40.0, 1.1 * values["t_release"], rtol=1e-7, until_release=True
+    )
+    assert result["time"][-1] == released(result).time
+    assert released(result).time == pytest.approx(values["t_release"], rel=2e-6)
+    assert released(result).speed == pytest.approx(values["v_release"], rel=2e-6)
+    assert [event.what for event in result.events] == ["film tears", "liquid returns", "released"]
 
 
 @pytest.mark.slow
-def test_a_film_that_heals_at_once_keeps_the_cold_valve_from_closing():
-    """Without rupture the closing spool has to squeeze the oil out, 33 N.s at -20 degC."""
-    scene, valve = injector(-20.0, [ck.Rupture])
-    cycles = simulate(plan(scene), valve, 21e-3).cycles
-    assert cycles[1].start_gap > 3.0 * scene.loading.initial_gap
+@pytest.mark.parametrize("drop", [1e6, 1e5])
+@pytest.mark.parametrize("volume", [None, DROP])
+def test_opening_closing_and_opening_again_agree_with_the_motion_of_contactkit(drop, volume):
+    """Torn, returned, full or torn further: each phase of the memory, by two methods."""
+
+    def pull(time):
+        return 40.0 * math.cos(2.0 * math.pi * time / 0.6e-3)
+
+    times = [0.2e-3, 0.3e-3, 0.4e-3, 0.5e-3, 0.6e-3, 0.8e-3, 1e-3, 1.2e-3]
+    made = plan(torn_scene(1e6, drop, volume), ck.Accuracy(time_rtol=1e-9))
+    result, state = simulate(made, pull, times[-1], rtol=1e-9, times=times), start(made)
+    for time, gap, void in zip(times, result["gap"], result["void_volume"], strict=True):
+        state = advance(made, state, pull, time - state.time)
+        assert gap == pytest.approx(state.gap, rel=1e-6)
+        assert void == pytest.approx(state.cavity.void, rel=2e-6, abs=1e-3 * 1e-12)
+    assert {"film tears", "liquid returns"} < {event.what for event in result.events}
 
 
 def test_curves_can_be_asked_for_at_any_times():
     scene, valve = injector(20.0)
     times = np.linspace(0.0, 6e-3, 61)
-    result = simulate(plan(scene), valve, 6e-3, times=times)
+    result = simulate(plan(scene), valve, 6e-3, times=times, rtol=1e-5)
     assert np.array_equal(result["time"], times)
     assert result["status"][0] == FilmStatus.CONTACT
-    assert result["gap"][[0, -1]] == pytest.approx(5e-6)
+    assert result["gap"][0] == pytest.approx(5e-6)
+    assert 6e-6 < result["gap"][-1] < 10e-6
     assert valve.stop.gap < result["gap"].max() < valve.stop.gap + 3e-6
     now = np.searchsorted(times, 3e-3)
     assert result["magnet_force"][now] == law.magnet_force(valve.coil, result["flux"][now])

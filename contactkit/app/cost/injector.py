@@ -16,7 +16,7 @@ from ...errors import ConvergenceError
 from ...fmu.slaves.stiction_mass import mass_values
 from ...models.injector.scene import InjectorScene
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import ViscousForce
+from ...separation.effects.registry import TensionLimit
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..report import Report
 from ..run.injector.cosimulation import InjectorFmus, build_fmus
@@ -92,8 +92,9 @@ def _injector_settings(
     coupled += [
         (f"FMU pair, {name}", other, True, True) for name, other in other_menisci(film).items()
     ]
-    flooded = with_effect(film, ViscousForce(closure="flooded"))
-    monolithic.append(("published constant radius (3.19)", flooded, TOLERANCES[:5:2], True))
+    monolithic += [
+        (name, other, TOLERANCES[:5:2], True) for name, other in _truncated(film).items()
+    ]
     settings = [
         Setting(
             method,
@@ -115,6 +116,20 @@ def _injector_settings(
         for step in _STEPS
     ]
     return settings
+
+
+def _truncated(film: SeparationScene) -> dict[str, SeparationScene]:
+    """Scenes whose film remembers nothing: its pressure is truncated at one tension."""
+    limit = film.effect(TensionLimit)
+    if limit is None or limit.cavity != "mass-conserving":
+        return {}
+    tensions = {"at the strength": limit.tension, "at that of the cavity": limit.cavity_drop}
+    return {
+        f"pressure truncated {name}": with_effect(
+            film, TensionLimit(strength=tension, cavity="truncated")
+        )
+        for name, tension in tensions.items()
+    }
 
 
 def _injector_pair(

@@ -8,6 +8,7 @@
 #define SHORT 1e-2 /* change of the coordinate up to which the quadrature of the method does */
 #define SAME 1e-11    /* two gaps closer than this, relatively, are one */
 #define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts */
+#define FOOT 1e-6       /* sum of the forces over the pull to come, at the foot of a ramp */
 #define TURN 1e-11    /* what an event of a cavity may be missed by, over its scale */
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
@@ -438,7 +439,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     ck_problem p;
     ck_forces first;
     ck_step taken;
-    double left = end - state->time, length, error = HUGE_VAL, following, event, asked;
+    double left = end - state->time, length, error = HUGE_VAL, following, event, asked, coming;
     int rejected = 0, turn;
     if (state->gap < NOTHING) return CK_NO_STEP;
     if (state->speed < 0.0 && state->gap <= scene->rest_gap * (1.0 + SAME)) {
@@ -452,7 +453,8 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         return CK_DONE;
     }
     pose(scene, &acting, state, pull, &p, &first);
-    if (p.size <= NO_FORCE) expect(&p, &first, 0.5 * fabs(ck_pull_at(pull, end)));
+    coming = fabs(ck_pull_at(pull, end));
+    if (p.size <= ck_larger(NO_FORCE, FOOT * coming)) expect(&p, &first, 0.5 * coming);
     asked = state->step > 0.0 ? state->step : first_step(&p, left);
     length = ck_smaller(asked, left);
     for (;;) {

@@ -6,4 +6,6 @@ cycles        Firing cycles of the fuel injector: release delays, impulses and f
 end_stop      Impacts of the spool on rough faces of its end stop: numbers of a run for the report.
 report        Report of the fuel injector's co-simulations: table, signals in files, figures.
 figures       Figures of the fuel injector: gaps in um, times in ms, forces in N.
+delay_figures  Release delays of the fuel injector over what its oil does: figures by the monolithic
+              model.
 """

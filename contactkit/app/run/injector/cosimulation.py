@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Callable
 from functools import partial
@@ -12,7 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ....errors import PlanError
 from ....models.injector.scene import InjectorScene, end_stop_faces
 from ....models.injector.valve import Valve
-from ....separation.effects.registry import TensionLimit
 from ....separation.plan import Plan, plan
 from ....units import celsius
 
@@ -20,9 +20,19 @@ if TYPE_CHECKING:
     from ....fmu.master.injector import CoSimulation
     from ....models.injector.monolithic import MonolithicResult
 
-__all__ = ["InjectorFmus", "InjectorRun", "build_fmus", "cosimulate_cases", "drive_start"]
+__all__ = [
+    "CHECKED",
+    "InjectorFmus",
+    "InjectorRun",
+    "build_fmus",
+    "cosimulate_cases",
+    "drive_start",
+]
 
 Progress = Callable[[float], None]
+
+CHECKED = 2
+"""Cycles that are solved monolithically as well, and all of an oil that sustains its strength."""
 
 
 class InjectorFmus(NamedTuple):
@@ -33,10 +43,14 @@ class InjectorFmus(NamedTuple):
 
 
 class InjectorRun(NamedTuple):
-    """One co-simulation at a temperature [K], with or without the tension limit, and its check."""
+    """One co-simulation at a temperature [K], and its check over the first cycles.
+
+    `sustained`: of an oil that goes on to sustain its strength at the edge of the cavity, in place
+    of one whose cavity has the pressure of the file.
+    """
 
     temperature: float
-    limited: bool
+    sustained: bool
     plan: Plan
     coupled: CoSimulation
     monolithic: MonolithicResult
@@ -47,24 +61,32 @@ class InjectorRun(NamedTuple):
         """Temperature in degrees Celsius."""
         return f"{self.temperature - celsius(0.0):+.0f} degC"
 
+    @property
+    def name(self) -> str:
+        """Name of the run in those of files and numbers: ``minus20degC``, ``80degC_sustained``."""
+        degrees = self.temperature - celsius(0.0)
+        sign = "minus" if degrees < 0.0 else ""
+        return f"{sign}{abs(degrees):.0f}degC{'_sustained' if self.sustained else ''}"
+
 
 def cosimulate_cases(
     scene: InjectorScene, out: Path | None, progress: Progress
 ) -> list[InjectorRun]:
-    """Co-simulate each temperature with and without the tension limit.
+    """Co-simulate each temperature with the oil of the file, and one that sustains its strength.
 
     The FMUs are left in the folder `out` if one is given.
     """
-    has_limit = scene.separation(scene.temperature).effect(TensionLimit) is not None
-    limited = (True, False) if has_limit else (True,)
-    cases = [(t, limit) for t in scene.study.temperatures for limit in limited]
+    limit = scene.tension_limit
+    two = limit is not None and limit.cavity_drop < limit.tension < math.inf
+    oils = (False, True) if two else (False,)
+    cases = [(t, sustained) for t in scene.study.temperatures for sustained in oils]
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         pair = build_fmus(scene, out if out is not None else Path(folder))
         return [
             _cosimulate(
-                scene, pair, temperature, limit, partial(_fraction, progress, i, len(cases))
+                scene, pair, temperature, sustained, partial(_fraction, progress, i, len(cases))
             )
-            for i, (temperature, limit) in enumerate(cases)
+            for i, (temperature, sustained) in enumerate(cases)
         ]
 
 
@@ -100,26 +122,27 @@ def _cosimulate(
     scene: InjectorScene,
     pair: InjectorFmus,
     temperature: float,
-    limited: bool,
+    sustained: bool,
     progress: Progress,
 ) -> InjectorRun:
     from ....fmu.master.injector import Fmu, cosimulate
     from ....fmu.slaves.stiction_mass import mass_values
     from ....models.injector.monolithic import simulate
 
-    film = scene.separation(temperature, limited=limited)
-    begun = perf_counter()
+    film = scene.separation(temperature, cavity_pressure=-math.inf if sustained else None)
+    begun, profile = perf_counter(), scene.valve.profile
+    checked = min(scene.stop_time, profile.start_delay + CHECKED * profile.period)
     coupled = cosimulate(
         pair.drive,
         Fmu(pair.mass, mass_values(film)),
-        scene.stop_time,
+        checked if sustained else scene.stop_time,
         scene.study.communication_step,
         progress=progress,
     )
     seconds = perf_counter() - begun
     made = plan(film)
-    check = simulate(made, scene.valve, scene.stop_time, faces=end_stop_faces(scene.valve))
-    return InjectorRun(temperature, limited, made, coupled, check, seconds)
+    check = simulate(made, scene.valve, checked, rtol=1e-6, faces=end_stop_faces(scene.valve))
+    return InjectorRun(temperature, sustained, made, coupled, check, seconds)
 
 
 def _fraction(progress: Progress, i: int, n: int, done: float) -> None:

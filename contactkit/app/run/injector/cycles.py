@@ -8,17 +8,25 @@ from typing import NamedTuple
 
 import numpy as np
 from attrs import evolve
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
 
 from ....models.injector.monolithic import simulate
 from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
 from ....separation.effects.base import LimitKind
 from ....separation.effects.registry import ViscousForce
-from ....separation.plan import plan
-from ....units import celsius
+from ....separation.plan import Plan, plan
 from .cosimulation import InjectorRun
 
-__all__ = ["Cycle", "cycles", "delays_over_temperature", "dry_delay", "run_error", "stem"]
+__all__ = [
+    "Cycle",
+    "cycles",
+    "delay",
+    "dry_delay",
+    "largest_pull",
+    "run_error",
+]
 
 
 class Cycle(NamedTuple):
@@ -28,19 +36,21 @@ class Cycle(NamedTuple):
     peak_force: float
     viscous_impulse: float
     meniscus_impulse: float
-    limited_fraction: float
+    torn_fraction: float
+    """Fraction of the time up to the release in which the film is torn."""
 
 
 def cycles(run: InjectorRun, scene: InjectorScene) -> list[Cycle]:
     """Read each firing cycle off the signals of a co-simulation."""
     signals, profile = run.coupled, scene.valve.profile
     time = signals.time
-    releases = np.unique(signals["t_release"])
     found = []
     for start in energising_times(profile):
-        after = [float(t) for t in releases if start <= t < start + profile.period]
-        delay = after[0] - start if after else math.nan
-        until = after[0] if after else start + profile.on_time
+        if start >= time[-1]:
+            break
+        release = _release_time(run, scene.loading.final_gap, start, start + profile.period)
+        delay = release - start
+        until = start + profile.on_time if math.isnan(release) else release
         inside = (time >= start) & (time <= until)
         acts = signals["limit"][inside] == LimitKind.TENSION
         viscous, meniscus = (
@@ -53,10 +63,19 @@ def cycles(run: InjectorRun, scene: InjectorScene) -> list[Cycle]:
     return found
 
 
-def stem(temperature: float) -> str:
-    """Temperature [K] as part of a file name: ``minus20degC``, ``80degC``."""
-    degrees = temperature - celsius(0.0)
-    return f"{'minus' if degrees < 0.0 else ''}{abs(degrees):.0f}degC"
+def _release_time(run: InjectorRun, gap: float, start: float, end: float) -> float:
+    """When the spool first rises past a gap [m] between two times [s]; nan if it does not.
+
+    From gap and speed at the communication points: `t_release` of the FMU does not count a spool
+    that has not closed since the last release.
+    """
+    time, gaps, speeds = run.coupled.time, run.coupled["h"], run.coupled["v"]
+    risen = (gaps[:-1] < gap) & (gaps[1:] >= gap) & (time[:-1] >= start) & (time[1:] <= end)
+    if not risen.any():
+        return math.nan
+    step = slice(int(np.argmax(risen)), int(np.argmax(risen)) + 2)
+    cubic = CubicHermiteSpline(time[step], gaps[step] - gap, speeds[step])
+    return float(brentq(cubic, *time[step], xtol=1e-15))
 
 
 def dry_delay(scene: InjectorScene) -> float:
@@ -66,26 +85,43 @@ def dry_delay(scene: InjectorScene) -> float:
     thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
     interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
     dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))
-    return float(simulate(dry, scene.valve, scene.first_pulse_end).cycles[0].release_time)
+    return _release(scene, dry, 1e-8)
 
 
-def delays_over_temperature(
-    scene: InjectorScene, *, limited: bool, tension: float | None = None, n: int = 9
-) -> tuple[list[float], list[float]]:
-    """Temperatures [K] over the range of the study, and the release delay [s] at each."""
-    span = scene.study.temperatures
-    temperatures = sorted({*np.linspace(min(span), max(span), n).tolist(), *span})
-    delays = []
-    for temperature in temperatures:
-        made = plan(scene.separation(temperature, limited=limited, tension=tension))
-        first = simulate(made, scene.valve, scene.first_pulse_end, rtol=1e-6).cycles[0]
-        delays.append(float(first.release_time))
-    return temperatures, delays
+def _release(scene: InjectorScene, made: Plan, rtol: float) -> float:
+    end = scene.first_pulse_end
+    return simulate(made, scene.valve, end, rtol=rtol, until_release=True).cycles[0].release_time
+
+
+def delay(
+    scene: InjectorScene,
+    temperature: float,
+    *,
+    tears: bool = True,
+    strength: float | None = None,
+    cavity_pressure: float | None = None,
+    rtol: float = 1e-6,
+) -> float:
+    """Delay of the first release [s], nan if it is not released within the pulse.
+
+    By the monolithic model, for an oil as in `InjectorScene.separation`.
+    """
+    film = scene.separation(
+        temperature, tears=tears, strength=strength, cavity_pressure=cavity_pressure
+    )
+    return _release(scene, plan(film), rtol)
+
+
+def largest_pull(scene: InjectorScene) -> float:
+    """Largest pull of magnet less spring on a spool that stays on its end cap [N]."""
+    coldest = plan(scene.separation(min(scene.study.temperatures), tears=False))
+    pull = simulate(coldest, scene.valve, scene.first_pulse_end, rtol=1e-6)["pull"]
+    return float(pull.max())
 
 
 def run_error(run: InjectorRun, found: Sequence[Cycle]) -> float:
     """Coupling error of a run and its cycles against the monolithic solve, see `coupling_error`."""
     from ....fmu.master.injector import coupling_error
 
-    coupled = [cycle.delay for cycle in found]
-    return coupling_error(coupled, [cycle.release_time for cycle in run.monolithic.cycles])
+    checked = [cycle.release_time for cycle in run.monolithic.cycles]
+    return coupling_error([cycle.delay for cycle in found[: len(checked)]], checked)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -12,30 +11,48 @@ from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
 from ....plot import separation as plot
 from ....separation.effects.base import LimitKind
-from ....units import bar, celsius
+from ....units import bar
 from .cosimulation import InjectorRun
-from .cycles import cycles, delays_over_temperature, stem
+from .cycles import cycles
+from .delay_figures import delays_over_strength, delays_over_temperature
 
 __all__ = ["draw"]
 
-_OIL = ("#264653", "#2a9d8f", "#e9a23b", "#e76f51", "#8a1c1c")
+# Of Okabe and Ito: told apart by those who see few colours, and in grey.
+_GIVEN, _SUSTAINED, _PULL = "#0072b2", "#d55e00", "#009e73"
 
 
 def draw(
     scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
 ) -> tuple[Path, ...]:
     """Draw every figure into a folder."""
-    limited = [run for run in runs if run.limited]
-    files = [_balance(scene, run, out) for run in limited]
-    files.append(_zoom(scene, limited, out))
-    files.append(_delays(scene, runs, out, dry))
-    if len(limited) < len(runs):
-        files.append(_limit(scene, runs, out))
+    files = [_balance(scene, run, out) for run in runs if not run.sustained]
+    files += [_zoom(scene, runs, out), _cycle(scene, runs, out)]
+    files.append(delays_over_temperature(scene, runs, out, dry))
+    limit = scene.tension_limit
+    if scene.study.strengths and limit is not None and limit.cavity == "mass-conserving":
+        files.append(delays_over_strength(scene, limit, out, dry))
     return tuple(files)
 
 
+def _line(run: InjectorRun) -> dict[str, Any]:
+    """Line style of the oil of a run."""
+    return {"color": _SUSTAINED, "ls": "--"} if run.sustained else {"color": _GIVEN, "ls": "-"}
+
+
+def _oil(scene: InjectorScene, run: InjectorRun) -> str:
+    """Oil of a run, for a legend."""
+    limit = scene.tension_limit
+    if limit is None:
+        return "oil that never tears"
+    if run.sustained:
+        return f"goes on to sustain {limit.tension / bar:g} bar once torn"
+    held = (limit.ambient_pressure - limit.cavity_drop) / bar
+    return f"tears at {limit.tension / bar:g} bar, cavity at {held:.3g} bar"
+
+
 def _shade(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
-    """Shade where the tension limit acts."""
+    """Shade where the film is torn."""
     acts = run.coupled["limit"] == LimitKind.TENSION
     across = ax.get_xaxis_transform()
     ax.fill_between(
@@ -56,15 +73,7 @@ def _gap(ax: Any, scene: InjectorScene, run: InjectorRun, time: Any) -> None:
     ax.plot(time, run.coupled["h"] * 1e6, color=plot.COLORS["gap"])
     for gap, text in ((scene.loading.rest_gap, "at rest"), (scene.valve.stop.gap, "stop")):
         ax.axhline(gap * 1e6, color="0.6", lw=0.8, ls=":")
-        ax.annotate(
-            text,
-            (0.0, gap * 1e6),
-            xycoords=("axes fraction", "data"),
-            xytext=(4, 3),
-            textcoords="offset points",
-            color="0.4",
-            fontsize=8,
-        )
+        plot.note(ax, text, gap * 1e6)
     ax.set_ylabel("gap at the end cap [um]")
 
 
@@ -78,6 +87,8 @@ def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
         ("F_v", "viscous film", "viscous", -1.0),
         ("F_m", f"meniscus (at most {signals['F_m'].max():.1f} N)", "meniscus", -1.0),
     ):
+        if name == "F_m" and not signals[name].any():
+            continue
         ax.plot(time, sign * signals[name], color=plot.COLORS[color], label=label)
     top = 1.15 * float(signals["F_mag"].max())
     ax.set_ylim(-top, top)
@@ -94,103 +105,107 @@ def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
     speed.set_ylabel("speed of the spool [m/s]")
     _forces(force, run, time)
     for ax in (gap, force):
-        _shade(ax, run, time, label="tension limit acts" if ax is force else None)
+        _shade(ax, run, time, label="film torn" if ax is force else None)
     plot.shared_legend(made, force)
     plot.title(force, "forces: up opens, down holds (impacts on the stop are cut off)")
     force.set_xlabel("time [ms]")
-    return plot.save(made, out / f"force-balance_{stem(run.temperature)}")
+    return plot.save(made, out / f"force-balance_{run.name}")
 
 
-def _mark_events(ax: Any, run: InjectorRun, start: float, span: float) -> None:
-    """Mark the first rupture and the first release within `span` [ms] of energising."""
-    for name, label, color in (
-        ("t_break", "film breaks", plot.COLORS["viscous"]),
-        ("t_release", "released", "0.3"),
-    ):
-        when = float(run.coupled[name][run.coupled.time <= start + 1e-3 * span][-1])
-        if when > 0.0:
-            ax.axvline((when - start) * 1e3, color=color, lw=0.9, ls="--", label=label)
+def _by_temperature(runs: Sequence[InjectorRun]) -> dict[float, list[InjectorRun]]:
+    found: dict[float, list[InjectorRun]] = {}
+    for run in runs:
+        found.setdefault(run.temperature, []).append(run)
+    return found
+
+
+def _void_percent(scene: InjectorScene, run: InjectorRun) -> Any:
+    """Void over the volume between the faces [%]."""
+    area = math.pi * scene.interface.rim_radius**2
+    return 100.0 * run.coupled["V_void"] / (area * run.coupled["h"])
 
 
 def _zoom(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
-    """First release at each temperature, gap above forces, from just before energising."""
-    made, axes = plot.figure(2, len(runs), (4.2 * len(runs), 6.5), sharey="row", squeeze=False)
-    start = energising_times(scene.valve.profile)[0]
-    for column, run in enumerate(runs):
-        gap, force = axes[0][column], axes[1][column]
-        time = (run.coupled.time - start) * 1e3
-        first = cycles(run, scene)[0].delay
-        span = (1.5 * first if not math.isnan(first) else scene.valve.profile.on_time) * 1e3
-        _gap(gap, scene, run, time)
-        _forces(force, run, time)
-        for ax in (gap, force):
-            _shade(ax, run, time, label="tension limit acts" if ax is force else None)
-            ax.set_xlim(-0.05 * span, span)
-            _mark_events(ax, run, start, span)
-        ending = "never released" if math.isnan(first) else f"released after {first * 1e3:.3f} ms"
-        plot.title(gap, f"oil at {run.label}: {ending}")
-        force.set_xlabel("time since energising [ms]")
-        if column:
-            gap.set_ylabel("")
-            force.set_ylabel("")
+    """First release at each temperature: gap, force of the film, and radius of the cavity."""
+    columns = _by_temperature(runs)
+    made, axes = plot.figure(
+        3, len(columns), (4.2 * len(columns), 8.0), sharey="row", sharex=True, squeeze=False
+    )
+    start, rim = energising_times(scene.valve.profile)[0], scene.interface.rim_radius
+    delays = [cycles(run, scene)[0].delay for run in runs]
+    span = 1.15e3 * max([d for d in delays if not math.isnan(d)] or [scene.valve.profile.on_time])
+    highest = 0.0
+    for (gap, force, cavity), same in zip(axes.T, columns.values(), strict=True):
+        for run in same:
+            signals, time = run.coupled, (run.coupled.time - start) * 1e3
+            style = _line(run) | {"label": _oil(scene, run)}
+            gap.plot(time, signals["h"] * 1e6, **style)
+            force.plot(time, signals["F"], **style)
+            cavity.plot(time, signals["r_cav"] * 1e3, **style)
+            _mark_release(gap, scene, cycles(run, scene)[0].delay, run)
+        # Of the run that takes longer: of the other, the stop holds the spool by then.
+        pulled = same[-1].coupled["F_mag"] - same[-1].coupled["F_spring"]
+        force.plot(time, pulled, color=_PULL, ls=":", label="pull of magnet less spring")
+        highest = max(highest, float(pulled[time < span].max()))
+        plot.title(gap, f"oil at {same[0].label}")
+        cavity.axhline(rim * 1e3, color="0.5", lw=0.8)
+        plot.note(cavity, "rim", rim * 1e3, below=True)
+        cavity.set_xlabel("time since energising [ms]")
+    first = axes[:, 0]
+    first[0].set_xlim(-0.03 * span, span)
+    first[0].set_ylim(0.0, 1.15e6 * scene.valve.stop.gap)
+    first[1].set_ylim(-0.05 * highest, 1.1 * highest)
+    first[2].set_ylim(0.0, 1.08e3 * rim)
+    for ax, label in zip(
+        first, ("gap at the end cap [um]", "force [N]", "radius of the cavity [mm]"), strict=True
+    ):
+        ax.set_ylabel(label)
     plot.shared_legend(made, axes[1][0])
     return plot.save(made, out / "release-zoom")
 
 
-def _delays(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float) -> Path:
-    """Release delay over temperature, for several tensile strengths of the oil."""
-    made, ax = plot.figure(size=(9.0, 5.0))
-    pulse = scene.valve.profile.on_time * 1e3
-    curves: list[tuple[str, bool, float | None]] = [
-        (f"tensile strength {t / bar:g} bar", True, t) for t in scene.study.tension_limits
-    ]
-    if not curves and any(run.limited for run in runs):
-        curves = [("with the tension limit", True, None)]
-    curves.append(("no tension limit", False, None))
-    sizes = range(4 * len(curves) + 2, 2, -4)
-    for (label, limited, tension), color, size in zip(curves, cycle(_OIL), sizes, strict=False):
-        temperatures, delays = delays_over_temperature(scene, limited=limited, tension=tension)
-        x = [t - celsius(0.0) for t in temperatures]
-        ax.plot(x, [d * 1e3 for d in delays], "-", color=color, label=label)
-        never = [t for t, d in zip(x, delays, strict=True) if math.isnan(d)]
-        # The crosses of several curves share their places: the earlier ones are the larger.
-        ax.plot(never, [pulse] * len(never), "x", color=color, ms=size, mew=1.6)
-    for run in runs:
-        delay = cycles(run, scene)[0].delay * 1e3
-        ax.plot(run.temperature - celsius(0.0), delay, "o", color="k", mfc="none")
-    ax.plot([], [], "o", color="k", mfc="none", label="FMU pair")
-    ax.plot([], [], "x", color="k", label="not released within the pulse (colour of its curve)")
-    ax.axhline(pulse, color="0.5", ls="--", lw=0.8, label="end of the current pulse")
-    ax.axhline(dry * 1e3, color="0.5", ls=":", label="dry spool: magnet, spring, mass")
-    ax.set(xlabel="oil temperature [degC]", ylabel="release delay after energising [ms]")
-    ax.set_yscale("log")
-    ax.set_ylim(0.8 * dry * 1e3, 1.2 * pulse)
-    plot.plain_log(ax.yaxis)
-    plot.title(ax, f"{scene.name}: release delay against temperature")
-    plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return plot.save(made, out / "delay-against-temperature")
+def _mark_release(ax: Any, scene: InjectorScene, after: float, run: InjectorRun) -> None:
+    """Point and number of a release, where there is one."""
+    if math.isnan(after):
+        return
+    place, color = (after * 1e3, scene.loading.final_gap * 1e6), _line(run)["color"]
+    ax.plot(*place, "o", color=color, ms=5)
+    ax.annotate(
+        f"{after * 1e3:.3f} ms",
+        place,
+        xytext=(-7, 4),
+        textcoords="offset points",
+        ha="right",
+        color=color,
+        fontsize=9,
+        bbox={"fc": "w", "ec": "none", "pad": 0.5},
+    )
 
 
-def _limit(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
-    """First pulse at each temperature, with and without the tension limit."""
-    profile = scene.valve.profile
-    temperatures = list(dict.fromkeys(run.temperature for run in runs))
-    n = len(temperatures)
-    made, axes = plot.figure(1, n, (4.2 * n, 4.4), sharey=True, squeeze=False)
-    for run in runs:
-        ax = axes[0][temperatures.index(run.temperature)]
-        ax.plot(
-            (run.coupled.time - profile.start_delay) * 1e3,
-            run.coupled["h"] * 1e6,
-            "-" if run.limited else "--",
-            color=_OIL[1] if run.limited else _OIL[3],
-            label="with the tension limit" if run.limited else "without it",
-        )
-        plot.title(ax, f"oil at {run.label}")
-    for ax in axes[0]:
-        ax.axvspan(0.0, profile.on_time * 1e3, color="0.93", zorder=0, label="current pulse")
-        ax.set_xlim(-0.1 * profile.on_time * 1e3, 1.6 * profile.on_time * 1e3)
-        ax.set_xlabel("time since energising [ms]")
-    axes[0][0].set_ylabel("gap at the end cap [um]")
+def _cycle(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
+    """First cycles at each temperature: gap, and how much of it is void."""
+    columns, profile = _by_temperature(runs), scene.valve.profile
+    made, axes = plot.figure(
+        2, len(columns), (4.2 * len(columns), 6.0), sharey="row", sharex=True, squeeze=False
+    )
+    for (gap, void), same in zip(axes.T, columns.values(), strict=True):
+        for run in same:
+            time = (run.coupled.time - profile.start_delay) * 1e3
+            style = _line(run) | {"label": _oil(scene, run)}
+            gap.plot(time, run.coupled["h"] * 1e6, **style)
+            void.plot(time, _void_percent(scene, run), **style)
+        plot.title(gap, f"oil at {same[0].label}")
+        for ax in (gap, void):
+            for n in range(min(2, profile.cycles)):
+                begin = n * profile.period * 1e3
+                pulse = {"label": "current pulse"} if n == 0 else {}
+                ax.axvspan(begin, begin + profile.on_time * 1e3, color="0.92", zorder=0, **pulse)
+        gap.axhline(scene.loading.rest_gap * 1e6, color="0.4", lw=0.8, ls=":")
+        void.set_xlabel("time since energising [ms]")
+        void.set_xlim(-0.5, min(2, profile.cycles) * profile.period * 1e3)
+    axes[0][0].set_ylabel("gap at the end cap [um]\n(dotted: closed)")
+    axes[1][0].set_ylabel("void in the gap [%]")
+    axes[0][0].set_ylim(bottom=0.0)
+    axes[1][0].set_ylim(0.0, 100.0)
     plot.shared_legend(made, axes[0][0])
-    return plot.save(made, out / "tension-limit")
+    return plot.save(made, out / "one-cycle")

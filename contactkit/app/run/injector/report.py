@@ -17,7 +17,7 @@ from ....separation.plan import plan
 from ....units import bar, celsius
 from ...report import Report
 from .cosimulation import InjectorRun, cosimulate_cases
-from .cycles import Cycle, cycles, dry_delay, run_error, stem
+from .cycles import Cycle, cycles, delay, dry_delay, largest_pull, run_error
 from .end_stop import end_stop_numbers
 
 __all__ = ["plan_text", "report", "run_injector"]
@@ -31,24 +31,23 @@ def _held_by(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
     total = first.viscous_impulse + first.meniscus_impulse
     viscous = first.viscous_impulse / total if total > 0.0 else 0.0
     name = "viscous film" if viscous >= 0.5 else "meniscus"
-    text = f"{name} ({100 * max(viscous, 1.0 - viscous):.0f} % of the impulse)"
-    if first.limited_fraction > 0.0:
-        cap = _tension(run) * math.pi * run.plan.scene.interface.rim_radius**2
-        text += f", cut off near {cap:.1f} N {100 * first.limited_fraction:.0f} % of the time"
+    text = name
+    if first.meniscus_impulse:
+        text += f" ({100 * max(viscous, 1.0 - viscous):.0f} % of the impulse)"
+    if first.torn_fraction > 0.0:
+        text += f", torn {100 * first.torn_fraction:.0f} % of the time"
     if not math.isnan(first.delay) and first.delay < 1.1 * dry:
         text += "; hardly: mostly mass and coil"
     return text
 
 
-def _tension(run: InjectorRun) -> float:
-    """Tensile strength [Pa] of the oil in a run; inf without a limit."""
+def _oil_text(run: InjectorRun) -> tuple[str, str]:
+    """Tension at which the oil of a run tears, and pressure of the cavity then."""
     limit = run.plan.scene.effect(TensionLimit)
-    return math.inf if limit is None else limit.tension
-
-
-def _limit_text(run: InjectorRun) -> str:
-    tension = _tension(run)
-    return "none" if math.isinf(tension) else f"{tension / bar:g} bar"
+    if limit is None or math.isinf(limit.tension):
+        return "never", "-"
+    held = f"{(limit.ambient_pressure - limit.cavity_drop) / bar:.3g} bar"
+    return f"{limit.tension / bar:g} bar", held
 
 
 def plan_text(scene: InjectorScene) -> str:
@@ -82,72 +81,102 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
         f"stiction-mass, communication step {scene.study.communication_step * 1e6:g} us",
         f"a dry spool would be released {dry * 1e3:.3f} ms after energising",
         "",
-        f"{'oil':>9s}  {'tension':>8s}  {'release':>9s}  {'sticks':>9s}  {'peak force':>10s}  "
-        f"{'impulse':>9s}  {'coupling':>8s}  {'seconds':>7s}  held by",
-        f"{'':>9s}  {'limit':>8s}  {'[ms]':>9s}  {'[ms]':>9s}  {'[N]':>10s}  {'[N.s]':>9s}  "
-        f"{'error':>8s}  {'':>7s}",
+        f"{'oil':>9s}  {'tears':>7s}  {'cavity':>9s}  {'release':>9s}  {'sticks':>9s}  "
+        f"{'peak force':>10s}  {'impulse':>9s}  {'coupling':>8s}  {'seconds':>7s}  held by",
+        f"{'':>9s}  {'at':>7s}  {'':>9s}  {'[ms]':>9s}  {'[ms]':>9s}  {'[N]':>10s}  "
+        f"{'[N.s]':>9s}  {'error':>8s}  {'':>7s}",
     ]
     scalars: dict[str, tuple[Any, str]] = {"dry_release_delay": (dry, "s")}
     spread = [""]
     for run in runs:
         found = cycles(run, scene)
-        delays = [c.delay for c in found]
-        delay = delays[0]
-        spread.append(_spread(run, delays))
-        error = run_error(run, found)
-        peak = max(c.peak_force for c in found)
-        stuck = math.isnan(delay)
-        lines.append(
-            f"{run.label:>9s}  {_limit_text(run):>8s}  "
-            f"{'never' if stuck else f'{delay * 1e3:.4f}':>9s}  "
-            f"{'all pulse' if stuck else f'{(delay - dry) * 1e3:.4f}':>9s}  {peak:10.2f}  "
-            f"{found[0].viscous_impulse + found[0].meniscus_impulse:9.2e}  "
-            f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
-            f"{_held_by(run, found, dry)}"
-        )
-        key = f"{stem(run.temperature)}_{_limited(run)}"
-        scalars |= {
-            f"release_delay_{key}": (delay, "s"),
-            f"sticking_time_{key}": (delay - dry, "s"),
-            f"releases_{key}": (sum(not math.isnan(d) for d in delays), "-"),
-            f"peak_force_{key}": (peak, "N"),
-            f"viscous_impulse_{key}": (found[0].viscous_impulse, "N.s"),
-            f"meniscus_impulse_{key}": (found[0].meniscus_impulse, "N.s"),
-            f"coupling_error_{key}": (error, "-"),
-            f"seconds_{key}": (run.seconds, "s"),
-        }
-    keys = [f"{stem(run.temperature)}_{_limited(run)}" for run in runs]
-    impacts, numbers = end_stop_numbers(scene, runs, keys)
-    scalars |= numbers
-    lines += [*spread, *impacts, *_validity(runs)]
+        lines.append(_row(run, found, dry))
+        spread.append(_spread(run, [c.delay for c in found], scene))
+        scalars |= _scalars(run, found, dry)
+    impacts, numbers = end_stop_numbers(scene, runs, [run.name for run in runs])
+    lines += [*spread, *_what_decides(scene, runs), *impacts, *_validity(runs)]
     text = "\n".join(lines)
     if out is None:
-        return Report(scalars, text)
+        return Report(scalars | numbers, text)
     files = _write(scene, runs, out)
-    return Report(scalars, text, files, partial(_draw, scene, runs, out, dry))
+    return Report(scalars | numbers, text, files, partial(_draw, scene, runs, out, dry))
 
 
-def _limited(run: InjectorRun) -> str:
-    return "limited" if run.limited else "unlimited"
-
-
-def _spread(run: InjectorRun, delays: Sequence[float]) -> str:
-    """Say how many cycles of a run were released, and how far they agree."""
-    good = [d for d in delays if not math.isnan(d)]
-    text = (
-        f"{run.label}, tension limit {_limit_text(run)}: "
-        f"{len(good)} of {len(delays)} cycles released"
+def _row(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
+    """Line of the table for a run."""
+    delay, error = found[0].delay, run_error(run, found)
+    stuck = math.isnan(delay)
+    tears, cavity = _oil_text(run)
+    return (
+        f"{run.label:>9s}  {tears:>7s}  {cavity:>9s}  "
+        f"{'never' if stuck else f'{delay * 1e3:.4f}':>9s}  "
+        f"{'all pulse' if stuck else f'{(delay - dry) * 1e3:.4f}':>9s}  "
+        f"{float(run.coupled['F_peak'][-1]):10.2f}  "
+        f"{found[0].viscous_impulse + found[0].meniscus_impulse:9.2e}  "
+        f"{'-' if math.isnan(error) else f'{error:.0e}':>8s}  {run.seconds:7.2f}  "
+        f"{_held_by(run, found, dry)}"
     )
+
+
+def _scalars(run: InjectorRun, found: Sequence[Cycle], dry: float) -> dict[str, tuple[Any, str]]:
+    """Numbers of a run for scripts."""
+    key, delay = run.name, found[0].delay
+    return {
+        f"release_delay_{key}": (delay, "s"),
+        f"sticking_time_{key}": (delay - dry, "s"),
+        f"releases_{key}": (sum(not math.isnan(c.delay) for c in found), "-"),
+        f"peak_force_{key}": (float(run.coupled["F_peak"][-1]), "N"),
+        f"viscous_impulse_{key}": (found[0].viscous_impulse, "N.s"),
+        f"meniscus_impulse_{key}": (found[0].meniscus_impulse, "N.s"),
+        f"coupling_error_{key}": (run_error(run, found), "-"),
+        f"seconds_{key}": (run.seconds, "s"),
+    }
+
+
+def _spread(run: InjectorRun, delays: Sequence[float], scene: InjectorScene) -> str:
+    """Say how many cycles of a run were released, how far they agree, and where it rests."""
+    good = [d for d in delays if not math.isnan(d)]
+    text = f"{run.label}, cavity at {_oil_text(run)[1]}: {len(good)} of {len(delays)} released"
     if good:
-        text += f", after {min(good) * 1e3:.4f} to {max(good) * 1e3:.4f} ms"
-    return text
+        each = ", ".join(f"{d * 1e3:.3f}" for d in good)
+        text += f", after {each} ms"
+    rests = float(run.coupled["h"][-1]) - scene.loading.rest_gap
+    return f"{text}; at the end {rests * 1e6:.2f} um off the end cap"
+
+
+def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun]) -> list[str]:
+    """Say which property of the oil decides, and what an oil that never tears would do."""
+    limit = scene.tension_limit
+    if limit is None or limit.cavity != "mass-conserving" or math.isinf(limit.tension):
+        return []
+    area, pull = math.pi * scene.interface.rim_radius**2, largest_pull(scene)
+    never = [delay(scene, t, tears=False) for t in scene.study.temperatures]
+    each = ", ".join("never" if math.isnan(d) else f"{d * 1e3:.3f} ms" for d in never)
+    first: dict[bool, list[float]] = {}
+    for run in runs:
+        first.setdefault(run.sustained, []).append(cycles(run, scene)[0].delay)
+    held = [
+        f"{_oil_text(next(r for r in runs if r.sustained is sustained))[1]}: "
+        + ", ".join("never" if math.isnan(d) else f"{d * 1e3:.3f}" for d in found)
+        + " ms"
+        for sustained, found in first.items()
+    ]
+    return [
+        "",
+        f"strength decides whether the film tears: at {0.5 * area * limit.tension:.1f} N, half of "
+        f"strength times area; the pull reaches {pull:.1f} N, so an oil of up to "
+        f"{2.0 * pull / area / bar:.1f} bar tears",
+        f"an oil that never tears is released after, from cold to warm: {each}",
+        f"the pressure in the cavity decides how long it holds then, by {'; by '.join(held)}",
+        "neither is known for this oil: both are assumptions of the scene",
+    ]
 
 
 def _validity(runs: Sequence[InjectorRun]) -> list[str]:
     """Say for each temperature how far the models were inside their ranges."""
     lines = [""]
     for run in runs:
-        if not run.limited:
+        if run.sustained:
             continue
         whole = run.coupled["state"] != FilmStatus.BROKEN
         gaps, speeds = run.coupled["h"][whole], run.coupled["v"][whole]
@@ -164,14 +193,13 @@ def _validity(runs: Sequence[InjectorRun]) -> list[str]:
 def _write(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> tuple[Path, ...]:
     files = []
     for run in runs:
-        limit = "" if run.limited else "_without_tension_limit"
-        file = out / f"signals_{stem(run.temperature)}{limit}"
+        file = out / f"signals_{run.name}"
         columns = {"time": run.coupled.time, **run.coupled.columns}
         headings = {"time": "time [s]"} | {n: p.heading for n, p in run.coupled.ports.items()}
         header = {
             "scene": unstructure(scene),
             "temperature": run.temperature,
-            "tension_limit": run.limited,
+            "sustained": run.sustained,
             "units": {n: p.unit for n, p in run.coupled.ports.items()} | {"time": "s"},
         }
         files += [save_csv(file, columns, headings), save_npz(file, columns, header)]
