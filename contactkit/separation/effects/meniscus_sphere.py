@@ -46,8 +46,9 @@ def sphere_law(prepared: PreparedScene[SeparationScene], profile: str) -> ForceL
     tolerance of time, and a spline is what the loop calls: microseconds in place of milliseconds.
     """
     scene, tension = prepared.scene, prepared.liquid.surface_tension
-    n, known_to = scene.meniscus.count, 2.0 * scene.loading.final_gap
+    n = scene.meniscus.count
     bridges = _exact(prepared) if profile == "exact" else _arcs(prepared, profile == "as-published")
+    known_to = bridges.end if math.isfinite(bridges.end) else 2.0 * scene.loading.final_gap
     top = min(known_to, bridges.end * (1.0 - 1e-9))
     curve = _curve(bridges, top, 0.1 * prepared.accuracy.time_rtol)
 
