@@ -144,6 +144,8 @@ def _place(torn: Torn, gap: float, void: float) -> tuple[int, float]:
     above = reach * _square(piece, 1.0) - _liquid(piece, 1.0) - void
     if above <= 0.0:
         return index, 1.0
+    if below >= 0.0:
+        return index, 0.0
     low, high, t = 0.0, 1.0, below / (below - above)
     for _ in range(60):
         miss = reach * _square(piece, t) - _liquid(piece, t) - void

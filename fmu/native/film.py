@@ -131,11 +131,12 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
 
 
 def _reaching(made: Plan) -> Plan:
-    """Plan whose laws are known up to their ends: in a host a motion may exceed `final_gap`."""
-    ends = [law.end for law in made.film.laws.values() if law.known_to < law.end < _INF]
+    """Plan whose tables reach the ends of its laws: in a host a motion may exceed `final_gap`."""
+    loading = made.scene.imposed_force
+    ends = [law.end for law in made.film.laws.values() if loading.final_gap < law.end < _INF]
     if not ends:
         return made
-    loading = evolve(made.scene.imposed_force, final_gap=max(ends))
+    loading = evolve(loading, final_gap=max(ends))
     return plan(evolve(made.scene, loading=loading), made.accuracy)
 
 

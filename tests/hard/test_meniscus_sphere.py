@@ -49,6 +49,27 @@ def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, fraction):
     assert law.force(gap, 0.0) == pytest.approx(exact(gap, profile), rel=rel, abs=1e-9 * 2e-3)
 
 
+@pytest.mark.parametrize("profile", ["exact", "arc"])
+def test_the_force_goes_on_beyond_the_final_gap(film_scene, profile):
+    """A motion goes on after its release: the law is that of the bridge up to its end."""
+    laws = []
+    for final_gap in (2e-6, 1e-3):
+        scene = film_scene(
+            ck.MeniscusForce(profile=profile),
+            lower=ck.Flat(),
+            upper=ck.Sphere(radius=RADIUS),
+            liquid={"surface_tension": TENSION},
+            film={"volume": VOLUME},
+            initial_gap=1e-6,
+            final_gap=final_gap,
+        )
+        laws.append(ck.plan(scene).film.laws[ck.MeniscusForce])
+    near, far = laws
+    assert near.end == far.end > 1e-5
+    for gap in (3e-6, 1e-5, 0.9 * far.end):
+        assert near.force(gap, 0.0) == pytest.approx(far.force(gap, 0.0), rel=1e-7)
+
+
 @pytest.mark.parametrize("lower", quick([180.0, 179.9, 90.0], 1))
 def test_slopes_are_right_up_to_where_a_repelling_sphere_is_detached(film_scene, lower):
     """The force ends as no power there, and a single polynomial scattered long before."""

@@ -56,9 +56,9 @@ def beyond_event(
         highest = max(law.tension(*place) for place in places)
         return law.tension(*begin) / law.strength - 1.0, highest / law.strength - 1.0
     if cavity.phase is Phase.RECEDING:
-        first, last = _edge_rates(cavity, solved)
-        size = abs(first) + abs(last) or 1.0
-        return -first / size, -last / size
+        before, after = _edge_rates(cavity, solved)
+        size = abs(before) + abs(after) or 1.0
+        return -before / size, -after / size
     last, left = solved.spots[2], _HEALED * cavity.largest
     if last.growth < 0.0 and solved.voids[2] <= left:
         size = cavity.void + abs(solved.voids[2]) + left
@@ -81,18 +81,14 @@ def _squares(cavity: Cavity, solved: CavityStages) -> tuple[float, ...]:
 
 
 def after_step(
-    law: CavityLaw,
-    cavity: Cavity,
-    solved: CavityStages,
-    begin: tuple[float, float],
-    gaps: tuple[float, float, float],
+    cavity: Cavity, solved: CavityStages, begin_gap: float, gaps: Sequence[float]
 ) -> Cavity:
-    """Cavity at the end of a step."""
+    """Cavity at the end of a step, from the gap [m] at its start and those at its stages."""
     void, spot = solved.voids[2], solved.spots[2]
     torn = cavity.torn
     if cavity.phase is Phase.RECEDING:
         squares = _squares(cavity, solved)
-        torn = grown(torn, piece_along(torn_to(torn), squares, (begin[0], *gaps)))
+        torn = grown(torn, piece_along(torn_to(torn), squares, (begin_gap, *gaps)))
     largest = max(cavity.largest, void)
     return cavity._replace(void=void, fraction=spot.fraction, torn=torn, largest=largest)
 

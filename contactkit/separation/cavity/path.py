@@ -98,7 +98,7 @@ def along_path(
             (taken, length), whole = cut, length
             planned = max(length, 1e-3 * whole)
         if length > 0.0:
-            cavity, impulse = _after(law, cavity, taken, length)
+            cavity, impulse = _after(cavity, taken, length)
             time = end if length >= (end - time) * (1.0 - 1e-14) else time + length
         else:
             impulse = 0.0
@@ -112,16 +112,14 @@ def along_path(
     )
 
 
-def _after(
-    law: CavityLaw, cavity: Cavity, taken: _Try, length: float
-) -> tuple[Cavity, float | None]:
+def _after(cavity: Cavity, taken: _Try, length: float) -> tuple[Cavity, float | None]:
     """Cavity after a step, and its impulse [N.s]; None of a full film."""
     if taken.solved is None:
         return cavity, None
     forces = zip(WEIGHTS, taken.solved.forces, strict=True)
     impulse = length * sum(weight * held.force for weight, held in forces)
-    gaps = tuple(gap for gap, _ in taken.places)
-    return after_step(law, cavity, taken.solved, taken.begin, gaps), impulse
+    gaps = [gap for gap, _ in taken.places]
+    return after_step(cavity, taken.solved, taken.begin[0], gaps), impulse
 
 
 def _attempt(law: CavityLaw, cavity: Cavity, place: Place, time: float, dt: float) -> _Try | None:

@@ -152,9 +152,13 @@ def solved_stages(
             break
     else:
         return None
-    forces = [force_at(law, spot, *place) for spot, place in zip(spots, places, strict=True)]
+    first, second, third = spots
+    one, two, three = (
+        force_at(law, spot, *place) for spot, place in zip(spots, places, strict=True)
+    )
+    a, b, c = voids
     error = _error(cavity.void, dt, voids, start) / scale
-    return CavityStages(tuple(voids), tuple(spots), tuple(forces), error)
+    return CavityStages((a, b, c), (first, second, third), (one, two, three), error)
 
 
 def _newton(

@@ -288,7 +288,7 @@ def _stepped(
             (taken, length), event = turn, None
         if length == 0.0:
             return state._replace(cavity=after_event(law, cavity, state.gap, state.speed))
-        cavity = after(law, cavity, taken, (problem.begin.gap, problem.begin.speed))
+        cavity = after(cavity, taken, problem.begin.gap)
         if turn is not None:
             cavity = after_event(law, cavity, *taken.stages[2][1:])
     _, gap, speed = taken.stages[2]

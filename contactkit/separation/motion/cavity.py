@@ -54,12 +54,12 @@ class CavityFilm:
         return Memory((one, two, three), solved.error, solved)
 
 
-def after(law: CavityLaw, cavity: Cavity, taken: Step, begin: _ONE) -> Cavity:
+def after(cavity: Cavity, taken: Step, begin_gap: float) -> Cavity:
     """Cavity at the end of a step of a film that has one."""
     if taken.memory is None:
         return cavity
-    gaps = tuple(point.gap for point in taken.stages)
-    return after_step(law, cavity, taken.memory.found, begin, gaps)
+    gaps = [point.gap for point in taken.stages]
+    return after_step(cavity, taken.memory.found, begin_gap, gaps)
 
 
 def cavity_film(film: Film | None, cavity: Cavity, begin: _ONE) -> CavityFilm | None:

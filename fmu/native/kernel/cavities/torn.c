@@ -73,6 +73,8 @@ static int place(const ck_cavity *cavity, double gap, double hollow, double *whe
     above = reach * square_at(p, 1.0) - liquid_at(p, 1.0) - hollow;
     *where = 1.0;
     if (above <= 0.0) return index;
+    *where = 0.0;
+    if (below >= 0.0) return index;
     t = below / (below - above);
     for (i = 0; i < 60; i++) {
         double miss = reach * square_at(p, t) - liquid_at(p, t) - hollow, slope, guess;
