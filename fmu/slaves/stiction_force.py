@@ -141,10 +141,10 @@ _PORTS = (
         _MENISCUS,
         display_unit="um",
     ),
-    output_port("r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", nominal=1e-3),
-    output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
     output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     output_port("n_break", "-", "number of ruptures so far", kind="integer"),
+    output_port("r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", nominal=1e-3),
+    output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
     size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
     Port(
         "exchange",
