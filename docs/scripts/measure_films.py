@@ -140,7 +140,7 @@ def cost() -> str:
         face = reynolds.rasterise(DISC, n)
         film = reynolds.Film(face=face, viscosity=OIL, cavity_pressure=-1e6)
         full = reynolds.Film(face=face, viscosity=OIL)
-        repeats = 5 if n < 256 else 2
+        repeats = 8 if n < 512 else 2
         solved = least(lambda full=full: reynolds.solve_pressure(full, GAP, RATE), repeats)
         rest = reynolds.at_rest(film, 5e-6)
         first = reynolds.step_film(rest, 5.1e-6, 5e-6)

@@ -156,7 +156,7 @@ def pull_apart(
     -----
     The film by backward Euler, the place by the trapezoidal rule, the speed of a step by a
     bracketed secant, because the force of the film rises with it. Release time of the injector's
-    disc: 4e-3, 1e-3 with 32, 64 cells in the radius and 1 % of growth.
+    disc: 6e-3, 1e-3 with 24, 48 cells in the radius and 1 % of growth.
     """
     for name, value, unit in (
         ("mass", mass, "kg"),
