@@ -239,9 +239,10 @@ def _outputs(
     plan: Plan, mode: Mode, now: tuple[float, float, float, float], pull: float
 ) -> Outputs:
     """Forces and cavity at a time [s], a gap [m], a speed [m/s] and a void [m3]."""
-    *place, void = now
+    time, gap, speed, void = now
     cavity = mode.cavity if mode.cavity is FULL else mode.cavity._replace(void=void)
-    state = MotionState(*place, mode.volume_fraction, mode.broken, mode.in_contact, cavity=cavity)
+    fraction = mode.volume_fraction
+    state = MotionState(time, gap, speed, fraction, mode.broken, mode.in_contact, cavity=cavity)
     return outputs(plan, state, pull)
 
 

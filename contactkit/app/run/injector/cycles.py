@@ -9,11 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from attrs import evolve
 from scipy.interpolate import CubicHermiteSpline
-from scipy.optimize import brentq
 
 from ....models.injector.monolithic import simulate
 from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
+from ....numerics.roots import bracketed_root
 from ....separation.effects.base import LimitKind
 from ....separation.effects.registry import ViscousForce
 from ....separation.plan import Plan, plan
@@ -75,7 +75,7 @@ def _release_time(run: InjectorRun, gap: float, start: float, end: float) -> flo
         return math.nan
     step = slice(int(np.argmax(risen)), int(np.argmax(risen)) + 2)
     cubic = CubicHermiteSpline(time[step], gaps[step] - gap, speeds[step])
-    return float(brentq(cubic, *time[step], xtol=1e-15))
+    return bracketed_root(lambda moment: float(cubic(moment)), *time[step].tolist())
 
 
 def dry_delay(scene: InjectorScene) -> float:
