@@ -51,11 +51,10 @@ def quickly():
 
 @pytest.fixture(scope="module")
 def archive(tmp_path_factory):
-    """The SSP, with the law of the meniscus whose tables take no time."""
+    """The SSP of the injector."""
     folder = tmp_path_factory.mktemp("container")
     native = {"native": True, "platforms": [local()], "compiler": "cc"} if HAS_CC else {}
-    start = {"mass.meniscus_law": "PUBLISHED"}
-    return write_system("fuel-injector", folder / "valve.ssp", start=start, **native)
+    return write_system("fuel-injector", folder / "valve.ssp", **native)
 
 
 @pytest.fixture(scope="module")

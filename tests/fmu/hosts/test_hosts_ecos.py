@@ -128,11 +128,10 @@ def test_a_refused_start_value_gives_no_release(fmu):
 
 @pytest.fixture(scope="module")
 def injector(tmp_path_factory):
-    """The SSP, with the law of the meniscus whose tables take no time, and its release."""
+    """The SSP, and its release."""
     folder = tmp_path_factory.mktemp("injector")
     native = {"native": True, "platforms": [local()], "compiler": "cc"} if HAS_CC else {}
-    start = {"mass.meniscus_law": "PUBLISHED"}
-    path = write_system("fuel-injector", folder / "valve.ssp", start=start, **native)
+    path = write_system("fuel-injector", folder / "valve.ssp", **native)
     with zipfile.ZipFile(path) as packed:
         packed.extractall(folder)
     fmus = [folder / "resources" / f"{name}.fmu" for name in ("valve_drive", "stiction_mass")]
