@@ -14,10 +14,7 @@ from ...numerics.events import EventStep, step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
 from ..cavity.events import after_event
-from ..cavity.law import CavityLaw
-from ..cavity.path import PathPoint, along_path
-from ..cavity.stages import shown_cavity
-from ..cavity.state import Cavity, Phase
+from ..cavity.state import FULL, Phase
 from ..effects.viscous import ViscousForce
 from ..integrator.dense_output import peak, work
 from ..integrator.radau import (
@@ -132,9 +129,6 @@ def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> Moti
 def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     """Rest on the asperities until the pull exceeds what holds the bodies together."""
     loading, film = plan.scene.imposed_force, acting_film(plan, state)
-    law = film.cavity if film is not None else None
-    if film is not None and law is not None and state.cavity.phase is not Phase.FULL:
-        return _rest_on_cavity(plan, film, law, state, pull, end)
     forces = film.static_forces(state.gap) if film is not None else {}
     holding = loading.stiffness * (state.gap - loading.initial_gap) + sum(forces.values())
     leaves = True
@@ -148,44 +142,10 @@ def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionSt
     names = film.static_impulses if film is not None else ()
     grown = {name: elapsed * force for name, force in zip(names, forces.values(), strict=True)}
     return state._replace(
-        time=end, in_contact=not leaves, step=0.0, impulses=_added(state.impulses, grown)
-    )
-
-
-def _rest_on_cavity(
-    plan: Plan, film: Film, law: CavityLaw, state: MotionState, pull: PullLaw, end: float
-) -> MotionState:
-    """Rest while liquid returns to the cavity, which pulls the bodies together meanwhile."""
-    loading, gap = plan.scene.imposed_force, state.gap
-    forces = film.static_forces(gap)
-    holding = loading.stiffness * (gap - loading.initial_gap) + sum(forces.values())
-    rtol = plan.accuracy.time_rtol
-
-    def place(time: float) -> tuple[float, float]:
-        return gap, 0.0
-
-    def leaves(time: float, cavity: Cavity) -> bool:
-        return pull(time) > holding + shown_cavity(law, cavity, gap, 0.0).force
-
-    if leaves(state.time, state.cavity):
-        return state._replace(in_contact=False, step=0.0)
-    point = next(along_path(law, state.cavity, place, state.time, end, rtol, state.step))
-    if leaves(point.time, point.cavity):
-
-        def until(time: float) -> PathPoint:
-            return list(along_path(law, state.cavity, place, state.time, time, rtol))[-1]
-
-        begun = state.time + 1e-12 * (point.time - state.time)
-        when = first_true(lambda time: leaves(time, until(time).cavity), begun, point.time)
-        point = until(when)._replace(step=0.0)
-    elapsed = point.time - state.time
-    grown = {f"{c.impulse.name}": elapsed * forces[c.name] for c in film.static_columns}
-    grown[_VISCOUS] = point.impulse or 0.0
-    return state._replace(
-        time=point.time,
-        in_contact=not leaves(point.time, point.cavity),
-        cavity=point.cavity,
-        step=point.step if point.cavity.phase is not Phase.FULL else 0.0,
+        time=end,
+        in_contact=not leaves,
+        cavity=FULL,  # nothing was torn at a smaller gap
+        step=0.0,
         impulses=_added(state.impulses, grown),
     )
 

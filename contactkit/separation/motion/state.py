@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from attrs import field, frozen
 
 from ...units import si
+from ..cavity.events import born, is_torn_by
 from ..cavity.stages import shown_cavity
 from ..cavity.state import FULL, Cavity, Phase, restored_cavity
 from ..effects.base import FilmStatus, LimitKind
@@ -101,13 +102,12 @@ def start(plan: Plan) -> MotionState:
     """State of a scene at time 0."""
     loading = plan.scene.imposed_force
     in_contact = loading.rest_gap >= loading.initial_gap and loading.initial_speed <= 0.0
-    return MotionState(
-        0.0,
-        loading.initial_gap,
-        0.0 if in_contact else loading.initial_speed,
-        in_contact=in_contact,
-        impulses=plan.film.impulses(),
-    )
+    gap, speed = loading.initial_gap, 0.0 if in_contact else loading.initial_speed
+    begun = MotionState(0.0, gap, speed, in_contact=in_contact, impulses=plan.film.impulses())
+    law = plan.film.cavity
+    if law is None or not is_torn_by(law, FULL, gap, speed):
+        return begun
+    return begun._replace(cavity=born(law, gap, speed), tear_time=0.0, n_tears=1)
 
 
 def acting_film(plan: Plan, state: MotionState) -> Film | None:

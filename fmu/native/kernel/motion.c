@@ -12,7 +12,10 @@
 #define TURN 1e-11    /* what an event of a cavity may be missed by, over its scale */
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
+static ck_place place_of(const ck_motion *state) { return (ck_place){state->gap, state->speed}; }
+
 void ck_start(const ck_scene *scene, ck_motion *state) {
+    ck_acting acting;
     memset(state, 0, sizeof *state);
     state->gap = scene->initial_gap;
     state->in_contact = scene->rest_gap >= scene->initial_gap && scene->initial_speed <= 0.0;
@@ -20,6 +23,11 @@ void ck_start(const ck_scene *scene, ck_motion *state) {
     state->armed = 1;
     state->break_time = state->release_time = state->peak_time = -1.0;
     state->tear_time = state->heal_time = -1.0;
+    ck_act(scene, 0, 0, 0, &acting);
+    if (!acting.any || !acting.law || !ck_is_torn_by(acting.law, &state->cavity, place_of(state)))
+        return;
+    ck_cavity_event(acting.law, &state->cavity, place_of(state));
+    state->tear_time = 0.0, state->tears = 1;
 }
 
 /* What acts: all, or what a broken film and parted solids leave. */
@@ -48,7 +56,6 @@ void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acti
     acting->law = !broken && scene->laws[number].strength > 0.0 ? &scene->laws[number] : NULL;
 }
 
-static ck_place place_of(const ck_motion *state) { return (ck_place){state->gap, state->speed}; }
 
 /* Whether a film acts that has a cavity now. */
 static int is_hollow(const ck_acting *acting, const ck_motion *state) {

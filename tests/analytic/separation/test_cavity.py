@@ -238,20 +238,15 @@ def moving(rest_gap=0.0, strength=1e6, drop=1e6, **more):
     return ck.plan(scene)
 
 
-def test_bodies_that_rest_on_each_other_let_their_film_refill():
-    """The closed form of the refilling, with the bodies in contact at 25 um."""
-    case, cavity = refilling()
-    plan = moving(rest_gap=25e-6, initial_gap=25e-6, final_gap=50e-6, force=0.0)
-    state = start(plan)._replace(cavity=cavity)
-    assert state.in_contact
-    early = advance(plan, state, Pull(0.0), 0.5 * case["values"]["t_full"])
-    assert early.cavity.phase is Phase.RETURNING
-    assert early.gap == 25e-6
-    late = advance(plan, early, Pull(0.0), 0.51 * case["values"]["t_full"])
-    assert late.cavity is FULL
-    held = case["values"]["pull_at_start"]
-    assert advance(plan, state, Pull(0.99 * held), 1e-6).in_contact
-    assert not advance(plan, state, Pull(1.01 * held), 1e-6).in_contact
+def test_a_film_that_is_torn_at_the_start_has_its_cavity_there():
+    plan = moving(initial_speed=0.1)
+    begun = start(plan)
+    assert begun.cavity.phase is Phase.RECEDING
+    assert begun.n_tears == 1
+    shown = outputs(plan, begun, 40.0)
+    assert 0.9 * math.pi * FACE**2 * 1e6 < shown.viscous < math.pi * FACE**2 * 1e6
+    assert shown.cavity_radius > 0.9 * FACE
+    assert shown.void == 0.0
 
 
 def test_a_face_that_closes_meets_no_full_film_above_the_torn_gap():
