@@ -53,7 +53,7 @@ class MeniscusLaw(IntEnum):
 
 _SHAPE = ("h0", "R", "V", "N")
 _MENISCUS = (*_SHAPE, "gamma", "theta1", "theta2", "meniscus_law")
-_VISCOUS = (*_SHAPE, "v0", "eta", "dp_cav", "tau_lim")
+_VISCOUS = (*_SHAPE, "v0", "eta", *TENSIONS, "tau_lim")
 _ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
@@ -107,7 +107,7 @@ _PORTS = (
     output_port("F_peak", "N", "largest force of the film so far", nominal=10.0),
     output_port("n_break", "-", "number of ruptures so far", kind="integer"),
     output_port("n_release", "-", "number of releases so far", kind="integer"),
-    output_port("r_cav", "m", "radius of the cavity", display_unit="mm", nominal=1e-3),
+    output_port("r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", nominal=1e-3),
     output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
     size_port("m", "kg", "moving mass", 0.02, "g", exclusive=True),
     size_port("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),

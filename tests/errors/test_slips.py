@@ -285,7 +285,7 @@ IN_FILES = {
         "did you mean 'kg'?",
     ),
     "a unit in capitals, of which there are two": (
-        FILM + '[[effects]]\neffect = "tension-limit"\ntension = "1 MPA"\n',
+        FILM + '[[effects]]\neffect = "tension-limit"\nstrength = "1 MPA"\n',
         "('MPA' is not one)",
         "did you mean 'mPa' or 'MPa'?",
     ),

@@ -429,8 +429,8 @@ class TensionLimit(FilmLimit):
             hint = f'cavity="{self.cavity}" has one pressure; give strength alone'
             raise DescriptionError(where, pressure, "not be given", unit="Pa", hint=hint)
         lowest, ambient = self.ambient_pressure - self.tension, self.ambient_pressure
-        if not lowest * (1.0 - 1e-12) - 1e-9 * ambient <= pressure < ambient:
-            expected = f"lie between {lowest:g} Pa, at which the liquid tears, and {ambient:g} Pa"
+        if not lowest - 1e-12 * (abs(lowest) + ambient) <= pressure < ambient:
+            expected = f"lie between {lowest:g}, at which the liquid tears, and {ambient:g}"
             hint = "it is absolute; the liquid tears at ambient_pressure less strength"
             raise DescriptionError(where, pressure, expected, unit="Pa", hint=hint)
 
