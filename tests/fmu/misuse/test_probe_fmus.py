@@ -155,7 +155,7 @@ def states_lead_back_across_the_rupture(found):
     assert found["elsewhere"]
     assert found["after the end"]
     assert found["of another"]
-    assert 0 < found["size"] < 10_000
+    assert 0 < found["size"] < 12_000  # half of it is where the film has torn
 
 
 @judge
