@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from ...lubrication.disc_cavity import receding_edge
@@ -21,7 +22,8 @@ from .state import FULL, Cavity, Phase
 
 __all__ = ["after_event", "after_jump", "after_step", "beyond_event", "born", "is_torn_by"]
 
-_HEALED = 1e-10  # void over the largest of a cavity, at which the film counts as full
+_HEALED = 1e-9  # void over the film at which it counts as full
+_NOTHING = 1e-8  # the same of a cavity that never was deeper than `_SHALLOW`
 _SAME = 1e-12  # squares of the edge that are closer, relatively, are one
 _SHALLOW = 1e-6  # depth of the void at the edge, over the gap, where round-off moves the edge
 _RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than rounding
@@ -59,14 +61,22 @@ def beyond_event(
         before, after = _edge_rates(cavity, solved)
         size = abs(before) + abs(after) or 1.0
         return -before / size, -after / size
-    last, left = solved.spots[2], _HEALED * cavity.largest
+    last, gap = solved.spots[2], places[2][0]
+    left = _nothing(law, cavity, gap)
     if last.growth < 0.0 and solved.voids[2] <= left:
         size = cavity.void + abs(solved.voids[2]) + left
         return min((left - cavity.void) / size, 0.0), (left - solved.voids[2]) / size
-    gap = places[2][0]
     if gap - edge_of(cavity.torn, gap, solved.voids[2]).torn_gap <= _SHALLOW * gap:
         return -1.0, -1.0
     return -1.0, -last.returns / (abs(last.growth) + abs(last.returns) + 1e-300) - _RECEDES
+
+
+def _nothing(law: CavityLaw, cavity: Cavity, gap: float) -> float:
+    """Void [m3] up to which a film counts as full."""
+    rim, _ = law.rim(gap, cavity.void)
+    film = math.pi * rim * gap
+    # In a cavity that never was deep round-off decides where the edge is.
+    return (_NOTHING if cavity.largest < _SHALLOW * film else _HEALED) * film
 
 
 def _edge_rates(cavity: Cavity, solved: CavityStages) -> tuple[float, float]:
@@ -100,7 +110,7 @@ def after_event(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cav
     if cavity.phase is Phase.RECEDING:
         void = void_within(cavity.torn, gap)
         return cavity._replace(phase=Phase.RETURNING, void=void)
-    if cavity.void <= 2.0 * _HEALED * cavity.largest:
+    if cavity.void <= 2.0 * _nothing(law, cavity, gap):
         return FULL
     torn = cut(cavity.torn, gap, cavity.void)
     return cavity._replace(phase=Phase.RECEDING, torn=torn)

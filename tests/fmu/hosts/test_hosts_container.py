@@ -195,7 +195,7 @@ def test_valve_and_film_in_one_fmu(fmus, tmp_path, release, step, flags, error):
 def test_the_film_first_if_they_take_turns(fmus, tmp_path, release):
     path = pack(fmus, tmp_path, 5e-6, "-sequential", rows=(ROWS[1], ROWS[0], ROWS[2]))
     found, _ = simulate(path, "t_release")
-    assert found["t_release"][-1] / release - 1.0 == pytest.approx(-3.9e-4, rel=0.2)
+    assert found["t_release"][-1] / release - 1.0 == pytest.approx(-7.2e-5, rel=0.2)
 
 
 @no_runtime
@@ -203,7 +203,7 @@ def test_parameters_of_both_reach_them(fmus, tmp_path):
     """With a unit of their own name each; a refusal says why to a host that listens."""
     path = pack(fmus, tmp_path, 5e-6, "-auto-parameter")
     found, _ = simulate(path, "t_release", start_values={"stiction_mass.m": 0.04})
-    assert found["t_release"][-1] == pytest.approx(1.5627e-3, rel=1e-4)
+    assert found["t_release"][-1] == pytest.approx(1.4017e-3, rel=1e-4)
     wrong = {"start_values": {"stiction_mass.h0": -1.0}, "debug_logging": True}
     found, said = simulate(path, "t_release", **wrong)
     assert "failed with status 3" in found["error"]
@@ -230,5 +230,5 @@ def test_a_step_too_long_for_the_stop(fmus, tmp_path, release):
     path = pack(fmus, tmp_path, 1e-4)
     found, _ = simulate(path, "t_release", "n_release", "F_peak", "h", interval=1e-4)
     assert found["t_release"][-1] > 1.2 * release
-    assert found["F_peak"][-1] == pytest.approx(31.9, rel=1e-2)
+    assert found["F_peak"][-1] == pytest.approx(15.83, rel=1e-2)  # half of strength times area
     assert min(found["h"]) > 0.0

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #define CK_PI 3.14159265358979323846
-#define HEALED 1e-10  /* void over the largest of a cavity, at which the film counts as full */
+#define HEALED 1e-9   /* void over the film at which it counts as full */
+#define NOTHING 1e-8  /* the same of a cavity that never was deeper than SHALLOW */
 #define SAME 1e-12    /* squares of the edge that are closer, relatively, are one */
 #define SHALLOW 1e-6  /* depth of the void at the edge over the gap, where round-off moves the edge */
 #define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than rounding */
@@ -17,6 +18,13 @@
 
 int ck_is_torn_by(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
     return cavity->phase == CK_WHOLE && ck_tension_at(law, at.gap, at.speed, 0.0) >= law->strength;
+}
+
+/* Void up to which a film counts as full. */
+static double nothing(const ck_cavity_law *law, const ck_cavity *cavity, double gap) {
+    double ignored, rim = ck_rim(law, gap, cavity->hollow, &ignored);
+    double film = CK_PI * rim * gap;
+    return (cavity->largest < SHALLOW * film ? NOTHING : HEALED) * film;
 }
 
 static void constant_piece(ck_piece_torn *piece, double low, double high, double gap, double before) {
@@ -68,7 +76,8 @@ void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck
         *behind = -first / size, *ahead = -final / size;
         return;
     }
-    last = &solved->spots[2], left = HEALED * cavity->largest, end = solved->voids[2];
+    last = &solved->spots[2], end = solved->voids[2];
+    left = nothing(law, cavity, at[2].gap);
     if (last->growth < 0.0 && end <= left) {
         size = cavity->hollow + fabs(end) + left;
         *behind = fmin((left - cavity->hollow) / size, 0.0);
@@ -102,7 +111,7 @@ void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
     } else if (cavity->phase == CK_RECEDING) {
         cavity->hollow = CK_PI * at.gap * ck_torn_outermost(cavity) - ck_torn_liquid(cavity);
         cavity->phase = CK_RETURNING;
-    } else if (cavity->hollow <= 2.0 * HEALED * cavity->largest) {
+    } else if (cavity->hollow <= 2.0 * nothing(law, cavity, at.gap)) {
         memset(cavity, 0, sizeof *cavity);
     } else {
         ck_torn_cut(cavity, at.gap, cavity->hollow);
