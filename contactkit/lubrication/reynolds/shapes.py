@@ -350,7 +350,15 @@ class Polygon(Shape):
 
 
 @frozen(kw_only=True)
-class Union(Shape):
+class _Composed(Shape, abc.ABC):
+    """What two shapes make."""
+
+    first: Shape = field(validator=part(Shape))
+    second: Shape = field(validator=part(Shape))
+
+
+@frozen(kw_only=True)
+class Union(_Composed):
     """All that lies in either of two shapes.
 
     Parameters
@@ -358,9 +366,6 @@ class Union(Shape):
     first, second : Shape
         The shapes.
     """
-
-    first: Shape = field(validator=part(Shape))
-    second: Shape = field(validator=part(Shape))
 
     def level(self, x: Any, y: Any) -> NDArray[np.float64]:
         """See `Shape.level`."""
@@ -374,7 +379,7 @@ class Union(Shape):
 
 
 @frozen(kw_only=True)
-class Intersection(Shape):
+class Intersection(_Composed):
     """All that lies in both of two shapes.
 
     Parameters
@@ -382,9 +387,6 @@ class Intersection(Shape):
     first, second : Shape
         The shapes.
     """
-
-    first: Shape = field(validator=part(Shape))
-    second: Shape = field(validator=part(Shape))
 
     def level(self, x: Any, y: Any) -> NDArray[np.float64]:
         """See `Shape.level`."""
@@ -398,7 +400,7 @@ class Intersection(Shape):
 
 
 @frozen(kw_only=True)
-class Difference(Shape):
+class Difference(_Composed):
     """All that lies in the first of two shapes and not in the second.
 
     Parameters
@@ -406,9 +408,6 @@ class Difference(Shape):
     first, second : Shape
         The shapes.
     """
-
-    first: Shape = field(validator=part(Shape))
-    second: Shape = field(validator=part(Shape))
 
     def level(self, x: Any, y: Any) -> NDArray[np.float64]:
         """See `Shape.level`."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 from ...lubrication.disc_cavity import receding_edge
 from ...lubrication.torn_film import (
@@ -16,12 +17,22 @@ from ...lubrication.torn_film import (
     torn_to,
     void_within,
 )
+from ...numerics.events import EventStep, step_to_event
 from .law import CavityLaw
 from .stages import CavityStages
 from .state import FULL, Cavity, Phase
 
-__all__ = ["after_event", "after_jump", "after_step", "beyond_event", "born", "is_torn_by"]
+__all__ = [
+    "after_event",
+    "after_jump",
+    "after_step",
+    "beyond_event",
+    "born",
+    "first_event",
+    "is_torn_by",
+]
 
+S = TypeVar("S")
 _HEALED = 1e-9  # void over the film at which it counts as full
 _NOTHING = 1e-8  # the same of a cavity that never was deeper than `_SHALLOW`
 _SAME = 1e-12  # squares of the edge that are closer, relatively, are one
@@ -69,6 +80,36 @@ def beyond_event(
     if gap - edge_of(cavity.torn, gap, solved.voids[2]).torn_gap <= _SHALLOW * gap:
         return -1.0, -1.0
     return -1.0, -last.returns / (abs(last.growth) + abs(last.returns) + 1e-300) - _RECEDES
+
+
+def first_event(
+    attempt: Callable[[float], S | None],
+    beyond: Callable[[S], tuple[float, float]],
+    taken: S,
+    length: float,
+    enough: float,
+) -> EventStep[S] | None:
+    """Step that ends at the first event of a cavity; None if there is none in it.
+
+    Of length 0 if the event is where the step starts.
+
+    Parameters
+    ----------
+    attempt : callable
+        A step of a length [s]; None where there is none.
+    beyond : callable
+        `beyond_event` of a step.
+    taken, length : step, float
+        The step, and its length [s].
+    enough : float
+        Distance from the event that may be left [-].
+    """
+    behind, ahead = beyond(taken)
+    if ahead <= 0.0:
+        return None
+    if behind >= 0.0:
+        return EventStep(taken, 0.0)
+    return step_to_event(attempt, lambda one: beyond(one)[1], behind, taken, length, enough)
 
 
 def _nothing(law: CavityLaw, cavity: Cavity, gap: float) -> float:

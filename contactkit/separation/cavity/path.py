@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from ...errors import ConvergenceError
-from ...numerics.events import step_to_event
+from ...numerics.events import EventStep
 from ...numerics.step_size import StepSize
 from ..integrator.tableau import NODES, WEIGHTS
-from .events import after_event, after_jump, after_step, beyond_event, is_torn_by
+from .events import (
+    after_event,
+    after_jump,
+    after_step,
+    beyond_event,
+    first_event,
+    is_torn_by,
+)
 from .law import CavityLaw
 from .stages import CavityStages, solved_stages
 from .state import Cavity, Phase
@@ -135,12 +143,11 @@ def _accepted(
 ) -> tuple[_Try, float, float]:
     """Longest step that meets the tolerance, its length [s] and its error over the tolerance."""
     for _ in range(80):
-        taken = _attempt(law, cavity, place, time, length)
-        error = 0.0 if taken is not None and taken.solved is None else float("inf")
-        if taken is not None and taken.solved is not None:
-            error = taken.solved.error / rtol
-        if taken is not None and error <= 1.0:
-            return taken, length, error
+        taken, error = _attempt(law, cavity, place, time, length), math.inf
+        if taken is not None:
+            error = taken.solved.error / rtol if taken.solved is not None else 0.0
+            if error <= 1.0:
+                return taken, length, error
         length = _CONTROL.shorter(length, error)
     raise ConvergenceError(
         f"no step of the cavity can be taken from {time:g} s; loosen Accuracy.time_rtol", None
@@ -149,22 +156,12 @@ def _accepted(
 
 def _cut(
     law: CavityLaw, cavity: Cavity, place: Place, time: float, taken: _Try, length: float
-) -> tuple[_Try, float] | None:
+) -> EventStep[_Try] | None:
     """Step that ends at the first event, and its length; None if there is none."""
 
     def both(one: _Try) -> tuple[float, float]:
         return beyond_event(law, cavity, one.solved, one.begin, one.places)
 
-    behind, ahead = both(taken)
-    if ahead <= 0.0:
-        return None
-    if behind >= 0.0:
-        return taken, 0.0
-    return step_to_event(
-        lambda dt: _attempt(law, cavity, place, time, dt),
-        lambda one: both(one)[1],
-        behind,
-        taken,
-        length,
-        _EVENT,
+    return first_event(
+        lambda dt: _attempt(law, cavity, place, time, dt), both, taken, length, _EVENT
     )

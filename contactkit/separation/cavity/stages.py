@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 from ...lubrication.disc_cavity import film_ring, inflow, receding_edge
 from ...lubrication.torn_film import edge_of
+from ...numerics.three import Three, solved_three
 from ..integrator.tableau import ERROR, GAMMA, STAGES
 from .law import CavityLaw
 from .state import Cavity, Phase
@@ -161,32 +162,20 @@ def solved_stages(
     return CavityStages((a, b, c), (first, second, third), (one, two, three), error)
 
 
-def _newton(
-    first: float, dt: float, voids: Sequence[float], spots: Sequence[Spot]
-) -> tuple[float, float, float] | None:
+def _newton(first: float, dt: float, voids: Sequence[float], spots: Sequence[Spot]) -> Three | None:
     """Change of the voids that the equations of the stages ask for."""
-    r = [
+    x, y, z = (
         void - first - dt * sum(a * spot.growth for a, spot in zip(row, spots, strict=True))
         for void, row in zip(voids, STAGES, strict=True)
-    ]
-    (a0, a1, a2), (b0, b1, b2), (c0, c1, c2) = (
-        [
-            (i == j) - dt * a * spot.by_void
-            for j, (a, spot) in enumerate(zip(row, spots, strict=True))
-        ]
-        for i, row in enumerate(STAGES)
     )
-    m0, m1, m2 = b1 * c2 - b2 * c1, b2 * c0 - b0 * c2, b0 * c1 - b1 * c0
-    det = a0 * m0 + a1 * m1 + a2 * m2
-    if det == 0.0 or not math.isfinite(det):
-        return None
-    x, y, z = r
-    found = (
-        (x * m0 + a1 * (b2 * z - y * c2) + a2 * (y * c1 - b1 * z)) / det,
-        (a0 * (y * c2 - b2 * z) + x * m1 + a2 * (b0 * z - y * c0)) / det,
-        (a0 * (b1 * z - y * c1) + a1 * (y * c0 - b0 * z) + x * m2) / det,
+    u, v, w = (dt * spot.by_void for spot in spots)
+    (a0, a1, a2), (b0, b1, b2), (c0, c1, c2) = STAGES
+    return solved_three(
+        (1.0 - a0 * u, -a1 * v, -a2 * w),
+        (-b0 * u, 1.0 - b1 * v, -b2 * w),
+        (-c0 * u, -c1 * v, 1.0 - c2 * w),
+        (x, y, z),
     )
-    return found if math.isfinite(sum(found)) else None
 
 
 def _error(first: float, dt: float, voids: Sequence[float], start: Spot) -> float:

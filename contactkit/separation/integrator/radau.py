@@ -28,6 +28,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
+from ...numerics.three import Three, solved_three
 from .tableau import ERROR, GAMMA, NODES, STAGES
 
 __all__ = [
@@ -136,8 +137,6 @@ _Line = tuple[float, float, float, float, float, float]
 """What the equation of a stage is made of: speed, slope and swing of the stage, and the net force
 on the mass [N] with its slopes over the gap [N/m] and the speed [N.s/m]."""
 
-_Three = tuple[float, float, float]
-
 
 def coordinate(gap: float, s: float, q: float) -> tuple[float, float, float] | None:
     """Gap and its first two derivatives with respect to q; None outside the range of q."""
@@ -216,8 +215,8 @@ def _largest(values: Sequence[float]) -> float:
 
 
 def _first_guess(
-    problem: Problem, dt: float, s: float, pulls: _Three, floor: float
-) -> tuple[_Three, float]:
+    problem: Problem, dt: float, s: float, pulls: Three, floor: float
+) -> tuple[Three, float]:
     """Rates of the stages of the problem that is linear at the start, and how far they lead.
 
     The rate at the start, and infinity, where that is too far to be of any use.
@@ -243,7 +242,7 @@ def _first_guess(
     return rates, _largest(change) / (_largest(rates) + floor) + reach
 
 
-def _stages(gap: float, dt: float, s: float, rates: _Three) -> list[_Stage] | None:
+def _stages(gap: float, dt: float, s: float, rates: Three) -> list[_Stage] | None:
     """Stages for rates of the coordinate [1/s]; None where one is outside its range."""
     found = []
     for row, rate in zip(STAGES, rates, strict=True):
@@ -266,7 +265,7 @@ def _line(problem: Problem, stage: _Stage, forces: Forces, pull: float) -> _Line
 
 def _newton(
     mass: float, dt: float, speed: float, lines: Sequence[_Line]
-) -> tuple[_Three, _Three] | None:
+) -> tuple[Three, Three] | None:
     """Residual m (v_i - v_0) - dt sum(a_ij F_j) of the stages, and the change of rates it asks for.
 
     None if the matrix is singular, or a force is not finite.
@@ -292,20 +291,11 @@ def _newton(
     c0 = dt * (a31 * (inertia - own1) - (u * a11 + v * a21 + w * a31))
     c1 = dt * (a32 * (inertia - own2) - (u * a12 + v * a22 + w * a32))
     c2 = mass * p3 + dt * (a33 * (inertia - own3) - (u * a13 + v * a23 + w * a33))
-    # Cramer's rule.
-    m0, m1, m2 = b1 * c2 - b2 * c1, b2 * c0 - b0 * c2, b0 * c1 - b1 * c0
-    det = a0 * m0 + a1 * m1 + a2 * m2
-    if det == 0.0 or not math.isfinite(det):
-        return None
     x = mass * (v1 - speed) - dt * (a11 * n1 + a12 * n2 + a13 * n3)
     y = mass * (v2 - speed) - dt * (a21 * n1 + a22 * n2 + a23 * n3)
     z = mass * (v3 - speed) - dt * (a31 * n1 + a32 * n2 + a33 * n3)
-    i, j, k = (
-        (x * m0 + a1 * (b2 * z - y * c2) + a2 * (y * c1 - b1 * z)) / det,
-        (a0 * (y * c2 - b2 * z) + x * m1 + a2 * (b0 * z - y * c0)) / det,
-        (a0 * (b1 * z - y * c1) + a1 * (y * c0 - b0 * z) + x * m2) / det,
-    )
-    return ((x, y, z), (i, j, k)) if math.isfinite(i + j + k) else None
+    change = solved_three((a0, a1, a2), (b0, b1, b2), (c0, c1, c2), (x, y, z))
+    return None if change is None else ((x, y, z), change)
 
 
 def _momentum(mass: float, dt: float, scale: float, lines: Sequence[_Line]) -> float:
@@ -324,7 +314,7 @@ def _finished(
     problem: Problem,
     dt: float,
     s: float,
-    rates: _Three,
+    rates: Three,
     last: tuple[Sequence[_Stage], Sequence[Forces]],
     evaluations: int,
 ) -> Step | None:

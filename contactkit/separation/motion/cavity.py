@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from attrs import field, frozen
 
-from ...numerics.events import EventStep, step_to_event
-from ..cavity.events import after_event, after_step, beyond_event, is_torn_by
+from ...numerics.events import EventStep
+from ..cavity.events import after_event, after_step, beyond_event, first_event, is_torn_by
 from ..cavity.law import CavityLaw
 from ..cavity.stages import CavityForce, Spot, force_at, solved_stages, spot_at
 from ..cavity.state import Cavity, Phase
@@ -90,11 +90,4 @@ def cut_at_event(
         places = [(point.gap, point.speed) for point in one.stages]
         return beyond_event(law, cavity, solved, begin, places)
 
-    behind, ahead = both(taken)
-    if ahead <= 0.0:
-        return None
-    if behind >= 0.0:
-        return EventStep(taken, 0.0)
-    return step_to_event(
-        lambda dt: step(problem, dt), lambda one: both(one)[1], behind, taken, length, _EVENT
-    )
+    return first_event(lambda dt: step(problem, dt), both, taken, length, _EVENT)
