@@ -53,7 +53,8 @@ def coarser(
             f"{factor} times as wide",
         )
     lower, upper = plan.scene.interface.bodies
-    surface = Heights(heights=heights[::factor, ::factor], pixel_size=(factor * dy, factor * dx))
+    given = plan.prepared.open(heights)[::factor, ::factor]
+    surface = Heights(heights=given, pixel_size=(factor * dy, factor * dx))
     scene = evolve(
         plan.scene,
         interface=Interface(

@@ -104,7 +104,7 @@ def _once(
 ) -> Solution:
     accuracy = plan.accuracy
     solution = plan.prepared.solver.solve(
-        heights,
+        plan.prepared.open(heights),
         mean_pressure=target.mean_pressure,
         rigid_approach=target.rigid_approach,
         bound=bound,

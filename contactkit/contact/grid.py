@@ -30,6 +30,7 @@ __all__ = [
     "ShortWave",
     "combined_heights",
     "grid_of",
+    "holes_of",
     "realise",
     "short_waves",
 ]
@@ -219,6 +220,29 @@ def combined_heights(scene: ContactScene, grid: Grid) -> Map:
     """Sum of the heights of both bodies [m], (ny, nx)."""
     lower, upper = scene.interface.lower.surface, scene.interface.upper.surface
     return realise(lower, grid) + realise(upper, grid)
+
+
+def holes_of(scene: ContactScene) -> NDArray[np.bool_] | None:
+    """Pixels where a body has a hole, (ny, nx): they carry no load. None if there is none."""
+    found = [
+        holes
+        for body in (scene.interface.lower, scene.interface.upper)
+        for holes in _own_holes(body.surface)
+    ]
+    if not found:
+        return None
+    union: NDArray[np.bool_] = sum(found[1:], start=found[0])  # of flags: or
+    if union.all():
+        raise DescriptionError(
+            "Interface", "a hole in every pixel", "have pixels where both bodies are measured"
+        )
+    return union
+
+
+def _own_holes(surface: Surface) -> list[NDArray[np.bool_]]:
+    if isinstance(surface, CombinedSurface):
+        return [holes for part in surface.parts for holes in _own_holes(part)]
+    return [surface.holes] if isinstance(surface, Heights) and surface.holes is not None else []
 
 
 def realise(surface: Surface, grid: Grid) -> Map:

@@ -27,7 +27,7 @@ from .effects.base import (
 )
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS
-from .grid import grid_of
+from .grid import grid_of, holes_of
 from .prepared import Once, PreparedInterface, interface_key
 
 if TYPE_CHECKING:
@@ -123,6 +123,14 @@ class ContactPlan(ScenePlan):
     def heights(self) -> Map:
         """Heights of both bodies together [m], (ny, nx), read-only."""
         return self.prepared.heights
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """See `ScenePlan.notes`: how many pixels carry no load."""
+        holes = holes_of(self.scene)
+        if holes is None:
+            return ()
+        return (f"holes: {int(holes.sum())} of {holes.size} pixels, which carry no load",)
 
     @property
     def mean_pressure(self) -> float | None:
@@ -221,6 +229,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
         scene = evolve(scene, window=evolve(scene.window, periodic=False))
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
+    _check_holes(scene)
     _check_size(made)
     _check_load(made)
     return made
@@ -280,6 +289,20 @@ def _check_liquid(made: ContactPlan) -> None:
         for effect in made.scene.effects
         if made.liquid is not None
         for item in made.liquid.missing(*effect.liquid_needs)
+    ]
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _check_holes(scene: ContactScene) -> None:
+    """Refuse holes beside an effect that needs the gap everywhere."""
+    if holes_of(scene) is None:
+        return
+    problems = [
+        f"{type(effect).__name__} needs the gap at every pixel, and the surface has holes; fill "
+        "them, or leave it out"
+        for effect in scene.effects
+        if not effect.takes_holes
     ]
     if problems:
         raise PlanError("; ".join(problems))
@@ -353,6 +376,8 @@ def _check_approach(made: ContactPlan) -> None:
     loading = made.scene.loading
     if not isinstance(loading, Approach) or made.hardness is not None or not made.grid.periodic:
         return
+    if made.prepared.holes is not None:
+        return  # there the surface can rise as far as it must
     heights = made.heights
     limit = float(heights.max() - heights.mean())
     if loading.approach >= limit:

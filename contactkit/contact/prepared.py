@@ -12,7 +12,7 @@ from ..numerics.fft import fast_transforms_installed
 from ..scene.scenes import ContactScene
 from ..scene.window import Grid
 from .effects.base import Compliance
-from .grid import combined_heights
+from .grid import combined_heights, holes_of
 from .solver.contact_solver import ContactSolver
 from .solver.convolution import Convolution, SymbolMaker, Transforms, symbol_of
 
@@ -66,6 +66,8 @@ class PreparedInterface:
     ----------
     heights : ndarray (ny, nx)
         Heights of both bodies together [m], read-only.
+    holes : ndarray (ny, nx) of bool or None
+        Pixels that carry no load; None if every pixel may.
     compliances : tuple of callable
         For each deforming body a function that makes its symbol.
     solver : ContactSolver
@@ -76,6 +78,7 @@ class PreparedInterface:
         self.grid, self._threads = grid, threads
         self.heights = combined_heights(scene, grid)
         self.heights.flags.writeable = False
+        self.holes = holes_of(scene)
         self.compliances = scene.demand(Compliance).prepare(scene, grid)
         self.solver = ContactSolver(
             grid.shape, grid.pixel_size, _sum(self.compliances), grid.periodic, threads=threads
@@ -87,6 +90,10 @@ class PreparedInterface:
     def first_touch(self) -> float:
         """Rigid-body approach [m] at which the undeformed bodies touch."""
         return -float(self.heights.max())
+
+    def open(self, heights: Map) -> Map:
+        """Return heights with the holes of the interface masked, as the solver takes them."""
+        return heights if self.holes is None else np.ma.MaskedArray(heights, self.holes)
 
     def displacements(self, pressure: Map, total: Map) -> tuple[Map, ...]:
         """Displacement [m] of the surface of each deforming body; `total` is their sum."""

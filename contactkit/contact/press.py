@@ -52,7 +52,8 @@ def press(
     ----------
     heights : array_like (ny, nx), or topography
         Heights [m] of the rough body that faces the flat, peaks up; or a topography object of
-        SurfaceTopography, which has a unit, a size and a flag of periodicity.
+        SurfaceTopography, which has a unit, a size and a flag of periodicity. Masked pixels are
+        holes: they carry no load, and `gap` means nothing there.
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx). None with a topography.
     stack : Stack or Material
@@ -72,13 +73,13 @@ def press(
     Returns
     -------
     ContactResult
-        With ``pressure``, ``gap``, ``displacement`` (ny, nx), ``contact_area``, ``status``,
-        ``work`` and, with a hardness, ``plastic_area``.
+        With ``pressure``, ``gap``, ``displacement``, ``holes`` (ny, nx), ``contact_area``,
+        ``status``, ``work`` and, with a hardness, ``plastic_area``.
 
     Raises
     ------
     DescriptionError
-        If the map has holes, one row, or a number is impossible.
+        If the map has one row, a height is not finite, or a number is impossible.
     InfeasibleError
         If the hardness cannot carry the load.
 
@@ -117,7 +118,7 @@ def press(
     )
     result = solve_unwarned(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
     warn(result.validity)
-    return evolve(result, message=f"{result.message}; {_tilt(surface)}")
+    return evolve(result, message=f"{result.message}{_holes(surface)}; {_tilt(surface)}")
 
 
 def _number(given: Any, unit: str, name: str) -> float:
@@ -143,6 +144,12 @@ def _surface(heights: Any, pixel_size: Any) -> Heights:
         )
     made: Heights = as_surface(heights)
     return made
+
+
+def _holes(surface: Heights) -> str:
+    if surface.holes is None:
+        return ""
+    return f"; {int(surface.holes.sum())} masked pixels carry no load, their gap is not known"
 
 
 def _tilt(surface: Heights) -> str:

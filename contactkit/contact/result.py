@@ -15,6 +15,7 @@ from ..scene.result import Result
 from ..scene.validity import ValidityNumber
 from .effects.base import ContactEffect
 from .effects.plasticity import HardnessLimit
+from .grid import holes_of
 from .pixel_edges import pixel_edges
 from .plan import ContactPlan
 from .work import ContactWork
@@ -84,6 +85,14 @@ class ContactResult(Result):
         """Pixels in contact (ny, nx): where the pressure is not zero."""
         touching: NDArray[np.bool_] = self.pressure > 0.0
         return touching
+
+    @property
+    def holes(self) -> NDArray[np.bool_] | None:
+        """Pixels (ny, nx) that were masked in the heights; None if there are none.
+
+        They carry no load. Heights and gap have a number there, which means nothing.
+        """
+        return holes_of(self.plan.scene)
 
     @property
     def contact_area(self) -> float:

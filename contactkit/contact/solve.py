@@ -144,7 +144,7 @@ def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answ
     else:
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)
-    _check_fits(plan, contact)
+    _check_fits(plan, contact, solved.solution.energy)
     for effect in plan.scene.effects:
         begun = time.perf_counter()
         if type(effect) not in parts and (part := effect.observe(contact)) is not None:
@@ -155,11 +155,12 @@ def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answ
     return _Answer(solved, contact, parts)
 
 
-def _check_fits(plan: ContactPlan, contact: Contact) -> None:
+def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
     """Refuse a contact whose numbers left the range of a computer's on the way."""
     load = plan.mean_pressure
     is_lost = load is not None and load > 0.0 and not contact.pressure.any()
-    if not is_lost and math.isfinite(float(contact.pressure.sum() + contact.gap.sum())):
+    sums = float(contact.pressure.sum() + contact.gap.sum()) + energy
+    if not is_lost and math.isfinite(sums):
         return
     (ny, nx), (dy, dx) = plan.grid.shape, plan.grid.pixel_size
     imposed = "" if load is None else f", a mean pressure of {load:.3g} Pa"

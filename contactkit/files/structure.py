@@ -162,7 +162,8 @@ def field_value(kind: type, name: str, value: Any) -> Any:
 
 def _resolved(kind: type) -> None:
     """Resolve the types of the fields of a class, also those imported for type checkers only."""
-    names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect, "Map": Any}
+    effects = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect}
+    names: dict[str, Any] = effects | {"Map": Any, "Mask": Any}
     attrs.resolve_types(kind, localns=names)
 
 

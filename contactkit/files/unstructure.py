@@ -70,6 +70,8 @@ _TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
 ARRAY_FIELDS: dict[tuple[type, str], str] = {
     (Heights, "heights"): "save the array as .npy and use Measured(path=..., pixel_size=..., "
     "unit='m', detrend='none'), in a file shape = 'measured'",
+    (Heights, "holes"): "fill the holes, save the array as .npy and use Measured(path=...); a map "
+    "with holes is kept in Python and in result files",
     (
         HardnessMap,
         "values",

@@ -37,6 +37,7 @@ Trend = Literal["none", "mean", "tilt", "curvature"]
 
 _MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")
 _UNMARKED = ("hgt", "nms")
+_RESIDUE = 8.0 * float(np.finfo(np.float64).eps)  # of the heights given, that detrending leaves
 _ROUNDED = 0.02  # tolerance of coordinates over the step, for values rounded in a text
 
 
@@ -177,7 +178,9 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     Notes
     -----
     Rough surfaces have wavelengths beyond any window, which are removed in part: a tilt removes
-    about the fraction of the variance at wavelengths longer than the window.
+    about the fraction of the variance at wavelengths longer than the window. What round-off leaves
+    of a map without roughness is no surface: the result is zero where its mean deviation is below
+    2e-15 of the largest height given.
 
     Examples
     --------
@@ -190,7 +193,7 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
         return left
     left -= left.mean()
     if trend == "mean":
-        return left
+        return _without_residue(left, heights)
     y, x = (_centred(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1)) for n in left.shape)
     shapes = [(y, np.ones_like(x)), (np.ones_like(y), x)]
     if trend == "curvature":
@@ -200,7 +203,13 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
         square = float(of_y @ of_y) * float(of_x @ of_x)
         if square > 1e-12:  # a grid of one or two pixels has no tilt or no curvature
             left -= (of_y @ left @ of_x / square * of_y)[:, None] * of_x
-    return left
+    return _without_residue(left, heights)
+
+
+def _without_residue(left: Array, given: Array) -> Array:
+    """Zero in place of heights that are the round-off of those given."""
+    largest = float(np.abs(given).max(initial=0.0))
+    return np.zeros_like(left) if float(np.abs(left).mean()) <= _RESIDUE * largest else left
 
 
 def _centred(values: Array) -> Array:
@@ -394,7 +403,8 @@ def _checked(heights: Array, file: Path) -> Array:
             f"{int(holes.sum())} that are not, the first at [{i}, {j}]",
             f"be finite in every pixel of {file.name}",
             unit="m",
-            hint="fill the holes in the instrument's software, or cut out a part without any",
+            hint="fill the holes in the instrument's software, or cut out a part without any; or "
+            "press the array with them masked (numpy.ma): they then carry no load",
         )
     return np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
 

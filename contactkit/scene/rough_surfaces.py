@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Map = NDArray[np.float64]
+    Mask = NDArray[np.bool_]
 
 __all__ = [
     "CombinedSurface",
@@ -173,7 +174,30 @@ def _as_map(value: Any) -> Map:
             unit="m",
             hint="for a file use Measured(path=...)",
         )
+    holes = np.ma.getmaskarray(value) if np.ma.is_masked(value) else None
+    if holes is not None:  # kept until `Heights` takes the mask
+        return np.ma.MaskedArray(np.array(np.ma.getdata(value), dtype=float, order="C"), holes)
     made = np.array(given, dtype=float, order="C")
+    made.flags.writeable = False
+    return made
+
+
+def _as_holes(value: Any) -> Mask | None:
+    import numpy as np
+
+    if value is None:
+        return None
+    made = np.array(value, dtype=bool, order="C")
+    made.flags.writeable = False
+    return made
+
+
+def _filled(heights: Map, holes: Mask) -> Map:
+    """Heights whose holes have the height of the nearest pixel beside them."""
+    from scipy.ndimage import distance_transform_edt
+
+    nearest = distance_transform_edt(holes, return_distances=False, return_indices=True)
+    made: Map = heights[tuple(nearest)]
     made.flags.writeable = False
     return made
 
@@ -182,14 +206,28 @@ def _as_map(value: Any) -> Map:
 class Heights(RoughSurface):
     """Heights in hand, for people who come with an array.
 
+    Masked pixels (`numpy.ma`) are holes: what the instrument did not measure, or a pore. They carry
+    no load. There `heights` has that of the nearest pixel measured, so that no number is missing;
+    neither it nor the gap over it means anything.
+
     Parameters
     ----------
     heights : array_like (ny, nx)
-        Heights out of the body [m], peaks positive.
+        Heights out of the body [m], peaks positive; may be masked.
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx).
     is_periodic : bool, optional
         Whether they repeat beyond their edges. None: not known; the window decides.
+    holes : ndarray (ny, nx) of bool, optional
+        Pixels that carry no load. None: those that are masked in `heights`, if any.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> spike = np.ma.masked_greater([[0.0, 1e-9, 0.0], [0.0, 1.0, 0.0]], 1e-6)
+    >>> surface = Heights(heights=spike, pixel_size=1e-8)
+    >>> int(surface.holes.sum()), float(surface.heights.max())
+    (1, 1e-09)
     """
 
     kind: ClassVar[str] = "heights"
@@ -199,6 +237,7 @@ class Heights(RoughSurface):
         converter=as_pair, validator=_length_or_pair, metadata=si("m")
     )
     is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
+    holes: Mask | None = field(default=None, converter=_as_holes, repr=False)
 
     @heights.validator
     def _check_heights(self, attribute: Attribute[Any], value: Map) -> None:
@@ -211,17 +250,47 @@ class Heights(RoughSurface):
                 "have two dimensions (ny, nx) of at least 2 pixels each",
                 unit="m",
             )
-        if not np.isfinite(value).all():
-            first = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
-            n = int((~np.isfinite(value)).sum())
+        unknown = np.ma.filled(~np.isfinite(value), False)
+        if unknown.any():
+            first = tuple(int(i) for i in np.argwhere(unknown)[0])
+            n = int(unknown.sum())
             raise DescriptionError(
                 "Heights.heights",
                 float(value[first]),
                 f"be finite everywhere; at [y, x] = "
                 f"{list(first)} and {n - 1} more pixels they are not",
                 unit="m",
-                hint="fill the holes of the measurement first",
+                hint="fill the holes of the measurement, or mask them to carry no load: "
+                "heights=np.ma.masked_invalid(heights)",
             )
+
+    @holes.validator
+    def _check_holes(self, attribute: Attribute[Any], value: Mask | None) -> None:
+        if value is not None and value.shape != self.heights.shape:
+            raise DescriptionError(
+                "Heights.holes",
+                f"an array of shape {value.shape}",
+                f"have the {self.heights.shape} pixels of the heights",
+            )
+
+    def __attrs_post_init__(self) -> None:
+        """Take the mask of the heights, and fill the holes."""
+        import numpy as np
+
+        holes = self.holes
+        if isinstance(self.heights, np.ma.MaskedArray):
+            masked = np.ma.getmaskarray(self.heights)
+            holes = _as_holes(masked if holes is None else masked | holes)
+            if not masked.all():
+                object.__setattr__(self, "heights", _filled(np.ma.getdata(self.heights), masked))
+        if holes is not None and holes.all():
+            raise DescriptionError(
+                "Heights.holes",
+                "every pixel",
+                "leave pixels that carry load",
+                hint="check the mask",
+            )
+        object.__setattr__(self, "holes", holes)
 
     @property
     def checksum(self) -> str:

@@ -42,10 +42,12 @@ def is_topography(value: object) -> bool:
 def as_surface(value: Any) -> Any:
     """Convert a topography to `Heights`, with its flag of periodicity; leave all else alone.
 
+    Points that were not measured are holes, which carry no load.
+
     Raises
     ------
     DescriptionError
-        If it is a line scan, has no size or unit, or points that were not measured.
+        If it is a line scan, or has no size or unit.
     """
     if not is_topography(value):
         return value
@@ -64,7 +66,7 @@ def as_surface(value: Any) -> Any:
     (nx, ny), (width, height) = given.shape, sizes
     flag = getattr(value, "is_periodic", None)
     return Heights(
-        heights=factor * np.ma.filled(given.astype(float), np.nan).T,
+        heights=factor * given.astype(float).T,
         pixel_size=(factor * float(height) / ny, factor * float(width) / nx),
         is_periodic=None if flag is None else bool(flag),
     )

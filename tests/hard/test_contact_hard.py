@@ -664,3 +664,14 @@ def test_results_do_not_depend_on_what_was_solved_before():
         )
     fresh = ck.solve(plans[2])
     np.testing.assert_allclose(runs[2].pressure, fresh.pressure, atol=1e-5 * fresh.max_pressure)
+
+
+def test_no_friction_couples_nothing():
+    free, rubbed = (
+        solved(*effects, pressure=1e7)
+        for effects in ((), (ck.FrictionTraction(coefficient=0.0), ck.FrictionCoupling()))
+    )
+    assert np.array_equal(free.pressure, rubbed.pressure)
+    part = rubbed.of(ck.FrictionCoupling)
+    assert not part.displacement.any()
+    assert (part.pressure_change, part.area_change) == (0.0, 0.0)

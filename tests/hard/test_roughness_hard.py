@@ -188,3 +188,13 @@ def test_a_self_affine_surface_has_one_size(rms, slope, normalise, message):
             normalise,
             rms_slope=slope,
         )
+
+
+@pytest.mark.parametrize("trend", ["mean", "tilt", "curvature"])
+def test_a_detrended_flat_is_flat(trend):
+    """What round-off leaves of a plane is no roughness, however large the plane."""
+    y, x = np.mgrid[:40, :60]
+    plane = 0.3 if trend == "mean" else 1e-6 * (0.7 + 0.1 * x - 0.3 * y)
+    assert not detrended(plane + np.zeros((40, 60)), trend).any()
+    wave = 1e-13 * np.cos(2.0 * np.pi * x / 60.0)  # of the heights, some thousand times round-off
+    assert detrended(plane + wave, trend).std() > 1e-14

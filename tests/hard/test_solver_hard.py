@@ -247,3 +247,35 @@ def test_a_start_almost_all_at_its_bound_is_worth_nothing():
         assert warm.n_outer <= 1.5 * cold.n_outer + 1.0
         assert warm.pressure == pytest.approx(cold.pressure, abs=1e-6 * bound)
         before = [(load, warm.pressure), *before[:2]]
+
+
+@pytest.mark.parametrize("offset", [0.0, 1.0, 1e3])
+def test_roughness_on_a_large_offset_is_a_surface(solver, offset):
+    """2 nm on 1 km: as far as doubles hold, a step of 1.1e-13 m, and no flat."""
+    there = solver.solve(2.0 * HEIGHTS + offset, mean_pressure=1e7)
+    here = solver.solve(2.0 * HEIGHTS, mean_pressure=1e7)
+    assert there.converged
+    rounded = np.spacing(offset) / (2.0 * HEIGHTS.std())
+    off = np.abs(there.pressure - here.pressure).max() / here.pressure.max()
+    assert off <= 1e-6 + 10.0 * rounded
+
+
+@pytest.mark.parametrize("rms", [0.0, 1e-15, 1e-19, 1e-22, 1e-30, 1e-200])
+def test_less_roughness_than_a_number_resolves_is_solved(solver, rms):
+    """What is left of a flat by round-off: nearly uniform pressure, and no failure."""
+    s = solver.solve(rms * HEIGHTS / HEIGHTS.std(), mean_pressure=1e8)
+    assert s.converged
+    assert s.n_applications <= 60
+    assert s.pressure.sum() == pytest.approx(1e8 * N * N, rel=1e-12)
+    assert np.abs(s.pressure / 1e8 - 1.0).max() < 1e-2 * max(rms / 1e-15, 1e-3)
+
+
+@pytest.mark.parametrize("load", [1e-10, 1.0, 1e3])
+def test_a_load_far_below_what_the_heights_resist_is_carried(solver, load):
+    """Heights in metres instead of nanometres: the load was lost to round-off of the steps."""
+    s = solver.solve(1e12 * HEIGHTS, mean_pressure=load, bound=600.0 * load)
+    assert s.pressure.sum() == pytest.approx(load * N * N, rel=1e-9)
+    assert s.pressure.max() == 600.0 * load
+    highest = np.argsort(-HEIGHTS.ravel())[:7]  # six at the bound, and a part of it
+    assert set(np.flatnonzero(s.pressure)) == set(highest)
+    assert s.pressure.flat[highest[-1]] == s.pressure[s.pressure > 0.0].min()

@@ -111,7 +111,7 @@ def resolved(kind):
     """Fields of a class with their types; attrs resolves these once, for the converter too."""
     # What modules import for checkers alone; a map of numbers is an Array, with its unit.
     names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect}
-    names["Map"] = typing.Any
+    names |= dict.fromkeys(("Map", "Mask"), typing.Any)
     return attrs.fields(attrs.resolve_types(kind, localns=names))
 
 

@@ -116,8 +116,8 @@ def test_the_unit_of_a_topography_may_be_a_micrometre(unit):
         ({"physical_sizes": None}, r"topography\.physical_sizes must be two lengths"),
         ({"physical_sizes": (1.0,), "_heights": np.zeros(4)}, "profile along a line"),
         (
-            {"_heights": np.ma.masked_less(1e9 * HEIGHTS.T, -0.99)},
-            r"Heights\.heights must be finite everywhere",
+            {"_heights": np.ma.masked_less(1e9 * HEIGHTS.T, 99.0)},
+            r"Heights\.holes must leave pixels that carry load",
         ),
     ],
 )

@@ -301,7 +301,7 @@ def _unloading(plan: ContactPlan, node: _Node, overlap: Map) -> Unloading:
     start, found = node.pressure, [(1.0, 1.0, 1.0)]
     for fraction in reversed(_FRACTIONS):
         solution = plan.prepared.solver.solve(
-            deformed,
+            plan.prepared.open(deformed),
             rigid_approach=fraction * length - touch,
             rtol=accuracy.rtol,
             start=start,

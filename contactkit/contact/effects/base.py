@@ -165,6 +165,9 @@ class ContactEffect(Effect, Generic[Part]):
     liquid_needs: ClassVar[tuple[str, ...]] = ()
     """Properties of the liquid that this effect uses."""
 
+    takes_holes: ClassVar[bool] = False
+    """Whether it is right with pixels that carry no load and whose gap is not known."""
+
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
         return ()

@@ -32,6 +32,7 @@ class HalfSpace(Compliance):
     error is of the order of the squared slope.
     """
 
+    takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "half-space"
     summary: ClassVar[str] = "homogeneous elastic half-spaces"
 
@@ -61,6 +62,7 @@ class LayeredHalfSpace(Compliance):
     The compliance is exact for each wavenumber, whatever the contrast of the layers.
     """
 
+    takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "layered-half-space"
     summary: ClassVar[str] = "bonded elastic layers on half-spaces"
 

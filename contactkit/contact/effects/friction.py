@@ -73,6 +73,7 @@ class FrictionTraction(Observer[FrictionPart]):
         Direction in which the upper body slides, from the x axis towards y [rad].
     """
 
+    takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-traction"
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"
     records: ClassVar[tuple[type, ...]] = (FrictionPart,)
@@ -113,6 +114,7 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
     about mu (1 - 2 nu)/(2 (1 - nu)).
     """
 
+    takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-coupling"
     summary: ClassVar[str] = "normal displacement caused by the tangential traction"
     records: ClassVar[tuple[type, ...]] = (CouplingPart,)
@@ -147,6 +149,8 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
 
         def displacement(pressure: Map) -> Map:
             total: Map = np.zeros(grid.shape)
+            if not (ratio.x or ratio.y):  # no friction displaces nothing
+                return total
             for sign, coupling in zip(signs, couplings, strict=True):
                 total += coupling(
                     sign * ratio.x * pressure if ratio.x else None,

@@ -40,6 +40,14 @@ __all__ = ["HardnessLimit", "HardnessMap", "PlasticPart"]
 def _as_map(value: Any) -> Map:
     import numpy as np
 
+    if np.ma.is_masked(value):
+        raise DescriptionError(
+            "HardnessMap.values",
+            "a masked array",
+            "have a hardness for every pixel",
+            unit="Pa",
+            hint="a pixel that carries no load has the hardness 0, or is masked in the heights",
+        )
     made = np.array(value, dtype=float, order="C")
     made.flags.writeable = False
     return made
@@ -117,6 +125,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         displacements count from the mean of the surface; else from far away.
     """
 
+    takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "hardness-limit"
     summary: ClassVar[str] = "perfectly plastic where the pressure reaches the hardness"
     records: ClassVar[tuple[type, ...]] = (PlasticPart,)

@@ -140,6 +140,7 @@ class SubsurfaceStress(Observer[StressPart]):
         transforms: the stress is linear in the coefficient.
     """
 
+    takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
     records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)

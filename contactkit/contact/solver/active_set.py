@@ -76,7 +76,7 @@ class _State:
         loops = self.grid.loops
         self.exact = self.relative <= SINGLE
         self.grid.displace(self.exact)
-        self.scale = height_scale(self.same_rms, self.g, flat=1.0)
+        self.scale = height_scale(self.same_rms, self.g, self.problem.flat)
         loops.reduce_gap(self.g, self.h)
         free = loops.free_sums(self.p, self.g, self.upper)
         if self.problem.approach is not None:
@@ -136,7 +136,7 @@ class _State:
         for fraction, reduction in REDUCTIONS:
             if changed > fraction:
                 return reduction
-        return min(0.03, max(0.4 * self.rtol / self.relative, 1e-5))
+        return min(0.03, max(0.4 * self.rtol / max(self.relative, 1e-5 * self.rtol), 1e-5))
 
     def _balance(self) -> None:
         """Restore the load by scaling; where a bound prevents that, by the next correction."""

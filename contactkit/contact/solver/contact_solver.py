@@ -163,8 +163,8 @@ class ContactSolver:
 
         Parameters
         ----------
-        heights : ndarray (ny, nx)
-            Rigid rough body, peaks up [m].
+        heights : ndarray (ny, nx), may be masked
+            Rigid rough body, peaks up [m]. Masked pixels are holes, which carry no load.
         mean_pressure, rigid_approach : float, optional
             Load over the area of the map [Pa], or approach of the zero plane of the heights [m]:
             exactly one of them.
@@ -226,7 +226,7 @@ class ContactSolver:
             self.periodic
             and problem.approach is not None
             and problem.approach >= 0.0
-            and not np.all(np.isfinite(problem.upper))
+            and np.all(np.isinf(problem.upper))
         ):
             raise InfeasibleError(
                 "the approach reaches the mean plane of the heights, where the gap of a periodic "
@@ -306,11 +306,12 @@ class ContactSolver:
         vectors = int(np.count_nonzero(p)) * (5 * 4 + 3 * np.dtype(np.intp).itemsize)
         held = bytes_of(self.grids) + problem.heights.nbytes + 2 * p.nbytes + vectors
         padded = p.nbytes * (1 if self.periodic else 4)
+        carried = problem.load is None or abs(float(p.sum()) - problem.load) <= 1e-9 * problem.load
         return Solution(
             pressure=p * problem.pressure,
             displacement=u * problem.length,
             rigid_approach=outcome.approach * problem.length - problem.datum,
-            converged=bool(outcome.relative <= rtol),
+            converged=bool(outcome.relative <= rtol and carried),
             kkt=outcome.relative,
             certificate=outcome.certificate,
             energy=(energy - offset * float(p.sum())) * unit,

@@ -19,9 +19,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Optimality", "free_approach", "height_scale", "optimality"]
+__all__ = ["ROUNDED", "Optimality", "free_approach", "height_scale", "optimality"]
 
 Floats = NDArray[np.float64]
+ROUNDED = 4.0 * float(np.finfo(np.float64).eps)  # rms over largest height: nothing but round-off
+FINEST = 1e-6  # of the displacement: smaller lengths are lost in its round-off at a rtol of 1e-8
 
 
 class Optimality(NamedTuple):
@@ -41,15 +43,16 @@ def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> fl
     """Length that relative residuals refer to [m].
 
     The rms of the heights about their mean, or the largest displacement if that is smaller (a ball
-    on a wide map); never below 1e-4 of the rms, where round-off would decide. For flat
-    heights the largest displacement, but at least `flat`.
+    on a wide map); never below 1e-4 of the rms or 1e-6 of the displacement, where round-off would
+    decide. For flat heights, whose rms is round-off itself, the largest displacement, but at least
+    `flat`.
 
     Parameters
     ----------
     heights, displacement : ndarray (ny, nx)
         [m]
     flat : float
-        Minimum length for flat heights [m]: displacement of a single pixel under the mean pressure.
+        Displacement of a single pixel under the mean pressure [m].
 
     Examples
     --------
@@ -58,8 +61,9 @@ def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> fl
     """
     rms = float(np.std(heights))
     largest = float(max(displacement.max(), -displacement.min()))
-    is_flat = rms <= 1e-9 * float(np.abs(heights).max(initial=0.0))
-    return max(largest, flat) if is_flat else max(min(rms, largest), 1e-4 * rms)
+    if rms <= ROUNDED * float(np.abs(heights).max(initial=0.0)):
+        return max(largest, flat)
+    return max(min(rms, largest), 1e-4 * rms, FINEST * max(largest, flat))
 
 
 def free_approach(pressure: Floats, reduced_gap: Floats, bound: float | Floats) -> float:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import DescriptionError, InfeasibleError
+from .optimality import ROUNDED
 from .transfer import restrict
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
 ]
 
 Floats = NDArray[np.float64]
+SMALLEST, LARGEST = 1e-140, 1e140  # heights [m] whose squares are numbers of a computer
 
 
 class Solution(NamedTuple):
@@ -90,7 +92,7 @@ class Problem(NamedTuple):
 
     heights : (ny, nx); load : sum of the pressures, or None
     approach : rigid-body approach of the zero plane, or None
-    upper : (1,) or (ny nx,) upper bounds, ``inf`` for none
+    upper : (1,) or (ny nx,) upper bounds, ``inf`` for none; 0 in holes
     length, pressure, datum : units [m], [Pa] and the mean height [m] that was taken off
     """
 
@@ -101,6 +103,23 @@ class Problem(NamedTuple):
     length: float
     pressure: float
     datum: float
+
+    @property
+    def flat(self) -> float:
+        """Displacement of a single pixel under the mean pressure, as `height_scale` takes it."""
+        return max(1.0, (self.load or 0.0) / self.heights.size)
+
+
+def _without_holes(heights: Floats) -> tuple[Floats, Floats | None]:
+    """Heights with holes filled by the mean of the others, and a bound that keeps these free."""
+    if not isinstance(heights, np.ma.MaskedArray):
+        return np.asarray(heights, dtype=np.float64), None
+    holes = np.ma.getmaskarray(heights)
+    if holes.all() and holes.size:
+        raise DescriptionError("heights", "a mask over all pixels", "have pixels that may touch")
+    filled = np.array(np.ma.getdata(heights), dtype=np.float64)
+    filled[holes] = filled[~holes].mean() if holes.any() else 0.0
+    return filled, np.where(holes, 0.0, np.inf).ravel() if holes.any() else None
 
 
 def _checked_bound(bound: float | Floats | None, shape: tuple[int, ...]) -> Floats:
@@ -138,8 +157,8 @@ def pose(
 
     Parameters
     ----------
-    heights : ndarray (ny, nx)
-        Rigid rough body, peaks up [m].
+    heights : ndarray (ny, nx), may be masked
+        Rigid rough body, peaks up [m]. Masked pixels are holes, which carry no load.
     self_influence : float
         Displacement of a pixel under unit pressure on itself [m/Pa].
     mean_pressure, rigid_approach : float, optional
@@ -160,11 +179,15 @@ def pose(
     >>> round(pose(np.array([[1e-9, 3e-9], [1e-9, 3e-9]]), 1e-19, mean_pressure=1e9).load, 9)
     0.4
     """
-    h = np.asarray(heights, dtype=np.float64)
+    h, room = _without_holes(heights)
     if h.ndim != 2 or min(h.shape) < 2:
         raise DescriptionError("heights", h.shape, "be a map of at least 2 x 2 pixels")
     if not np.all(np.isfinite(h)):
         raise DescriptionError("heights", "nan or inf", "be finite everywhere", unit="m")
+    if not float(np.abs(h).max()) < LARGEST:
+        raise DescriptionError(
+            "heights", float(np.abs(h).max()), f"be below {LARGEST:g}", unit="m", hint="check units"
+        )
     if (mean_pressure is None) == (rigid_approach is None):
         raise DescriptionError(
             "mean_pressure, rigid_approach",
@@ -172,26 +195,29 @@ def pose(
             "be given one without the other",
         )
     upper = _checked_bound(bound, h.shape)
+    upper = upper if room is None else np.minimum(upper, room)
     if mean_pressure is not None:
         _check_load(mean_pressure, upper)
     elif rigid_approach is None or not np.isfinite(rigid_approach):
         raise DescriptionError("rigid_approach", rigid_approach, "be finite", unit="m")
+    pressed = self_influence * (mean_pressure or 0.0)
+    rounded = ROUNDED * max(float(np.abs(h).max()), pressed)
     datum = float(h.mean())
+    h = h - datum
+    h -= float(h.mean())  # what the mean of heights far from zero lost to round-off
     length = float(h.std())
-    is_flat = length <= 1e-9 * float(np.abs(h).max())
-    if is_flat:  # the load sets the only length there is
-        length = (
-            self_influence * mean_pressure
-            if mean_pressure
-            else abs((rigid_approach or 0.0) + datum)
-        )
-        length = length or 1.0
+    if length <= max(rounded, SMALLEST):  # flat: the load sets the only length there is
+        h[...] = 0.0
+        length = pressed or abs((rigid_approach or 0.0) + datum) or 1.0
     unit = length / self_influence
+    h /= length
+    with np.errstate(over="ignore"):  # a bound out of reach is none
+        upper = upper / unit
     return Problem(
-        heights=np.zeros_like(h) if is_flat else (h - datum) / length,
+        heights=h,
         load=None if mean_pressure is None else mean_pressure / unit * h.size,
         approach=None if rigid_approach is None else (rigid_approach + datum) / length,
-        upper=upper / unit,
+        upper=upper,
         length=length,
         pressure=unit,
         datum=datum,
@@ -229,7 +255,17 @@ def clip_to_load(trial: Floats, upper: Floats, load: float) -> Floats:
         low, high = (shift, high) if excess > 0.0 else (low, shift)
         slope = np.count_nonzero((p > 0.0) & (p < upper))
         shift += excess / slope if slope else np.inf
-    return p
+    return p if abs(excess) <= 1e-13 * load else _topped_up(p, trial, upper, load)
+
+
+def _topped_up(p: Floats, trial: Floats, upper: Floats, load: float) -> Floats:
+    """Restore a load that no shift reaches because the trial dwarfs it: highest pixels first."""
+    order = np.argsort(-trial, kind="stable")
+    room = np.broadcast_to(np.minimum(upper, load), p.shape)[order]
+    before = np.concatenate([[0.0], np.cumsum(room)[:-1]])
+    made = np.zeros_like(p)
+    made[order] = np.clip(load - before, 0.0, room)
+    return made
 
 
 def project(trial: Floats, problem: Problem) -> Floats:

@@ -58,7 +58,7 @@ def _graded(p: Floats, u: Floats, problem: Problem) -> Iterate:
     """Optimality of dimensionless pressures and their displacement."""
     h = problem.heights.ravel()
     found = optimality(p, u, h, problem.upper, problem.approach)
-    scale = height_scale(h, u, flat=1.0)
+    scale = height_scale(h, u, problem.flat)
     return Iterate(p, u, found, found.residual / scale, scale)
 
 
