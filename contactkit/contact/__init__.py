@@ -7,6 +7,7 @@ plan           Plan of a contact: checked and prepared.
 solve          Solve a planned contact, and run the effects that observe it.
 validity       Ranges of validity: resolution, small slopes, small strains.
 pixel_edges    Edges between the pixels in and out of contact.
+patches        Connected spots of a contact, and the distribution of their sizes.
 companion      A coarser companion of a contact, on fewer pixels.
 discretisation Error of the grid, estimated from a coarser companion.
 friction_loop  Displacement caused by friction, until it agrees with the pressure.

@@ -2,5 +2,6 @@
 
 separation  Figures of separations and costs; axes, legends and colours of all figures.
 contact     Figures of contacts.
+roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
 film        Figures of films on faces; animations.
 """

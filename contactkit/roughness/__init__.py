@@ -4,5 +4,7 @@ elementary         Heights of simple shapes: waves, spheres, paraboloids.
 random_surfaces    Random rough surfaces: exponential autocorrelation, self-affine.
 height_maps        Measured height maps: reading, validation, detrending.
 surface_data_file  Surface data files of ISO 25178-71 in their text form.
-statistics         Roughness parameters, bearing fraction, autocorrelation, spectrum, moments.
+spectra            Power spectral densities of maps and profiles; moments.
+statistics         Roughness parameters, summits, bearing curve, autocorrelation.
+contact_theories   Area over load after Persson, Bush, Gibson and Thomas, Greenwood and Williamson.
 """

@@ -1,9 +1,8 @@
-r"""Statistics of a height map: heights, slopes, curvatures, bearing area, spectrum.
+r"""Statistics of a height map: heights, slopes, curvatures, summits, bearing area, correlation.
 
 Heights z [m] are ``[y, x]``, ``pixel_size = (dy, dx)`` [m]; the mean of the heights is subtracted
 first. With ``periodic=True`` the map is one period of an infinite surface; otherwise nothing is
-assumed beyond its edges. The spectral density C [m4] over the wavenumber q [rad/m] is that of
-`random_surfaces`: :math:`\sigma^2 = \iint C\,d^2q / 4\pi^2`.
+assumed beyond its edges. Power spectral densities are in `spectra`.
 
 Roughness parameters depend on the scan. The standard deviation grows with the window up to the
 longest waves. The slope grows as the pixel shrinks down to the shortest waves, the curvature
@@ -14,58 +13,100 @@ faster; for an exponential autocorrelation without a cut-off they diverge as :ma
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from ..errors import DescriptionError
+from .spectra import as_map, as_pixel_size, nayak_parameter, spectral_moment
 
 __all__ = [
-    "Spectrum",
-    "Summary",
+    "BearingCurve",
+    "Summits",
+    "SurfaceStatistics",
     "autocorrelation",
+    "bearing_curve",
     "bearing_fraction",
     "correlation_length",
     "kurtosis",
-    "radial_spectrum",
     "rms",
     "rms_curvature",
     "rms_slope",
     "skewness",
-    "spectral_moment",
     "standardised",
-    "summary",
+    "summits",
+    "surface_statistics",
 ]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
+Derivatives = Literal["spectral", "differences"]
 
 
-class Summary(NamedTuple):
+class SurfaceStatistics(NamedTuple):
     """Roughness parameters of one map; see the functions of the same names."""
 
     rms: float
-    """Standard deviation of the heights [m]."""
+    """Standard deviation of the heights [m] (Sq)."""
+    mean_deviation: float
+    """Mean absolute deviation of the heights [m] (Sa)."""
     lowest: float
     """Deepest valley, from the mean, negative [m]."""
     highest: float
     """Highest peak, from the mean [m]."""
     skewness: float
-    """Skewness of the heights [-]."""
+    """Skewness of the heights [-]; negative for pits."""
     kurtosis: float
     """Kurtosis of the heights [-]; 3 for Gaussian heights."""
     rms_slope: float
-    """Root of the mean square of the gradient, from differences [-]."""
+    """Root of the mean square of the gradient [-]; of an isotropic surface the root of 2 times
+    that of its profiles."""
+    rms_slopes: Pair
+    """Root mean squares of the slopes along y and along x [-]."""
+    rms_laplacian: float
+    """Root of the mean square of the Laplacian [1/m]; summits of Gaussian heights have radii of
+    about 2 over it."""
     rms_curvature: float
-    """Root of the mean square of the mean curvature, from differences [1/m]."""
+    """Root of the mean square of the mean curvature [1/m], half of `rms_laplacian`; profiles of an
+    isotropic surface have the root of 3/8 times the Laplacian."""
+    nayak_parameter: float
+    """Breadth of the spectrum [-], by the isotropic formula."""
     correlation_length: Pair
     """Lags (y, x) over which the autocorrelation falls to a tenth [m]; inf if it does not."""
+    tilt: Pair
+    """Slopes (y, x) of the plane that fits the map best [-]; 0 for a periodic map."""
+    derivatives: str
+    """How slopes and curvatures were taken: ``spectral`` or ``differences``."""
     pixel_size: Pair
     """Size of a pixel (dy, dx) [m]."""
     window: Pair
     """Size of the map (y, x) [m]."""
+
+
+class Summits(NamedTuple):
+    """Summits of a map: pixels higher than their eight neighbours."""
+
+    density: float
+    """Their number over the area of the pixels that may be one [1/m2]."""
+    mean_height: float
+    """Mean of their heights, from the mean of the map [m]."""
+    rms_height: float
+    """Standard deviation of their heights [m]."""
+    radius: float
+    """Radius of curvature at a summit [m]: one over the mean of their curvatures."""
+    number: int
+    """How many there are."""
+
+
+class BearingCurve(NamedTuple):
+    """Abbott-Firestone curve: the fraction of a map that lies at or above a height."""
+
+    height: Array
+    """Heights from the mean of the map [m], falling."""
+    fraction: Array
+    """Fraction of the map at or above them [-], rising to 1."""
 
 
 def rms(heights: Array) -> float:
@@ -97,7 +138,7 @@ def rms_slope(heights: Array, pixel_size: Pair, periodic: bool) -> float:
 
     .. math:: s^2 = \langle (\Delta_x z/dx)^2 \rangle + \langle (\Delta_y z/dy)^2 \rangle
 
-    Smaller than that of the spectrum (`spectral_moment`) by the factor
+    Smaller than that of the spectrum (`spectra.spectral_moment`) by the factor
     :math:`\sin(q dx/2)/(q dx/2)` for each wave: 10 % for a wave of 4 pixels, 36 % for one of 2.
 
     Examples
@@ -105,12 +146,18 @@ def rms_slope(heights: Array, pixel_size: Pair, periodic: bool) -> float:
     >>> rms_slope(np.array([[0.0, 1.0], [0.0, 1.0]]), (1.0, 2.0), periodic=False)
     0.5
     """
-    _need_pixels(heights, 2)
-    squares = 0.0
+    return math.hypot(*_slopes(heights, pixel_size, periodic))
+
+
+def _slopes(heights: Array, pixel_size: Pair, periodic: bool) -> Pair:
+    """Root mean squares of the slopes along y and x, from differences of neighbours."""
+    if not periodic:
+        _need_pixels(heights, 2)
+    found = []
     for axis, d in enumerate(pixel_size):
         step = np.roll(heights, -1, axis) - heights if periodic else np.diff(heights, axis=axis)
-        squares += float(np.mean(step**2)) / d**2
-    return math.sqrt(squares)
+        found.append(math.sqrt(float(np.mean((step / d) ** 2))))
+    return found[0], found[1]
 
 
 def rms_curvature(heights: Array, pixel_size: Pair, periodic: bool) -> float:
@@ -127,13 +174,19 @@ def rms_curvature(heights: Array, pixel_size: Pair, periodic: bool) -> float:
     >>> rms_curvature((x * x + y * y) / (2.0 * 8.0), (1.0, 1.0), periodic=False)
     0.125
     """
-    _need_pixels(heights, 3)
+    return 0.5 * math.sqrt(float(np.mean(_laplacian(heights, pixel_size, periodic) ** 2)))
+
+
+def _laplacian(heights: Array, pixel_size: Pair, periodic: bool) -> Array:
+    """Laplacian of the heights [1/m], without the edges of a map that is not periodic."""
+    if not periodic:
+        _need_pixels(heights, 3)
     dy, dx = pixel_size
     z = np.pad(heights, 1, mode="wrap") if periodic else heights
     inner = z[1:-1, 1:-1]
     bent = (z[1:-1, 2:] - 2.0 * inner + z[1:-1, :-2]) / dx**2
     bent += (z[2:, 1:-1] - 2.0 * inner + z[:-2, 1:-1]) / dy**2
-    return 0.5 * math.sqrt(float(np.mean(bent**2)))
+    return np.asarray(bent)
 
 
 def bearing_fraction(heights: Array, level: ArrayLike) -> Array:
@@ -161,36 +214,179 @@ def bearing_fraction(heights: Array, level: ArrayLike) -> Array:
     return np.asarray(1.0 - below / heights.size)
 
 
-def summary(heights: Array, pixel_size: Pair, periodic: bool) -> Summary:
-    """All roughness parameters of a map of at least 3 x 3 pixels.
+def bearing_curve(heights: ArrayLike, points: int = 256) -> BearingCurve:
+    """Abbott-Firestone curve of a map: its heights over the fraction of the map above them.
+
+    Parameters
+    ----------
+    heights : array_like (ny, nx)
+        Heights [m]; their mean is subtracted.
+    points : int
+        Number of points, at equal distances in the fraction; the first is the highest pixel.
 
     Raises
     ------
     DescriptionError
-        If the map is flat, or smaller.
+        If the map has holes, or fewer than two points are asked for.
+
+    Examples
+    --------
+    >>> found = bearing_curve(np.array([[0.0, 1.0], [2.0, 3.0]]), points=4)
+    >>> found.height.tolist(), found.fraction.tolist()
+    ([1.5, 0.5, -0.5, -1.5], [0.25, 0.5, 0.75, 1.0])
+    """
+    z = as_map(heights)
+    if isinstance(points, bool) or not isinstance(points, int) or points < 2:
+        raise DescriptionError("bearing_curve.points", points, "be a whole number of at least 2")
+    falling = np.sort(z - z.mean(), axis=None)[::-1]
+    rank = np.unique(np.rint(np.linspace(1, z.size, min(points, z.size))).astype(np.int64))
+    height = np.asarray(falling[rank - 1])
+    # Equal heights are borne together: all of them lie at or above their height.
+    below = np.searchsorted(falling[::-1], height, side="left")
+    return BearingCurve(height, np.asarray(1.0 - below / z.size))
+
+
+def summits(heights: ArrayLike, pixel_size: float | Pair, periodic: bool) -> Summits:
+    """Summits of a map, for `contact_theories.greenwood_williamson`.
+
+    Pixels higher than their eight neighbours (of equal ones the last counts); their curvature is
+    half the Laplacian by second differences. The pixels at the edges of a map that is not periodic
+    are left out. Number and radius depend on the pixel: quote it with them.
+
+    Raises
+    ------
+    DescriptionError
+        If the map has holes, is smaller than 3 x 3 pixels, or has no summit.
+
+    Examples
+    --------
+    >>> x = 2.0 * math.pi * np.arange(64) / 32
+    >>> z = np.cos(x)[:, None] + np.cos(x)[None, :]
+    >>> found = summits(z, 2.0 * math.pi / 32, periodic=True)
+    >>> found.number, round(found.mean_height, 12), round(found.radius, 2)
+    (4, 2.0, 1.0)
+    """
+    z, size = as_map(heights), as_pixel_size(pixel_size)
+    _need_pixels(z, 3)
+    z = z - z.mean()
+    around = np.pad(z, 1, mode="wrap") if periodic else z
+    inner = around[1:-1, 1:-1]
+    is_summit = np.ones(inner.shape, dtype=bool)
+    ny, nx = inner.shape
+    for i, j in ((i, j) for i in range(3) for j in range(3) if (i, j) != (1, 1)):
+        near = around[i : i + ny, j : j + nx]
+        is_summit &= inner > near if (i, j) > (1, 1) else inner >= near
+    number = int(is_summit.sum())
+    if number == 0:
+        raise DescriptionError(
+            "heights", "a map without a summit", "have pixels above all 8 around"
+        )
+    curvature = -0.5 * _laplacian(z, size, periodic)[is_summit]
+    tops = inner[is_summit]
+    return Summits(
+        number / (inner.size * size[0] * size[1]),
+        float(tops.mean()),
+        float(tops.std()),
+        1.0 / float(curvature.mean()),
+        number,
+    )
+
+
+def surface_statistics(
+    heights: ArrayLike,
+    pixel_size: float | Pair,
+    periodic: bool,
+    derivatives: Derivatives | None = None,
+) -> SurfaceStatistics:
+    """All roughness parameters of a map.
+
+    Parameters
+    ----------
+    heights : array_like (ny, nx)
+        Heights [m], peaks up; their mean is subtracted, a tilt is not (`height_maps.detrended`).
+    pixel_size : float or (float, float)
+        Size of a pixel [m]; a pair is (dy, dx).
+    periodic : bool
+        Whether the map is one period of the surface.
+    derivatives : {"spectral", "differences"}, optional
+        Slopes and curvatures of the waves themselves, for periodic maps only; or from differences
+        of neighbouring pixels, which miss 1.9 % of the slope of a surface whose shortest wave has
+        4 pixels, and 0.2 % at 16. Not given: spectral where the map is periodic.
+
+    Raises
+    ------
+    DescriptionError
+        If the map has holes, is flat, or has fewer than 3 x 3 pixels without being periodic.
 
     Examples
     --------
     >>> y, x = np.mgrid[:16, :16] * (2.0 * math.pi / 16)
-    >>> found = summary(1e-9 * np.cos(x) * np.cos(y), (1e-9, 1e-9), periodic=True)
+    >>> found = surface_statistics(1e-9 * np.cos(x) * np.cos(y), 1e-9, periodic=True)
     >>> round(found.rms * 1e9, 12), round(found.kurtosis, 12), found.window
     (0.5, 2.25, (1.6e-08, 1.6e-08))
+    >>> round(found.rms_slope, 6), round(found.nayak_parameter, 12), found.derivatives
+    (0.27768, 1.5, 'spectral')
     """
-    z = heights - heights.mean()
-    dy, dx = pixel_size
-    ny, nx = z.shape
-    return Summary(
-        rms(z),
-        float(z.min()),
-        float(z.max()),
-        skewness(z),
-        kurtosis(z),
-        rms_slope(z, pixel_size, periodic),
-        rms_curvature(z, pixel_size, periodic),
-        correlation_length(z, pixel_size, periodic),
-        pixel_size,
-        (ny * dy, nx * dx),
+    z, size = as_map(heights), as_pixel_size(pixel_size)
+    if derivatives not in (None, "spectral", "differences"):
+        raise DescriptionError(
+            "surface_statistics.derivatives", derivatives, "be 'spectral' or 'differences'"
+        )
+    if derivatives == "spectral" and not periodic:
+        raise DescriptionError(
+            "surface_statistics.derivatives",
+            derivatives,
+            "be 'differences' for a map that is not periodic, whose edges would add waves",
+        )
+    centred = z - z.mean()
+    shape = standardised(z)  # refuses a plane
+    kind = derivatives or ("spectral" if periodic else "differences")
+    slopes, laplacian = (_spectral if kind == "spectral" else _by_differences)(
+        centred, size, periodic
     )
+    slope, variance = math.hypot(*slopes), rms(z) ** 2
+    return SurfaceStatistics(
+        rms=rms(z),
+        mean_deviation=float(np.abs(centred).mean()),
+        lowest=float(centred.min()),
+        highest=float(centred.max()),
+        skewness=float(np.mean(shape**3)),
+        kurtosis=float(np.mean(shape**4)),
+        rms_slope=slope,
+        rms_slopes=slopes,
+        rms_laplacian=laplacian,
+        rms_curvature=0.5 * laplacian,
+        nayak_parameter=nayak_parameter(variance, slope**2, laplacian**2),
+        correlation_length=correlation_length(z, size, periodic),
+        tilt=(0.0, 0.0) if periodic else _tilt(centred, size),
+        derivatives=kind,
+        pixel_size=size,
+        window=(z.shape[0] * size[0], z.shape[1] * size[1]),
+    )
+
+
+def _spectral(z: Array, size: Pair, periodic: bool) -> tuple[Pair, float]:
+    """Rms slopes along y and x [-], and rms Laplacian [1/m], of the waves of a periodic map."""
+    waves = np.abs(fft.fft2(z, norm="forward")) ** 2
+    qy, qx = (2.0 * math.pi * fft.fftfreq(n, d) for n, d in zip(z.shape, size, strict=True))
+    along_y = math.sqrt(float(np.sum(waves * (qy * qy)[:, None])))
+    along_x = math.sqrt(float(np.sum(waves * (qx * qx)[None, :])))
+    return (along_y, along_x), math.sqrt(spectral_moment(z, size, 4))
+
+
+def _by_differences(z: Array, size: Pair, periodic: bool) -> tuple[Pair, float]:
+    """Rms slopes along y and x [-], and rms Laplacian [1/m], from differences of pixels."""
+    return _slopes(z, size, periodic), 2.0 * rms_curvature(z, size, periodic)
+
+
+def _tilt(z: Array, size: Pair) -> Pair:
+    """Slopes (y, x) of the plane of least squares through a map of zero mean."""
+    found = []
+    for axis, d in enumerate(size):
+        place = (np.arange(z.shape[axis]) - 0.5 * (z.shape[axis] - 1)) * d
+        line = z.mean(axis=1 - axis)
+        found.append(float(place @ line) / float(place @ place))
+    return found[0], found[1]
 
 
 def _need_pixels(heights: Array, least: int) -> None:
@@ -198,18 +394,7 @@ def _need_pixels(heights: Array, least: int) -> None:
         raise DescriptionError("heights", heights.shape, f"have at least {least} x {least} pixels")
 
 
-# Autocorrelation and spectrum ---------------------------------------------------------------
-
-
-class Spectrum(NamedTuple):
-    """Power spectral density averaged over directions, ring by ring."""
-
-    wavenumber: Array
-    """Mean wavenumber of each ring [rad/m]."""
-    density: Array
-    r"""Density C [m4]: :math:`\sigma^2 = \iint C\,d^2q / 4\pi^2`."""
-    n_waves: NDArray[np.int64]
-    """Number of waves in each ring; the relative scatter is one over the root of half of it."""
+# Autocorrelation -----------------------------------------------------------------------------
 
 
 def standardised(heights: Array) -> Array:
@@ -232,24 +417,6 @@ def standardised(heights: Array) -> Array:
         raise DescriptionError("heights", "a plane", "vary, for their shape to have a number")
     z /= largest
     return np.asarray(z / np.std(z))
-
-
-def spectral_moment(heights: Array, pixel_size: Pair, order: int) -> float:
-    r"""Moment of the spectrum of a periodic map, :math:`m_n = \sum_q |q|^n |A_q|^2` [m2-n].
-
-    The variance for order 0, the mean square gradient for order 2, and four times the mean square
-    of the mean curvature for order 4. Exact for a resolved periodic map; not meaningful for a
-    non-periodic one, because the jump at the edges adds waves of all lengths.
-
-    Examples
-    --------
-    >>> x = np.arange(8) * (2.0 * math.pi / 8)
-    >>> z = np.sin(x)[None, :] * np.ones((8, 1))
-    >>> [round(spectral_moment(z, (1.0, 2.0 * math.pi / 8), n), 12) for n in (0, 2, 4)]
-    [0.5, 0.5, 0.5]
-    """
-    q, power, times = _power(heights, pixel_size)
-    return float(np.sum(times * power * q**order))
 
 
 def autocorrelation(heights: Array, periodic: bool) -> Array:
@@ -306,40 +473,6 @@ def correlation_length(heights: Array, pixel_size: Pair, periodic: bool) -> Pair
     return y, x
 
 
-def radial_spectrum(heights: Array, pixel_size: Pair, periodic: bool) -> Spectrum:
-    r"""Power spectral density averaged over rings of the width of one wave per window.
-
-    Parameters
-    ----------
-    heights, pixel_size
-        Map [m] and size of its pixels [m].
-    periodic : bool
-        Whether the map is one period. If not, a Hann window is applied in both directions, which
-        removes the jump at the edges, conserves the sum of the density, and blurs it over two
-        neighbouring rings.
-
-    Notes
-    -----
-    Up to the Nyquist wavenumber of the coarser direction. The shortest waves of a measured map may
-    be artefacts of the instrument: noise, or the tip radius.
-    """
-    z = heights - heights.mean()
-    if not periodic:
-        taper = np.outer(*(np.hanning(n + 2)[1:-1] for n in z.shape))
-        z = (z - np.sum(taper * z) / taper.sum()) * taper / math.sqrt(float(np.mean(taper**2)))
-    q, power, times = _power(z, pixel_size)
-    area = math.prod(n * d for n, d in zip(z.shape, pixel_size, strict=True))
-    width = 2.0 * math.pi / min(n * d for n, d in zip(z.shape, pixel_size, strict=True))
-    ring = np.rint(q / width).astype(np.int64)
-    inside = (q > 0.0) & (q <= math.pi / max(pixel_size))
-    ring, q, power, times = ring[inside], q[inside], power[inside], times[inside]
-    count = np.bincount(ring, times)
-    has = count > 0.0
-    mean_q = np.bincount(ring, times * q)[has] / count[has]
-    density = area * np.bincount(ring, times * power)[has] / count[has]
-    return Spectrum(mean_q, density, np.rint(count[has]).astype(np.int64))
-
-
 def _first_tenth(values: Array) -> float:
     """Lag, in steps, at which a curve first falls to a tenth of its start; inf if it does not."""
     under = values <= 0.1 * values[0]
@@ -348,16 +481,3 @@ def _first_tenth(values: Array) -> float:
     i = int(np.argmax(under))
     before, after = float(values[i - 1]), float(values[i])
     return i - 1 + (before - 0.1 * float(values[0])) / (before - after)
-
-
-def _power(heights: Array, pixel_size: Pair) -> tuple[Array, Array, Array]:
-    """Wavenumber [rad/m], square of the amplitude [m2] and number of the waves of a half plane."""
-    ny, nx = heights.shape
-    dy, dx = pixel_size
-    power = np.abs(fft.rfft2(heights - heights.mean(), norm="forward")) ** 2
-    qy, qx = 2.0 * math.pi * fft.fftfreq(ny, dy), 2.0 * math.pi * fft.rfftfreq(nx, dx)
-    times = np.full(power.shape, 2.0)
-    times[:, 0] = 1.0
-    if nx % 2 == 0:
-        times[:, -1] = 1.0
-    return np.hypot(qy[:, None], qx[None, :]), power, times

@@ -22,6 +22,8 @@ from PIL import Image
 from validation_tables import grid
 
 IMG = Path(__file__).parents[1] / "img"
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SHOWN_EXAMPLES = ("area_and_theories",)  # their figures, by the names of their files
 # (scene, command): figures by the name they have in the pages.
 SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("fuel-injector", "run"): {
@@ -152,9 +154,21 @@ def blocks(command: str, folder: Path, printed: str) -> Mapping[str, str]:
     return {"head-disk numbers": head_disk_numbers(json.loads(printed)), **curves}
 
 
+def run_example(name: str, folder: Path) -> None:
+    """Run an example, which draws its figure into a folder."""
+    code = f"from pathlib import Path; from {name} import main; main(Path({str(folder)!r}))"
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=EXAMPLES)
+
+
 def main(arguments: Sequence[str]) -> int:
     """Run the scenes and keep their figures."""
     IMG.mkdir(exist_ok=True)
+    for example in SHOWN_EXAMPLES:
+        if arguments and example not in arguments:
+            continue
+        with tempfile.TemporaryDirectory(prefix="contactkit-") as name:
+            run_example(example, Path(name))
+            keep(Path(name), {example: example.replace("_", "-")})
     for (scene, command), names in SHOWN.items():
         if arguments and scene not in arguments and f"{scene}/{command}" not in arguments:
             continue

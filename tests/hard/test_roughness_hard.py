@@ -81,7 +81,7 @@ def test_neither_atoms_nor_planets_overflow(scale):
     ]
     for heights in maps:
         assert heights.std() == pytest.approx(1e-3 * scale, rel=1e-12)
-        found = stats.summary(heights, (scale, scale), periodic=True)
+        found = stats.surface_statistics(heights, (scale, scale), periodic=True)
         assert 1e-5 < found.rms_slope < 1e-2
         assert found.rms_curvature * scale < 1e-2
 
@@ -137,17 +137,18 @@ def test_a_wave_of_many_periods_stays_a_wave():
 def test_roughness_far_from_zero_keeps_its_digits():
     """Nanometres at a height of a metre: what the numbers still hold, 1e-16 m."""
     z = random_surfaces.gaussian_exponential((64, 64), (1e-8, 1e-8), 1e-9, 1e-7, 4e-8, seed=1)
-    far = stats.summary(z + 1.0, (1e-8, 1e-8), periodic=True)
-    near = stats.summary(z, (1e-8, 1e-8), periodic=True)
-    for a, b in zip(far, near, strict=True):
-        assert a == pytest.approx(b, rel=1e-5)
+    far = stats.surface_statistics(z + 1.0, (1e-8, 1e-8), periodic=True)
+    near = stats.surface_statistics(z, (1e-8, 1e-8), periodic=True)
+    for name in near._fields:
+        if name != "derivatives":
+            assert getattr(far, name) == pytest.approx(getattr(near, name), rel=1e-5)
     np.testing.assert_allclose(detrended(z + 1.0, "mean"), z, atol=3e-16)
 
 
 @pytest.mark.parametrize("z", [np.full((5, 6), 0.1), np.zeros((4, 4)), np.full((3, 3), 1e9 / 3.0)])
 def test_a_plane_has_no_shape(z):
     with pytest.raises(DescriptionError, match="heights must vary"):
-        stats.summary(z, (1.0, 1.0), periodic=True)
+        stats.surface_statistics(z, (1.0, 1.0), periodic=True)
     assert stats.rms(z) <= 1e-15 * z.max()
     assert stats.rms_slope(z, (1.0, 1.0), periodic=True) == 0.0
 

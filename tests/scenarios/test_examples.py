@@ -11,6 +11,8 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 EQUAL_VISCOSITY = 4.8 * 0.03 * (10e-6 / 1e-3) ** 2 / 1e-3  # [Pa.s]
 
 NUMBERS = {
+    # Persson's theory is exact at full contact.
+    "area_and_theories": pytest.approx(1.0, abs=5e-3),
     # Hertz, nu = 0.3: 0.6200 at 0.4809 contact radii; the planes come within 0.01 of that depth.
     "coated_sphere": pytest.approx(0.6200, rel=2e-3),
     # Contact in proportion to the load, less on few summits: between Hertz's 2/3 and 1.

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from contactkit.roughness import elementary, random_surfaces
+from contactkit.roughness import elementary, random_surfaces, spectra
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.height_maps import detrended
 
@@ -63,7 +63,7 @@ def test_a_self_affine_spectrum_falls_by_its_power_and_is_flat_before(hurst):
             random_surfaces.SelfAffineSpectrum(hurst, longest, shortest),
             seed,
         )
-        found = stats.radial_spectrum(heights, (1.0, 1.0), periodic=True)
+        found = spectra.radial_spectrum(heights, (1.0, 1.0), periodic=True)
         density = density + found.density / 20
     q = found.wavenumber
     power = (q > 1.3 * 2.0 * math.pi / longest) & (q < 0.95 * 2.0 * math.pi / shortest)
@@ -151,7 +151,7 @@ def test_the_slope_has_no_end():
     pixel, beta = (SCAN / 1024, SCAN / 1024), 4e-6
     for waves in (64, 128, 256):
         heights = exponential(1024, beta, SCAN / waves, seed=5, normalise="none")
-        slope = math.sqrt(stats.spectral_moment(heights, pixel, 2))
+        slope = math.sqrt(spectra.spectral_moment(heights, pixel, 2))
         law = 1e-9 * math.sqrt(2.0 * 2.3 * math.pi / (beta * SCAN / waves))
         assert slope == pytest.approx(law, rel=4.0 / waves)
         # Differences of 4 pixels per wave miss up to 10 %, of 16 up to 0.6 %.
@@ -167,7 +167,7 @@ def test_a_self_affine_surface_has_the_slope_asked_for():
     heights = random_surfaces.self_affine(
         (192, 320), pixel, None, spectrum, 1, "sample", rms_slope=0.1
     )
-    assert stats.spectral_moment(heights, pixel, 2) == pytest.approx(0.01, rel=1e-12)
+    assert spectra.spectral_moment(heights, pixel, 2) == pytest.approx(0.01, rel=1e-12)
     # Differences miss a little: at most 1 - sinc of 16 pixels per wave, 0.6 %.
     assert stats.rms_slope(heights, pixel, periodic=True) == pytest.approx(0.1, rel=0.007)
     tall = random_surfaces.self_affine((192, 320), pixel, 3e-9, spectrum, 1, "sample")
@@ -192,7 +192,7 @@ GOLDEN = [
 def test_a_wave_has_the_numbers_of_a_cosine():
     pixel = (2e-9, 1e-9)
     heights = elementary.wave((8, 64), pixel, 3e-9, 16e-9)
-    found = stats.summary(heights, pixel, periodic=True)
+    found = stats.surface_statistics(heights, pixel, periodic=True, derivatives="differences")
     q = 2.0 * math.pi / 16e-9
     assert found.rms == pytest.approx(3e-9 / math.sqrt(2.0), rel=1e-13)
     assert (found.highest, found.lowest) == (pytest.approx(3e-9), pytest.approx(-3e-9))
@@ -200,7 +200,7 @@ def test_a_wave_has_the_numbers_of_a_cosine():
     sinc = math.sin(q * 0.5e-9) / (q * 0.5e-9)
     assert found.rms_slope == pytest.approx(q * sinc * found.rms, rel=1e-12)
     assert found.rms_curvature == pytest.approx(0.5 * (q * sinc) ** 2 * found.rms, rel=1e-12)
-    assert stats.spectral_moment(heights, pixel, 2) == pytest.approx((q * found.rms) ** 2)
+    assert spectra.spectral_moment(heights, pixel, 2) == pytest.approx((q * found.rms) ** 2)
     assert found.correlation_length[0] == math.inf  # along the crests
     tenth = math.acos(0.1) / q
     assert found.correlation_length[1] == pytest.approx(tenth, rel=5e-3)  # straight between pixels
@@ -269,7 +269,7 @@ def test_the_autocorrelation_is_the_mean_of_products(periodic):
 def test_the_spectrum_is_that_of_white_noise(periodic):
     """C = variance times the area of a pixel, at all wavenumbers."""
     z = np.random.default_rng(7).standard_normal((256, 320)) * 1e-9
-    found = stats.radial_spectrum(z, (1e-9, 2e-9), periodic)
+    found = spectra.radial_spectrum(z, (1e-9, 2e-9), periodic)
     np.testing.assert_allclose(np.average(found.density, weights=found.n_waves), 2e-36, rtol=0.02)
     well = found.n_waves > 500
     np.testing.assert_allclose(found.density[well], 2e-36, rtol=0.35)

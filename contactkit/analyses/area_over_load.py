@@ -1,0 +1,133 @@
+"""Real area of contact over the load, beside the theories of rough contact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..contact.effects.elasticity import HalfSpace
+from ..contact.result import ContactResult
+from ..errors import DescriptionError
+from ..frozen import FrozenDict
+from ..roughness import contact_theories
+from ..roughness.statistics import Summits, SurfaceStatistics, summits, surface_statistics
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["AreaOverLoad", "area_over_load"]
+
+
+class AreaOverLoad(NamedTuple):
+    """Solved contacts of one surface under several loads, and what theories give for them."""
+
+    mean_pressure: Floats
+    """Mean pressures [Pa], ascending."""
+    counted: Floats
+    """Fractions of the window in contact [-], as pixel counts."""
+    corrected: Floats
+    """The same, edge-corrected [-] (`ContactResult.corrected_contact_area`)."""
+    theories: Mapping[str, Floats]
+    """Fractions [-] by the names of `contact_theories.RANGES`, at the same pressures."""
+    contact_modulus: float
+    """Contact modulus E* [Pa]."""
+    statistics: SurfaceStatistics
+    """Statistics of the heights of both bodies together."""
+    summits: Summits
+    """Their summits."""
+
+    @property
+    def reduced_pressure(self) -> Floats:
+        """Mean pressure over E* h' [-]."""
+        return np.asarray(self.mean_pressure / (self.contact_modulus * self.statistics.rms_slope))
+
+    def fractions_at(self, reduced_pressure: Floats) -> Mapping[str, Floats]:
+        """Fractions [-] of the theories at other pressures over E* h' [-]."""
+        scale = self.contact_modulus * self.statistics.rms_slope
+        return _theories(reduced_pressure * scale, self.contact_modulus, self)
+
+
+def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
+    """Collect the area of solved contacts over their load, and evaluate the theories beside it.
+
+    Parameters
+    ----------
+    results : sequence of ContactResult
+        Contacts of the same bodies under loads above zero, with `HalfSpace`.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none, a contact carries no load, the bodies differ, or are layered.
+
+    Notes
+    -----
+    The theories are of elastic half-spaces without adhesion; each holds in its range,
+    `contact_theories.RANGES`. With a `HardnessLimit` solved areas are larger.
+
+    Examples
+    --------
+    >>> import contactkit as ck
+    >>> from contactkit.roughness.random_surfaces import SelfAffineSpectrum, self_affine
+    >>> spectrum = SelfAffineSpectrum(0.8, 16e-9, 8e-9)
+    >>> heights = self_affine((64, 64), (1e-9, 1e-9), None, spectrum, 1, rms_slope=0.1)
+    >>> steel = ck.Material(young_modulus=210e9, poisson_ratio=0.3)
+    >>> found = area_over_load([ck.press(heights, 1e-9, steel, p) for p in (1e9, 4e9)])
+    >>> persson = found.theories["Persson"]
+    >>> bool((persson < found.corrected).all()), bool((found.corrected < found.counted).all())
+    (True, True)
+    """
+    if not results:
+        raise DescriptionError("area_over_load.results", "none", "be one contact or more")
+    ordered = sorted(results, key=lambda one: one.mean_pressure)
+    first = ordered[0]
+    for one in ordered:
+        _check(one, first)
+    grid = first.plan.grid
+    modulus = 1.0 / sum(
+        1.0 / stack.materials[0].plane_strain_modulus for stack in first.plan.scene.interface.stacks
+    )
+    numbers = surface_statistics(first.heights, grid.pixel_size, periodic=grid.periodic)
+    tops = summits(first.heights, grid.pixel_size, periodic=grid.periodic)
+    pressure = np.array([one.mean_pressure for one in ordered])
+    made = AreaOverLoad(
+        mean_pressure=pressure,
+        counted=np.array([one.contact_fraction for one in ordered]),
+        corrected=np.array([one.corrected_contact_area / grid.area for one in ordered]),
+        theories={},
+        contact_modulus=modulus,
+        statistics=numbers,
+        summits=tops,
+    )
+    return made._replace(theories=_theories(pressure, modulus, made))
+
+
+def _check(result: ContactResult, first: ContactResult) -> None:
+    if not result.load > 0.0:
+        raise DescriptionError("area_over_load.results", "a contact without load", "carry a load")
+    if not result.has(HalfSpace):
+        raise DescriptionError(
+            "area_over_load.results", "a layered contact", "be of half-spaces, as the theories are"
+        )
+    if not np.array_equal(result.heights, first.heights):
+        raise DescriptionError(
+            "area_over_load.results", "contacts of several surfaces", "be of one surface"
+        )
+
+
+def _theories(pressure: Floats, modulus: float, made: AreaOverLoad) -> Mapping[str, Floats]:
+    slope = made.statistics.rms_slope
+    found = {
+        "Persson": contact_theories.persson_area(pressure, modulus, slope),
+        "Bush, Gibson and Thomas": contact_theories.bush_gibson_thomas(pressure, modulus, slope),
+        "fit of slope 2": contact_theories.interpolated_area(pressure, modulus, slope),
+    }
+    if made.summits.rms_height > 0.0:  # summits of one height are no Gaussian population
+        found["Greenwood and Williamson"] = contact_theories.greenwood_williamson_area(
+            pressure, modulus, made.summits
+        )
+    return FrozenDict(found)
