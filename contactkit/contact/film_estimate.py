@@ -4,21 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from attrs import evolve
-
-from ..accuracy import Accuracy
 from ..errors import InfeasibleError
-from .companion import coarser, largest_factor
-from .effects.base import Compliance, LoadTerm, PressureBound
-from .film_loop import pulled_together
+from .effects.base import LoadTerm
+from .film_loop import film_companion, pulled_together
 from .friction_loop import Target
 from .plan import ContactPlan
 from .work import WorkCounter
 
 __all__ = ["self_consistent_force"]
-
-_FEWEST = 96  # pixels along a side
-_ACCURACY = Accuracy(rtol=1e-3)
 
 
 def self_consistent_force(plan: ContactPlan, term: LoadTerm[Any]) -> float | None:
@@ -27,9 +20,7 @@ def self_consistent_force(plan: ContactPlan, term: LoadTerm[Any]) -> float | Non
     Solved without friction, to a tenth of the load, on a companion of about a hundred pixels along
     a side. None if the bodies cannot carry that load, or none is imposed.
     """
-    coarse = coarser(plan, plan.heights, largest_factor(plan, _FEWEST), _ACCURACY)
-    kept = tuple(e for e in coarse.scene.effects if isinstance(e, Compliance | PressureBound))
-    coarse = evolve(coarse, scene=evolve(coarse.scene, effects=kept))
+    coarse = film_companion(plan)
     load = coarse.mean_pressure
     if load is None:
         return None

@@ -3,20 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Generic, NamedTuple, TypeVar
 
+from attrs import evolve
+
+from ..accuracy import Accuracy
 from ..errors import InfeasibleError
-from .effects.base import Balance, Contact, LoadTerm
+from .companion import coarser, largest_factor
+from .effects.base import Balance, Compliance, Contact, FixedHardness, LoadTerm, PressureBound
 from .friction_loop import Target
 from .hardness_loop import Solved, contact_of, solve_with_hardness
 from .plan import ContactPlan
+from .solver.warm_start import MAX_SOLUTIONS
 from .work import WorkCounter
 
-__all__ = ["Pulled", "pulled_together"]
+__all__ = ["Pulled", "film_companion", "pulled_together"]
 
 _MAX_ITERATIONS = 60
 _MAX_IMBALANCE = 0.05  # of the load, at a step of the force
+_LOOSE = 1e-4  # tolerance of contacts far from the balance
+_AHEAD = 1e-3  # tolerance of a contact over the imbalance of the one before
+_OUTER = 100.0  # imbalance over tolerance of the contact above which its sign is certain
+_NARROW = 1.1  # ratio of loads between which the contact may be interpolated
+_KEPT = 5  # contacts of which the nearest are the initial guess of the next
+_FEWEST = 96  # pixels along a side of the companion on which further equilibria are looked for
+_COMPANION = Accuracy(rtol=1e-3)
 
 
 Part = TypeVar("Part")
@@ -31,14 +42,91 @@ class Pulled(NamedTuple, Generic[Part]):
 
 
 class _Trial(NamedTuple, Generic[Part]):
+    """A contact under a load [N], and its imbalance: imposed load + force - load on it [N].
+
+    `rtol` is the tolerance that the contact was solved to, or what was reached.
+    """
+
     load: float
-    excess: float  # imposed load + force - load on the contact [N]
+    excess: float
+    rtol: float
     solved: Solved
     contact: Contact
     part: Part
 
 
-_Attempt = Callable[[float, _Trial[Part] | None], _Trial[Part] | None]
+class _Search(Generic[Part]):
+    """A plan, the force that adds to its load, and the contacts solved so far, newest first."""
+
+    def __init__(
+        self,
+        plan: ContactPlan,
+        term: LoadTerm[Part],
+        imposed: float,
+        target: Target,
+        counter: WorkCounter,
+    ) -> None:
+        self.plan, self.term, self.imposed = plan, term, imposed
+        self.target, self.counter = target, counter
+        self.rtol, self.tolerance = plan.accuracy.rtol, max(plan.accuracy.outer_rtol, 1e-9)
+        varies = plan.hardness is not None and not isinstance(plan.hardness, FixedHardness)
+        self.is_iterated = varies or plan.coupling is not None
+        self.trials: list[_Trial[Part]] = []
+
+    def attempt(self, load: float, error: float) -> _Trial[Part] | None:
+        """Contact under a load, its imbalance known to an error [N], and at least in its sign.
+
+        None beyond what the hardness can carry.
+        """
+        loose = max(_LOOSE, self.rtol)
+        rtol = min(max(error / load, self.rtol), loose) if load > 0.0 else self.rtol
+        while True:
+            trial = self._solved(load, rtol)
+            if trial is None or trial.rtol <= self.rtol or trial.solved.problem:
+                return trial
+            imbalance = abs(trial.excess) / load
+            if imbalance > _OUTER * trial.rtol:
+                return trial
+            rtol = max(self.rtol, min(imbalance / _OUTER, 0.1 * rtol))
+
+    def is_settled(self, best: _Trial[Part], low: float, high: float) -> bool:
+        """Whether a contact balances, or the balance lies between two loads that are about one."""
+        return abs(best.excess) <= self.tolerance * best.load or high - low <= self.tolerance * high
+
+    def finished(self, trial: _Trial[Part]) -> _Trial[Part]:
+        """Solve a contact to the tolerance of the plan, if it is not yet."""
+        if trial.rtol <= self.rtol or trial.solved.problem:
+            return trial
+        return self._solved(trial.load, self.rtol) or trial
+
+    def _solved(self, load: float, rtol: float) -> _Trial[Part] | None:
+        plan, near = self.plan, self._near(load)
+        to_tolerance = evolve(plan, accuracy=evolve(plan.accuracy, rtol=rtol))
+        try:
+            solved = solve_with_hardness(to_tolerance, near, self.counter)
+        except InfeasibleError:
+            return None
+        contact = contact_of(plan, solved)
+        part = self.term.observe(contact)
+        excess = self.imposed + self.term.force_of(part) - load
+        reached = rtol if self.is_iterated else solved.solution.kkt
+        trial = _Trial(load, excess, reached, solved, contact, part)
+        if load > 0.0:
+            others = [one for one in self.trials if one.load != load]
+            self.trials = [trial, *others][:_KEPT]
+        return trial
+
+    def _near(self, load: float) -> Target:
+        """Where the solve under a load begins: from the contacts under the nearest loads."""
+        area = self.plan.grid.area
+        target = self.target._replace(mean_pressure=load / area)
+        if not self.trials or load <= 0.0:
+            return target
+        nearest = sorted(self.trials, key=lambda one: abs(math.log(one.load / load)))
+        pairs = [(one.load / area, one.solved.solution.pressure) for one in nearest]
+        hardness = nearest[0].solved.hardness
+        known = hardness if isinstance(hardness, float) else target.hardness
+        return target._replace(start=pairs[:MAX_SOLUTIONS], hardness=known)
 
 
 def pulled_together(
@@ -54,28 +142,19 @@ def pulled_together(
     they are slow, inside a bracket that always exists: a film cannot pull harder than over the
     whole window, and where the bodies touch everywhere it does not pull at all. The force is a sum
     over pixels and has steps: if the two sides meet at one, N is there, and `Balance.imbalance` is
-    its height. Then loads above N are tried, by factors of four: a change of sign is another
-    equilibrium, and more than one means that the bodies snap in when pressed beyond the second. A
-    film that repels carries part of W: it pushes the harder the closer the bodies are, so that one
-    load below W balances, if the film does not carry all of W where the bodies first touch.
+    its height. Contacts far from the balance are solved to a loose tolerance, the last one to that
+    of the plan.
+
+    Then loads above N are tried, by factors of four, on a companion of about a hundred pixels
+    along a side: a change of sign is another equilibrium, and more than one means that the bodies
+    snap in when pressed beyond the second. A film that repels carries part of W: it pushes the
+    harder the closer the bodies are, so that one load below W balances, if the film does not carry
+    all of W where the bodies first touch.
     """
     area = plan.grid.area
     imposed = mean_pressure * area
-
-    def attempt(load: float, start: _Trial[Part] | None) -> _Trial[Part] | None:
-        near = target._replace(mean_pressure=load / area)
-        if start is not None:
-            hardness = start.solved.hardness if isinstance(start.solved.hardness, float) else None
-            near = near._replace(start=start.solved.solution.pressure, hardness=hardness)
-        try:
-            solved = solve_with_hardness(plan, near, counter)
-        except InfeasibleError:  # beyond what the hardness there can carry
-            return None
-        contact = contact_of(plan, solved)
-        part = term.observe(contact)
-        return _Trial(load, imposed + term.force_of(part) - load, solved, contact, part)
-
-    first = attempt(imposed, None)
+    search = _Search(plan, term, imposed, target, counter)
+    first = search.attempt(imposed, _LOOSE * imposed)
     if first is None:
         raise InfeasibleError(
             f"the bodies cannot carry the load of {imposed:.6g} N at the hardness that its "
@@ -83,13 +162,13 @@ def pulled_together(
         )
     others: tuple[float, ...] = ()
     if first.excess < 0.0:
-        found, is_settled = _pushed_apart(plan, attempt, first)
+        found, is_settled = _pushed_apart(search, first)
     else:
         largest = imposed + term.largest_force(first.contact)
         if plan.hardness is not None:
             largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
-        found, is_settled = _smallest(plan, attempt, first, largest)
-        others = _further(attempt, found, largest)
+        found, is_settled = _smallest(search, first, largest)
+        others = _further(search, found, largest)
     # At a step of the force the balance says how much of it acts.
     force = found.load - imposed if found.load != imposed else term.force_of(found.part)
     gap = abs(found.excess) / found.load if found.load > 0.0 else 0.0
@@ -120,27 +199,28 @@ def _unsettled(gap: float) -> str:
 
 
 def _smallest(
-    plan: ContactPlan, attempt: _Attempt[Part], first: _Trial[Part], largest: float
+    search: _Search[Part], first: _Trial[Part], largest: float
 ) -> tuple[_Trial[Part], bool]:
     """The smallest load that balances, and whether the iterations settled on it."""
-    tolerance = max(plan.accuracy.outer_rtol, 1e-9)
     low, high, top = first, None, largest
     before = None
     for _ in range(_MAX_ITERATIONS):
         best = low if high is None or abs(low.excess) < abs(high.excess) else high
-        if abs(best.excess) <= tolerance * best.load or top - low.load <= tolerance * top:
-            return best, True
+        if search.is_settled(best, low.load, top):
+            return search.finished(best), True
+        if high is not None and high.load < _NARROW * low.load:
+            return _narrowed(search, low, high)
         load = low.load + low.excess
         if before is not None:
             load = max(load, _secant(before, low))
         if high is not None or load >= top:
             load = min(load, 0.5 * (low.load + top))
-        trial = attempt(load, low)
+        trial = search.attempt(load, _AHEAD * abs(best.excess))
         if trial is None or trial.excess < 0.0:
             high, top = trial or high, load
         else:
             before, low = low, trial
-    return best, False
+    return search.finished(best), False
 
 
 def _secant(before: _Trial[Part], now: _Trial[Part]) -> float:
@@ -150,12 +230,9 @@ def _secant(before: _Trial[Part], now: _Trial[Part]) -> float:
     return now.load + ahead
 
 
-def _pushed_apart(
-    plan: ContactPlan, attempt: _Attempt[Part], first: _Trial[Part]
-) -> tuple[_Trial[Part], bool]:
+def _pushed_apart(search: _Search[Part], first: _Trial[Part]) -> tuple[_Trial[Part], bool]:
     """The load between none and the imposed one that a film which repels leaves to the contact."""
-    tolerance = max(plan.accuracy.outer_rtol, 1e-9)
-    low, high = attempt(0.0, None), first
+    low = search.attempt(0.0, search.rtol)
     if low is None or low.excess <= 0.0:
         # Where the bodies touch without a load, the force is all that is out of balance.
         push = first.load - low.excess if low is not None else math.inf
@@ -164,32 +241,100 @@ def _pushed_apart(
             f"load is {first.load:.6g} N: they float on it; raise the load, lower the contact "
             "angles or the film_thickness, or use FilmMeniscus without self_consistent"
         )
-    halves = False  # where secants do not, as at a step of the force
+    return _narrowed(search, low, first)
+
+
+def _narrowed(
+    search: _Search[Part], low: _Trial[Part], high: _Trial[Part]
+) -> tuple[_Trial[Part], bool]:
+    """The balance between two loads, and whether the iterations settled on it.
+
+    The next load is where the contact interpolated between the two balances; every step of the
+    force between them is seen there without a solve. Far apart it is the zero of the line
+    through both; where neither halves the interval, it is the middle.
+    """
+    halves = False
     for _ in range(_MAX_ITERATIONS):
         best = min(low, high, key=lambda trial: abs(trial.excess))
+        if search.is_settled(best, low.load, high.load):
+            return search.finished(best), True
         width = high.load - low.load
-        if abs(best.excess) <= tolerance * best.load or width <= tolerance * high.load:
-            return best, True
-        share = 0.5 if halves else low.excess / (low.excess - high.excess)
-        trial = attempt(low.load + share * width, high)
+        if halves:
+            load = low.load + 0.5 * width
+        elif high.load < _NARROW * low.load:
+            load = _interpolated_balance(search, low, high)
+        else:
+            load = low.load + width * low.excess / (low.excess - high.excess)
+        trial = search.attempt(load, _AHEAD * abs(best.excess))
         if trial is None:
             break
         low, high = (low, trial) if trial.excess < 0.0 else (trial, high)
         halves = not halves and high.load - low.load > 0.5 * width
-    return best, False
+    return search.finished(best), False
 
 
-def _further(attempt: _Attempt[Part], found: _Trial[Part], largest: float) -> tuple[float, ...]:
+def _interpolated_balance(search: _Search[Part], low: _Trial[Part], high: _Trial[Part]) -> float:
+    """Load [N] at which the contact interpolated between two loads balances.
+
+    Taken to the side of the end that is farther away by less than half the tolerance, so that two
+    contacts are enough to hold a step of the force between them.
+    """
+    a, b, width = 0.0, 1.0, high.load - low.load
+    margin = 0.4 * search.tolerance * high.load / width
+    while b - a > 0.5 * margin:
+        middle = 0.5 * (a + b)
+        load = low.load + middle * width
+        part = search.term.observe(_interpolated(low.contact, high.contact, middle))
+        if search.imposed + search.term.force_of(part) > load:
+            a = middle
+        else:
+            b = middle
+    at = 0.5 * (a + b)
+    at += margin if at < 0.5 else -margin
+    return low.load + min(max(at, margin), 1.0 - margin) * width
+
+
+def _interpolated(low: Contact, high: Contact, at: float) -> Contact:
+    """Contact between two of about the same load; pixels in contact are those of both."""
+    pressure, displacement, gap = (
+        one + at * (other - one)
+        for one, other in (
+            (low.pressure, high.pressure),
+            (low.displacement, high.displacement),
+            (low.gap, high.gap),
+        )
+    )
+    return low._replace(pressure=pressure, displacement=displacement, gap=gap)
+
+
+def _further(search: _Search[Part], found: _Trial[Part], largest: float) -> tuple[float, ...]:
     """Loads of further equilibria [N], each to the factor of four it was found in."""
-    others: list[float] = []
-    above, last = False, found
     load = max(4.0 * found.load, 1e-6 * largest)
+    if load >= largest:
+        return ()
+    plan, counter = search.plan, WorkCounter()
+    coarse = film_companion(plan)
+    rough = _Search(coarse, search.term, search.imposed, Target(load, None), counter)
+    others: list[float] = []
+    above, last = False, found.load
     while load < largest:
-        trial = attempt(load, last)
+        trial = rough.attempt(load, rough.rtol)
         if trial is None:
             break
         if (trial.excess > 0.0) != above:
-            others.append((last.load * load) ** 0.5 if last.load > 0.0 else load)
+            others.append((last * load) ** 0.5 if last > 0.0 else load)
             above = not above
-        last, load = trial, 4.0 * load
+        last, load = load, 4.0 * load
+    search.counter.add_companion(counter, coarse.grid.shape == plan.grid.shape)
     return (*others, largest) if above else tuple(others)
+
+
+def film_companion(plan: ContactPlan) -> ContactPlan:
+    """Return the plan without friction on about a hundred pixels along a side, to 1e-3."""
+    factor = largest_factor(plan, _FEWEST)
+    if factor == 1:
+        made = evolve(plan, accuracy=evolve(plan.accuracy, rtol=_COMPANION.rtol))
+    else:
+        made = coarser(plan, plan.heights, factor, _COMPANION)
+    kept = tuple(e for e in made.scene.effects if isinstance(e, Compliance | PressureBound))
+    return evolve(made, scene=evolve(made.scene, effects=kept), coupling=None)

@@ -46,6 +46,14 @@ class WorkCounter:
         )
         self._has_fallen_back |= solution.fallback
 
+    def add_companion(self, other: WorkCounter, is_full_grid: bool) -> None:
+        """Count the solves of a companion: as coarse iterations if its grid is coarser."""
+        counts = other._solutions
+        if not is_full_grid:
+            done = counts["n_operator_applications"] + counts["n_coarse_iterations"]
+            counts = Counter(n_coarse_iterations=done)
+        self._solutions.update(counts)
+
     def clock(self, stage: str, begun: float) -> None:
         """Add the time since `begun` to a stage."""
         self._stages[stage] = self._stages.get(stage, 0.0) + time.perf_counter() - begun

@@ -240,6 +240,8 @@ class ContactSolver:
         if start is None:
             return False
         first = initial_pressure(start, mean_pressure, self.shape)
+        if first is None:
+            return False
         p = fit(first.ravel() / problem.pressure, problem)
         self.grids[0].pressure[...] = p.reshape(self.shape)
         # With few free pixels left to take up the change of load, these overshoot.
