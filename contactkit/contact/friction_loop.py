@@ -114,6 +114,8 @@ def _coupled(
         displacement, before = _extrapolated(now, before), now
         again = target._replace(start=solution.pressure)
         solution = _once(plan, again, bound, plan.heights - displacement, counter, rtol)
+        if change == 0.0:  # friction that causes nothing
+            without = solution.pressure
     problem = (
         f"the friction coupling still changes by {change:.2g} of the displacement after "
         f"{_MAX_ITERATIONS} iterations, tolerance {accuracy.outer_rtol:g}; lower "

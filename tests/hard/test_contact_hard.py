@@ -671,7 +671,8 @@ def test_no_friction_couples_nothing():
         solved(*effects, pressure=1e7)
         for effects in ((), (ck.FrictionTraction(coefficient=0.0), ck.FrictionCoupling()))
     )
-    assert np.array_equal(free.pressure, rubbed.pressure)
+    np.testing.assert_allclose(rubbed.pressure, free.pressure, atol=1e-6 * free.max_pressure)
+    assert rubbed.residual <= 1e-8
     part = rubbed.of(ck.FrictionCoupling)
     assert not part.displacement.any()
     assert (part.pressure_change, part.area_change) == (0.0, 0.0)
