@@ -39,8 +39,15 @@ if TYPE_CHECKING:
     from .analyses.division import critical_meniscus, divide_meniscus
     from .analyses.humidity_curve import humidity_curve
     from .analyses.load_displacement.solve import load_displacement
+    from .analyses.pull_off import pull_off_curve
     from .as_published.lookup import PUBLISHED, published
     from .contact.discretisation import discretisation_error
+    from .contact.effects.adhesion import Adhesion
+    from .contact.effects.attraction_laws import (
+        DugdaleAttraction,
+        ExponentialAttraction,
+        LennardJonesAttraction,
+    )
     from .contact.effects.elasticity import HalfSpace, LayeredHalfSpace
     from .contact.effects.film import FilmMeniscus
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
@@ -114,6 +121,7 @@ __version__ = "0.1.0"
 # Every name is imported at its first use, so that `import contactkit` is fast.
 _HOMES = {
     "Accuracy": "accuracy",
+    "Adhesion": "contact.effects.adhesion",
     "AdhesiveContact": "separation.effects.registry",
     "Approach": "scene.loading",
     "AsperityMenisci": "separation.effects.registry",
@@ -128,7 +136,9 @@ _HOMES = {
     "ConvergenceError": "errors",
     "CouetteForce": "separation.sliding.effects",
     "DescriptionError": "errors",
+    "DugdaleAttraction": "contact.effects.attraction_laws",
     "EFFECTS": "effects",
+    "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
     "Flat": "scene.surfaces",
@@ -147,6 +157,7 @@ _HOMES = {
     "IslandBridges": "contact.effects.island_bridges",
     "Layer": "scene.materials",
     "LayeredHalfSpace": "contact.effects.elasticity",
+    "LennardJonesAttraction": "contact.effects.attraction_laws",
     "LimitKind": "separation.effects.base",
     "Liquid": "liquids.liquid",
     "Material": "scene.materials",
@@ -193,6 +204,7 @@ _HOMES = {
     "plan": "planning",
     "discretisation_error": "contact.discretisation",
     "press": "contact.press",
+    "pull_off_curve": "analyses.pull_off",
     "published": "as_published.lookup",
     "save_result": "files.results",
     "save_scene": "files.scenes",
@@ -204,6 +216,7 @@ _HOMES = {
 
 __all__ = [
     "Accuracy",
+    "Adhesion",
     "AdhesiveContact",
     "Approach",
     "AsperityMenisci",
@@ -218,7 +231,9 @@ __all__ = [
     "ConvergenceError",
     "CouetteForce",
     "DescriptionError",
+    "DugdaleAttraction",
     "EFFECTS",
+    "ExponentialAttraction",
     "FilmMeniscus",
     "FilmStatus",
     "Flat",
@@ -237,6 +252,7 @@ __all__ = [
     "IslandBridges",
     "Layer",
     "LayeredHalfSpace",
+    "LennardJonesAttraction",
     "LimitKind",
     "Liquid",
     "Material",
@@ -285,6 +301,7 @@ __all__ = [
     "plan",
     "press",
     "published",
+    "pull_off_curve",
     "save_result",
     "save_scene",
     "simulate",

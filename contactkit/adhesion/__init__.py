@@ -1,5 +1,7 @@
 """Adhesion of solids: van der Waals attraction, JKR, DMT and Maugis-Dugdale.
 
+attraction      Laws of attraction over the gap, on maps: Dugdale, exponential, Lennard-Jones.
+rough_limits    Rough surfaces: cost of full contact, start of stickiness.
 van_der_waals   Non-retarded van der Waals attraction; Hamaker constant and work of adhesion.
 parameters      Maugis' units, Tabor and transition parameters.
 jkr             JKR: attraction inside the contact only.

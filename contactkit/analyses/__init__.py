@@ -2,6 +2,7 @@
 
 humidity_curve     Meniscus force against relative humidity.
 adhesion_curve     Contact radius and approach of an adhesive sphere against load.
+pull_off           Pull-off curve of a contact under adhesion: approach, separation, jumps.
 division           Division of a meniscus into many: forces and optimal number.
 division_laws      Force laws of N equal menisci between flats, for the division.
 area_over_load     Real area of contact over the load, beside the theories of rough contact.

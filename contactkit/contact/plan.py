@@ -18,12 +18,14 @@ from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat
 from ..scene.window import Grid
 from .effects.base import (
+    Attraction,
     Compliance,
     ContactEffect,
     DisplacementTerm,
     HardnessLaw,
     LoadTerm,
     PressureBound,
+    VaryingHardness,
 )
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS
@@ -38,7 +40,12 @@ if TYPE_CHECKING:
 
 __all__ = ["ContactPlan", "plan_contact", "unprepared_plan"]
 
-_SINGLE_ROLES = (PressureBound, LoadTerm, DisplacementTerm)  # one effect of each at most
+_SINGLE_ROLES = (
+    PressureBound,
+    LoadTerm,
+    DisplacementTerm,
+    Attraction,
+)  # one effect of each at most
 _LARGEST = 1e3  # pressure over E*, or approach over window: beyond, round-off is all there is
 _WIDEST = 1e6  # side of a window [m]
 
@@ -230,6 +237,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
     _check_holes(scene)
+    _check_attraction(made)
     _check_size(made)
     _check_load(made)
     return made
@@ -306,6 +314,16 @@ def _check_holes(scene: ContactScene) -> None:
     ]
     if problems:
         raise PlanError("; ".join(problems))
+
+
+def _check_attraction(made: ContactPlan) -> None:
+    """Refuse an attraction beside a hardness that depends on the displacement."""
+    attraction = made.scene.effect(Attraction)
+    if attraction is not None and isinstance(made.hardness, VaryingHardness):
+        raise PlanError(
+            f"{type(attraction).__name__} needs a hardness that does not depend on the "
+            "displacement: give HardnessLimit(rule='material'), or rule='constant' with a number"
+        )
 
 
 def _check_window(grid: Grid) -> None:

@@ -13,7 +13,7 @@ from ..errors import NotSimulatedError
 from ..frozen import FrozenDict
 from ..scene.result import Result
 from ..scene.validity import ValidityNumber
-from .effects.base import ContactEffect
+from .effects.base import Attraction, ContactEffect
 from .effects.plasticity import HardnessLimit
 from .grid import holes_of
 from .pixel_edges import pixel_edges
@@ -44,7 +44,8 @@ class ContactResult(Result):
         The same as a sentence, with its cure.
     pressure, gap, displacement, heights : ndarray (ny, nx)
         Pressure [Pa], gap [m], normal displacement of both surfaces together [m], and heights of
-        both bodies together [m].
+        both bodies together [m]. With `Adhesion` the pressure is the net one, negative where the
+        surfaces attract each other.
     rigid_approach : float
         Rigid-body approach of the zero plane of the heights [m]: gap = displacement - heights -
         rigid_approach.
@@ -82,7 +83,10 @@ class ContactResult(Result):
 
     @property
     def contact(self) -> NDArray[np.bool_]:
-        """Pixels in contact (ny, nx): where the pressure is not zero."""
+        """Pixels in contact (ny, nx): where the pressure is not zero, or its `Adhesion` states."""
+        attraction = self.plan.scene.effect(Attraction)
+        if attraction is not None and type(attraction) in self.parts:
+            return attraction.attracted_of(self.parts[type(attraction)]).touching
         touching: NDArray[np.bool_] = self.pressure > 0.0
         return touching
 
@@ -119,7 +123,7 @@ class ContactResult(Result):
 
     @property
     def load(self) -> float:
-        """Normal force that the contact carries [N]."""
+        """Normal force that the contact carries [N]; negative if `Adhesion` has to be pulled."""
         return float(self.pressure.sum()) * self.plan.grid.pixel_area
 
     @property

@@ -13,7 +13,7 @@ from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..scene.validity import warn
-from .effects.base import Contact, ContactEffect, LoadTerm
+from .effects.base import AttractedContact, Attraction, Contact, ContactEffect, LoadTerm
 from .effects.plasticity import HardnessLimit
 from .film_estimate import self_consistent_force
 from .film_loop import pulled_together
@@ -54,7 +54,8 @@ def solve(
         What to solve.
     start : ContactResult or sequence of them, optional
         Results nearby, such as those of the loads before, the newest first: where the solve
-        begins. Of several under other loads the pressure is extrapolated.
+        begins. Of several under other loads the pressure is extrapolated. With `Adhesion`, which
+        may have several states, it also decides which of them is found.
     throw : bool
         Raise where the tolerance is not reached; otherwise return what was reached, with status
         ``not converged``.
@@ -109,7 +110,7 @@ def solve_unwarned(
     """Solve a contact as `solve` does; the caller reports the validity of the result."""
     counter = WorkCounter()
     target = _target(plan, start)
-    answer = _solve_all(plan, target, counter)
+    answer = _solve_all(plan, target, _attracted(start), counter)
     result = _result(plan, answer, counter)
     if answer.solved.problem and throw:
         raise ConvergenceError(answer.solved.problem, result)
@@ -133,14 +134,31 @@ def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | 
     return Target(plan.mean_pressure, plan.rigid_approach, pressures, near)
 
 
-def _solve_all(plan: ContactPlan, target: Target, counter: WorkCounter) -> _Answer:
-    """Solve the contact, with a force that adds to its load if there is one; run the effects."""
+def _attracted(
+    start: ContactResult | Sequence[ContactResult] | None,
+) -> AttractedContact | None:
+    """Tension of the newest result to start from, if it has one."""
+    newest = start if isinstance(start, ContactResult) else next(iter(start or ()), None)
+    attraction = newest.plan.scene.effect(Attraction) if newest is not None else None
+    if newest is None or attraction is None or type(attraction) not in newest.parts:
+        return None
+    return attraction.attracted_of(newest.of(type(attraction)))
+
+
+def _solve_all(
+    plan: ContactPlan, target: Target, before: AttractedContact | None, counter: WorkCounter
+) -> _Answer:
+    """Solve the contact, with an attraction or a force that adds to its load; run the effects."""
     parts: dict[type[ContactEffect[Any]], object] = {}
     term, load = plan.scene.effect(LoadTerm), plan.mean_pressure
     if term is not None and term.self_consistent and load is not None:
         begun = time.perf_counter()
         solved, contact, parts[type(term)] = pulled_together(plan, term, load, target, counter)
         counter.clock(term.name, begun)
+    elif (attraction := plan.scene.effect(Attraction)) is not None:
+        from .attraction_loop import solve_attracted
+
+        solved, contact = solve_attracted(plan, attraction, target, before, counter)
     else:
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)
@@ -174,7 +192,7 @@ def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
 def _result(plan: ContactPlan, answer: _Answer, counter: WorkCounter) -> ContactResult:
     solved, contact, parts = answer
     solution = solved.solution
-    touches = bool(contact.pressure.any())
+    touches = bool(contact.touching.any())
     status = "not converged" if solved.problem else ("converged" if touches else "no contact")
     message = solved.problem or (
         f"{status}: contact conditions met to {solution.kkt:.1e} of the rms height"

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..scene.validity import ValidityNumber
 from .effects.base import Contact, ContactEffect
+from .effects.elasticity import contact_modulus
 from .grid import short_waves
 from .pixel_edges import pixel_edges
 
@@ -43,7 +44,7 @@ def check_contact(
     """
     is_periodic = contact.grid.periodic
     # Of a window that is not periodic the rectangle around the contact matters alone.
-    steps = _steps(heights if is_periodic else heights[_around(contact.pressure > 0.0)])
+    steps = _steps(heights if is_periodic else heights[_around(contact.touching)])
     found = [
         _pixels_per_wave(contact),
         _pixels_per_spot(contact),
@@ -75,7 +76,7 @@ def _pixels_per_wave(contact: Contact) -> ValidityNumber:
 
 def _pixels_per_spot(contact: Contact) -> ValidityNumber:
     """Diameter of discs with the same ratio of area to length of edge, in pixels."""
-    touching = contact.pressure > 0.0
+    touching = contact.touching
     area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.periodic)
     diameter = 16.0 / math.pi * area / edges.total if edges.total else math.inf
     return ValidityNumber(
@@ -91,8 +92,7 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
 
 
 def _peak_pressure(contact: Contact) -> ValidityNumber:
-    surfaces = [stack.materials[0] for stack in contact.scene.interface.stacks]
-    modulus = 1.0 / sum(1.0 / material.plane_strain_modulus for material in surfaces)
+    modulus = contact_modulus(contact.scene)
     return ValidityNumber(
         name="peak pressure over E*",
         value=float(contact.pressure.max()) / modulus,

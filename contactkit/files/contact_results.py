@@ -10,7 +10,7 @@ import attrs
 import numpy as np
 
 from ..accuracy import Accuracy
-from ..contact.effects.base import Contact
+from ..contact.effects.base import Attraction, Contact
 from ..contact.effects.registry import CONTACT_EFFECTS
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
@@ -72,6 +72,9 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     maps = {name: arrays[name] for name in _MAPS}
     parts = {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}
     contact = Contact(scene, grid, maps["pressure"], maps["displacement"], maps["gap"])
+    attraction = scene.effect(Attraction)
+    if attraction is not None and type(attraction) in parts:
+        contact = contact._replace(attracted=attraction.attracted_of(parts[type(attraction)]))
     return ContactResult(
         plan=ContactPlan(scene, accuracy, grid),
         status=header["status"],

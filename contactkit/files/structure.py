@@ -12,6 +12,7 @@ import cattrs
 from cattrs.gen import make_dict_structure_fn, override
 
 from .. import data
+from ..contact.effects.attraction_laws import AttractionLaw
 from ..contact.effects.base import ContactEffect
 from ..contact.effects.plasticity import HardnessMap
 from ..contact.effects.registry import CONTACT_EFFECTS
@@ -31,6 +32,7 @@ from .face_tables import DAMPING_KINDS, FACE_TABLES, FaceTable
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .unstructure import (
     ARRAY_FIELDS,
+    ATTRACTION_KINDS,
     LAW_KINDS,
     LOADING_KINDS,
     SEPARATION_EFFECT_KINDS,
@@ -76,7 +78,7 @@ def renamed(key: str) -> str:
 def _owners(kind: type, key: str) -> str:
     """Name the kinds beside one, of the same family, that have a key; empty if none has."""
     effects = (SEPARATION_EFFECT_KINDS.by_name, CONTACT_EFFECTS.by_name)
-    for family in (SURFACE_KINDS, LAW_KINDS, *effects):
+    for family in (SURFACE_KINDS, LAW_KINDS, ATTRACTION_KINDS, *effects):
         if kind in family.values():
             names = [name for name, one in family.items() if key in _keys(one)]
             return f"it belongs to {' or '.join(names)}; " if names else ""
@@ -308,6 +310,7 @@ for _matches, _hook in (
     (lambda kind: kind is DampingLaw, _damping),
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
+    (lambda kind: kind is AttractionLaw, _tagged("law", ATTRACTION_KINDS)),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
     (_is_contact_effect, _tagged("effect", CONTACT_EFFECTS)),
 ):

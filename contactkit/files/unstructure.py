@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
+from ..contact.effects.attraction_laws import ATTRACTION_LAWS
 from ..contact.effects.plasticity import HardnessMap
 from ..errors import DescriptionError
 from ..liquids.liquid import LAWS
@@ -27,6 +28,7 @@ from ..separation.sliding.effects import SLIDING_EFFECTS
 
 __all__ = [
     "ARRAY_FIELDS",
+    "ATTRACTION_KINDS",
     "LAW_KINDS",
     "LOADING_KINDS",
     "SEPARATION_EFFECT_KINDS",
@@ -60,10 +62,12 @@ SEPARATION_EFFECT_KINDS: EffectRegistry[Effect] = EffectRegistry(
     SEPARATION_EFFECTS, SLIDING_EFFECTS
 )
 LAW_KINDS: dict[str, type] = {kind.kind: kind for kind in LAWS}
+ATTRACTION_KINDS: dict[str, type] = {kind.kind: kind for kind in ATTRACTION_LAWS}
 _TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
     ("shape", SURFACE_KINDS),
     ("kind", LOADING_KINDS),
     ("law", LAW_KINDS),
+    ("law", ATTRACTION_KINDS),
     ("law", DAMPING_KINDS),
 )
 # Fields that may hold an array, and their alternative in a file.

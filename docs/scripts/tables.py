@@ -32,7 +32,9 @@ from validation_tables import (
 )
 
 import contactkit as ck
+from contactkit.contact.effects.attraction_laws import ATTRACTION_LAWS
 from contactkit.contact.effects.base import (
+    Attraction,
     Compliance,
     DisplacementTerm,
     LoadTerm,
@@ -82,6 +84,7 @@ ROLES: Mapping[type, str] = {
     PressureBound: "pressure bound",
     LoadTerm: "load",
     DisplacementTerm: "displacement",
+    Attraction: "attraction",
     Observer: "observer",
 }
 
@@ -141,7 +144,10 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
 
 
 # Arguments of effects other than numbers, to construct them for their sources.
-OBJECTS = {"asperities": ck.AsperityPopulation(density=1.0, radius=1.0)}
+OBJECTS = {
+    "asperities": ck.AsperityPopulation(density=1.0, radius=1.0),
+    "law": ck.ExponentialAttraction(work_of_adhesion=1.0, range=1.0),
+}
 PAIRS = {ck.ContactAngleHysteresis: {"advancing_lower": 1.0, "receding_lower": 1.0}}
 
 
@@ -191,6 +197,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "sliding effect keys": lambda: named([(kind.name, kind) for kind in SLIDING_EFFECTS], "effect"),
     "sliding effects": lambda: effect_table(SLIDING_EFFECTS),
     "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
+    "attraction laws": lambda: named([(law.kind, law) for law in ATTRACTION_LAWS], "law"),
     "contact effects": lambda: effect_table(CONTACT_EFFECTS),
     "contact scene": lambda: keys(ck.ContactScene),
     "body": lambda: keys(Body),

@@ -113,6 +113,17 @@ EFFECTS = {
         curvature=st.sampled_from(["island", "summit"]),
         connectivity=st.sampled_from([4, 8]),
     ),
+    ck.Adhesion: st.builds(
+        ck.Adhesion,
+        law=st.one_of(
+            st.builds(law, work_of_adhesion=decades(-4.0, 0.0), range=lengths)
+            for law in (
+                ck.DugdaleAttraction,
+                ck.ExponentialAttraction,
+                ck.LennardJonesAttraction,
+            )
+        ),
+    ),
     ck.FilmMeniscus: st.builds(
         ck.FilmMeniscus,
         film_thickness=lengths,

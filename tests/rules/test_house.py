@@ -20,6 +20,7 @@ import pytest
 
 import contactkit as ck
 from contactkit.contact.effects.base import (
+    Attraction,
     Compliance,
     ContactEffect,
     DisplacementTerm,
@@ -49,12 +50,15 @@ SCENE_OBJECTS = [
     ck.Body,
     ck.CombinedSurface,
     ck.ContactScene,
+    ck.DugdaleAttraction,
+    ck.ExponentialAttraction,
     ck.Flat,
     ck.GaussianRoughness,
     ck.HardnessMap,
     ck.Heights,
     ck.Interface,
     ck.Layer,
+    ck.LennardJonesAttraction,
     ck.Liquid,
     ck.Material,
     ck.Measured,
@@ -171,6 +175,7 @@ REQUIRED = {
     ck.AdhesiveContact: {"work_of_adhesion": 0.05, "reduced_modulus": 1e9},
     ck.FrictionTraction: {"coefficient": 0.2},
     ck.FilmMeniscus: {"film_thickness": 1e-9},
+    ck.Adhesion: {"law": ck.ExponentialAttraction(work_of_adhesion=0.05, range=1e-9)},
     ck.ContactAngleHysteresis: {"advancing_lower": 1.0, "receding_lower": 0.8},
     ck.AsperityMenisci: {"asperities": ck.AsperityPopulation(density=1e12, radius=1e-6)},
 }
@@ -215,6 +220,7 @@ ROLES = (
     PressureBound,
     LoadTerm,
     DisplacementTerm,
+    Attraction,
     Observer,
 )
 

@@ -97,6 +97,11 @@ def adhesion():
     return ck.adhesion_curve(scene, [0.0, 1e-8])
 
 
+def pull_off():
+    law = ck.ExponentialAttraction(work_of_adhesion=0.01, range=1e-8)
+    return ck.pull_off_curve(ck.plan(rough(ck.Adhesion(law=law)), GRID), [-1e-8, 0.0])
+
+
 def released():
     return monolithic.simulate(ck.plan(pulled()), lambda time: 10.0, 1e-4)
 
@@ -133,6 +138,7 @@ MADE = {
     "load-displacement curve": lambda: ck.load_displacement(rough(), points=4, accuracy=GRID),
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),
     "adhesion curve": adhesion,
+    "pull-off curve": pull_off,
     "division": lambda: ck.divide_meniscus(film(), [1, 2]),
     "critical meniscus": lambda: ck.critical_meniscus(film()),
     "printed equation": lambda: ck.PUBLISHED["3.19"],

@@ -8,6 +8,7 @@ import scipy.fft
 from poison import by_kind, label, pairwise, poison_all_but, product_of, survives, unknown
 
 import contactkit as ck
+from contactkit.contact.effects.base import ContactEffect
 from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.solve import solve
 
@@ -17,6 +18,15 @@ pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarni
 LAYERS = {"elasticity.layered.*", "elasticity.layer_recursion.*", "elasticity.layer_stack.*"}
 FIELDS = {"elasticity.stress.periodic.*", "elasticity.stress.isolated.*", *LAYERS}
 FILM = "capillary.film_islands.*"
+TO_STICK = {"work_of_adhesion": 1e-3, "range": 2e-9}
+EXPONENTIAL = ck.ExponentialAttraction(**TO_STICK)
+DUGDALE = ck.DugdaleAttraction(**TO_STICK)
+LENNARD_JONES = ck.LennardJonesAttraction(**TO_STICK)
+OF_THE_MAP = {
+    "adhesion.parameters.tabor_parameter",
+    "roughness.statistics.rms_curvature",
+    "roughness.statistics.rms_slope",
+}
 OWNED = {
     ck.HalfSpace(): set(),  # by the edges of the window, below
     ck.LayeredHalfSpace(): set(),
@@ -41,6 +51,9 @@ OWNED = {
         "elasticity.depths.*",
         *FIELDS,
     },
+    ck.Adhesion(law=EXPONENTIAL): {"adhesion.attraction.exponential_*", *OF_THE_MAP},
+    ck.Adhesion(law=DUGDALE): {"adhesion.attraction.dugdale_*", *OF_THE_MAP},
+    ck.Adhesion(law=LENNARD_JONES): {"adhesion.attraction.lennard_jones_*", *OF_THE_MAP},
     ck.FilmMeniscus(film_thickness=1e-9): {FILM},
     ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True): {FILM},
     ck.IslandBridges(film_thickness=1e-9): {
@@ -110,6 +123,19 @@ def press(effects, edges, shape="heights"):
     return solve(ck.plan(scene, ck.Accuracy(grid=None if known else 16)))
 
 
+def is_refused(effects):
+    """Whether an attraction would make pressures negative that another effect takes, or a bound."""
+    given = [effect for effect in effects if isinstance(effect, ContactEffect)]
+    if not any(isinstance(effect, ck.Adhesion) for effect in given):
+        return False
+    fixed = ("material", "constant")
+    return any(
+        not effect.takes_tension
+        or (isinstance(effect, ck.HardnessLimit) and effect.rule not in fixed)
+        for effect in given
+    )
+
+
 def cases():
     """Each effect alone on each solid and window, and each pair."""
     laws = [e for e in OWNED if isinstance(e, ck.HalfSpace | ck.LayeredHalfSpace)]
@@ -117,7 +143,8 @@ def cases():
     found = []
     for case in product_of({"law": laws, "edges": EDGES, **others}):
         kinds = {type(level) for level in case.values()}
-        if ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds:
+        is_complete = ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds
+        if is_complete and not is_refused(case.values()):
             found.append(case)
     wanted = pairwise(found)
     for case in found:
@@ -162,6 +189,7 @@ HEARTS = [
         "elasticity.stress.tractions.traction_coupling",
     ),
     ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.maxima.plane_maxima"),
+    ((ck.Adhesion(law=DUGDALE),), "isolated", "adhesion.attraction.dugdale_tension"),
     ((ck.FilmMeniscus(film_thickness=1e-9),), "periodic", "capillary.film_islands.meniscus_area"),
 ]
 

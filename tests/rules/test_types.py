@@ -30,6 +30,7 @@ REVEALED = {
     "pressed.of(ck.FilmMeniscus)": "FilmPart",
     "pressed.of(ck.IslandBridges)": "IslandPart",
     "pressed.of(ck.FrictionTraction)": "FrictionPart",
+    "pressed.of(ck.Adhesion)": "AdhesionPart",
     "pulled.of(ck.MeniscusForce)": "ForcePart",
     "pulled.of(ck.ViscousForce)": "ViscousPart",
     "pulled.of(ck.AsperityMenisci)": "AsperityPart",
@@ -43,6 +44,7 @@ REVEALED = {
     'ck.load_scene("a.toml", ck.ContactScene)': "ContactScene",
     "ck.load_result(path, ck.SeparationResult)": "SeparationResult",
     "ck.press([[0.0]], 1e-9, steel, 1e6)": "ContactResult",
+    "ck.pull_off_curve(ck.plan(touch), [0.0, 1e-9])": "PullOffCurve",
     "ck.load_displacement(touch)": "LoadDisplacementCurve",
 }
 HEAD = """\

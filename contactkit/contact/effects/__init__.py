@@ -4,6 +4,8 @@ base            Base classes: the roles of the effects in the contact problem.
 elasticity      Elastic compliance of half-spaces and stacks of layers.
 plasticity      Hardness: the upper bound of the pressure.
 hardness_rules  Hardness of a layered solid over the depth of indentation.
+adhesion        Attraction of the surfaces across their gap.
+attraction_laws Laws of that attraction: Dugdale, exponential, Lennard-Jones.
 friction        Tangential traction of sliding, and the normal displacement it causes.
 stress          Stress below the surface.
 film            Meniscus force of a thin liquid film.

@@ -26,11 +26,14 @@ if TYPE_CHECKING:
     from ...scene.scenes import ContactScene
     from ...scene.validity import ValidityNumber
     from ...scene.window import Grid
+    from .attraction_laws import TensionLaw
 
     Map = NDArray[np.float64]
     SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Map]
 
 __all__ = [
+    "AttractedContact",
+    "Attraction",
     "Balance",
     "BoundedContact",
     "Compliance",
@@ -67,11 +70,25 @@ class FrictionalContact(NamedTuple):
     pressure_without: Map
 
 
+class AttractedContact(NamedTuple):
+    """Tension of the attraction [Pa] and pixels in contact, (ny, nx) each.
+
+    In contact the tension is that of a closed gap. `self_influence` is the displacement of a pixel
+    under unit pressure on itself [m/Pa], `n_contacts` the number of contacts solved for the state.
+    """
+
+    tension: Map
+    touching: NDArray[np.bool_]
+    self_influence: float
+    n_contacts: int
+
+
 class Contact(NamedTuple):
     """A solved contact as the effects see it: maps (ny, nx) in SI units.
 
-    `bounded` is there with a `PressureBound`, `frictional` with a `DisplacementTerm`, and the
-    properties of the `liquid` at the temperature of the scene where an effect needs them.
+    `bounded` is there with a `PressureBound`, `frictional` with a `DisplacementTerm`, `attracted`
+    with an `Attraction`, and the properties of the `liquid` at the temperature of the scene where
+    an effect needs them. With an `Attraction` the pressure is negative where it pulls.
     """
 
     scene: ContactScene
@@ -83,6 +100,15 @@ class Contact(NamedTuple):
     bounded: BoundedContact | None = None
     frictional: FrictionalContact | None = None
     liquid_state: LiquidState | None = None
+    attracted: AttractedContact | None = None
+
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Pixels in contact (ny, nx)."""
+        if self.attracted is not None:
+            return self.attracted.touching
+        is_pressed: NDArray[np.bool_] = self.pressure > 0.0
+        return is_pressed
 
     @property
     def liquid(self) -> LiquidState:
@@ -164,6 +190,8 @@ class ContactEffect(Effect, Generic[Part]):
 
     liquid_needs: ClassVar[tuple[str, ...]] = ()
     """Properties of the liquid that this effect uses."""
+    takes_tension: ClassVar[bool] = True
+    """Whether it holds beside an `Attraction`, where the pressure may be negative."""
 
     takes_holes: ClassVar[bool] = False
     """Whether it is right with pixels that carry no load and whose gap is not known."""
@@ -256,6 +284,27 @@ class DisplacementTerm(ContactEffect[Part]):
     def observe(self, contact: Contact) -> Part | None:
         """See `ContactEffect.observe`."""
         return self.observe_frictional(contact, contact.frictional) if contact.frictional else None
+
+
+@frozen(kw_only=True)
+class Attraction(ContactEffect[Part]):
+    """A tension t(gap) between the surfaces, on top of the pressure of contact; none or one."""
+
+    @abc.abstractmethod
+    def prepare(self, self_influence: float) -> TensionLaw:
+        """Return the law on a grid whose pixels have an influence on themselves of [m/Pa]."""
+
+    @abc.abstractmethod
+    def observe_attracted(self, contact: Contact, attracted: AttractedContact) -> Part:
+        """Return the tension and what follows from it in a solved contact."""
+
+    @abc.abstractmethod
+    def attracted_of(self, part: Part) -> AttractedContact:
+        """Return the tension and the pixels in contact of a part."""
+
+    def observe(self, contact: Contact) -> Part | None:
+        """See `ContactEffect.observe`."""
+        return self.observe_attracted(contact, contact.attracted) if contact.attracted else None
 
 
 @frozen(kw_only=True)

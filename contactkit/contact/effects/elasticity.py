@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...scene.window import Grid
     from .base import Contact, Map, SymbolMaker
 
-__all__ = ["HalfSpace", "LayeredHalfSpace", "layers_of"]
+__all__ = ["HalfSpace", "LayeredHalfSpace", "contact_modulus", "layers_of"]
 
 _FREE = "Love 1929, square patch on a half-space"
 _SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
@@ -99,6 +99,12 @@ class LayeredHalfSpace(Compliance):
                 "or a smaller window",
             ),
         )
+
+
+def contact_modulus(scene: ContactScene) -> float:
+    """Contact modulus E* [Pa] of the topmost materials of both bodies."""
+    tops = [stack.materials[0] for stack in scene.interface.stacks]
+    return 1.0 / sum(1.0 / material.plane_strain_modulus for material in tops)
 
 
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:

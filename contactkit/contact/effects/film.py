@@ -85,6 +85,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
 
     name: ClassVar[str] = "film-meniscus"
     summary: ClassVar[str] = "meniscus force of a thin film on a rough contact"
+    takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (FilmPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("meniscus_force", "N", attrgetter("force")),

@@ -76,6 +76,7 @@ class FrictionTraction(Observer[FrictionPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-traction"
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"
+    takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (FrictionPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (Scalar("friction_force", "N", attrgetter("force")),)
 
@@ -117,6 +118,7 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-coupling"
     summary: ClassVar[str] = "normal displacement caused by the tangential traction"
+    takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (CouplingPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("coupling_pressure_change", "-", attrgetter("pressure_change")),

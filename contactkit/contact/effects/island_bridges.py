@@ -114,6 +114,7 @@ class IslandBridges(Observer[IslandPart]):
 
     name: ClassVar[str] = "island-bridges"
     summary: ClassVar[str] = "an exact bridge on each wet island of a rough contact"
+    takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (IslandPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("island_force", "N", attrgetter("force")),

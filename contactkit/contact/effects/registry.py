@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ...scene.effect import EffectRegistry
+from .adhesion import Adhesion
 from .base import ContactEffect
 from .elasticity import HalfSpace, LayeredHalfSpace
 from .film import FilmMeniscus
@@ -19,6 +20,7 @@ CONTACT_EFFECTS: EffectRegistry[ContactEffect[Any]] = EffectRegistry(
     HalfSpace,
     LayeredHalfSpace,
     HardnessLimit,
+    Adhesion,
     FrictionTraction,
     FrictionCoupling,
     SubsurfaceStress,

@@ -1,0 +1,378 @@
+"""Pull-off curve of a contact under adhesion: approach and separation, jumps and hysteresis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+from attrs import field, frozen
+
+from ..contact.effects.adhesion import Adhesion
+from ..contact.plan import ContactPlan
+from ..contact.result import ContactResult
+from ..contact.solve import solve_unwarned
+from ..errors import DescriptionError
+from ..scene.loading import Approach
+from ..scene.plan import check_plan
+from ..scene.validity import ValidityNumber, warn
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["AdhesiveBranch", "Jump", "PullOffCurve", "pull_off_curve"]
+
+_SUDDEN = 0.1  # energy lost over change of load times change of approach, at a jump; that change
+# over the adhesive energy, in a step that is too long
+_LEAST = 1e-3  # energy lost over the adhesive energy, at a jump
+_PASSING = "pixels across a contact spot"  # which begins and ends in a point on every branch
+_CLOSED = 1e-6  # change of energy over the adhesive energy, of a loop that is closed
+
+
+class AdhesiveBranch(NamedTuple):
+    """States of one branch in the order they were passed; arrays of shape (n,).
+
+    Attributes
+    ----------
+    approach, load : ndarray
+        Rigid-body approach from first touch [m], and load [N], negative if tensile.
+    contact_area, attracted_area : ndarray
+        Area in contact, and in contact or apart by less than the range [m2].
+    elastic_energy, adhesive_energy : ndarray
+        [J]
+    loss : ndarray
+        Energy lost since the state before [J], by the trapezoidal rule for the work of the load.
+    n_contacts, n_applications : ndarray
+        Contacts solved, and applications of the operator on the full grid.
+    """
+
+    approach: Floats
+    load: Floats
+    contact_area: Floats
+    attracted_area: Floats
+    elastic_energy: Floats
+    adhesive_energy: Floats
+    loss: Floats
+    n_contacts: NDArray[np.int64]
+    n_applications: NDArray[np.int64]
+
+
+class Jump(NamedTuple):
+    """A jump of a contact at an imposed approach.
+
+    It lies between the approaches `before` and `after` [m], in the order they were passed.
+    `load_change` [N] and `area_change` [m2] are those across it, `energy_lost` [J] what it
+    dissipates.
+    """
+
+    branch: Literal["approach", "separation"]
+    before: float
+    after: float
+    load_change: float
+    area_change: float
+    energy_lost: float
+
+
+@frozen(eq=False)
+class PullOffCurve:
+    """Approach and separation of a contact under adhesion at imposed approaches.
+
+    Attributes
+    ----------
+    approaching, separating : AdhesiveBranch
+        The states; the first one of the separation is the last one of the approach.
+    jumps : tuple of Jump
+        Jumps in the order they were passed.
+    plan : ContactPlan
+        What was solved, without its preparation.
+    validity : tuple of ValidityNumber
+        The worst of each number over all states, but for the pixels across a contact spot.
+    """
+
+    approaching: AdhesiveBranch = field(repr=False)
+    separating: AdhesiveBranch = field(repr=False)
+    jumps: tuple[Jump, ...]
+    plan: ContactPlan = field(repr=False)
+    validity: tuple[ValidityNumber, ...] = field(repr=False)
+
+    @property
+    def pull_off_force(self) -> float:
+        """Largest tensile load of the separation [N]: pull-off under load control."""
+        return -float(self.separating.load.min())
+
+    @property
+    def pull_off_approach(self) -> float:
+        """Approach [m] at the pull-off force; negative: a neck is drawn out."""
+        return float(self.separating.approach[int(self.separating.load.argmin())])
+
+    @property
+    def pull_on_force(self) -> float:
+        """Largest tensile load of the approach [N]: pull-on."""
+        return -float(self.approaching.load.min())
+
+    @property
+    def jump_in_approach(self) -> float | None:
+        """Approach of the first jump on the approach [m]; None if there is none."""
+        found = [one.after for one in self.jumps if one.branch == "approach"]
+        return found[0] if found else None
+
+    @property
+    def loop_energy(self) -> float:
+        """Work of the load over approach and separation [J], which hysteresis dissipates."""
+        return sum(
+            float(np.trapezoid(one.load, one.approach))
+            for one in (self.approaching, self.separating)
+        )
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the separation ends in the state from which the approach began."""
+        first, last = self.approaching, self.separating
+        energies = [
+            float(b.elastic_energy[i] + b.adhesive_energy[i]) for b, i in ((first, 0), (last, -1))
+        ]
+        scale = float(np.abs(last.adhesive_energy).max())
+        return abs(energies[1] - energies[0]) <= _CLOSED * scale
+
+    @property
+    def n_applications(self) -> int:
+        """Applications of the operator on the full grid, of all states."""
+        return int(self.approaching.n_applications.sum() + self.separating.n_applications[1:].sum())
+
+
+class _State(NamedTuple):
+    approach: float
+    load: float
+    contact_area: float
+    attracted_area: float
+    elastic_energy: float
+    adhesive_energy: float
+    n_contacts: int
+    n_applications: int
+    result: ContactResult
+
+    @property
+    def energy(self) -> float:
+        return self.elastic_energy + self.adhesive_energy
+
+
+_Run = Callable[[float, _State | None], _State]
+
+
+def pull_off_curve(
+    plan: ContactPlan, approaches: Sequence[float] | ArrayLike, *, refinements: int = 6
+) -> PullOffCurve:
+    r"""Follow a contact under adhesion through an approach and the separation after it.
+
+    Every state starts from the one before, so that the branches are those of a quasi-static path:
+    a jump is no failure but an event. A step that loses energy,
+
+    .. math:: E_1 + \tfrac12 (P_1 + P_2) (\delta_2 - \delta_1) - E_2,
+
+    is halved until the loss is that of a jump; the losses of a closed loop add up to the work
+    of the load over it.
+
+    Parameters
+    ----------
+    plan : ContactPlan
+        Of a scene with `Adhesion`; its own loading is not looked at.
+    approaches : array_like, shape (n,)
+        Rigid-body approaches from first touch [m], rising; the separation passes them in reverse
+        order. Bodies apart have a negative one.
+    refinements : int
+        How many times a step with a loss is halved: a jump is located to the step over
+        ``2**refinements``.
+
+    Raises
+    ------
+    NotSimulatedError
+        If the scene does not list `Adhesion`.
+    DescriptionError
+        If the approaches are fewer than two, or do not rise.
+    ConvergenceError
+        If a state does not converge.
+
+    Warns
+    -----
+    ValidityWarning
+        For each number that is out of its range in any of the states.
+
+    Notes
+    -----
+    Branches of isolated contacts do not depend on the steps; in a periodic window separation may,
+    by half a percent (see `Adhesion`). Under load control, as with a soft spring, the bodies pull
+    off at `PullOffCurve.pull_off_force` and snap in before the jump of the approach. The extremes
+    are those of the states: let the approaches be dense around them.
+
+    Examples
+    --------
+    >>> import math
+    >>> import contactkit as ck
+    >>> rubber = ck.Material(young_modulus=1e6, poisson_ratio=0.5)
+    >>> law = ck.ExponentialAttraction(work_of_adhesion=0.05, range=0.5e-6)
+    >>> scene = ck.ContactScene(
+    ...     interface=ck.Interface(
+    ...         lower=ck.Body(solid=rubber), upper=ck.Body(surface=ck.Paraboloid(radius=100e-6))
+    ...     ),
+    ...     window=ck.Window(width=50e-6, periodic=False),
+    ...     loading=ck.Approach(approach=0.0),
+    ...     effects=(ck.HalfSpace(), ck.Adhesion(law=law)),
+    ... )
+    >>> plan = ck.plan(scene, ck.Accuracy(grid=24, rtol=1e-6))
+    >>> curve = ck.pull_off_curve(plan, [-6e-6, -2e-6, -1.5e-6, -1e-6, -0.5e-6, 0.0])
+    >>> f"{curve.pull_off_force / (math.pi * 0.05 * 100e-6):.2f} pi w R", curve.is_closed
+    ('1.67 pi w R', True)
+    """
+    check_plan(plan, ContactPlan)
+    plan.listed(Adhesion)
+    levels = _checked(approaches)
+    worst: dict[str, ValidityNumber] = {}
+
+    def run(approach: float, before: _State | None) -> _State:
+        made = plan.with_loading(Approach(approach=approach))
+        result = solve_unwarned(made, start=before.result if before is not None else None)
+        _note(worst, result.validity)
+        return _state(result)
+
+    up, jumps_up = _followed(run, run(levels[0], None), levels[1:], "approach", refinements)
+    down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", refinements)
+    found = tuple(worst.values())
+    warn(found)
+    return PullOffCurve(
+        _branch(up), _branch(down), (*jumps_up, *jumps_down), plan.without_preparation(), found
+    )
+
+
+def _checked(approaches: Sequence[float] | ArrayLike) -> list[float]:
+    given = np.atleast_1d(np.asarray(approaches, dtype=np.float64))
+    if given.ndim != 1 or given.size < 2 or not np.all(np.isfinite(given)):
+        raise DescriptionError(
+            "pull_off_curve(approaches)", approaches, "be two finite numbers or more", unit="m"
+        )
+    if not np.all(np.diff(given) > 0.0):
+        raise DescriptionError(
+            "pull_off_curve(approaches)",
+            approaches,
+            "rise from one to the next",
+            unit="m",
+            hint="the separation passes them in reverse order by itself",
+        )
+    return [float(one) for one in given]
+
+
+def _state(result: ContactResult) -> _State:
+    part, work = result.of(Adhesion), result.work
+    return _State(
+        result.approach,
+        result.load,
+        part.contact_area,
+        part.attracted_area,
+        part.elastic_energy,
+        part.adhesive_energy,
+        part.n_contacts,
+        work.n_operator_applications,
+        result,
+    )
+
+
+def _note(worst: dict[str, ValidityNumber], found: Sequence[ValidityNumber]) -> None:
+    """Keep the worst of each number."""
+    for one in found:
+        kept = worst.get(one.name)
+        if one.name == _PASSING:
+            continue
+        if kept is None or kept.value is None or _is_worse(one, kept):
+            worst[one.name] = one
+
+
+def _is_worse(one: ValidityNumber, kept: ValidityNumber) -> bool:
+    if one.value is None or kept.value is None:
+        return False
+    return max(one.value - one.high, one.low - one.value) > max(
+        kept.value - kept.high, kept.low - kept.value
+    )
+
+
+def _loss(a: _State, b: _State) -> float:
+    """Energy lost from a state to the next [J]."""
+    return a.energy + 0.5 * (a.load + b.load) * (b.approach - a.approach) - b.energy
+
+
+def _is_jump(a: _State, b: _State) -> bool:
+    """Whether the loss of a short step is that of a jump."""
+    smooth = abs((b.load - a.load) * (b.approach - a.approach))
+    return _loss(a, b) > max(_SUDDEN * smooth, _LEAST * _adhesive(a, b))
+
+
+def _is_too_long(a: _State, b: _State) -> bool:
+    """Whether a step may hide a jump: by its loss, or by a change of the load that may cover it."""
+    if max(a.attracted_area, b.attracted_area) == 0.0:
+        return False
+    change = abs((b.load - a.load) * (b.approach - a.approach))
+    return change > _SUDDEN * _adhesive(a, b) or _is_jump(a, b)
+
+
+def _adhesive(a: _State, b: _State) -> float:
+    return max(abs(a.adhesive_energy), abs(b.adhesive_energy))
+
+
+def _followed(
+    run: _Run,
+    first: _State,
+    approaches: Sequence[float],
+    branch: Literal["approach", "separation"],
+    refinements: int,
+) -> tuple[list[_State], list[Jump]]:
+    """States of a branch, and its jumps; the maps of all but the last state are given up."""
+    states, jumps = [first], list[Jump]()
+    for approach in approaches:
+        before = states[-1]
+        after = run(approach, before)
+        between, found = _refined(run, before, after, refinements)
+        states[-1] = _without_maps(before)
+        states += [*map(_without_maps, between[:-1]), between[-1]]
+        jumps += [
+            Jump(
+                branch,
+                a.approach,
+                b.approach,
+                b.load - a.load,
+                b.contact_area - a.contact_area,
+                _loss(a, b),
+            )
+            for a, b in found
+        ]
+    return states, jumps
+
+
+def _refined(
+    run: _Run, a: _State, b: _State, depth: int
+) -> tuple[list[_State], list[tuple[_State, _State]]]:
+    """States between two (with the second), and the pairs of them that a jump separates."""
+    if depth <= 0:
+        return [b], [(a, b)] if _is_jump(a, b) else []
+    if not _is_too_long(a, b):
+        return [b], []
+    middle = run(0.5 * (a.approach + b.approach), a)
+    states, jumps = _refined(run, a, middle, depth - 1)
+    more, others = _refined(run, middle, b, depth - 1)
+    return states + more, jumps + others
+
+
+def _without_maps(state: _State) -> _State:
+    return state._replace(result=None)  # type: ignore[arg-type]
+
+
+def _branch(states: Sequence[_State]) -> AdhesiveBranch:
+    names = AdhesiveBranch._fields
+    losses = [0.0, *(_loss(a, b) for a, b in pairwise(states))]
+    columns = {
+        name: np.array(losses if name == "loss" else [getattr(s, name) for s in states])
+        for name in names
+    }
+    for column in columns.values():
+        column.flags.writeable = False
+    return AdhesiveBranch(**columns)

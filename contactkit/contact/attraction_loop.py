@@ -1,0 +1,207 @@
+r"""Contact with an attraction across the gap: fixed-point iterations on the tension.
+
+.. math:: p = q - t, \qquad t = \tau(g), \qquad q \ge 0
+
+For a given tension t the pressure q of contact is that of a contact without attraction, of the
+heights :math:`h + G t` and, if there is one, the hardness :math:`H + t`; under a load it carries
+the load and the tension. The energy of attraction is concave in the gap, so that every step
+:math:`t \leftarrow \tau(g(t))` lowers the energy; it ends at a stable state for any grid.
+
+Where a pressure lowers the surface everywhere (isolated contacts), more tension narrows every gap:
+the steps only rise from no tension to the state of an approach, or only fall from the state of a
+smaller gap to that of a separation. They are accelerated by momentum, which starts afresh whenever
+the iterates turn round; a third to a half of the steps remain.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .effects.base import AttractedContact, Attraction, Contact, FixedHardness
+from .friction_loop import Target
+from .hardness_loop import Solved, contact_of
+from .plan import ContactPlan
+from .solver.contact_solver import Solution
+from .work import WorkCounter
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = ["solve_attracted"]
+
+_MAX_ITERATIONS = 3000
+_INNER = 1e-2  # tolerance of a contact over the change of its gap that the tension last had
+_LOOSEST = 1e-5
+_SLOWEST = 1e-3  # 1 - rate of convergence that the estimate of the error assumes at least
+_MEMORY = 5  # estimates of the rate of which the slowest counts
+
+
+class _Pulled(NamedTuple):
+    """A contact under a given tension, and the tension of its gap."""
+
+    solution: Solution
+    touching: NDArray[np.bool_]
+    displacement: Map
+    tension: Map
+
+
+class _ContactMap:
+    """The contact under a given tension: one step of the fixed point."""
+
+    def __init__(
+        self, plan: ContactPlan, attraction: Attraction[Any], target: Target, counter: WorkCounter
+    ) -> None:
+        self.plan, self.target, self.counter = plan, target, counter
+        self.solver = plan.prepared.solver
+        self.law = attraction.prepare(self.solver.self_influence)
+        hardness = plan.hardness
+        self.hardness = hardness.value if isinstance(hardness, FixedHardness) else None
+        self.roughness = float(plan.heights.std())
+        self.n_contacts = 0
+
+    def pulled(self, tension: Map) -> Map:
+        """Displacement [m] that a tension causes against that of a pressure, (ny, nx)."""
+        found = self.solver.displacement(tension)
+        # Of a uniform tension on a periodic window round-off remains, which is no roughness.
+        is_round_off = np.ptp(found) <= 1e-12 * self.solver.self_influence * self.law.strength
+        return np.zeros_like(found) if is_round_off else found
+
+    def at(self, tension: Map, start: Map | None, change: float) -> _Pulled:
+        """Solve the contact, as well as a change of the tension over its maximum calls for."""
+        plan, target = self.plan, self.target
+        pulled = self.pulled(tension)
+        load = target.mean_pressure
+        rtol = _INNER * change * self.law.reach / max(self.roughness, self.law.reach)
+        solution = self.solver.solve(
+            plan.heights + pulled,
+            mean_pressure=None if load is None else load + float(tension.mean()),
+            rigid_approach=target.rigid_approach,
+            bound=None if self.hardness is None else self.hardness + tension,
+            rtol=float(np.clip(rtol, 0.1 * plan.accuracy.rtol, _LOOSEST)),
+            start=start if start is not None and start.any() else None,
+            max_iterations=plan.accuracy.max_iterations,
+            method=plan.accuracy.method,
+        )
+        self.counter.add(solution)
+        self.n_contacts += 1
+        touching = solution.pressure > 0.0
+        displacement = solution.displacement - pulled
+        gap = displacement - plan.heights - solution.rigid_approach
+        gap[touching] = 0.0
+        np.maximum(gap, 0.0, out=gap)
+        return _Pulled(solution, touching, displacement, self.law.tension(gap))
+
+
+def solve_attracted(
+    plan: ContactPlan,
+    attraction: Attraction[Any],
+    target: Target,
+    before: AttractedContact | None,
+    counter: WorkCounter,
+) -> tuple[Solved, Contact]:
+    """Solve a contact with an attraction, from no tension or from that of a state before.
+
+    Parameters
+    ----------
+    plan : ContactPlan
+        What to solve.
+    attraction : Attraction
+        The effect of the scene.
+    target : Target
+        Load or approach, and the pressure to start from.
+    before : AttractedContact, optional
+        State to start from, which decides on the branch; without one, the surfaces come together.
+    counter : WorkCounter
+        Counts the contacts.
+    """
+    begun = time.perf_counter()
+    contacts = _ContactMap(plan, attraction, target, counter)
+    tension: Map = np.zeros(plan.grid.shape)
+    pressure = _newest(target)
+    if before is not None and pressure is not None:
+        tension = before.tension
+        pressure = np.where(before.touching, pressure + tension, 0.0)
+    state, tension, problem = _settled(contacts, tension, pressure)
+    solved, contact = _described(plan, contacts, state, tension, problem)
+    counter.clock(attraction.name, begun)
+    return solved, contact
+
+
+def _newest(target: Target) -> Map | None:
+    """Pressure of the newest of the results to start from."""
+    start = target.start
+    return start if start is None or isinstance(start, np.ndarray) else start[0][1]
+
+
+def _settled(contacts: _ContactMap, tension: Map, pressure: Map | None) -> tuple[_Pulled, Map, str]:
+    """Iterate until the tension of the gap is the one that causes it; say what did not converge."""
+    tolerance, strength = contacts.plan.accuracy.outer_rtol, contacts.law.strength
+    before, age, change = tension, 0, 1.0
+    rates: list[float] = []
+    last: tuple[Map, Map] | None = None
+    for _ in range(_MAX_ITERATIONS):
+        state = contacts.at(tension, pressure, change)
+        pressure = state.solution.pressure
+        residual = state.tension - tension
+        change = float(np.abs(residual).max()) / strength
+        if last is not None:
+            rates = [*rates[1 - _MEMORY :], _decay(tension - last[0], residual - last[1])]
+        if not state.solution.converged:
+            return state, tension, _inner_problem(contacts, state.solution)
+        if change <= tolerance * min(rates, default=1.0):
+            return state, tension, ""
+        last = tension, residual
+        step = state.tension - before
+        turns = float(np.einsum("ij,ij->", residual, step)) <= 0.0
+        age = 0 if turns else age + 1
+        before = state.tension
+        ahead = max(age - 1, 0) / (age + 2.0)
+        tension = np.clip(before + ahead * step, 0.0, strength)
+    problem = (
+        f"the tension still changes by {change:.2g} of its maximum after {_MAX_ITERATIONS} "
+        "iterations, next to a jump of the contact; change the approach or load a little, or "
+        "raise Accuracy.rtol"
+    )
+    return state, tension, problem
+
+
+def _decay(step: Map, change: Map) -> float:
+    """Part of an error that an iteration removes, from two of them."""
+    square = float(np.einsum("ij,ij->", step, step))
+    found = -float(np.einsum("ij,ij->", step, change)) / square if square > 0.0 else 1.0
+    return min(max(found, _SLOWEST), 1.0)
+
+
+def _inner_problem(contacts: _ContactMap, solution: Solution) -> str:
+    return (
+        f"the contact conditions under the tension are violated by {solution.kkt:.2g} of the rms "
+        f"height after {solution.n_applications} operator applications; raise "
+        "Accuracy.max_iterations or rtol"
+    )
+
+
+def _described(
+    plan: ContactPlan, contacts: _ContactMap, state: _Pulled, tension: Map, problem: str
+) -> tuple[Solved, Contact]:
+    """Show the net pressure as that of a solved contact."""
+    pressure = state.solution.pressure - tension
+    work = np.einsum("ij,ij->", pressure, 0.5 * state.displacement - plan.heights)
+    solution = state.solution._replace(
+        pressure=pressure,
+        displacement=state.displacement,
+        energy=float(work) * plan.grid.pixel_area,
+    )
+    solved = Solved(solution, contacts.hardness, None, problem)
+    contact = contact_of(plan, solved)
+    contact.gap[state.touching] = 0.0
+    attracted = AttractedContact(
+        tension, state.touching, contacts.solver.self_influence, contacts.n_contacts
+    )
+    for one in (tension, state.touching):
+        one.flags.writeable = False
+    return solved, contact._replace(attracted=attracted)

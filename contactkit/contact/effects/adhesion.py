@@ -1,0 +1,236 @@
+"""Adhesion: the attraction of two surfaces across their gap, by a law of finite range."""
+
+from __future__ import annotations
+
+import math
+from operator import attrgetter
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from attrs import field, frozen
+
+from ...scene.validity import ValidityNumber
+from ...validators import part
+from .attraction_laws import AttractionLaw, TensionLaw
+from .base import AttractedContact, Attraction, Contact, Scalar
+from .elasticity import contact_modulus
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...scene.scenes import ContactScene
+    from .base import Map
+
+__all__ = ["Adhesion", "AdhesionPart"]
+
+_MOST_TRAPPING = 0.5
+_MOST_STEP = 1.0
+_MOST_AT_EDGE = 0.05
+
+
+class AdhesionPart(NamedTuple):
+    """Attraction in a solved contact.
+
+    Attributes
+    ----------
+    tension : ndarray (ny, nx)
+        Tension of the attraction [Pa]; in contact that of a closed gap. The pressure of the result
+        is the net one: that of contact less this tension.
+    is_contact : ndarray (ny, nx)
+        Pixels in contact, where the pressure may be negative.
+    contact_area, attracted_area : float
+        Area in contact, and area in contact or apart by less than the range [m2].
+    elastic_energy, adhesive_energy : float
+        Energy of the elastic bodies, and of the attraction, zero far apart [J].
+    tabor_parameter : float or None
+        Tabor parameter of the map [-], with a radius of 2 over the rms Laplacian of the heights;
+        None where nothing is attracted, or the heights are flat.
+    trapping_number : float
+        Steepest fall of the tension over the gap times the influence of a pixel on itself [-].
+    step_over_range : float or None
+        Pixel times rms slope over the range [-]; None where nothing is attracted.
+    edge_tension : float
+        Largest tension at the edge of an isolated window over the largest of the law [-].
+    self_influence : float
+        Displacement of a pixel under unit pressure on itself [m/Pa].
+    n_contacts : int
+        Number of contacts that were solved for this state.
+    """
+
+    tension: Map
+    is_contact: NDArray[np.bool_]
+    contact_area: float
+    attracted_area: float
+    elastic_energy: float
+    adhesive_energy: float
+    tabor_parameter: float | None
+    trapping_number: float
+    step_over_range: float | None
+    edge_tension: float
+    self_influence: float
+    n_contacts: int
+
+    @property
+    def energy(self) -> float:
+        """Elastic and adhesive energy together [J]; a stable state is a minimum of it."""
+        return self.elastic_energy + self.adhesive_energy
+
+
+@frozen(kw_only=True)
+class Adhesion(Attraction[AdhesionPart]):
+    r"""Attraction of the surfaces across their gap, from JKR-like to DMT-like.
+
+    .. math:: p = q - \tau(g), \qquad q \ge 0, \quad g \ge 0, \quad q \, g = 0
+
+    A contact under adhesion may have several states. Without a `start` the solve finds that of
+    an approach from far apart; from the result of a smaller gap it finds that of a separation.
+    `contactkit.pull_off_curve` follows both.
+
+    Parameters
+    ----------
+    law : AttractionLaw
+        `ExponentialAttraction`, `DugdaleAttraction` or `LennardJonesAttraction`.
+
+    Notes
+    -----
+    At an imposed approach the branches of an isolated contact do not depend on the steps of the
+    approach, as a tension anywhere narrows every gap; in a periodic window, where far pixels lift
+    each other, separation may depend on them by half a percent (measured).
+    """
+
+    name: ClassVar[str] = "adhesion"
+    summary: ClassVar[str] = "attraction of the surfaces across their gap"
+    records: ClassVar[tuple[type, ...]] = (AdhesionPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (
+        Scalar("attracted_area", "m2", attrgetter("attracted_area")),
+        Scalar("elastic_energy", "J", attrgetter("elastic_energy")),
+        Scalar("adhesive_energy", "J", attrgetter("adhesive_energy")),
+        Scalar("tabor_parameter", "-", attrgetter("tabor_parameter")),
+        Scalar("trapping_number", "-", attrgetter("trapping_number")),
+    )
+
+    law: AttractionLaw = field(validator=part(AttractionLaw))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return (
+            self.law.source,
+            "convex-concave iteration on the tension: Yuille and Rangarajan 2003",
+            "Tabor parameter: Tabor 1977; radius 2 over the rms Laplacian",
+        )
+
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        return tuple(
+            f"no {type(effect).__name__} beside it, which takes pressures to be positive: leave "
+            "one of them out"
+            for effect in scene.effects
+            if not effect.takes_tension
+        )
+
+    def prepare(self, self_influence: float) -> TensionLaw:
+        """See `Attraction.prepare`."""
+        return self.law.on_grid(self_influence)
+
+    def attracted_of(self, part: AdhesionPart) -> AttractedContact:
+        """See `Attraction.attracted_of`."""
+        return AttractedContact(part.tension, part.is_contact, part.self_influence, part.n_contacts)
+
+    def observe_attracted(self, contact: Contact, attracted: AttractedContact) -> AdhesionPart:
+        """See `Attraction.observe_attracted`."""
+        import numpy as np
+
+        law, area = self.prepare(attracted.self_influence), contact.grid.pixel_area
+        near = attracted.touching | (contact.gap < law.reach)
+        elastic = 0.5 * float(np.einsum("ij,ij->", contact.pressure, contact.displacement))
+        tension = attracted.tension
+        border = max(float(edge.max()) for edge in (*tension[[0, -1]], *tension.T[[0, -1]]))
+        curvature, step = self._shape(contact, near)
+        return AdhesionPart(
+            tension=tension,
+            is_contact=attracted.touching,
+            contact_area=int(attracted.touching.sum()) * area,
+            attracted_area=int(near.sum()) * area,
+            elastic_energy=elastic * area,
+            adhesive_energy=float(law.energy(contact.gap).sum()) * area,
+            tabor_parameter=self._tabor(contact, curvature),
+            trapping_number=law.steepest * attracted.self_influence,
+            step_over_range=step,
+            edge_tension=0.0 if contact.grid.periodic else border / law.strength,
+            self_influence=attracted.self_influence,
+            n_contacts=attracted.n_contacts,
+        )
+
+    def _shape(
+        self, contact: Contact, near: NDArray[np.bool_]
+    ) -> tuple[float | None, float | None]:
+        """Rms curvature [1/m], and step of a pixel over the range, around what is attracted."""
+        from ...roughness.statistics import rms_curvature, rms_slope
+
+        if not near.any():
+            return None, None
+        heights, periodic = contact.displacement - contact.gap, contact.grid.periodic
+        if contact.bounded is not None:
+            heights += contact.bounded.overlap
+        if not periodic:  # beyond what is attracted the shape does not matter
+            heights = heights[_around(near)]
+        pixel = contact.grid.pixel_size
+        curvature = rms_curvature(heights, pixel, periodic) if min(heights.shape) > 2 else None
+        step = max(pixel) * rms_slope(heights, pixel, periodic) / self.law.range
+        return curvature, step
+
+    def _tabor(self, contact: Contact, curvature: float | None) -> float | None:
+        from ...adhesion.parameters import tabor_parameter
+
+        if not curvature:
+            return None
+        radius, law = 1.0 / curvature, self.law
+        modulus = contact_modulus(contact.scene)
+        return float(tabor_parameter(radius, law.work_of_adhesion, modulus, law.range))
+
+    def validity(self, contact: Contact, part: AdhesionPart) -> tuple[ValidityNumber, ...]:
+        """See `ContactEffect.validity`."""
+        scaled = self.law.range * math.sqrt(part.trapping_number / _MOST_TRAPPING)
+        found = [
+            ValidityNumber(
+                name="trapping number of the attraction",
+                value=part.trapping_number,
+                high=_MOST_TRAPPING,
+                detail="above, the edge of a contact hangs on single pixels and the hysteresis is "
+                f"that of the grid; use a finer Accuracy.grid, or scale the range up to "
+                f"{scaled:.3g} m (pull-off of soft contacts hardly depends on it, jump-in and "
+                "hysteresis do)",
+                source="max|dtension/dgap| x influence of a pixel on itself; measured",
+            ),
+            ValidityNumber(
+                name="step of a pixel over the range",
+                value=part.step_over_range,
+                high=_MOST_STEP,
+                detail="nothing is attracted"
+                if part.step_over_range is None
+                else "above, the gap beside a contact passes the range within a pixel; use a finer "
+                "Accuracy.grid, or a longer range",
+                source="pixel x rms slope/range; measured",
+            ),
+        ]
+        if not contact.grid.periodic:
+            found.append(
+                ValidityNumber(
+                    name="tension at the edge of the window",
+                    value=part.edge_tension,
+                    high=_MOST_AT_EDGE,
+                    detail="over the largest tension; the attraction beyond the window is left "
+                    "out: widen the window",
+                )
+            )
+        return tuple(found)
+
+
+def _around(near: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """Rectangle of some pixels, with two lines of pixels around it."""
+    import numpy as np
+
+    lines = (np.flatnonzero(near.any(axis=axis)) for axis in (1, 0))
+    rows, columns = (slice(max(int(at[0]) - 2, 0), int(at[-1]) + 3) for at in lines)
+    return rows, columns

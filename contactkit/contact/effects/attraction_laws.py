@@ -1,0 +1,253 @@
+"""Laws of attraction that an `Adhesion` may take: Dugdale, exponential, Lennard-Jones."""
+
+from __future__ import annotations
+
+import abc
+import math
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+from attrs import Attribute, field, frozen
+
+from ...errors import DescriptionError
+from ...units import si
+from ...validators import Described, finite, optional, positive, refuse
+
+if TYPE_CHECKING:
+    from .base import Map
+
+__all__ = [
+    "ATTRACTION_LAWS",
+    "AttractionLaw",
+    "DugdaleAttraction",
+    "ExponentialAttraction",
+    "LennardJonesAttraction",
+    "TensionLaw",
+]
+
+
+class TensionLaw(NamedTuple):
+    """A law on a grid: its name as a kernel, and its numbers.
+
+    `strength` is the largest tension [Pa], `reach` the gap [m] up to which pixels count as
+    attracted, `steepest` the largest fall of the tension with the gap [Pa/m], and `numbers` what
+    the kernels of `contactkit.adhesion.attraction` take after the gap.
+    """
+
+    kernel: str
+    numbers: tuple[float, ...]
+    strength: float
+    reach: float
+    steepest: float
+
+    def tension(self, gap: Map) -> Map:
+        """Tension [Pa] at a gap [m], (ny, nx) each."""
+        from ...adhesion import attraction
+
+        made: Map = getattr(attraction, f"{self.kernel}_tension")(gap, *self.numbers)
+        return made
+
+    def energy(self, gap: Map) -> Map:
+        """Energy per area [J/m2] at a gap [m], (ny, nx) each."""
+        from ...adhesion import attraction
+
+        made: Map = getattr(attraction, f"{self.kernel}_energy")(gap, *self.numbers)
+        return made
+
+
+def _work(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    finite(owner, attribute, value)
+    if value <= 0.0:
+        raise refuse(
+            owner, attribute, value, "be positive", "without adhesion leave Adhesion out of effects"
+        )
+
+
+@frozen(kw_only=True)
+class AttractionLaw(Described, abc.ABC):
+    """A tension over the gap that never rises; its kind is its name in files.
+
+    Parameters
+    ----------
+    work_of_adhesion : float
+        Work per area that parts the surfaces from contact [J/m2].
+    range : float
+        Gap over which the attraction acts [m].
+    """
+
+    kind: ClassVar[str]
+    source: ClassVar[str]
+
+    work_of_adhesion: float = field(validator=_work, metadata=si("J/m2"))
+    range: float = field(validator=positive, metadata=si("m"))
+
+    @abc.abstractmethod
+    def on_grid(self, self_influence: float) -> TensionLaw:
+        """Return the law on a grid whose pixels have an influence on themselves of [m/Pa]."""
+
+    def _made(
+        self, kernel: str, peak: float, slope: float, reach: float, more: tuple[float, ...] = ()
+    ) -> TensionLaw:
+        """Return a law of given peak over w/r, and of steepest fall over w/r^2."""
+        w, r = self.work_of_adhesion, self.range
+        return TensionLaw(kernel, (w, r, *more), peak * w / r, reach, slope * w / r**2)
+
+
+@frozen(kw_only=True)
+class ExponentialAttraction(AttractionLaw):
+    """Tension ``w/r exp(-g/r)`` over the gap g: smooth and concave everywhere.
+
+    Parameters
+    ----------
+    work_of_adhesion : float
+        Work of adhesion w [J/m2].
+    range : float
+        Range r [m], over which the tension falls by a factor of e.
+
+    Examples
+    --------
+    >>> law = ExponentialAttraction(work_of_adhesion=0.05, range=1e-9)
+    >>> law.on_grid(1e-20).strength / 1e6
+    50.0
+    """
+
+    kind: ClassVar[str] = "exponential"
+    source: ClassVar[str] = "tension w/r exp(-g/r), docs/physics.md, Adhesion in rough contact"
+
+    def on_grid(self, self_influence: float) -> TensionLaw:
+        """See `AttractionLaw.on_grid`."""
+        return self._made("exponential", 1.0, 1.0, self.range)
+
+
+@frozen(kw_only=True)
+class DugdaleAttraction(AttractionLaw):
+    """Constant tension w/r up to the range r, with a sloping end; Maugis' cohesive zone.
+
+    With a sudden end the edge of a crack hangs on single pixels; the slope cures that, and changes
+    neither work nor tension.
+
+    Parameters
+    ----------
+    work_of_adhesion : float
+        Work of adhesion w [J/m2].
+    range : float
+        Range r [m].
+    end_width : float, optional
+        Half-width b of the slope [m]: the tension falls linearly from the gap r - b to r + b.
+        None: the least that the grid needs, so that the trapping number is 0.5, but at most r.
+
+    Examples
+    --------
+    >>> law = DugdaleAttraction(work_of_adhesion=0.05, range=1e-9)
+    >>> made = law.on_grid(1e-18)
+    >>> round(made.steepest * 1e-18, 3), round(made.numbers[2] * 1e9, 3)
+    (0.5, 0.05)
+    """
+
+    kind: ClassVar[str] = "dugdale"
+    source: ClassVar[str] = "Dugdale 1960; Maugis 1992"
+
+    end_width: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
+
+    @end_width.validator
+    def _within_range(self, attribute: Attribute[Any], value: Any) -> None:
+        if value is not None and value > self.range:
+            raise refuse(self, attribute, value, f"be at most range = {self.range:g} m")
+
+    def on_grid(self, self_influence: float) -> TensionLaw:
+        """See `AttractionLaw.on_grid`."""
+        w, r = self.work_of_adhesion, self.range
+        b = self.end_width
+        if b is None:
+            b = min(1.001 * w / r * self_influence, r)
+        return self._made("dugdale", 1.0, 0.5 * r / b, r, (b,))
+
+    @classmethod
+    def from_meniscus(
+        cls,
+        *,
+        surface_tension: float,
+        contact_angle_lower: float,
+        contact_angle_upper: float,
+        height: float,
+        end_width: float | None = None,
+    ) -> DugdaleAttraction:
+        r"""Attraction of a liquid film that wets every gap below a height.
+
+        .. math:: w = \gamma (\cos\theta_1 + \cos\theta_2), \qquad w/r = \text{Laplace pressure}
+
+        Left out: menisci of a given volume, islands that hold no liquid (`FilmMeniscus` has
+        those), and the line tension at the edge of the film.
+
+        Parameters
+        ----------
+        surface_tension : float
+            Surface tension gamma [N/m].
+        contact_angle_lower, contact_angle_upper : float
+            Contact angles on the bodies [rad].
+        height : float
+            Height of the menisci [m].
+        end_width : float, optional
+            As of the class [m].
+
+        Raises
+        ------
+        DescriptionError
+            If the liquid wets the bodies so little that it pushes them apart.
+
+        Examples
+        --------
+        >>> film = DugdaleAttraction.from_meniscus(
+        ...     surface_tension=0.072, contact_angle_lower=0.0, contact_angle_upper=0.0, height=2e-9
+        ... )
+        >>> film.work_of_adhesion, round(film.work_of_adhesion / film.range / 1e6)
+        (0.144, 72)
+        """
+        wetting = math.cos(contact_angle_lower) + math.cos(contact_angle_upper)
+        if not wetting > 1e-12:
+            raise DescriptionError(
+                "DugdaleAttraction.from_meniscus(contact_angle_lower, contact_angle_upper)",
+                (contact_angle_lower, contact_angle_upper),
+                "add up to less than pi, so that the film attracts",
+                unit="rad",
+                hint="a film that pushes the bodies apart is a matter of FilmMeniscus",
+            )
+        return cls(work_of_adhesion=surface_tension * wetting, range=height, end_width=end_width)
+
+
+@frozen(kw_only=True)
+class LennardJonesAttraction(AttractionLaw):
+    """Attraction of half-spaces with Lennard-Jones interaction, above a hard wall.
+
+    The part of the law where the tension rises with the distance, next to contact, is replaced by
+    a plateau of the same work.
+
+    Parameters
+    ----------
+    work_of_adhesion : float
+        Work of adhesion w [J/m2].
+    range : float
+        Equilibrium distance z_0 [m]; the tension has fallen to a half at a gap of 0.66 z_0.
+
+    Examples
+    --------
+    >>> law = LennardJonesAttraction(work_of_adhesion=0.05, range=0.165e-9)
+    >>> round(law.on_grid(1e-20).strength / 1e6)
+    311
+    """
+
+    kind: ClassVar[str] = "lennard-jones"
+    source: ClassVar[str] = "Lennard-Jones half-spaces above a hard wall: Israelachvili 1992"
+
+    def on_grid(self, self_influence: float) -> TensionLaw:
+        """See `AttractionLaw.on_grid`."""
+        from ...adhesion.attraction import LENNARD_JONES_PEAK, LENNARD_JONES_SLOPE
+
+        return self._made("lennard_jones", LENNARD_JONES_PEAK, LENNARD_JONES_SLOPE, self.range)
+
+
+ATTRACTION_LAWS: tuple[type[AttractionLaw], ...] = (
+    ExponentialAttraction,
+    DugdaleAttraction,
+    LennardJonesAttraction,
+)
+"""Every law a file can name, by its `kind`."""

@@ -1,0 +1,213 @@
+"""Adhesion of maps where it is hard: extreme ranges and works, far apart, stiff films, refusals."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+
+import contactkit as ck
+
+HEIGHTS = 1e-9 * np.random.default_rng(3).normal(size=(12, 16))
+SOLID = ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=1e8)
+WEAK = ck.ExponentialAttraction(work_of_adhesion=0.01, range=5e-9)
+
+
+def scene(law, *effects, periodic=False, solid=SOLID, approach=0.0, loading=None, heights=HEIGHTS):
+    return ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=solid),
+            upper=ck.Body(surface=ck.Heights(heights=heights, pixel_size=2e-8)),
+        ),
+        window=ck.Window(periodic=periodic),
+        loading=loading or ck.Approach(approach=approach),
+        effects=(ck.LayeredHalfSpace(), ck.Adhesion(law=law), *effects),
+    )
+
+
+def solved(*args, **given):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ck.ValidityWarning)
+        result = ck.solve(ck.plan(scene(*args, **given)))
+    numbers = [value for value, _ in result.scalars().values()]
+    assert np.all(np.isfinite(numbers))
+    assert all(np.all(np.isfinite(result[name])) for name in result.columns)
+    return result
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("reach", [1e-13, 1e-11, 1e-7, 1e-3, 1e3])
+@pytest.mark.parametrize(
+    "kind", [ck.ExponentialAttraction, ck.DugdaleAttraction, ck.LennardJonesAttraction]
+)
+def test_any_range_has_an_answer(kind, reach, periodic):
+    result = solved(kind(work_of_adhesion=1e-3, range=reach), periodic=periodic, approach=1e-9)
+    part = result.of(ck.Adhesion)
+    assert result.status == "converged"
+    assert part.adhesive_energy >= -1e-3 * result.plan.grid.area * (1.0 + 1e-12)
+
+
+@pytest.mark.parametrize("work", [1e-30, 1e-9])
+def test_little_adhesion_changes_little(work):
+    law = ck.ExponentialAttraction(work_of_adhesion=work, range=1e-9)
+    dry = scene(law, approach=1e-9)
+    bare = ck.ContactScene(
+        interface=dry.interface, window=dry.window, loading=dry.loading, effects=dry.effects[:1]
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ck.ValidityWarning)
+        expected = ck.solve(ck.plan(bare))
+    assert solved(law, approach=1e-9).load == pytest.approx(expected.load, rel=1e-5)
+
+
+@pytest.mark.parametrize("approach", [-1e-6, -1.0, -1e3])
+def test_far_apart_nothing_pulls(approach):
+    result = solved(ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-9), approach=approach)
+    assert (result.load, result.status) == (0.0, "no contact")
+    assert result.of(ck.Adhesion).tabor_parameter is None
+
+
+def test_attraction_without_contact_is_a_state():
+    result = solved(WEAK, approach=-4e-9)
+    assert result.status == "no contact"
+    assert result.contact_area == 0.0
+    assert result.load < 0.0
+
+
+@pytest.mark.parametrize(
+    ("periodic", "loading"),
+    [
+        (False, ck.Approach(approach=0.0)),
+        (False, ck.Pressing(force=0.0)),
+        (True, ck.Pressing(force=0.0)),
+    ],
+)
+def test_strong_adhesion_closes_the_gap(periodic, loading):
+    law = ck.DugdaleAttraction(work_of_adhesion=5.0, range=2e-8)
+    result = solved(law, periodic=periodic, loading=loading)
+    assert result.contact_fraction == 1.0
+    assert result.pressure.min() < 0.0
+    assert result.of(ck.Adhesion).adhesive_energy == pytest.approx(-5.0 * result.plan.grid.area)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("ratio", [1e-3, 1e3])
+def test_layers_of_any_stiffness(ratio, periodic):
+    film = ck.Material(young_modulus=ratio * 1e9, poisson_ratio=0.3)
+    stack = ck.Stack(layers=(ck.Layer(material=film, thickness=4e-9),), substrate=SOLID)
+    assert solved(WEAK, solid=stack, periodic=periodic, approach=1e-9).status == "converged"
+
+
+def test_a_flat_pulls_with_the_tension_of_its_gap():
+    flat = np.zeros((8, 8))
+    result = solved(WEAK, periodic=True, approach=-5e-9, heights=flat)
+    assert result.mean_pressure == pytest.approx(-0.01 / 5e-9 * math.exp(-1.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("load", [0.0, 1e5, 1e7])
+def test_a_load_below_and_above_the_attraction(load):
+    result = solved(WEAK, loading=ck.Pressing(pressure=load))
+    assert result.mean_pressure == pytest.approx(load, rel=1e-8, abs=1e-3)
+    assert result.contact.any()
+
+
+def test_pixels_at_the_hardness_beside_pixels_that_pull():
+    limit = ck.HardnessLimit(rule="material")
+    result = solved(WEAK, limit, loading=ck.Pressing(pressure=2e7))
+    assert result.max_pressure == pytest.approx(1e8, rel=1e-9)
+    assert result.pressure.min() < 0.0
+
+
+def test_a_range_below_the_grid_rule_warns_and_names_one_above():
+    law = ck.ExponentialAttraction(work_of_adhesion=0.05, range=0.3e-9)
+    with pytest.warns(ck.ValidityWarning) as caught:
+        ck.solve(ck.plan(scene(law)))
+    text = next(str(one.message) for one in caught if "trapping number" in str(one.message))
+    assert "scale the range up to 1." in text
+
+
+@pytest.mark.parametrize(
+    ("effect", "words"),
+    [
+        (ck.FrictionTraction(coefficient=0.2), "no FrictionTraction beside it"),
+        (ck.FilmMeniscus(film_thickness=1e-9), "no FilmMeniscus beside it"),
+        (ck.IslandBridges(film_thickness=1e-9), "no IslandBridges beside it"),
+    ],
+)
+def test_what_takes_pressures_to_be_positive_is_refused(effect, words):
+    with pytest.raises(ck.PlanError, match=words):
+        ck.plan(scene(WEAK, effect))
+
+
+def test_a_hardness_that_follows_the_displacement_is_refused():
+    hard = ck.Material(young_modulus=2e9, poisson_ratio=0.3, hardness=5e8)
+    stack = ck.Stack(layers=(ck.Layer(material=hard, thickness=4e-9),), substrate=SOLID)
+    with pytest.raises(ck.PlanError, match="rule='material'"):
+        ck.plan(scene(WEAK, ck.HardnessLimit(), solid=stack))
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: ck.ExponentialAttraction(work_of_adhesion=0.0, range=1e-9), "leave Adhesion out"),
+        (lambda: ck.ExponentialAttraction(work_of_adhesion=-1.0, range=1e-9), "J/m2"),
+        (lambda: ck.LennardJonesAttraction(work_of_adhesion=0.05, range=0.0), "positive"),
+        (
+            lambda: ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-9, end_width=2e-9),
+            "at most range",
+        ),
+        (lambda: ck.Adhesion(law="exponential"), "be a AttractionLaw"),
+        (
+            lambda: ck.DugdaleAttraction.from_meniscus(
+                surface_tension=0.07, contact_angle_lower=2.0, contact_angle_upper=2.0, height=1e-9
+            ),
+            "so that the film attracts",
+        ),
+    ],
+)
+def test_what_is_no_attraction_is_refused(make, words):
+    with pytest.raises(ck.DescriptionError, match=words):
+        make()
+
+
+def test_a_curve_needs_adhesion_and_approaches_that_rise():
+    plan = ck.plan(scene(WEAK))
+    bare = ck.plan(ck.ContactScene(**{**_fields(plan.scene), "effects": (ck.HalfSpace(),)}))
+    with pytest.raises(ck.NotSimulatedError, match="adhesion"):
+        ck.pull_off_curve(bare, [-1e-9, 0.0])
+    for wrong in ([0.0], [0.0, -1e-9], [0.0, math.nan], [[0.0, 1.0]]):
+        with pytest.raises(ck.DescriptionError, match="pull_off_curve"):
+            ck.pull_off_curve(plan, wrong)
+
+
+def _fields(made):
+    return {name: getattr(made, name) for name in ("interface", "window", "loading")}
+
+
+def test_a_result_is_read_back_with_its_contact(tmp_path):
+    result = solved(WEAK)
+    again = ck.load_result(result.save(tmp_path / "stuck.npz"))
+    assert np.array_equal(again.contact, result.contact)
+    assert np.array_equal(again.of(ck.Adhesion).tension, result.of(ck.Adhesion).tension)
+    assert [one.value for one in again.validity] == [one.value for one in result.validity]
+
+
+def test_a_scene_file_names_the_law(tmp_path):
+    file = tmp_path / "sphere.toml"
+    made = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=SOLID), upper=ck.Body(surface=ck.Paraboloid(radius=1e-6))
+        ),
+        window=ck.Window(width=1e-7, periodic=False),
+        loading=ck.Approach(approach=0.0),
+        effects=(ck.HalfSpace(), ck.Adhesion(law=WEAK)),
+    )
+    ck.save_scene(made, file)
+    text = file.read_text("utf-8")
+    assert 'law = "exponential"' in text
+    assert ck.load_scene(file) == made
+    file.write_text(text.replace("exponential", "exponentiel"), "utf-8")
+    with pytest.raises(ck.DescriptionError, match="did you mean 'exponential'"):
+        ck.load_scene(file)
