@@ -83,7 +83,7 @@ if TYPE_CHECKING:
         Sliding,
         Vibration,
     )
-    from .scene.materials import Layer, Material, Stack
+    from .scene.materials import Layer, Material, RigidBase, Stack
     from .scene.meniscus import Meniscus
     from .scene.rough_surfaces import (
         CombinedSurface,
@@ -172,6 +172,7 @@ _HOMES = {
     "PlanError": "errors",
     "Pressing": "scene.loading",
     "Pull": "separation.motion.state",
+    "RigidBase": "scene.materials",
     "Rupture": "separation.effects.registry",
     "SelfAffineRoughness": "scene.rough_surfaces",
     "SeparationResult": "separation.results",
@@ -267,6 +268,7 @@ __all__ = [
     "PlanError",
     "Pressing",
     "Pull",
+    "RigidBase",
     "Rupture",
     "SelfAffineRoughness",
     "SeparationResult",

@@ -394,8 +394,9 @@ def _check_approach(made: ContactPlan) -> None:
     loading = made.scene.loading
     if not isinstance(loading, Approach) or made.hardness is not None or not made.grid.periodic:
         return
-    if made.prepared.holes is not None:
-        return  # there the surface can rise as far as it must
+    interface = made.prepared
+    if interface.holes is not None or interface.solver.uniform_compliance:
+        return  # the surface can rise as far as it must, or a base lets its mean plane sink
     heights = made.heights
     limit = float(heights.max() - heights.mean())
     if loading.approach >= limit:

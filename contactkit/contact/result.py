@@ -149,8 +149,13 @@ class ContactResult(Result):
     @property
     def approach_datum(self) -> str:
         """Datum of approach and displacement."""
+        stacks = self.plan.scene.interface.stacks
+        if all(stack.base for stack in stacks):
+            return "the rigid base of the bodies"
         if self.plan.grid.periodic:
-            return "the mean plane of the deformed surfaces"
+            mixed = any(stack.base for stack in stacks)
+            also = " of the half-space, and the rigid base of the other body" if mixed else "s"
+            return f"the mean plane of the deformed surface{also}"
         return "points of the bodies far from the contact"
 
     @property

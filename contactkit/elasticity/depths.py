@@ -1,4 +1,4 @@
-"""Planes at depth in a layered half-space: layer, and side of an interface.
+"""Planes at depth in a layered solid: layer, and side of an interface.
 
 z points into the solid.  In-plane stresses jump at an interface: side "-" of a plane there is the
 material above, side "+" the one below.
@@ -36,7 +36,11 @@ class Depths(NamedTuple):
 
 
 def locate(
-    depths: Sequence[float], sides: Sequence[str] | str, thickness: ArrayLike
+    depths: Sequence[float],
+    sides: Sequence[str] | str,
+    thickness: ArrayLike,
+    *,
+    on_base: bool = False,
 ) -> list[PlaneAt]:
     """Depth, side and layer of each plane, in the order given.
 
@@ -49,6 +53,9 @@ def locate(
         belongs to the top layer for either side.
     thickness : array_like, shape (n_layers,)
         [m].
+    on_base : bool, optional
+        Whether a rigid base takes the place of the substrate: a plane on it belongs to the lowest
+        layer for either side.
 
     Returns
     -------
@@ -58,7 +65,8 @@ def locate(
     Raises
     ------
     DescriptionError
-        For a negative or non-finite depth, an unknown side, or unequal numbers of both.
+        For a negative or non-finite depth, one below a rigid base, an unknown side, or unequal
+        numbers of both.
 
     Notes
     -----
@@ -83,7 +91,13 @@ def locate(
             raise DescriptionError("planes.sides", side, 'be "+" (below) or "-" (above)')
         known = SIDES[side]
         on = np.flatnonzero(np.abs(bottoms - z) <= 1e-12 * bottoms)
-        if on.size:
+        if on_base and not on.size and z > bottoms[-1]:
+            raise DescriptionError(
+                "planes.depths", z, f"be at most {bottoms[-1]:g}, that of the rigid base", unit="m"
+            )
+        if on_base and on.size and on[0] == bottoms.size - 1:
+            found.append(PlaneAt(float(bottoms[-1]), known, bottoms.size - 1))
+        elif on.size:
             found.append(PlaneAt(float(bottoms[on[0]]), known, int(on[0]) + (side == "+")))
         else:
             found.append(PlaneAt(float(z), known, int(np.searchsorted(bottoms, z))))

@@ -1,4 +1,4 @@
-r"""Influence coefficients of non-periodic contacts on a homogeneous or layered half-space.
+r"""Influence coefficients of non-periodic contacts on a half-space, layers, or a rigid base.
 
 The coefficient of an offset is the displacement (positive into the solid) at the centre of one
 pixel under a unit pressure on another. Displacements follow from pressures by a linear
@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from . import love, point_load
+from .layer_stack import Base
 
 __all__ = ["coefficients", "symbol"]
 
@@ -38,6 +39,7 @@ def symbol(
     young_modulus: ArrayLike,
     poisson_ratio: ArrayLike,
     thickness: ArrayLike = (),
+    base: Base | None = None,
 ) -> NDArray[np.float64]:
     r"""Transform of the influence coefficients on the window doubled in each direction.
 
@@ -51,9 +53,11 @@ def symbol(
     pixel_size : tuple of float
         Sides (dy, dx) of a pixel [m].
     young_modulus, poisson_ratio : array_like, shape (n_layers + 1,)
-        Of the layers, top first, and of the substrate [Pa], [-].
+        Of the layers, top first, and of the substrate [Pa], [-]; (n_layers,) on a rigid base.
     thickness : array_like, shape (n_layers,)
         Of the layers [m]; empty for a homogeneous half-space.
+    base : {"bonded", "frictionless"}, optional
+        Rigid base in place of a substrate: the coefficients decrease exponentially.
 
     Returns
     -------
@@ -76,7 +80,7 @@ def symbol(
     array([[1.021202, 0.300684, 0.146306],
            [0.300684, 0.209917, 0.130663]])
     """
-    quadrant = coefficients(shape, pixel_size, young_modulus, poisson_ratio, thickness)
+    quadrant = coefficients(shape, pixel_size, young_modulus, poisson_ratio, thickness, base)
     # The transform of an even, periodic array is a cosine transform on a quarter of the points.
     half = fft.dctn(quadrant, type=1, overwrite_x=True)
     return np.asarray(np.concatenate((half, half[-2:0:-1])))
@@ -88,6 +92,7 @@ def coefficients(
     young_modulus: ArrayLike,
     poisson_ratio: ArrayLike,
     thickness: ArrayLike = (),
+    base: Base | None = None,
 ) -> NDArray[np.float64]:
     r"""Influence coefficients for all pixel offsets of a window.
 
@@ -96,7 +101,7 @@ def coefficients(
 
     Parameters
     ----------
-    shape, pixel_size, young_modulus, poisson_ratio, thickness
+    shape, pixel_size, young_modulus, poisson_ratio, thickness, base
         As of :func:`symbol`.
 
     Returns
@@ -139,7 +144,7 @@ def coefficients(
         contact = float(modulus[0] / (1.0 - ratio[0] ** 2))
         return love.rectangle(x, y[:, None], 0.5 * dx, 0.5 * dy, contact)
     diagonal = float(np.hypot(x[-1] + dx, y[-1] + dy))
-    load = point_load.table(modulus, ratio, layers, 0.5 * min(dx, dy), diagonal)
+    load = point_load.table(modulus, ratio, layers, 0.5 * min(dx, dy), diagonal, base)
     out = _far(x, y, dx, dy, load)
     reach = _NEAR * max(dx, dy)
     near_x, near_y = min(nx, int(reach / dx) + 1), min(ny, int(reach / dy) + 1)

@@ -21,14 +21,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .layer_stack import Base
+
 __all__ = [
     "Products",
+    "Sliding",
     "Transfer",
+    "at_sliding_base",
     "climb",
     "climb_shear",
     "cross",
     "descend",
     "half_space",
+    "on_base",
+    "on_base_shear",
     "products",
 ]
 
@@ -189,6 +195,40 @@ def climb_shear(p: Products, fs: Array) -> Array:
     return (fs + tanh) / (1.0 + fs * tanh)
 
 
+def on_base(p: Products, base: Base, m: float, n: float) -> Projective:
+    """Compliance at the top of a layer that rests on a rigid base.
+
+    The recursion from (1, f11, f12, f22, d) = (1, 0, 0, 0, 0) at a bonded base, where nothing
+    moves, and from (0, 1, 0, 0, 0) at a frictionless one, which gives way along itself alone.
+
+    Examples
+    --------
+    A thick layer is a half-space:
+
+    >>> thick = products(np.array([50.0]))
+    >>> all(np.allclose(on_base(thick, base, 4 / 3, 2 / 3), half_space(0.25, 1), rtol=1e-15)
+    ...     for base in ("bonded", "frictionless"))
+    True
+    """
+    if base == "bonded":
+        none = np.zeros(p.one.size)
+        return climb(p, (none, none, none, none), m, n)
+    wide = (0.5 * m) * (p.sc + p.x)
+    along = 0.5 * (n * p.sc - m * p.x)
+    return p.cc / wide, along / wide, p.ss / wide, (n * p.sc + (0.5 * m) * p.sc_x) / wide
+
+
+def on_base_shear(p: Products, base: Base) -> Array:
+    """Transverse compliance G alpha Fs at the top of a layer that rests on a rigid base.
+
+    Examples
+    --------
+    >>> float(on_base_shear(products(np.array([50.0])), "frictionless")[0])
+    1.0
+    """
+    return p.sc / p.cc if base == "bonded" else p.cc / p.sc
+
+
 class Transfer(NamedTuple):
     """Tractions at the bottom of a layer: ``tau_bottom = t tau_top``, ``Q_bottom = ts Q_top``."""
 
@@ -213,16 +253,7 @@ def descend(x: Array, p: Products, f: Projective, fs: Array, m: float, n: float)
     """
     f11, f12, f22, _ = f
     x = np.minimum(x, THICKEST)
-    c = 0.5 * (1.0 + p.one)
-    s = p.sc / c
-    half = 0.5 * m
-    e, g = half * x * s, half * (x * c - s)
-    near = 2.0 * x < SERIES_BELOW
-    if near.any():
-        small = x[near]
-        w = small * small
-        terms = _series(_SINH * np.arange(2.0, 2.0 * _SINH.size + 1.0, 2.0), w)
-        g[near] = half * small * w * terms * np.exp(-small)
+    c, s, e, g = _within(x, p, m)
     stiff, slack = m * s + g, e + c
     r = np.exp(-x) / denominator(p, f, m, n)
     ts = np.exp(-x) / (c + fs * s)
@@ -233,3 +264,55 @@ def descend(x: Array, p: Products, f: Projective, fs: Array, m: float, n: float)
         r * (stiff * f11 + e * f12 + slack),
         ts,
     )
+
+
+class Sliding(NamedTuple):
+    """State at a frictionless base: ``2 G alpha U = u tau``, ``S = -s tau``, ``G alpha V = v Q``.
+
+    u and s are pairs for the two tractions on the top of the layer; W, T and Q vanish.
+    """
+
+    u1: Array
+    u2: Array
+    s1: Array
+    s2: Array
+    v: Array
+
+
+def at_sliding_base(x: Array, p: Products, m: float, n: float) -> Sliding:
+    """State at the frictionless base below a layer, per traction at its top.
+
+    Examples
+    --------
+    A thin layer carries a pressure down and extends by nu of it:
+
+    >>> x = np.array([1e-3])
+    >>> state = at_sliding_base(x, products(x), 4 / 3, 2 / 3)
+    >>> print(np.round([state.s2[0], -state.u2[0]], 5))
+    [1.   0.25]
+    """
+    x = np.minimum(x, THICKEST)
+    c, s, e, g = _within(x, p, m)
+    r = np.exp(-x) / ((0.5 * m) * (p.sc + p.x))
+    return Sliding(
+        r * (c - e),
+        -r * ((1.0 - n) * s + g),
+        r * e,
+        r * (m * s + g),
+        np.exp(-x) / s,
+    )
+
+
+def _within(x: Array, p: Products, m: float) -> tuple[Array, Array, Array, Array]:
+    """c, s, m/2 x s and m/2 (x c - s) of a layer, times exp(-x)."""
+    c = 0.5 * (1.0 + p.one)
+    s = p.sc / c
+    half = 0.5 * m
+    e, g = half * x * s, half * (x * c - s)
+    near = 2.0 * x < SERIES_BELOW
+    if near.any():
+        small = x[near]
+        w = small * small
+        terms = _series(_SINH * np.arange(2.0, 2.0 * _SINH.size + 1.0, 2.0), w)
+        g[near] = half * small * w * terms * np.exp(-small)
+    return c, s, e, g

@@ -1,11 +1,11 @@
-"""Surface compliance of a layered elastic half-space in Fourier space, by layer recursion.
+"""Surface compliance of a layered elastic solid in Fourier space, by layer recursion.
 
 Conventions: the solid fills z >= 0 and z points into it; tension is positive; the loads are the
 tractions on the solid, sigma_zz = -p and sigma_xz = -q_x at z = 0; the transform is
 ``f^(xi, eta) = iint f exp(-i (xi x + eta y)) dx dy`` and alpha = sqrt(xi^2 + eta^2).  With L along
 the wave vector and T across it, the real unknowns of one wavenumber are ``u_L = iU, u_z = W,
 sigma_Lz = iT, sigma_zz = S`` and, decoupled from them, ``u_T = V, sigma_Tz = Q``.  Bonded layers;
-arrays of materials from the top to the substrate.
+arrays of materials from the top to the substrate, or to the lowest layer on a rigid base.
 
 Symbols inside this module:
 
@@ -15,10 +15,10 @@ d      det f, an unknown of its own, because computing it from f cancels
 fs     G alpha Fs, the same for the transverse shear
 =====  ===================================================================================
 
-The recursion runs from the substrate to the surface.  One layer transforms (1, f11, f12, f22, d) by
-a linear map followed by one division; every product of sinh x, cosh x and x in it is multiplied by
-exp(-2x), so that nothing overflows for any thickness, and the coefficients of 1, f11, f22 and d are
-sums of non-negative terms, so that nothing cancels for any contrast.
+The recursion runs from the substrate, or from the base, to the surface.  One layer transforms
+(1, f11, f12, f22, d) by a linear map followed by one division; every product of sinh x, cosh x and
+x in it is multiplied by exp(-2x), so that nothing overflows for any thickness, and the coefficients
+of 1, f11, f22 and d are sums of non-negative terms, so that nothing cancels for any contrast.
 """
 
 from __future__ import annotations
@@ -30,8 +30,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DescriptionError
-from .layer_recursion import climb, climb_shear, cross, half_space, products
-from .layer_stack import Stack, stack_of
+from .layer_recursion import (
+    Projective,
+    climb,
+    climb_shear,
+    cross,
+    half_space,
+    on_base,
+    on_base_shear,
+    products,
+)
+from .layer_stack import Base, Stack, stack_of, uniform_compliance
 
 __all__ = [
     "Compliance",
@@ -62,17 +71,20 @@ def compliance(
     young_modulus: ArrayLike,
     poisson_ratio: ArrayLike,
     thickness: ArrayLike,
+    base: Base | None = None,
 ) -> Compliance:
-    """Surface compliance of a layered half-space.
+    r"""Surface compliance of a layered half-space, or of layers on a rigid base.
 
     Parameters
     ----------
     wavenumber : array_like
         alpha > 0, any shape [1/m].
     young_modulus, poisson_ratio : array_like, shape (n_layers + 1,)
-        From the top layer to the substrate [Pa], [1].
+        From the top layer to the substrate [Pa], [1]; (n_layers,) on a rigid base.
     thickness : array_like, shape (n_layers,)
         Of the layers [m]; empty for a homogeneous half-space.
+    base : {"bonded", "frictionless"}, optional
+        Rigid base in place of a substrate.
 
     Returns
     -------
@@ -91,7 +103,16 @@ def compliance(
     ``sqrt(F11 C)``) for any number of layers, contrast and alpha h.  A homogeneous half-space has
     ``F11 = C = 2 (1 - nu^2)/(E alpha)``, ``F12 = (1 - 2 nu)/(2 G alpha)``, ``Fs = 1/(G alpha)``
     (Johnson, Contact Mechanics, 1985, section 3; the layered problem is Burmister's, J. Appl.
-    Phys. 16, 1945, 89).
+    Phys. 16, 1945, 89). One layer of thickness h on a rigid base has, with x = alpha h,
+
+    .. math:: C = \frac{2 (1 - \nu^2)}{E \alpha} \frac{\cosh 2x - 1}{\sinh 2x + 2x}, \qquad
+              C = \frac{2 (1 - \nu^2)}{E \alpha} \frac{(3 - 4 \nu) \sinh 2x - 2x}
+              {(3 - 4 \nu) \cosh 2x + 2x^2 + 5 - 12 \nu + 8 \nu^2}
+
+    if it slides without friction or is bonded (Sneddon, Fourier Transforms, 1951;
+    Johnson, section 5.8). For long waves they tend to ``(1 - nu^2) h/E`` and to
+    ``(1 + nu)(1 - 2 nu) h/((1 - nu) E)``, zero for nu = 1/2, where
+    ``C = alpha^2 h^3/E`` (a film that flows along the base).
 
     Examples
     --------
@@ -101,7 +122,7 @@ def compliance(
     >>> print(np.round(C * [1e-3, 1.0, 1e3] * 1e9 / (2 * 0.91), 4))
     [0.9992 0.5615 0.25  ]
     """
-    stack = stack_of(young_modulus, poisson_ratio, thickness)
+    stack = stack_of(young_modulus, poisson_ratio, thickness, base)
     alpha = np.asarray(wavenumber, dtype=np.float64)
     if not np.all((alpha > 0.0) & np.isfinite(alpha)):
         bad = alpha[~((alpha > 0.0) & np.isfinite(alpha))].flat[0]
@@ -126,6 +147,7 @@ def normal_symbol(
     young_modulus: ArrayLike,
     poisson_ratio: ArrayLike,
     thickness: ArrayLike,
+    base: Base | None = None,
 ) -> Array:
     """Normal compliance C on the real-FFT grid of a periodic map.
 
@@ -135,13 +157,15 @@ def normal_symbol(
         Of the map.
     pixel_size : (dy, dx)
         [m].
-    young_modulus, poisson_ratio, thickness : array_like
+    young_modulus, poisson_ratio, thickness, base
         As in `compliance`.
 
     Returns
     -------
     ndarray, shape (ny, nx//2 + 1)
-        C(alpha), zero at wavenumber 0, where the mean of the map is left to the caller [m/Pa].
+        C(alpha) [m/Pa]. At wavenumber 0 zero for a half-space, whose mean plane is the datum of
+        displacements; on a rigid base, from which they count, that of uniaxial strain
+        (`uniform_compliance`), as the mean strain along a periodic surface is zero.
 
     Raises
     ------
@@ -160,7 +184,7 @@ def normal_symbol(
     >>> symbol.shape, bool(np.isclose(symbol[0, 1], 2 * 0.91 / (1e9 * np.pi)))
     ((4, 5), True)
     """
-    stack = stack_of(young_modulus, poisson_ratio, thickness)
+    stack = stack_of(young_modulus, poisson_ratio, thickness, base)
     (ny, nx), (ly, lx) = shape, _cell(shape, pixel_size)
     along_y, along_x = np.arange(ny // 2 + 1), np.arange(nx // 2 + 1)
     if ly == lx and max(along_y[-1], along_x[-1]) <= 4 * min(along_y.size, along_x.size):
@@ -171,6 +195,8 @@ def normal_symbol(
         quarter = np.zeros((1, alpha.size))
         _fill(quarter[:, 1:], alpha[1:], stack)
         quarter = quarter.reshape(ky.size, kx.size)
+    if base is not None:
+        quarter[0, 0] = uniform_compliance(young_modulus, poisson_ratio, thickness, base)
     return np.concatenate([quarter, quarter[(ny - 1) // 2 : 0 : -1]])
 
 
@@ -225,11 +251,39 @@ def _fill(out: Array, alpha: Array, stack: Stack) -> None:
         )
 
 
+def lowest(alpha: Array, stack: Stack, height: float | None = None) -> tuple[Projective, Array]:
+    """Dimensionless compliance f and fs on top of the substrate, or of the layer on the base.
+
+    `height` above the base [m], if not that of the whole layer.
+
+    Examples
+    --------
+    >>> f, fs = lowest(np.array([1.0]), stack_of([2.0], [0.0], [50.0], "bonded"))
+    >>> float(f[0][0]), float(fs[0])
+    (2.0, 1.0)
+    """
+    _, nu, h, base = stack
+    if base is None:
+        return half_space(nu[-1], alpha.size), np.ones(alpha.size)
+    p = products(alpha * (h[-1] if height is None else height))
+    m, n = _ratios(nu[-1])
+    return on_base(p, base, m, n), on_base_shear(p, base)
+
+
+def carried(stack: Stack) -> int:
+    """Number of layers above the substrate, or above the layer that rests on the base."""
+    return stack.G.size - 1
+
+
+def _ratios(nu: float) -> tuple[float, float]:
+    return 1.0 / (1.0 - nu), (1.0 - 2.0 * nu) / (1.0 - nu)
+
+
 def _climbed(alpha: Array, stack: Stack, *, shear: bool) -> tuple[Array, ...]:
-    G, nu, h = stack
-    f, fs = half_space(nu[-1], alpha.size), np.ones(alpha.size)
-    for j in reversed(range(h.size)):
-        ratio, m, n = G[j] / G[j + 1], 1.0 / (1.0 - nu[j]), (1.0 - 2.0 * nu[j]) / (1.0 - nu[j])
+    G, nu, h, _ = stack
+    f, fs = lowest(alpha, stack)
+    for j in reversed(range(carried(stack))):
+        ratio, (m, n) = G[j] / G[j + 1], _ratios(nu[j])
         p = products(alpha * h[j])
         f = climb(p, cross(f, ratio), m, n)
         if shear:

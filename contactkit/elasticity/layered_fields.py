@@ -1,4 +1,4 @@
-"""Displacements and tractions on planes at depth in a layered half-space, in Fourier space.
+"""Displacements and tractions on planes at depth in a layered solid, in Fourier space.
 
 Conventions, symbols and unknowns as in `layered`: z into the solid, tension positive; L along the
 wave vector, T across it; ``u_L = iU, u_z = W, sigma_Lz = iT, sigma_zz = S, u_T = V, sigma_Tz = Q``.
@@ -20,9 +20,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DescriptionError
 from .depths import PlaneAt, Side, locate
-from .layer_recursion import climb, climb_shear, cross, descend, half_space, products
-from .layer_stack import Stack, stack_of
-from .layered import blocks
+from .layer_recursion import at_sliding_base, climb, climb_shear, cross, descend, products
+from .layer_stack import Base, Stack, stack_of
+from .layered import blocks, carried, lowest
 
 __all__ = ["PlaneStates", "UnitStresses", "plane_states", "unit_stresses"]
 
@@ -54,6 +54,7 @@ def plane_states(
     depths: Sequence[float],
     sides: Sequence[str] | str = "+",
     *,
+    base: Base | None = None,
     cutoff: float = np.inf,
 ) -> Iterator[PlaneStates]:
     """States on planes for unit pressure and unit tangential tractions, one plane at a time.
@@ -66,6 +67,8 @@ def plane_states(
         As in `layered.compliance`.
     depths, sides
         As in `locate`, the planes in order of layer and depth within it.
+    base : {"bonded", "frictionless"}, optional
+        As in `layered.compliance`.
     cutoff : float, optional
         Wavenumbers with alpha z above it are omitted on a plane; at 40 their contribution is below
         1e-15 of the load.
@@ -93,13 +96,13 @@ def plane_states(
     >>> print(np.round(states.pressure[3], 6), round(-3 * np.exp(-2.0), 6))
     [-0.406006] -0.406006
     """
-    stack = stack_of(young_modulus, poisson_ratio, thickness)
+    stack = stack_of(young_modulus, poisson_ratio, thickness, base)
     alpha = np.asarray(wavenumber, dtype=np.float64)
     if alpha.ndim != 1 or not np.all((alpha > 0.0) & (alpha < np.inf)):
         raise DescriptionError("plane_states.wavenumber", alpha.shape, "be positive, shape (n,)")
     if np.any(np.diff(alpha) < 0.0):
         raise DescriptionError("plane_states.wavenumber", alpha[0], "ascend", unit="1/m")
-    planes = locate(depths, sides, stack.h)
+    planes = locate(depths, sides, stack.h, on_base=base is not None)
     if any(a[::2] > b[::2] for a, b in pairwise(planes)):
         raise DescriptionError("planes.depths", list(depths), "ascend", unit="m")
     return _descended(alpha, stack, planes, cutoff)
@@ -168,13 +171,14 @@ def _descended(
             tau = _led(alpha[:reached], stack, bottoms, layer, tau, stack.h[layer], 0.0)[1]
             layer += 1
         up = tops[j + 1] - z if j < stack.h.size else 0.0
-        reached = _reached(alpha, z, cutoff)
-        f, at = _led(alpha[:reached], stack, bottoms, j, tau, z - tops[j], up)
-        pressure, traction = (_state(f, at[k], at[k + 1]) for k in (0, 2))
-        transverse = np.stack([f[3] * at[4], -at[4]])
-        yield PlaneStates(
-            z, side, j, float(stack.G[j]), float(stack.nu[j]), pressure, traction, transverse
-        )
+        some = alpha[: _reached(alpha, z, cutoff)]
+        if up == 0.0 and j == carried(stack) and stack.base == "frictionless":
+            states = _on_sliding_base(some, stack, tau, z - tops[j])
+        else:
+            f, at = _led(some, stack, bottoms, j, tau, z - tops[j], up)
+            pressure, traction = (_state(f, at[k], at[k + 1]) for k in (0, 2))
+            states = [pressure, traction, np.stack([f[3] * at[4], -at[4]])]
+        yield PlaneStates(z, side, j, float(stack.G[j]), float(stack.nu[j]), *states)
 
 
 def _reached(alpha: Array, depth: float, cutoff: float) -> int:
@@ -183,15 +187,15 @@ def _reached(alpha: Array, depth: float, cutoff: float) -> int:
 
 
 def _bottoms(alpha: Array, stack: Stack, reached: list[int]) -> list[Array]:
-    """f11, f12, f22, d, fs at the bottom of every layer, in units of that layer.
+    """f11, f12, f22, d, fs at the bottom of every layer but the lowest, in units of that layer.
 
     The recursion runs over all wavenumbers; a layer stores those that reach its top.
     """
-    G, nu, h = stack
-    kept = [np.empty((5, size)) for size in [alpha.size, *reached][: h.size]]
+    G, nu, h, _ = stack
+    kept = [np.empty((5, size)) for size in [alpha.size, *reached][: carried(stack)]]
     for part in blocks(alpha.size):
-        f, fs = half_space(nu[-1], part.stop - part.start), np.ones(part.stop - part.start)
-        for j in reversed(range(h.size)):
+        f, fs = lowest(alpha[part], stack)
+        for j in reversed(range(carried(stack))):
             ratio, m, n = G[j] / G[j + 1], 1.0 / (1.0 - nu[j]), (1.0 - 2.0 * nu[j]) / (1.0 - nu[j])
             f, fs = cross(f, ratio), fs * ratio
             room = kept[j][:, part]
@@ -216,12 +220,12 @@ def _led(
     f_out, out = np.empty((4, alpha.size)), np.empty((5, alpha.size))
     for part in blocks(alpha.size):
         a, above = alpha[part], tau[:, part][:, : part.stop - part.start]
-        if j < stack.h.size:
+        if j < carried(stack):
             f11, f12, f22, d, fs = bottoms[j][:, part][:, : a.size]
             f = f11, f12, f22, d
         else:
-            f, fs = half_space(nu, a.size), np.ones(a.size)
-        if up > 0.0:
+            f, fs = lowest(a, stack, up)
+        if up > 0.0 and j < carried(stack):
             p = products(a * up)
             f, fs = climb(p, f, m, n), climb_shear(p, fs)
         f_out[:3, part], f_out[3, part] = f[:3], fs
@@ -235,6 +239,21 @@ def _led(
         else:
             out[:, part] = above
     return f_out, out
+
+
+def _on_sliding_base(alpha: Array, stack: Stack, tau: Array, down: float) -> list[Array]:
+    """States on a frictionless base, `down` below the top of its layer: no W, T and Q there."""
+    m, n = 1.0 / (1.0 - stack.nu[-1]), (1.0 - 2.0 * stack.nu[-1]) / (1.0 - stack.nu[-1])
+    states = [np.zeros((rows, alpha.size)) for rows in (4, 4, 2)]
+    for part in blocks(alpha.size):
+        x, above = alpha[part] * down, tau[:, part]
+        at = at_sliding_base(x, products(x), m, n)
+        for k, state in zip((0, 2), states[:2], strict=True):
+            first, second = above[k : k + 2, : x.size]
+            state[0, part] = at.u1 * first + at.u2 * second
+            state[3, part] = -(at.s1 * first + at.s2 * second)
+        states[2][0, part] = at.v * above[4, : x.size]
+    return states
 
 
 def _state(f: Array, first: Array, second: Array) -> Array:

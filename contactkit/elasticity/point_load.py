@@ -1,4 +1,4 @@
-r"""Surface displacement of a layered half-space under a point load, tabulated over the radius.
+r"""Surface displacement of a layered solid under a point load, tabulated over the radius.
 
 Pressure positive in compression, displacement positive into the solid. The displacement of the
 surface at the radius r under a unit force is
@@ -7,8 +7,9 @@ surface at the radius r under a unit force is
                = \frac{T(r)}{2\pi r},
 
 where T varies from C_inf, twice the compliance of the top layer, at r = 0 to C_s of the substrate
-far away. In the logarithms of wavenumber and radius both alpha C and T are smooth for all
-thicknesses and contrasts, and the transform is a convolution, evaluated mode by mode:
+far away, which is zero on a rigid base. In the logarithms of wavenumber and radius both alpha C and
+T are smooth for all thicknesses and contrasts, and the transform is a convolution, evaluated mode
+by mode:
 
 .. math:: \int_0^\infty \alpha^{i\omega} r J_0(\alpha r)\,d\alpha = r^{-i\omega}\,
           2^{i\omega}\, \frac{\Gamma((1 + i\omega)/2)}{\Gamma((1 - i\omega)/2)},
@@ -37,6 +38,7 @@ from scipy import fft
 from scipy.special import loggamma
 
 from . import layered
+from .layer_stack import Base
 
 __all__ = ["ORDERS", "Place", "PointLoad", "cubic", "locate", "mean_to", "table"]
 
@@ -77,6 +79,7 @@ def table(
     thickness: NDArray[np.float64],
     min_radius: float,
     max_radius: float,
+    base: Base | None = None,
 ) -> PointLoad:
     """Tabulate the displacement under a point load over a range of radii.
 
@@ -88,6 +91,8 @@ def table(
         Of the layers [m]; at least one.
     min_radius, max_radius : float
         Ends of the table [m].
+    base : {"bonded", "frictionless"}, optional
+        Rigid base in place of a substrate.
 
     Returns
     -------
@@ -117,13 +122,13 @@ def table(
     [0.456, 1.82]
     """
     plane_compliance = 2.0 * (1.0 - poisson_ratio**2) / young_modulus
-    c_inf, c_s = float(plane_compliance[0]), float(plane_compliance[-1])
+    c_inf, c_s = float(plane_compliance[0]), 0.0 if base else float(plane_compliance[-1])
     scale = float(np.sum(thickness))
     low = min(_BELOW / scale, 0.1 / max_radius)
     high = max(_ABOVE / float(thickness[0]), 10.0 / min_radius)
     count = fft.next_fast_len(int(np.ceil(np.log(high / low) / _STEP)), real=True)
     alpha = low * np.exp(_STEP * np.arange(count))
-    response = alpha * layered.compliance(alpha, young_modulus, poisson_ratio, thickness).C
+    response = alpha * layered.compliance(alpha, young_modulus, poisson_ratio, thickness, base).C
     rest = response - (c_inf + (c_s - c_inf) * np.exp(-alpha * scale))
     start = np.log(min_radius) - 2.0 * _STEP
     n_radii = int(np.ceil((np.log(max_radius) - start) * _FINER / _STEP)) + 2 * _FINER

@@ -23,7 +23,7 @@ from ..lubrication.reynolds.damping import DampingLaw
 from ..scene.effect import EffectRegistry
 from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
-from ..scene.materials import Material, Stack
+from ..scene.materials import Material, RigidBase, Stack
 from ..scene.meniscus import Meniscus
 from ..scene.surfaces import Surface
 from ..separation.effects.registry import SeparationEffect
@@ -292,6 +292,14 @@ def _solid(value: Any, _: Any) -> Material | Stack | None:
     return _material(value, Material)
 
 
+def _carrier(value: Any, _: Any) -> Material | RigidBase:
+    """What carries layers: a material, by name or as a table; or a base, bonded or not."""
+    if isinstance(value, Mapping) and "bonded" in value:
+        base: RigidBase = _CONVERTER.structure(value, RigidBase)
+        return base
+    return _material(value, Material)
+
+
 def _is_contact_effect(kind: Any) -> bool:
     """Whether a type is the base class of the effects of contacts, of any kind of part."""
     return kind is ContactEffect or get_origin(kind) is ContactEffect
@@ -304,6 +312,7 @@ for _matches, _hook in (
     (lambda kind: kind is Liquid, _liquid),
     (lambda kind: kind is Material, _material),
     (lambda kind: kind == Material | Stack | None, _solid),
+    (lambda kind: kind == Material | RigidBase, _carrier),
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),

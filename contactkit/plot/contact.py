@@ -168,7 +168,7 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
     for i, material in enumerate(stack.materials):
         colour = _LAYER_COLOURS[i % len(_LAYER_COLOURS)]
         ax.add_patch(_block(i, colour))
-        if i < rows - 1:
+        if i < len(stack.thicknesses):
             factor, unit = length_unit(stack.thicknesses[i])
             thickness = f"{stack.thicknesses[i] / factor:.3g} {unit}"
         else:
@@ -186,6 +186,8 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
             fontsize=9,
         )
     ax.set(xlim=(0.0, 1.0), ylim=(float(rows), 0.0), xticks=[], yticks=[])
+    if stack.base:
+        ax.set_xlabel(f"rigid base, {stack.base}")
     ax.grid(visible=False)
     for spine in ax.spines.values():
         spine.set_visible(False)

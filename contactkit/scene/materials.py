@@ -1,15 +1,15 @@
-"""Materials, and stacks of layers bonded to a substrate."""
+"""Materials, and stacks of layers bonded to a substrate or on a rigid base."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from attrs import Attribute, field, frozen
 
 from ..units import si
 from ..validators import Described, as_tuple, optional, part, positive, refuse
 
-__all__ = ["Layer", "Material", "Stack"]
+__all__ = ["Layer", "Material", "RigidBase", "Stack"]
 
 
 def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -73,16 +73,59 @@ def _all_layers(owner: object, attribute: Attribute[Any], value: tuple[Any, ...]
             raise refuse(owner, attribute, layer, "hold Layer objects only")
 
 
+def _carrier(owner: Any, attribute: Attribute[Any], value: Any) -> None:
+    part(Material, RigidBase)(owner, attribute, value)
+    if isinstance(value, RigidBase) and not owner.layers:
+        raise refuse(
+            owner,
+            attribute,
+            value,
+            "be a Material where there are no layers",
+            "give the solid on the rigid base as layers=(Layer(material=..., thickness=...),)",
+        )
+
+
+@frozen(kw_only=True)
+class RigidBase(Described):
+    """A rigid, flat base below a solid of finite thickness.
+
+    The displacement of the surface counts from it.
+
+    Parameters
+    ----------
+    bonded : bool
+        Whether the solid is bonded to the base; otherwise it rests on it and slides along it
+        without friction, never lifting off.
+
+    Examples
+    --------
+    >>> rubber = Material(name="rubber", young_modulus=2e6, poisson_ratio=0.49)
+    >>> sheet = Stack(
+    ...     layers=(Layer(material=rubber, thickness=1e-3),), substrate=RigidBase(bonded=True)
+    ... )
+    >>> sheet.label, sheet.base
+    ('rubber 0.001 m / rigid base, bonded', 'bonded')
+    """
+
+    bonded: bool = field(validator=part(bool))
+
+    @property
+    def label(self) -> str:
+        """Name for tables and figures."""
+        return f"rigid base, {'bonded' if self.bonded else 'frictionless'}"
+
+
 @frozen(kw_only=True)
 class Stack(Described):
-    """Layers on a substrate without end.
+    """Layers on a substrate without end, or on a rigid base.
 
     Parameters
     ----------
     layers : tuple of Layer
         From the surface down; none for a homogeneous solid.
-    substrate : Material
-        What carries them; it fills the half-space below.
+    substrate : Material or RigidBase
+        What carries them: a material that fills the half-space below, or a rigid base, on which
+        there must be a layer.
     name : str
         What it is, for tables and figures.
 
@@ -98,19 +141,29 @@ class Stack(Described):
     """
 
     layers: tuple[Layer, ...] = field(default=(), converter=as_tuple, validator=_all_layers)
-    substrate: Material = field(validator=part(Material))
+    substrate: Material | RigidBase = field(validator=_carrier)
     name: str = ""
 
     @property
     def label(self) -> str:
         """Its name; without one its materials and thicknesses."""
         layers = (f"{layer.material.name} {layer.thickness:g} m" for layer in self.layers)
-        return self.name or " / ".join((*layers, self.substrate.name))
+        below = self.substrate
+        last = below.name if isinstance(below, Material) else below.label
+        return self.name or " / ".join((*layers, last))
+
+    @property
+    def base(self) -> Literal["bonded", "frictionless"] | None:
+        """Contact with a rigid base; None on a substrate without end."""
+        if isinstance(self.substrate, Material):
+            return None
+        return "bonded" if self.substrate.bonded else "frictionless"
 
     @property
     def materials(self) -> tuple[Material, ...]:
-        """Materials from the surface down, the substrate last."""
-        return (*(layer.material for layer in self.layers), self.substrate)
+        """Materials from the surface down, the substrate last unless it is a rigid base."""
+        layers = tuple(layer.material for layer in self.layers)
+        return (*layers, self.substrate) if isinstance(self.substrate, Material) else layers
 
     @property
     def young_moduli(self) -> tuple[float, ...]:
@@ -129,7 +182,7 @@ class Stack(Described):
 
     @property
     def depths(self) -> tuple[float, ...]:
-        """Depths of the interfaces below the layers [m]."""
+        """Depths of the lower faces of the layers [m]."""
         found, depth = [], 0.0
         for thickness in self.thicknesses:
             depth += thickness

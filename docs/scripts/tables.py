@@ -203,6 +203,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "body": lambda: keys(Body),
     "material": lambda: keys(ck.Material),
     "stack": lambda: keys(ck.Stack),
+    "rigid-base": lambda: keys(ck.RigidBase),
     "layer": lambda: keys(ck.Layer),
     "surfaces": lambda: named(surface_kinds(), "shape"),
     "window": lambda: keys(ck.Window),

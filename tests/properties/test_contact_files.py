@@ -35,7 +35,13 @@ materials = st.builds(
     hardness=st.none() | stresses,
 ) | st.sampled_from(["dlc", "ni-p"]).map(ck.load_material)
 layers = st.builds(ck.Layer, material=materials, thickness=lengths)
-stacks = st.builds(ck.Stack, layers=st.lists(layers, max_size=3).map(tuple), substrate=materials)
+stacks = st.builds(
+    ck.Stack, layers=st.lists(layers, max_size=3).map(tuple), substrate=materials
+) | st.builds(
+    ck.Stack,
+    layers=st.lists(layers, min_size=1, max_size=3).map(tuple),
+    substrate=st.builds(ck.RigidBase, bonded=st.booleans()),
+)
 solids = materials | stacks
 shapes = st.one_of(
     st.builds(ck.Flat, radius=st.none() | lengths),

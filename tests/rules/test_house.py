@@ -74,6 +74,7 @@ SCENE_OBJECTS = [
     ck.Sliding,
     ck.SlidingScene,
     ck.Sphere,
+    ck.RigidBase,
     ck.Stack,
     ck.Vibration,
     ck.Wave,

@@ -1,4 +1,4 @@
-"""Elastic compliance of the bodies: homogeneous half-spaces, or stacks of layers."""
+"""Elastic compliance of the bodies: half-spaces, and stacks of layers on them or a rigid base."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from attrs import frozen
 
+from ...errors import DescriptionError
 from ...scene.validity import ValidityNumber
 from .base import Compliance
 
@@ -19,7 +20,10 @@ if TYPE_CHECKING:
 
 __all__ = ["HalfSpace", "LayeredHalfSpace", "contact_modulus", "layers_of"]
 
+_ROUND_OFF = 1e-9  # of the eigenvalues of a compliance
+_DEEPEST = 0.1  # displacement over thickness
 _FREE = "Love 1929, square patch on a half-space"
+_BASE = "layers on a rigid base: Sneddon 1951; Johnson 1985, section 5.8"
 _SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
 
 
@@ -52,19 +56,22 @@ class HalfSpace(Compliance):
 
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
         """See `Compliance.prepare`."""
-        return tuple(_maker(stack, grid.periodic) for stack in scene.interface.stacks)
+        return tuple(_maker(stack, grid) for stack in scene.interface.stacks)
 
 
 @frozen(kw_only=True)
 class LayeredHalfSpace(Compliance):
-    """Any number of bonded elastic layers on half-spaces, for one body or both.
+    """Any number of bonded elastic layers on half-spaces or rigid bases, for one body or both.
 
-    The compliance is exact for each wavenumber, whatever the contrast of the layers.
+    The compliance is exact for each wavenumber, whatever the contrast of the layers. On a
+    `RigidBase` displacements count from the base; in a periodic window a mean pressure compresses
+    the layers in uniaxial strain, by ``sum h (1 + nu)(1 - 2 nu)/((1 - nu) E)`` of it: not
+    at all if they are incompressible (nu = 1/2).
     """
 
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "layered-half-space"
-    summary: ClassVar[str] = "bonded elastic layers on half-spaces"
+    summary: ClassVar[str] = "bonded elastic layers on half-spaces or rigid bases"
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -73,6 +80,7 @@ class LayeredHalfSpace(Compliance):
             "bonded layers, Eqs. (2.15) to (2.34), as a projective recursion from the substrate up",
             _FREE,
             _SUM,
+            _BASE,
         )
 
     def cites(self, scene: ContactScene) -> tuple[str, ...]:
@@ -81,15 +89,18 @@ class LayeredHalfSpace(Compliance):
 
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
         """See `Compliance.prepare`."""
-        return tuple(_maker(stack, grid.periodic) for stack in scene.interface.stacks)
+        return tuple(_maker(stack, grid) for stack in scene.interface.stacks)
 
     def validity(self, contact: Contact, part: None) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
-        layers = [layer for s in contact.scene.interface.stacks for layer in s.layers]
+        stacks = contact.scene.interface.stacks
+        layers = [layer for stack in stacks for layer in stack.layers]
         thinnest = min(layers, key=lambda layer: layer.thickness, default=None)
         if thinnest is None:
             return ()
+        depths = [stack.depths[-1] for stack in stacks if stack.base]
         return (
+            *([_indentation(contact, min(depths))] if depths else ()),
             ValidityNumber(
                 name="layer thickness over pixel",
                 value=thinnest.thickness / max(contact.grid.pixel_size),
@@ -107,13 +118,27 @@ def contact_modulus(scene: ContactScene) -> float:
     return 1.0 / sum(1.0 / material.plane_strain_modulus for material in tops)
 
 
+def _indentation(contact: Contact, thickness: float) -> ValidityNumber:
+    """Displacement over the thickness of what a rigid base carries, the thinner of two bodies."""
+    return ValidityNumber(
+        name="displacement over the thickness on the base",
+        value=float(contact.displacement.max()) / thickness,
+        high=_DEEPEST,
+        detail=f"linear elasticity takes strains to be small, also across {thickness:g} m; lower "
+        "the load, or take a thicker solid",
+        source="mean strain of the solid on its rigid base",
+    )
+
+
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
-    first, free, two = effect.sources
+    first, free, two, *base = effect.sources
     found = [first]
     if scene.window.periodic is False:
         found.append(free)
     if len(scene.interface.stacks) > 1:
         found.append(two)
+    if any(stack.base for stack in scene.interface.stacks):
+        found.extend(base)
     return tuple(found)
 
 
@@ -121,11 +146,13 @@ def layers_of(stack: Stack) -> Layers:
     """Elastic constants and thicknesses of a stack."""
     from ...elasticity.layer_stack import Layers
 
-    return Layers(stack.young_moduli, stack.poisson_ratios, stack.thicknesses)
+    return Layers(stack.young_moduli, stack.poisson_ratios, stack.thicknesses, stack.base)
 
 
-def _maker(stack: Stack, periodic: bool) -> SymbolMaker:
-    return partial(_periodic if periodic else _isolated, layers=layers_of(stack))
+def _maker(stack: Stack, grid: Grid) -> SymbolMaker:
+    if grid.periodic:
+        return partial(_periodic, layers=layers_of(stack))
+    return partial(_isolated, layers=layers_of(stack), finest=grid.shape)
 
 
 def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers) -> Map:
@@ -134,7 +161,19 @@ def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], layers: L
     return normal_symbol(shape, pixel_size, *layers)
 
 
-def _isolated(shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers) -> Map:
+def _isolated(
+    shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers, finest: tuple[int, int]
+) -> Map:
     from ...elasticity.influence import symbol
 
-    return symbol(shape, pixel_size, *layers)
+    made = symbol(shape, pixel_size, *layers)
+    if layers.base and shape == finest and made.min() < -_ROUND_OFF * made.max():
+        raise DescriptionError(
+            "Layer.thickness",
+            float(sum(layers.thickness)),  # type: ignore[arg-type]
+            f"be at least a tenth of the pixel of {max(pixel_size):.3g} m where the layers on a "
+            "bonded base are incompressible: under a uniform pixel nothing moves but its edges",
+            unit="m",
+            hint="a finer Accuracy.grid, a poisson_ratio below 0.5, or Window(periodic=True)",
+        )
+    return made

@@ -98,6 +98,12 @@ class FrictionTraction(Observer[FrictionPart]):
         along = self.direction_cosines
         return TractionRatio(self.coefficient * along.x, self.coefficient * along.y)
 
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        if any(stack.base == "frictionless" for stack in scene.interface.stacks):
+            return ("RigidBase(bonded=True): nothing holds a body that slides on its base",)
+        return ()
+
     def observe(self, contact: Contact) -> FrictionPart:
         """See `Observer.observe`."""
         ratio, pressure = self.components(), contact.pressure

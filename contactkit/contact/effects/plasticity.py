@@ -171,6 +171,11 @@ class HardnessLimit(PressureBound[PlasticPart]):
             for material in (stack.materials[:1] if self.rule == "material" else stack.materials)
             if material.hardness is None
         ]
+        if self.rule in ("continuous", "literal") and any(s.base for s in scene.interface.stacks):
+            missing.append(
+                f"a substrate without end with rule={self.rule!r}, which knows no rigid base (or "
+                "rule='material', or rule='constant' with the measured hardness)"
+            )
         if self.rule == "literal" and any(len(s.layers) > 2 for s in scene.interface.stacks):
             missing.append("at most two layers with rule='literal' (or rule='continuous')")
         return tuple(dict.fromkeys(missing))

@@ -179,6 +179,7 @@ class SubsurfaceStress(Observer[StressPart]):
         missing = []
         if scene.interface.lower.solid is None:
             missing.append("interface.lower.solid: the stress of a rigid body is not defined")
+        missing += _below_base(self.depths, scene.interface.lower.stack)
         if self.coefficients and scene.effect(FrictionTraction) is None:
             missing.append("FrictionTraction(coefficient=...) beside it for its coefficients [-]")
         if self.coefficients and scene.effect(DisplacementTerm) is not None:
@@ -203,22 +204,39 @@ class SubsurfaceStress(Observer[StressPart]):
         if self.depths is not None:
             wanted, deepest = [(z, "+") for z in self.depths], self.depths[-1] * (1.0 + 1e-12)
         else:
-            deepest = _deepest(contact)
+            deepest = _deepest(contact, stack)
             first = default_depths((), min(2.0 * _sharpest(contact), deepest), _FIRST)
             wanted = [(z, "+") for z in first.depths]
         faces = [z for z in stack.depths if z <= deepest]
         inside = [one for one in wanted if not any(math.isclose(one[0], z) for z in faces)]
-        return _ordered(inside + [(z, side) for z in faces for side in "-+"])
+        both = [(z, side) for z in faces for side in "-+"]
+        if stack.base:  # below which there is no stress
+            both = [one for one in both if one != (stack.depths[-1], "+")]
+        return _ordered(inside + both)
+
+
+def _below_base(depths: tuple[float, ...] | None, stack: Stack | None) -> list[str]:
+    """State that planes lie below the rigid base, if any does."""
+    if depths is None or stack is None or not stack.base:
+        return []
+    lowest = stack.depths[-1]
+    if depths[-1] <= lowest * (1.0 + 1e-12):
+        return []
+    return [f"depths of at most {lowest:g} m, where the rigid base begins, got {depths[-1]:g} m"]
 
 
 def _ordered(places: Sequence[Place]) -> list[Place]:
     return sorted(places, key=lambda place: (place[0], place[1] == "+"))
 
 
-def _deepest(contact: Contact) -> float:
-    """Depth [m] below which no maximum is looked for: half a period, or an isolated window."""
+def _deepest(contact: Contact, stack: Stack) -> float:
+    """Depth [m] below which no maximum is looked for.
+
+    Half a period, or an isolated window; at most that of a rigid base.
+    """
     (ny, nx), (dy, dx) = contact.grid.shape, contact.grid.pixel_size
-    return (0.5 if contact.grid.periodic else 1.0) * min(ny * dy, nx * dx)
+    deepest = (0.5 if contact.grid.periodic else 1.0) * min(ny * dy, nx * dx)
+    return min(deepest, stack.depths[-1]) if stack.base else deepest
 
 
 def _sharpest(contact: Contact) -> float:
@@ -262,7 +280,7 @@ class _Planes:
             drag=friction.direction_cosines if friction and effect.coefficients else None,
             workers=contact.threads,
         )
-        self._search = DepthSearch(effect.tolerance, _deepest(contact))
+        self._search = DepthSearch(effect.tolerance, _deepest(contact, stack))
         peak = int(np.argmax(contact.pressure))
         self._row = int(np.unravel_index(peak, contact.pressure.shape)[0])
         self._kept: list[_Kept] = []

@@ -52,8 +52,9 @@ class ContactSolver:
         ``(dy, dx)`` [m].
     make_symbol : callable
         ``make(shape, pixel_size)`` gives the real symbol [m/Pa] of any grid of the same window:
-        periodic on the half spectrum ``(ny, nx // 2 + 1)``, zero at wavenumber 0; otherwise the
-        transform of the even influence coefficients on the doubled map, ``(2 ny, nx + 1)``.
+        periodic on the half spectrum ``(ny, nx // 2 + 1)``, at wavenumber 0 zero if the mean plane
+        of the surface is the datum of displacements; otherwise the transform of the even influence
+        coefficients on the doubled map, ``(2 ny, nx + 1)``.
     periodic : bool
         Whether the window repeats; otherwise the contact is isolated.
     threads : int
@@ -147,6 +148,14 @@ class ContactSolver:
             fine.displace(True)
             return fine.gap * self.self_influence
 
+    @property
+    def uniform_compliance(self) -> float:
+        """Mean displacement of a periodic map per mean pressure [m/Pa].
+
+        Zero if its mean plane is the datum, and for incompressible layers on a base.
+        """
+        return self.grids[0].uniform * self.self_influence
+
     def solve(
         self,
         heights: Floats,
@@ -221,9 +230,10 @@ class ContactSolver:
             return self._solution(problem, outcome, rtol, fallback, begun)
 
     def _refuse_closed_gap(self, problem: Problem) -> None:
-        """The mean displacement of a periodic map is zero: no load closes its whole gap."""
+        """No load closes the whole gap of a periodic map whose mean displacement is zero."""
         if (
             self.periodic
+            and not self.grids[0].uniform
             and problem.approach is not None
             and problem.approach >= 0.0
             and np.all(np.isinf(problem.upper))

@@ -67,9 +67,10 @@ def symbol_of(
 ) -> Floats:
     """Symbol of a grid, refused if its shape, sign or values cannot be those of a compliance.
 
-    A periodic compliance is zero at wavenumber 0 and positive elsewhere. The transform of padded
-    influence coefficients may have small negative entries: the operator restricted to the map is
-    positive all the same.
+    A periodic compliance is positive but at wavenumber 0, where it is zero if the mean plane of the
+    surface is the datum, or the compliance under a uniform pressure if a base is. The transform of
+    padded influence coefficients may have small negative entries: the operator restricted to the
+    map is positive all the same.
 
     Raises
     ------
@@ -79,7 +80,7 @@ def symbol_of(
     Examples
     --------
     >>> symbol_of(lambda shape, pixel: np.ones((4, 3)), (4, 4), (1.0, 1.0), True)[0]
-    array([0., 1., 1.])
+    array([1., 1., 1.])
     """
     ny, nx = shape
     expected = (ny, nx // 2 + 1) if periodic else (2 * ny, nx + 1)
@@ -89,12 +90,10 @@ def symbol_of(
     if np.iscomplexobj(symbol) or not np.all(np.isfinite(symbol)):
         raise DescriptionError("symbol", symbol.dtype, "be real and finite")
     symbol = np.array(symbol, dtype=np.float64)
-    if periodic:
-        symbol[0, 0] = 0.0
-        if not np.all(symbol.ravel()[1:] > 0.0):
-            raise DescriptionError(
-                "symbol", float(symbol.min()), "be positive at every wavenumber but 0", unit="m/Pa"
-            )
+    if periodic and not (symbol[0, 0] >= 0.0 and np.all(symbol.ravel()[1:] > 0.0)):
+        raise DescriptionError(
+            "symbol", float(symbol.min()), "be positive at every wavenumber but 0", unit="m/Pa"
+        )
     return symbol
 
 

@@ -64,6 +64,7 @@ class Grid(NamedTuple):
     inverse : sparse approximate inverse of the operator between the free pixels
     two_level : cheaper one for more than `few` of them; none where it is poor, under stiff plates
     steepest : largest eigenvalue of the operator
+    uniform : displacement of a periodic map under uniform unit pressure
     loops : loops over the pixels, of numpy or compiled
     """
 
@@ -79,6 +80,7 @@ class Grid(NamedTuple):
     few: int
     periodic: bool
     steepest: float
+    uniform: float
     loops: Any
 
     def reset(self) -> None:
@@ -107,10 +109,12 @@ class Grid(NamedTuple):
         if exactly and self.exact is not None:
             self.exact.run()
             return
-        # A uniform part displaces nothing if periodic, but would drown the rest in round-off.
+        # A uniform part displaces uniformly if periodic, but would drown the rest in round-off.
         uniform = float(self.pressure.mean()) if self.periodic else 0.0
         np.subtract(self.pressure, uniform, out=self.quick.source, casting="same_kind")
         self.gap[...] = self.quick.run()
+        if self.uniform:
+            np.add(self.gap, self.uniform * uniform, out=self.gap)
         self.quick.source[...] = 0.0
 
 
@@ -201,6 +205,7 @@ def _grid(
         few=FEW if decay <= STEEP else int(FEW_STEEP * shape[0] * shape[1]),
         periodic=periodic,
         steepest=float(symbol.max()),
+        uniform=float(symbol[0, 0]) if periodic else 0.0,
         loops=loops,
     )
 

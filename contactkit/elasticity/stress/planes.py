@@ -151,7 +151,8 @@ class StressField:
             raise DescriptionError(
                 "planes.displacement", True, 'be False for mean="free" and other readings'
             )
-        places = locate(depths, sides, self._stack.h)
+        on_base = self._stack.base is not None
+        places = locate(depths, sides, self._stack.h, on_base=on_base)
         lengths = [grid.modes.length for grid in self._grids.all]
         states = [self._states(length, depths, sides) for length in lengths]
         n_shallow = 0
@@ -164,7 +165,8 @@ class StressField:
     def _states(
         self, length: Array, depths: Sequence[float], sides: Sequence[str] | str
     ) -> Iterator[PlaneStates]:
-        return plane_states(length, *self._layers, depths, sides, cutoff=self._cutoff)
+        E, nu, h, base = self._layers
+        return plane_states(length, E, nu, h, depths, sides, base=base, cutoff=self._cutoff)
 
     def _each(
         self, states: list[Iterator[PlaneStates]], n: int, n_shallow: int, displacement: bool
@@ -379,10 +381,23 @@ def _mean_stress(states: PlaneStates, stack: Stack, mean: Mean) -> Array:
     ratio = nu / (1.0 - nu)
     lateral = -ratio
     if mean == "free":
-        # All layers follow the long waves of the substrate; half of LL + TT remains.
-        strain = states.shear_modulus * (1.0 - 2.0 * stack.nu[-1]) / stack.G[-1]
-        lateral = -0.5 * strain * (1.0 + nu) / (1.0 - nu) - ratio
+        # Half of LL + TT remains, of the strain that long waves have along the surface.
+        lateral = states.shear_modulus * _long_wave_strain(stack) * (1.0 + nu) / (1.0 - nu) - ratio
     uniform = np.zeros((3, 6))
     uniform[0, :3] = lateral, lateral, -1.0
     uniform[1, 4] = uniform[2, 5] = -1.0
     return uniform
+
+
+def _long_wave_strain(stack: Stack) -> float:
+    """Strain along the wave vector per unit of the pressure of a long wave [1/Pa].
+
+    All layers have that of the substrate; on a frictionless base their forces along it add up to
+    zero, and on a bonded one there is none.
+    """
+    if stack.base is None:
+        return float(-0.5 * (1.0 - 2.0 * stack.nu[-1]) / stack.G[-1])
+    if stack.base == "bonded":
+        return 0.0
+    stiff = 2.0 * stack.G / (1.0 - stack.nu)
+    return float(stack.h @ (stack.nu / (1.0 - stack.nu)) / (stack.h @ stiff))

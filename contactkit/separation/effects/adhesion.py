@@ -242,7 +242,7 @@ class AdhesiveContact(SeparationForce):
         """Contact modulus [Pa], given or of the solids of the bodies."""
         if self.reduced_modulus is not None:
             return self.reduced_modulus
-        return 1.0 / sum(1.0 / s.substrate.plane_strain_modulus for s in interface.stacks)
+        return 1.0 / sum(1.0 / s.materials[0].plane_strain_modulus for s in interface.stacks)
 
     def numbers(self, prepared: PreparedScene[SeparationScene]) -> AdhesionNumbers:
         """Return the numbers of the contact of one sphere of a scene, without running it."""

@@ -184,7 +184,7 @@ def _modulus(interface: Interface, depth: float) -> float:
 
 def _material_at(stack: Stack, depth: float) -> Material:
     below = sum(interface < depth for interface in stack.depths)
-    return stack.materials[below]
+    return stack.materials[min(below, len(stack.materials) - 1)]  # a rigid base bends even less
 
 
 def _weight(prepared: PreparedScene[SeparationScene], loads: Sequence[_Load]) -> ValidityNumber:
