@@ -16,7 +16,13 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-__all__ = ["Transform", "fast_transforms_installed", "make_transform", "scale_spectrum"]
+__all__ = [
+    "Transform",
+    "fast_transforms_installed",
+    "make_transform",
+    "scale_spectrum",
+    "spectrum_shape",
+]
 
 Array = NDArray[Any]
 Transform = Callable[[Array, Array], None]
@@ -24,6 +30,9 @@ Scale = Callable[[Array, Array], None]
 
 CHUNK_BYTES = 2**20  # of rows transformed at a time by scipy
 CACHED_BYTES = 12 * 2**20  # of a padded spectrum up to which ducc0 takes all columns at once
+PITCH = 4096  # bytes between rows, from which their collisions in the cache cost half of the time
+LINE = 64  # bytes by which rows are made longer against that
+ROWS_BYTES = 2**18  # of rows that each thread of ducc0 takes at a time, where they are copied
 STRIP = 32  # columns that each thread of ducc0 takes at a time beyond it
 
 
@@ -74,7 +83,41 @@ def _scipy_transform(
     return transform
 
 
-def _ducc_periodic(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Transform:
+class _Rows:
+    """Transforms along the rows of a map by ducc0, zeros appended, a few padded rows at a time.
+
+    Rows a power of two of bytes apart share the lines of a cache, and ducc0 takes several at once:
+    from `PITCH` on they are copied to rows that are a little longer.
+    """
+
+    def __init__(self, shape: tuple[int, int], width: int, kind: Any, threads: int) -> None:
+        self.fft: Any = importlib.import_module("ducc0").fft
+        (ny, self.nx), self.width, self.threads = shape, width, threads
+        size = np.dtype(kind).itemsize
+        count = min(ny, max(8, ROWS_BYTES // (width * size)) * threads)
+        self.parts = [slice(i, min(i + count, ny)) for i in range(0, ny, count)]
+        self.some = np.zeros((count, width + LINE // size), kind)[:, :width]
+
+    def forth(self, source: Array, spectrum: Array) -> None:
+        """Half spectrum of every row."""
+        for part in self.parts:
+            rows = self.some[: part.stop - part.start]
+            rows[:, : self.nx] = source[part]
+            rows[:, self.nx :] = 0.0
+            self.fft.r2c(rows, axes=(1,), out=spectrum[part], nthreads=self.threads)
+
+    def back(self, spectrum: Array, target: Array) -> None:
+        """Rows of half spectra."""
+        given = {"axes": (1,), "lastsize": self.width, "forward": False, "nthreads": self.threads}
+        for part in self.parts:
+            rows = self.some[: part.stop - part.start]
+            self.fft.c2r(spectrum[part], out=rows, **given)
+            target[part] = rows[:, : self.nx]
+
+
+def _ducc_periodic(
+    symbol: Array, threads: int, scale: Scale, spectrum: Array, nx: int
+) -> Transform:
     fft: Any = importlib.import_module("ducc0").fft
     forth = {"axes": (0, 1), "nthreads": threads}
     back = {**forth, "forward": False, "allow_overwriting_input": True}
@@ -82,7 +125,21 @@ def _ducc_periodic(symbol: Array, threads: int, scale: Scale, spectrum: Array) -
     def transform(source: Array, target: Array) -> None:
         fft.r2c(source, out=spectrum, **forth)
         scale(spectrum, symbol)
-        fft.c2r(spectrum, lastsize=source.shape[1], out=target, **back)
+        fft.c2r(spectrum, lastsize=nx, out=target, **back)
+
+    return transform
+
+
+def _ducc_pitched(symbol: Array, threads: int, scale: Scale, spectrum: Array, nx: int) -> Transform:
+    """The same for maps whose rows collide in the cache."""
+    rows = _Rows((symbol.shape[0], nx), nx, symbol.dtype, threads)
+
+    def transform(source: Array, target: Array) -> None:
+        rows.forth(source, spectrum)
+        rows.fft.c2c(spectrum, axes=(0,), out=spectrum, nthreads=threads)
+        scale(spectrum, symbol)
+        rows.fft.c2c(spectrum, axes=(0,), forward=False, out=spectrum, nthreads=threads)
+        rows.back(spectrum, target)
 
     return transform
 
@@ -94,33 +151,59 @@ def _ducc_free(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Tr
     """
     fft: Any = importlib.import_module("ducc0").fft
     ny, nx = symbol.shape[0] // 2, symbol.shape[1] - 1
-    top, rows = spectrum[:ny], np.zeros((ny, 2 * nx), symbol.dtype)
-    width = nx + 1 if spectrum.nbytes <= CACHED_BYTES else STRIP * threads
+    top, rows = spectrum[:ny], _Rows((ny, nx), 2 * nx, symbol.dtype, threads)
+    is_small = spectrum.shape[0] > ny
+    width = nx + 1 if is_small else STRIP * threads
     parts = [slice(i, min(i + width, nx + 1)) for i in range(0, nx + 1, width)]
     symbols = [np.ascontiguousarray(symbol[:, part]) for part in parts]
-    strip = spectrum if len(parts) == 1 else np.zeros((2 * ny, width), spectrum.dtype)
+    strip = spectrum if is_small else np.zeros((2 * ny, width), spectrum.dtype)
 
     def columns(part: slice, strip: Array, symbol: Array) -> None:
-        if strip is not spectrum:
+        if not is_small:
             strip[:ny] = top[:, part]
         strip[ny:] = 0.0
         fft.c2c(strip, axes=(0,), out=strip, nthreads=threads)
         scale(strip, symbol)
         fft.c2c(strip, axes=(0,), forward=False, out=strip, nthreads=threads)
-        if strip is not spectrum:
+        if not is_small:
             top[:, part] = strip[:ny]
 
     def transform(source: Array, target: Array) -> None:
-        rows[:, :nx] = source
-        rows[:, nx:] = 0.0
-        fft.r2c(rows, axes=(1,), out=top, nthreads=threads)
+        rows.forth(source, top)
         for part, s in zip(parts, symbols, strict=True):
             last = part.stop - part.start
             columns(part, strip if last == strip.shape[1] else strip[:, :last], s)
-        fft.c2r(top, axes=(1,), lastsize=2 * nx, forward=False, out=rows, nthreads=threads)
-        target[...] = rows[:, :nx]
+        rows.back(top, target)
 
     return transform
+
+
+def spectrum_shape(half: tuple[int, int], kind: Any, periodic: bool, fast: bool) -> tuple[int, int]:
+    """Shape of the complex array that `make_transform` works in.
+
+    For ducc0 its rows are an odd number of cache lines long, so that no columns collide. Large free
+    maps transform their columns in strips: only the rows of the map are ever stored.
+
+    Parameters
+    ----------
+    half : tuple of int
+        Shape of the symbol.
+    kind : dtype
+        Its precision.
+    periodic, fast : bool
+        As in `make_transform`.
+
+    Examples
+    --------
+    >>> spectrum_shape((2048, 1025), np.float32, periodic=False, fast=True)
+    (1024, 1032)
+    """
+    if not fast:
+        return half
+    size = 2 * np.dtype(kind).itemsize
+    lines = -(-half[1] * size // LINE) // 2 * 2 + 1
+    is_large = half[0] * half[1] * size > CACHED_BYTES
+    return (half[0] // 2 if is_large and not periodic else half[0]), lines * LINE // size
 
 
 def make_transform(
@@ -150,7 +233,7 @@ def make_transform(
     scale : callable
         In-place product of spectrum and symbol.
     spectrum : ndarray, optional
-        Where to work, of the shape of the symbol and complex.
+        Where to work: complex, of the shape `spectrum_shape`.
 
     Examples
     --------
@@ -163,8 +246,13 @@ def make_transform(
     padded = shape[0] * shape[1] * (1 if periodic else 4)
     symbol = symbol / padded  # once, instead of after every inverse transform
     if spectrum is None:
-        spectrum = np.zeros(symbol.shape, np.result_type(symbol.dtype, np.complex64))
+        kind = np.result_type(symbol.dtype, np.complex64)
+        spectrum = np.zeros(spectrum_shape(symbol.shape, symbol.dtype, periodic, fast), kind)
+    spectrum = spectrum[:, : symbol.shape[1]]
+    if fast and not periodic:
+        return _ducc_free(symbol, threads, scale, spectrum)
     if fast:
-        transform = _ducc_periodic if periodic else _ducc_free
-        return transform(symbol, threads, scale, spectrum)
+        collides = symbol.dtype.itemsize == 4 and shape[1] * 4 % PITCH == 0  # in double: no gain
+        transform = _ducc_pitched if collides else _ducc_periodic
+        return transform(symbol, threads, scale, spectrum, shape[1])
     return _scipy_transform(symbol, periodic, threads, scale, spectrum)

@@ -109,3 +109,29 @@ def test_strips_of_columns_give_what_all_columns_give(monkeypatch, dtype, thread
     expected = whole(pressure)
     for _ in range(2):  # nothing may be left of the run before
         np.testing.assert_allclose(strips(pressure), expected, rtol=30 * np.finfo(dtype).eps)
+
+
+def test_zeros_beyond_the_map_cost_no_applications():
+    """A transform of padded coefficients has an edge that no pixel sees, but every wavenumber."""
+    n = 128
+    x = (np.arange(n) + 0.5) / n - 0.5
+    rough = np.random.default_rng(5).standard_normal((n, n)) * 2e-4
+    heights = rough - (x[:, None] ** 2 + x**2) / 20.0
+
+    def with_zeros(shape, pixel_size):
+        (ny, nx), half = shape, half_space(shape, pixel_size)
+        image = np.fft.irfft2(half, s=(2 * ny, 2 * nx))
+        image[ny], image[:, nx] = 0.0, 0.0
+        return np.fft.rfft2(image).real
+
+    one, other = (
+        ContactSolver((n, n), (1.0 / n, 1.0 / n), make, periodic=False, fast=False)
+        for make in (half_space, with_zeros)
+    )
+    assert other.self_influence == pytest.approx(one.self_influence, rel=1e-12)
+    assert other.grids[0].few == one.grids[0].few
+    found = [solver.solve(heights, mean_pressure=1e-3) for solver in (one, other)]
+    assert abs(found[0].n_applications - found[1].n_applications) <= 5
+    np.testing.assert_allclose(
+        found[0].pressure, found[1].pressure, atol=1e-6 * found[0].pressure.max()
+    )

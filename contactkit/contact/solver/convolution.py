@@ -24,13 +24,14 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from ...errors import DescriptionError
-from ...numerics.fft import make_transform, scale_spectrum
+from ...numerics.fft import make_transform, scale_spectrum, spectrum_shape
 
 __all__ = [
     "Convolution",
     "Patch",
     "SymbolMaker",
     "Transforms",
+    "continue_influence",
     "patch_symbol",
     "self_influence",
     "symbol_of",
@@ -94,7 +95,42 @@ def symbol_of(
         raise DescriptionError(
             "symbol", float(symbol.min()), "be positive at every wavenumber but 0", unit="m/Pa"
         )
+    if not periodic:
+        continue_influence(symbol)
     return symbol
+
+
+def continue_influence(symbol: Floats) -> None:
+    """Give influence coefficients that end in zeros a continuation, in place.
+
+    No two pixels of a map of n lines are n lines apart: whatever the coefficient is there, the
+    operator on the map is the same. But a zero, as padding leaves it, is an edge that lifts every
+    other wavenumber of the symbol, which preconditioners are made from. The coefficient of n - 1
+    lines takes its place.
+
+    Parameters
+    ----------
+    symbol : ndarray (2 ny, nx + 1)
+        Of the doubled map; left alone if it has no such edge.
+
+    Examples
+    --------
+    >>> symbol = np.fft.rfft2(np.outer([3.0, 0.0], [3.0, 1.0, 0.0, 1.0])).real
+    >>> continue_influence(symbol)
+    >>> np.fft.irfft2(symbol)
+    array([[9., 3., 3., 3.],
+           [9., 3., 3., 3.]])
+    """
+    for lines, is_half in ((symbol, False), (symbol.T, True)):
+        size = lines.shape[0]
+        n = size - 1 if is_half else size // 2
+        k = np.arange(size)
+        weight = np.full(size, 0.5 / n)
+        weight[1:-1] *= 2.0 if is_half else 1.0
+        alternating = np.where(k % 2, -1.0, 1.0)
+        near, far = weight * np.cos(np.pi * k * (n - 1) / n), weight * alternating
+        if abs(far @ lines[:, 0]) < 0.5 * abs(near @ lines[:, 0]):
+            lines += alternating[:, None] * ((near - far) @ lines)
 
 
 def self_influence(symbol: Floats, width: int) -> float:
@@ -174,11 +210,11 @@ class Convolution:
         self.target: NDArray[Any] = np.zeros(shape, dtype)
         precise = np.dtype(dtype).itemsize
         kind = np.result_type(dtype, np.complex64)
-        self._spectrum = _lent(lender, symbol.shape, kind)
+        room = spectrum_shape(symbol.shape, dtype, periodic, transforms.fast)
+        self._spectrum = _lent(lender, room, kind)
         lent = lender is not None and np.shares_memory(self._spectrum, lender._spectrum)
-        self.nbytes = precise * (2 * shape[0] * shape[1] + (1 if lent else 3) * symbol.size)
-        if transforms.fast and not periodic:
-            self.nbytes += precise * 2 * shape[0] * shape[1]  # the padded rows
+        self.nbytes = precise * (2 * shape[0] * shape[1] + symbol.size)
+        self.nbytes += 0 if lent else self._spectrum.nbytes
         self._transform = make_transform(
             np.ascontiguousarray(symbol, dtype),
             shape,
