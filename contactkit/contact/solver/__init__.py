@@ -3,10 +3,15 @@
 contact_solver      Entry point: any heights, load and pressure bound on one grid and solid.
 problem             The dimensionless problem, its feasible set, and the solution in SI units.
 optimality          Optimality (KKT) conditions: residual and duality gap of any pressure.
-active_set          Primal-dual active set (semismooth Newton) on one grid.
+active_set          Active-set iterations (semismooth Newton) on one grid.
+state               State of the iterations: pressure, reduced gap, approach and violation.
+truncated_set       Truncated active set, for half-spaces and layers of moderate contrast.
+projected_set       Projected active set, for stiff films.
+projection          Projection onto bounds in the metric of a sparse inverse.
 reduced_system      Linear system of the free pixels: Cholesky factor, or conjugate gradients.
 conjugate_gradient  Preconditioned conjugate gradients, in place.
 sparse_inverse      Preconditioner: factorised sparse approximate inverse.
+cell_inverse        The same under stiff films: long waves carried by cells in contact.
 two_level           Preconditioner: a stencil for short waves, coarse blocks for long ones.
 nested_grids        Operators and preconditioners of the nested grids.
 transfer            Restriction and prolongation between the grids.

@@ -17,7 +17,7 @@ import numba
 import numpy as np
 from numba import prange
 
-from .loops_numpy import FactorRows, FreeSet, FreeSums, LineStep, Ordering, Violation
+from .loops_numpy import Cells, FactorRows, FreeSet, FreeSums, LineStep, Ordering, Violation
 
 __all__ = ["compiled"]
 
@@ -269,6 +269,80 @@ def factor_rows(order: Ordering, rows: FactorRows) -> None:
         values[at] = table[ids[a], offsets.shape[0]]
 
 
+@numba.njit(inline="always")
+def _span(middle: int, reach: int, count: int, periodic: bool) -> tuple[int, int]:
+    """First and last cell around one along an axis, each at most once."""
+    if periodic:
+        return (0, count - 1) if 2 * reach + 1 >= count else (middle - reach, middle + reach)
+    return max(middle - reach, 0), min(middle + reach, count - 1)
+
+
+def cell_neighbours(
+    at: Array, cells: Cells, reach: int, shape: tuple[int, int], periodic: bool
+) -> Array:
+    """Flat indices of the predecessors of each free pixel, then itself, then -1."""
+    table, first, counts, sizes = cells.table, cells.first, cells.counts, cells.sizes
+    own_level = np.full(shape[0] * shape[1], -1, np.int8)
+    for a in range(at.size):
+        own_level[at[a]] = cells.level[a]
+    width = 2 * (2 * reach + 1) ** 2
+    neighbours = np.full((at.size, width), -1, np.int32)
+    for a in prange(at.size):
+        row, column, own, k = at[a] // shape[1], at[a] % shape[1], cells.level[a], 0
+        for n in range(own, min(own + 2, counts.shape[0])):
+            ny, nx = counts[n, 0], counts[n, 1]
+            y0, y1 = _span(row // sizes[n, 0], reach, ny, periodic)
+            x0, x1 = _span(column // sizes[n, 1], reach, nx, periodic)
+            for y in range(y0, y1 + 1):
+                line = first[n] + _around(y, ny) * nx
+                for x in range(x0, x1 + 1):
+                    b = table[line + _around(x, nx)]
+                    if b >= 0 and (n > own or (b < at[a] and own_level[b] == own)):
+                        neighbours[a, k] = b
+                        k += 1
+        neighbours[a, k] = at[a]
+    return neighbours
+
+
+def cell_rows(
+    neighbours: Array, K: Array, shape: tuple[int, int], periodic: bool, round_off: float
+) -> Array:
+    """Rows of the factor: last columns of the inverse Cholesky factors between the neighbours."""
+    ny, nx = shape
+    own, width = K[0, 0], neighbours.shape[1]
+    values = np.zeros(neighbours.shape, np.float32)
+    for a in prange(neighbours.shape[0]):
+        G, w = np.empty((width, width)), np.empty(width)
+        y, x = np.empty(width, np.int32), np.empty(width, np.int32)
+        k, sound = 0, True
+        while k < width and neighbours[a, k] >= 0:
+            y[k], x[k] = neighbours[a, k] // nx, neighbours[a, k] % nx
+            for t in range(k + 1):
+                dy, dx = abs(y[k] - y[t]), abs(x[k] - x[t])
+                if periodic:
+                    dy, dx = min(dy, ny - dy), min(dx, nx - dx)
+                v = K[dy, dx]
+                if t == k:
+                    v *= 1.0 + round_off
+                for s in range(t):
+                    v -= G[k, s] * G[t, s]
+                if t < k:
+                    G[k, t] = v * w[t]
+                else:
+                    sound = sound and v > 1e-12 * own
+                    w[k] = 1.0 / np.sqrt(max(v, 1e-12 * own))
+            k += 1
+        if not sound:
+            values[a, k - 1] = 1.0 / np.sqrt(own)
+            continue
+        for t in range(k - 1, -1, -1):
+            v = 1.0 if t == k - 1 else 0.0
+            for s in range(t + 1, k):
+                v -= G[s, t] * values[a, s]
+            values[a, t] = v * w[t]
+    return values
+
+
 SERIAL = (free_set, block_sums)
 THREADED = (
     scale_spectrum,
@@ -287,6 +361,8 @@ THREADED = (
     scale_to_load,
     neighbour_masks,
     factor_rows,
+    cell_neighbours,
+    cell_rows,
 )
 
 

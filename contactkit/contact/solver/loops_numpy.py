@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from ...numerics.fft import scale_spectrum
 
 __all__ = [
+    "Cells",
     "FactorRows",
     "FreeSet",
     "FreeSums",
@@ -35,6 +36,8 @@ __all__ = [
     "add_block_values",
     "step_along",
     "block_sums",
+    "cell_neighbours",
+    "cell_rows",
     "factor_rows",
     "violation",
     "subtract_block_values",
@@ -297,3 +300,106 @@ def factor_rows(order: Ordering, rows: FactorRows) -> None:
         here = slice(rows.first[part.start], rows.first[part.stop])
         rows.columns[here] = there[before]
         rows.values[here] = rows.table[rows.ids[part]][before]
+
+
+class Cells(NamedTuple):
+    """Nested cells of pixels, those of a single pixel first.
+
+    table : flat index of the free pixel that represents each cell, -1 where none is free; the
+        levels one after the other, each row by row
+    first : (n + 1,) of each level in the table; counts : (n, 2) cells; sizes : (n, 2) in pixels
+    level : (m,) of the free pixels, the highest on which each represents a cell
+    """
+
+    table: Array
+    first: Array
+    counts: Array
+    sizes: Array
+    level: Array
+
+
+def _window(middle: Array, reach: int, count: int, periodic: bool) -> tuple[Array, Array]:
+    """Cells around some along one axis, each at most once, and which of them there are."""
+    if periodic and 2 * reach + 1 >= count:
+        some = np.broadcast_to(np.arange(count), (middle.size, count))
+        return some, np.ones(some.shape, bool)
+    some = middle[:, None] + np.arange(-reach, reach + 1)
+    if periodic:
+        return some % count, np.ones(some.shape, bool)
+    return np.clip(some, 0, count - 1), (some >= 0) & (some < count)
+
+
+def _representatives(
+    at: Index, cells: Cells, n: int, reach: int, shape: tuple[int, int], periodic: bool
+) -> Array:
+    """Pixels that represent the cells of a level around some pixels; -1 where there is none."""
+    row, column = np.divmod(at, shape[1])
+    (ny, nx), (sy, sx) = cells.counts[n], cells.sizes[n]
+    y, in_y = _window(row // sy, reach, int(ny), periodic)
+    x, in_x = _window(column // sx, reach, int(nx), periodic)
+    found = cells.table[cells.first[n] + y[:, :, None] * nx + x[:, None, :]]
+    found = np.where(in_y[:, :, None] & in_x[:, None, :], found, -1)
+    return np.asarray(found.reshape(at.size, -1))
+
+
+def cell_neighbours(
+    at: Index, cells: Cells, reach: int, shape: tuple[int, int], periodic: bool
+) -> NDArray[np.int32]:
+    """Flat indices of the predecessors of each free pixel, then itself, then -1."""
+    own_level = np.full(shape[0] * shape[1], -1, np.int8)
+    own_level[at] = cells.level
+    width = 2 * (2 * reach + 1) ** 2
+    neighbours = np.full((at.size, width), -1, np.int32)
+    for n in np.unique(cells.level):
+        some = np.flatnonzero(cells.level == n)
+        for part in np.array_split(some, 1 + some.size // PART):
+            here = at[part]
+            same = _representatives(here, cells, n, reach, shape, periodic)
+            before = (same >= 0) & (same < here[:, None]) & (own_level[same] == n)
+            found = [np.where(before, same, -1)]
+            if n + 1 < len(cells.counts):
+                found.append(_representatives(here, cells, n + 1, reach, shape, periodic))
+            found.append(here[:, None])
+            all_of = np.hstack(found)
+            there = all_of >= 0
+            last = np.argsort(~there, axis=1, kind="stable")
+            packed = np.take_along_axis(all_of, last, axis=1)[:, :width]
+            neighbours[part, : packed.shape[1]] = packed
+    return neighbours
+
+
+def cell_rows(
+    neighbours: Array, K: Array, shape: tuple[int, int], periodic: bool, round_off: float
+) -> NDArray[np.float32]:
+    """Rows of the factor: last columns of the inverse Cholesky factors between the neighbours.
+
+    A matrix that is not positive definite to round-off leaves the pixel alone.
+    """
+    values = np.zeros(neighbours.shape, np.float32)
+    count = np.count_nonzero(neighbours >= 0, axis=1)
+    for k in np.unique(count):
+        some = np.flatnonzero(count == k)
+        for part in np.array_split(some, 1 + some.size * int(k) ** 2 // (1 << 20)):
+            values[part, :k] = _last_columns(neighbours[part, :k], K, shape, periodic, round_off)
+    return values
+
+
+def _last_columns(
+    at: Array, K: Array, shape: tuple[int, int], periodic: bool, round_off: float
+) -> Array:
+    row, column = np.divmod(at, shape[1])
+    dy = np.abs(row[:, :, None] - row[:, None, :])
+    dx = np.abs(column[:, :, None] - column[:, None, :])
+    if periodic:
+        dy, dx = np.minimum(dy, shape[0] - dy), np.minimum(dx, shape[1] - dx)
+    G = K[dy, dx]
+    k, own = at.shape[1], float(K[0, 0])
+    G[:, np.arange(k), np.arange(k)] = own * (1.0 + round_off)
+    unit = np.zeros((k, 1))
+    unit[-1] = 1.0
+    w = np.linalg.solve(G, unit[None])[..., 0]
+    # The last pivot of the factor is 1 / w: it must not be lost in round-off.
+    bad = ~((w[:, -1] > 0.0) & (w[:, -1] * own < 1e12))
+    w[bad] = 0.0
+    w[bad, -1] = 1.0 / own
+    return np.asarray(w / np.sqrt(w[:, -1:]))

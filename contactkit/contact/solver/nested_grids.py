@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...numerics.fft import fast_transforms_installed
 from . import loops_numpy
+from .cell_inverse import CellInverse
 from .convolution import Convolution, Patch, SymbolMaker, Transforms, self_influence, symbol_of
 from .sparse_inverse import SparseInverse
 from .transfer import block_shape, nested_shapes
@@ -27,6 +28,8 @@ LEAST_THREADED = 200  # pixels along the shorter side from which threads are fas
 LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are treated by blocks
 STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
 PLATE = 8.0  # decay from which stencil and blocks fail, as under a stiff plate
+STIFF = 6.0  # stiffening from which the active set is projected, not truncated
+STIFFEST = 2000.0  # stiffening from which more neighbours are worth their cost
 PIXEL_DECAY = 0.84  # decay of a half-space under uniform pressure on each pixel: not periodic
 FEW = 4000  # free pixels up to which the better preconditioner is also the cheaper one
 FEW_STEEP = 0.15  # the same as a fraction of all pixels if the symbol is steep: the other is poor
@@ -62,6 +65,7 @@ class Grid(NamedTuple):
     response : displacement under unit pressure on the first pixel; to the middle if periodic
     change : displacement added since the last exact one, in single precision
     inverse : sparse approximate inverse of the operator between the free pixels
+    metric : the same object if pressures are to be projected in its metric, for stiff films
     two_level : cheaper one for more than `few` of them; none where it is poor, under stiff plates
     steepest : largest eigenvalue of the operator
     uniform : displacement of a periodic map under uniform unit pressure
@@ -75,8 +79,9 @@ class Grid(NamedTuple):
     patch: Patch | None
     response: NDArray[np.float64]
     change: Singles
-    inverse: SparseInverse
+    inverse: SparseInverse | CellInverse
     two_level: TwoLevel | None
+    metric: CellInverse | None
     few: int
     periodic: bool
     steepest: float
@@ -98,7 +103,7 @@ class Grid(NamedTuple):
         exact = self.exact.count if self.exact is not None else 0
         return self.quick.count + exact + (self.patch.count if self.patch is not None else 0)
 
-    def preconditioner(self, n_free: int) -> SparseInverse | TwoLevel:
+    def preconditioner(self, n_free: int) -> SparseInverse | CellInverse | TwoLevel:
         """The cheaper preconditioner for a number of free pixels."""
         if self.two_level is None or n_free <= self.few:
             return self.inverse
@@ -171,6 +176,13 @@ def _decay(symbol: Floats, periodic: bool) -> float:
     return float(column[low] / max(column[top], 1e-300)) * low / top
 
 
+def _stiffening(symbol: Floats, periodic: bool) -> float:
+    """How much stiffer the solid is against the shortest waves than against the softest."""
+    column = symbol[:, 0] if periodic else symbol[::2, 0]
+    compliance = column[: column.size // 2 + 1] * np.arange(column.size // 2 + 1)
+    return float(compliance.max() / max(compliance[-1], 1e-300))
+
+
 def _response(operator: Convolution, periodic: bool) -> Floats:
     unit = np.zeros(operator.shape)
     unit[0, 0] = 1.0
@@ -188,10 +200,15 @@ def _grid(
     transforms = Transforms(threads, fast, loops.scale_spectrum)
     exact = Convolution(shape, symbol, periodic, transforms)
     response = _response(exact, periodic)
-    decay = _decay(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
-    two_level = None if decay > PLATE else _two_level(symbols, shape, symbol, fast, loops)
-    spare = None if two_level is None else two_level.margin
     pixel = symbols.pixel(shape)
+    decay = _decay(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
+    stiffening = _stiffening(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
+    metric = None
+    if stiffening > STIFF:
+        reach = 2 if stiffening > STIFFEST else 1
+        metric = CellInverse(response, shape, pixel, periodic, loops, reach)
+    two_level = None if decay > PLATE or metric else _two_level(symbols, shape, symbol, fast, loops)
+    spare = None if two_level is None else two_level.margin
     return Grid(
         pressure=exact.source if finest else np.zeros(shape),
         gap=exact.target if finest else np.zeros(shape),
@@ -200,7 +217,9 @@ def _grid(
         patch=None if periodic else Patch(response, transforms, exact),
         response=response,
         change=np.zeros(shape[0] * shape[1], np.float32),
-        inverse=SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
+        inverse=metric
+        or SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
+        metric=metric,
         two_level=two_level,
         few=FEW if decay <= STEEP else int(FEW_STEEP * shape[0] * shape[1]),
         periodic=periodic,

@@ -117,10 +117,14 @@ class ReducedSystem:
         Flat indices of the free pixels, sorted.
     load_fixed : bool
         Whether the solution has a given sum instead of a given approach.
+    displaces : bool
+        Whether the change of the displacement is wanted.
     """
 
-    def __init__(self, grid: Grid, at: NDArray[np.intp], load_fixed: bool) -> None:
-        self.grid, self.at, self.load_fixed = grid, at, load_fixed
+    def __init__(
+        self, grid: Grid, at: NDArray[np.intp], load_fixed: bool, displaces: bool = True
+    ) -> None:
+        self.grid, self.at, self.load_fixed, self.displaces = grid, at, load_fixed, displaces
         self.loops = grid.loops
         self.operator, self.place = grid.quick, at
         self.patch: Patch | None = None
@@ -138,6 +142,8 @@ class ReducedSystem:
 
     def _displace_by(self, x: Singles) -> None:
         """Change of the displacement of the whole map under a change of the pressure."""
+        if not self.displaces:
+            return
         quick = self.grid.quick
         self.loops.scatter(quick.source.ravel(), self.at, x)
         self.grid.change[...] = quick.run().ravel()
@@ -179,5 +185,5 @@ class ReducedSystem:
 
     def take_step(self, length: float) -> None:
         """Add a step to the change of the whole map; on a patch that comes last, all at once."""
-        if self.patch is None:
+        if self.patch is None and self.displaces:
             self.loops.add_scaled(self.grid.change, self.operator.target.ravel(), length)

@@ -1,0 +1,173 @@
+r"""Projected active set: for stiff films, under which truncated ones lead nowhere.
+
+As long as many pixels come or go, the step is the one that minimises the energy with the operator
+replaced by the inverse of its sparse inverse K: the preconditioned residual ``K r`` of all pixels
+in contact or penetrating, projected onto the bounds in the metric of K. For the step d
+
+.. math:: r^T d \ge d^T K^{-1} d > 0
+
+so that the energy falls along it, and by a fixed part of what is left if K is near the inverse.
+Both ends are feasible and their gaps are convolved anyway: the minimum between them is free. Once
+few pixels come or go, conjugate gradients solve for the free pixels, and are projected likewise.
+
+Sign convention: pressure, heights and displacement positive into the solid; symbols as in
+`loops_numpy`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cell_inverse import CellInverse
+from .nested_grids import Grid
+from .problem import Problem, fit
+from .projection import project_in_metric
+from .reduced_system import ReducedSystem
+from .state import State
+
+__all__ = ["ProjectedSet"]
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+UNSETTLED = 0.05  # fraction of pixels that come or go above which the metric alone is used
+SHORT = 0.7  # step of the line search below which the trial is not taken whole
+FLOOR = 3e-3  # reduction that single precision still gives under a stiff film
+REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
+    (0.01, 0.1),
+    (3e-4, 0.03),
+)
+
+
+class ProjectedSet(State):
+    """Iterations of the projected active set.
+
+    Parameters
+    ----------
+    grid, problem, rtol
+        As of `State`.
+    metric : CellInverse
+        Sparse inverse of the operator of the grid.
+    """
+
+    max_iterations = 150
+
+    def __init__(self, grid: Grid, problem: Problem, rtol: float, metric: CellInverse) -> None:
+        super().__init__(grid, problem, rtol)
+        self.metric = metric
+        self.before: tuple[Indices, Floats, Floats] | None = None
+        self.changed = 1.0  # fraction of pixels that came or went in the last step
+
+    def stagnates(self, step: int) -> bool:
+        """Never: the energy falls at every step."""
+        return False
+
+    def evaluate(self) -> float:
+        """Reduced gap, approach and violation, after a line search along the last step."""
+        relative = super().evaluate()
+        if self.before is not None:
+            relative = self._search_line(*self.before)
+            self.before = None
+        return relative
+
+    def _search_line(self, at: Indices, p: Floats, g: Floats) -> float:
+        """Go to the minimum of the energy between two feasible maps unless it is near the end."""
+        d, turn = self.p[at] - p, self.g[at] - g[at]
+        slope, curvature = float((self.approach - g[at]) @ d), float(d @ turn)
+        length = slope / curvature if curvature > 0.0 else 1.0
+        if length >= SHORT:
+            return self.relative
+        length = max(length, 0.0)
+        self.p[at] = p + length * d
+        self.g *= length
+        self.g += (1.0 - length) * g
+        return self.grade()
+
+    def correct(self) -> None:
+        """Change the free pixels within their bounds, downhill in energy."""
+        free = self.grid.loops.free_set(self.p, self.g, self.upper, self.approach)
+        at = free.at
+        if at.size <= self.load_fixed:
+            self.descend()
+            return
+        p, g = self.p[at], self.g.copy()
+        r = self.approach - g[at]
+        if self.load_fixed:
+            r -= r.mean()
+        y = self._trial(at, p, r, free.added)
+        self.before = at, p, g
+        bound = np.broadcast_to(self.upper, self.p.shape)[at]
+        stopped = np.count_nonzero(((y <= 0.0) & (p > 0.0)) | ((y >= bound) & (p < bound)))
+        self.changed = (stopped + free.added) / at.size
+        self.p[at] = y
+        self._restore_load(at)
+
+    def _trial(self, at: Indices, p: Floats, r: Floats, added: int) -> Floats:
+        """Feasible pressures of the free pixels that go downhill."""
+        bound = np.broadcast_to(self.upper, self.p.shape)[at]
+        if max(self.changed, added / at.size) <= UNSETTLED:
+            x = self._solved(at, r)
+            y = self._projected(at, p, x, bound)
+            if float(r @ (y - p)) > 0.0:
+                return y
+        self._prepare(at)
+        x = self._preconditioned(r.astype(np.float32))
+        y = self._projected(at, p, x, bound)
+        return y if float(r @ (y - p)) > 0.0 else _downhill(p, x, r, bound)
+
+    def _solved(self, at: Indices, r: Floats) -> NDArray[Any]:
+        system = ReducedSystem(self.grid, at, self.load_fixed, displaces=False)
+        return system.solve(r, self._reduction(), 0.0)
+
+    def _prepare(self, at: Indices) -> None:
+        if not np.array_equal(self.metric.at, at):
+            self.metric.prepare(at, self.load_fixed)
+
+    def _preconditioned(self, r: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Pressures that the sparse inverse gives for a residual, of zero sum if the load is."""
+        x = self.metric(r)
+        if self.load_fixed:
+            k = self.metric(np.ones_like(r))
+            x -= k * np.float32(x.sum(dtype=np.float64) / k.sum(dtype=np.float64))
+        return x
+
+    def _projected(self, at: Indices, p: Floats, x: NDArray[Any], bound: Floats) -> Floats:
+        """Pressures changed by x, projected onto their bounds if they leave them."""
+        y: Floats = p + x
+        if np.all((y >= 0.0) & (y <= bound)):
+            return y
+        self._prepare(at)  # few pixels are solved for without it
+        low, high = (-p).astype(np.float32), (bound - p).astype(np.float32)
+        found = project_in_metric(
+            x.astype(np.float32), low, high, self.metric.factor, self.load_fixed
+        )
+        y = np.clip(p + found.change, 0.0, bound)
+        y[found.side < 0] = 0.0
+        return np.asarray(np.where(found.side > 0, bound, y))
+
+    def _restore_load(self, at: Indices) -> None:
+        """Scale the free pixels so that the pressures sum to the load."""
+        if self.load_fixed and self.bounded:
+            self.p[...] = fit(self.p, self.problem)
+        elif self.load_fixed:
+            self.grid.loops.scale_to_load(self.p, at, self.upper, self.load)
+        self.missing = 0.0
+
+    def _reduction(self) -> float:
+        """How far to reduce the linear residual: little as long as the set changes."""
+        for fraction, reduction in REDUCTIONS:
+            if self.changed > fraction:
+                return reduction
+        return min(0.03, max(0.4 * self.rtol / max(self.relative, 1e-5 * self.rtol), FLOOR))
+
+
+def _downhill(p: Floats, x: NDArray[Any], r: Floats, bound: Floats) -> Floats:
+    """The safeguard: cut off at the bounds, but so short a step that it still goes downhill."""
+    length, gain = 1.0, float(r @ x)
+    while True:
+        y: Floats = np.clip(p + length * x, 0.0, bound)
+        if float(r @ (y - p)) >= 0.1 * length * gain or length < 1e-4:
+            return y
+        length *= 0.5

@@ -1,0 +1,98 @@
+"""State of the iterations on one grid: pressure, reduced gap, approach and violation.
+
+Sign convention: pressure, heights and displacement positive into the solid; symbols as in
+`loops_numpy`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .nested_grids import Grid
+from .optimality import free_approach, height_scale
+from .problem import Problem, project
+
+__all__ = ["State"]
+
+SINGLE = 1e-2  # relative violation down to which displacements in single precision are used
+SINGLE_NOISE = 1e-5  # likewise over the largest displacement, which may be far above the heights
+SINGLE_LIMIT = 1e-5  # violation that displacements in single precision cannot measure
+
+
+class State:
+    """Pressure, reduced gap, approach and relative violation on one grid.
+
+    Parameters
+    ----------
+    grid : Grid
+        Its `pressure` and `gap` are the maps, changed in place.
+    problem : Problem
+        Dimensionless problem on this grid.
+    rtol : float
+        Relative violation to reach.
+    """
+
+    def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
+        self.grid, self.problem, self.rtol = grid, problem, rtol
+        self.p, self.g = grid.pressure.ravel(), grid.gap.ravel()
+        self.h, self.upper = problem.heights.ravel(), problem.upper
+        self.load_fixed = problem.load is not None
+        self.load = problem.load or 0.0
+        self.bounded = bool(np.isfinite(self.upper).any())
+        self.missing = self.load - float(self.p.sum()) if self.load_fixed else 0.0
+        self.stopped, self.added, self.scale, self.largest = 0, 0, 1.0, 0.0
+        self.approach, self.certificate, self.exact = 0.0, 0.0, False
+        rms = float(np.std(self.h))
+        self.same_rms = np.array([rms, -rms])  # two heights of the same rms, for the scale
+        self.relative = np.inf
+
+    def evaluate(self) -> float:
+        """Reduced gap, approach and relative violation of the present pressure."""
+        loops = self.grid.loops
+        self.exact = self.relative <= max(SINGLE, SINGLE_NOISE * self.largest / self.scale)
+        self.grid.displace(self.exact)
+        self.scale = height_scale(self.same_rms, self.g, self.problem.flat)
+        self.largest = float(max(self.g.max(), -self.g.min()))
+        loops.reduce_gap(self.g, self.h)
+        return self.grade()
+
+    def grade(self) -> float:
+        """Approach and relative violation of the present pressure and reduced gap."""
+        loops = self.grid.loops
+        free = loops.free_sums(self.p, self.g, self.upper)
+        if self.problem.approach is not None:
+            self.approach = self.problem.approach
+        elif free.n_pixels:
+            self.approach = free.weighted_gap / free.pressure
+        else:
+            self.approach = free_approach(self.p, self.g, self.upper)
+        found = loops.violation(self.p, self.g, self.upper, self.approach)
+        total = float(self.p.sum())
+        energy = found.energy
+        if self.load_fixed and not self.bounded:
+            energy = found.deepest * total
+        self.certificate = energy / (total * self.scale) if total > 0.0 else 0.0
+        self.relative = float(found.worst) / self.scale
+        return self.relative
+
+    def done(self) -> bool:
+        """Whether the pressures solve the problem, by a displacement in double precision."""
+        return (
+            self.relative <= self.rtol and self.balanced() and (self.exact or self.rtol >= SINGLE)
+        )
+
+    def balanced(self) -> bool:
+        """Whether the pressures sum to the load."""
+        return abs(self.missing) <= 1e-12 * self.load
+
+    def between(self, at: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Mask of the pixels whose pressure is between the bounds."""
+        bound = self.upper if self.upper.size == 1 else self.upper[at]
+        return np.asarray((self.p[at] > 0.0) & (self.p[at] < bound))
+
+    def descend(self) -> None:
+        """Projected gradient step."""
+        gradient = self.g - (self.problem.approach or 0.0)
+        self.p[...] = project(self.p - gradient / self.grid.steepest, self.problem)
+        self.stopped, self.missing = 0, 0.0

@@ -1,0 +1,110 @@
+"""Truncated active set: pixels whose change exceeds a bound stop at it.
+
+Every iteration changes the pressure of the free pixels so that the reduced gap ``g`` becomes the
+approach there. Those at a bound that would be penetrated, or gape, under the change as computed are
+free in the next iteration. The method for half-spaces and layers of moderate contrast; under a
+stiff film truncated pressures leave pits in the displacement, and `projected_set` is used.
+
+Sign convention and symbols: see `state`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .nested_grids import Grid
+from .problem import Problem
+from .reduced_system import ReducedSystem
+from .state import State
+
+__all__ = ["TruncatedSet"]
+
+CAUTIOUS_AFTER = 1  # iterations without progress after which few pixels leave a bound at a time
+WORST = 0.8  # violation of those few, over the maximum
+CYCLE = 5  # iterations without progress after which pixels that stop at a bound stay there
+REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
+    (0.05, 0.2),
+    (0.01, 0.1),
+    (3e-4, 0.03),
+)
+PATIENCE = 15  # iterations within which the residual must have halved
+
+
+class TruncatedSet(State):
+    """Iterations of the truncated active set; parameters as of `State`."""
+
+    max_iterations = 80
+
+    def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
+        super().__init__(grid, problem, rtol)
+        self.stuck, self.cautious = False, False
+        self.at = np.zeros(0, np.intp)
+        self.best, self.best_step = np.inf, 0
+
+    def stagnates(self, step: int) -> bool:
+        """Note the progress up to a step; whether there has been none for too long."""
+        if self.relative < 0.5 * self.best:
+            self.best, self.best_step = self.relative, step
+        self.cautious = step - self.best_step >= CAUTIOUS_AFTER
+        self.stuck = step - self.best_step >= CYCLE
+        return step - self.best_step >= PATIENCE
+
+    def correct(self) -> None:
+        """Correct the free pixels; if there are none, take a projected gradient step."""
+        loops = self.grid.loops
+        if self.stopped == 0:
+            self._choose_free()
+        if self.at.size <= (self.load_fixed and not self.missing):
+            self.descend()
+            return
+        r = self.approach - self.g[self.at]
+        if self.load_fixed:
+            r -= r.mean()
+        system = ReducedSystem(self.grid, self.at, self.load_fixed)
+        x = system.solve(r, self._reduction(), self.missing)
+        self.stopped = loops.add_and_clip(self.p, self.at, x, self.upper)
+        self._balance()
+        if self.stopped and self.stuck:
+            self.at, self.added = self.at[self.between(self.at)], 0
+        elif self.stopped:
+            self._predict_free()
+
+    def _reduction(self) -> float:
+        """How far to reduce the linear residual: little as long as the active set changes."""
+        if self.stuck:
+            return 0.03
+        changed = (self.stopped + self.added) / self.at.size
+        for fraction, reduction in REDUCTIONS:
+            if changed > fraction:
+                return reduction
+        return min(0.03, max(0.4 * self.rtol / max(self.relative, 1e-5 * self.rtol), 1e-5))
+
+    def _balance(self) -> None:
+        """Restore the load by scaling; where a bound prevents that, by the next correction."""
+        self.missing = 0.0
+        if self.load_fixed and not (self.bounded and self.stopped):
+            self.grid.loops.scale_to_load(self.p, self.at, self.upper, self.load)
+        elif self.load_fixed:
+            self.missing = self.load - float(self.p.sum())
+
+    def _predict_free(self) -> None:
+        """Choose the next free pixels by the gap under the correction before the bounds.
+
+        A pixel that stops at its bound changes the gap around it, which is not penetration.
+        """
+        self.g += self.grid.change
+        if self.load_fixed:
+            self.approach = float(self.g[self.at].mean())
+        self.g[self.at] = self.approach
+        self._choose_free()
+
+    def _choose_free(self) -> None:
+        """Choose the free pixels; without progress, only the worst of those that leave a bound."""
+        free = self.grid.loops.free_set(self.p, self.g, self.upper, self.approach)
+        self.at, self.added = free.at, free.added
+        if self.cautious and self.added:
+            off = np.abs(self.g[self.at] - self.approach)
+            between = self.between(self.at)
+            off[between] = 0.0
+            kept = between | (off > WORST * off.max())
+            self.at, self.added = self.at[kept], int(np.count_nonzero(kept & ~between))

@@ -1,0 +1,111 @@
+"""Stiff bonded films: contact in scattered spots, a lever between any two of them."""
+
+from __future__ import annotations
+
+import importlib.util
+
+import numpy as np
+import pytest
+
+from contactkit.contact.solver.contact_solver import ContactSolver
+from contactkit.contact.solver.optimality import height_scale, optimality
+from contactkit.elasticity import influence, layered
+from contactkit.numerics.fft import fast_transforms_installed
+
+INSTALLED = fast_transforms_installed() and importlib.util.find_spec("numba") is not None
+BASE_LOAD = 2e-3  # some five per cent of contact of the half-space, of modulus 1 and slope 0.1
+
+
+def film(contrast, thickness, periodic=True):
+    """Symbol of a bonded film; modulus over the substrate, thickness over the window."""
+    layers = [thickness] if thickness else []
+    moduli = 0.91 * np.array([contrast, 1.0] if layers else [1.0])
+    make = layered.normal_symbol if periodic else influence.symbol
+    return lambda shape, pixel: make(shape, pixel, moduli, [0.3] * moduli.size, layers)
+
+
+def rough(n, is_resolved, seed=1):
+    """Heights of unit window and rms slope 0.1, resolved to 8 pixels or rough to the pixel."""
+    k = np.hypot(np.fft.fftfreq(n, 1.0 / n)[:, None], np.fft.rfftfreq(n, 1.0 / n))
+    if is_resolved:
+        amplitude = np.where(k <= n / 8, np.maximum(k, 4.0) ** -1.8, 0.0)
+    else:
+        amplitude = (1.0 + (k / 14.6) ** 2) ** -0.75
+    amplitude[0, 0] = 0.0
+    h = np.fft.irfft2(
+        np.fft.rfft2(np.random.default_rng(seed).standard_normal((n, n))) * amplitude, s=(n, n)
+    )
+    dy, dx = (np.roll(h, 1, axis) - h for axis in (0, 1))
+    return 0.1 * h / (n * np.sqrt(np.mean(dy**2 + dx**2)))
+
+
+def solve(n, contrast, thickness, load, is_resolved=True, periodic=True, fast=False, **asked):
+    maker = film(contrast, thickness, periodic)
+    solver = ContactSolver((n, n), (1.0 / n, 1.0 / n), maker, periodic, fast=fast)
+    return solver.solve(rough(n, is_resolved), mean_pressure=load * BASE_LOAD, **asked)
+
+
+@pytest.mark.parametrize(
+    ("contrast", "thickness", "load", "is_resolved"),
+    [
+        (1e2, 0.01, 30.0, True),
+        (1e3, 0.01, 100.0, True),
+        (1e3, 0.01, 100.0, False),
+        (1e4, 0.003, 30.0, False),
+        (1e6, 0.003, 30.0, True),
+    ],
+)
+def test_films_that_made_the_truncated_set_cycle(contrast, thickness, load, is_resolved):
+    s = solve(64, contrast, thickness, load, is_resolved)
+    assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 60
+    assert s.pressure.mean() == pytest.approx(load * BASE_LOAD, rel=1e-11)
+    assert s.pressure.min() == 0.0
+    # The conditions hold for the answer itself, whoever found it.
+    found = optimality(s.pressure, s.displacement, rough(64, is_resolved))
+    scale = height_scale(rough(64, is_resolved), s.displacement)
+    assert found.residual <= 2e-8 * scale
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_a_hardness_on_a_stiff_film(periodic):
+    free = solve(64, 1e3, 0.01, 30.0, periodic=periodic)
+    bound = 0.3 * free.pressure.max()
+    s = solve(64, 1e3, 0.01, 30.0, periodic=periodic, bound=bound)
+    assert free.converged
+    assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 100
+    assert np.count_nonzero(s.pressure == bound) > 0
+    assert s.pressure.mean() == pytest.approx(30.0 * BASE_LOAD, rel=1e-11)
+
+
+def test_load_and_approach_are_two_ways_to_one_contact():
+    by_load = solve(64, 1e3, 0.01, 30.0)
+    maker, shape, pixel = film(1e3, 0.01), (64, 64), (1.0 / 64, 1.0 / 64)
+    solver = ContactSolver(shape, pixel, maker, True, fast=False)
+    s = solver.solve(rough(64, True), rigid_approach=by_load.rigid_approach)
+    assert s.converged
+    assert not s.fallback
+    np.testing.assert_allclose(s.pressure, by_load.pressure, atol=1e-5 * by_load.pressure.max())
+
+
+@pytest.mark.parametrize("load", [1.0, 1e5])
+def test_an_isolated_map_under_any_load(load):
+    """At 1e5 times the load single precision cannot measure what is left of the heights."""
+    maker = film(1.0, 0.0, periodic=False)
+    solver = ContactSolver((64, 64), (1 / 64, 1 / 64), maker, periodic=False, fast=False)
+    s = solver.solve(rough(64, True), mean_pressure=load * BASE_LOAD)
+    assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 60
+
+
+@pytest.mark.skipif(not INSTALLED, reason="needs the extra contactkit[fast]")
+@pytest.mark.parametrize("periodic", [True, False])
+def test_both_paths_take_the_same_steps_under_films(periodic):
+    a, b = (solve(96, 1e3, 0.01, 30.0, periodic=periodic, fast=fast) for fast in (False, True))
+    assert abs(a.n_outer - b.n_outer) <= 2
+    assert abs(a.n_applications - b.n_applications) <= 8
+    np.testing.assert_allclose(b.pressure, a.pressure, atol=1e-6 * a.pressure.max())
