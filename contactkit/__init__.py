@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from .contact.effects.film import FilmMeniscus
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
     from .contact.effects.island_bridges import IslandBridges
+    from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.plasticity import HardnessLimit, HardnessMap
     from .contact.effects.stress import SubsurfaceStress
     from .contact.plan import ContactPlan
@@ -170,6 +171,7 @@ _HOMES = {
     "Paraboloid": "scene.surfaces",
     "Plan": "separation.plan",
     "PlanError": "errors",
+    "PlasticHistory": "contact.effects.plastic_history",
     "Pressing": "scene.loading",
     "Pull": "separation.motion.state",
     "RigidBase": "scene.materials",
@@ -266,6 +268,7 @@ __all__ = [
     "Paraboloid",
     "Plan",
     "PlanError",
+    "PlasticHistory",
     "Pressing",
     "Pull",
     "RigidBase",

@@ -109,6 +109,10 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
 def _check(result: ContactResult, first: ContactResult) -> None:
     if not result.load > 0.0:
         raise DescriptionError("area_over_load.results", "a contact without load", "carry a load")
+    if result.holes is not None:
+        raise DescriptionError(
+            "area_over_load.results", "a surface with holes", "have heights at every pixel"
+        )
     if not result.has(HalfSpace):
         raise DescriptionError(
             "area_over_load.results", "a layered contact", "be of half-spaces, as the theories are"

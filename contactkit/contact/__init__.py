@@ -13,6 +13,7 @@ discretisation Error of the grid, estimated from a coarser companion.
 friction_loop  Displacement caused by friction, until it agrees with the pressure.
 hardness_loop  Hardness that depends on the displacement, until they agree.
 attraction_loop Attraction across the gap, until it agrees with the gap.
+plastic_history Steps of a loading history; the surface that a plastic contact leaves.
 film_loop      Load that includes the force of a film: equilibria.
 film_estimate  Size of a film force that is reported only, were it in balance.
 effects        The physics a contact scene may list.

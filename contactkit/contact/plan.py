@@ -23,6 +23,7 @@ from .effects.base import (
     ContactEffect,
     DisplacementTerm,
     HardnessLaw,
+    LoadHistory,
     LoadTerm,
     PressureBound,
     VaryingHardness,
@@ -42,6 +43,7 @@ __all__ = ["ContactPlan", "plan_contact", "unprepared_plan"]
 
 _SINGLE_ROLES = (
     PressureBound,
+    LoadHistory,
     LoadTerm,
     DisplacementTerm,
     Attraction,
@@ -238,9 +240,17 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_liquid(made)
     _check_holes(scene)
     _check_attraction(made)
-    _check_size(made)
-    _check_load(made)
+    for one in (*_before(made), made):
+        _check_size(one)
+        _check_load(one)
     return made
+
+
+def _before(made: ContactPlan) -> list[ContactPlan]:
+    """Plans of the loads that the contact has carried before."""
+    history = made.scene.effect(LoadHistory)
+    loadings = history.loadings() if history is not None else ()
+    return [evolve(made, scene=evolve(made.scene, loading=one)) for one in loadings]
 
 
 def _check_bodies(scene: ContactScene) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar
@@ -90,6 +91,13 @@ class PreparedInterface:
     def first_touch(self) -> float:
         """Rigid-body approach [m] at which the undeformed bodies touch."""
         return -float(self.heights.max())
+
+    def with_heights(self, heights: Map) -> PreparedInterface:
+        """Return the interface of the same bodies with another shape [m]; nothing is made again."""
+        made = copy.copy(self)
+        made.heights = heights
+        made.heights.flags.writeable = False
+        return made
 
     def open(self, heights: Map) -> Map:
         """Return heights with the holes of the interface masked, as the solver takes them."""

@@ -14,6 +14,7 @@ from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..scene.validity import warn
 from .effects.base import AttractedContact, Attraction, Contact, ContactEffect, LoadTerm
+from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
 from .film_estimate import self_consistent_force
 from .film_loop import pulled_together
@@ -159,6 +160,10 @@ def _solve_all(
         from .attraction_loop import solve_attracted
 
         solved, contact = solve_attracted(plan, attraction, target, before, counter)
+    elif (history := plan.scene.effect(PlasticHistory)) is not None:
+        from .plastic_history import follow_history
+
+        solved, contact, parts[PlasticHistory] = follow_history(plan, history, counter)
     else:
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)

@@ -2,6 +2,7 @@
 
 separation  Figures of separations and costs; axes, legends and colours of all figures.
 contact     Figures of contacts.
+plastic_history Figures of loading histories: force over approach, residual depth.
 roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
 film        Figures of films on faces; animations.
 """

@@ -23,7 +23,10 @@ from validation_tables import grid
 
 IMG = Path(__file__).parents[1] / "img"
 EXAMPLES = Path(__file__).parents[2] / "examples"
-SHOWN_EXAMPLES = ("area_and_theories",)  # their figures, by the names of their files
+SHOWN_EXAMPLES = (
+    "area_and_theories",
+    "loading_history",
+)  # their figures, by the names of their files
 # (scene, command): figures by the name they have in the pages.
 SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("fuel-injector", "run"): {

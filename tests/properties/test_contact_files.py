@@ -102,6 +102,12 @@ EFFECTS = {
     ck.HalfSpace: st.builds(ck.HalfSpace),
     ck.LayeredHalfSpace: st.builds(ck.LayeredHalfSpace),
     ck.HardnessLimit: hardness_rules,
+    ck.PlasticHistory: st.builds(
+        ck.PlasticHistory,
+        pressures=st.lists(stresses, max_size=3).map(tuple),
+        approaches=st.lists(lengths, max_size=2).map(tuple),
+        steps=st.integers(1, 9),
+    ),
     ck.FrictionTraction: st.builds(
         ck.FrictionTraction, coefficient=st.floats(0.0, 1.0), direction=st.floats(-4.0, 4.0)
     ),

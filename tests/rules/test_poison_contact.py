@@ -37,6 +37,7 @@ OWNED = {
     },
     ck.HardnessLimit(rule="material"): set(),
     ck.HardnessLimit(rule="constant", hardness=1e9): set(),
+    ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"contact.effects.hardness_rules.*"},
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
         "elasticity.stress.tractions.traction_coupling",
@@ -136,6 +137,12 @@ def is_refused(effects):
     )
 
 
+def suits_a_history(kinds):
+    """A history needs a hardness, and no film, coupling or attraction beside it."""
+    apart = {ck.FrictionCoupling, ck.FilmMeniscus, ck.IslandBridges, ck.Adhesion}
+    return ck.HardnessLimit in kinds and not kinds & apart
+
+
 def cases():
     """Each effect alone on each solid and window, and each pair."""
     laws = [e for e in OWNED if isinstance(e, ck.HalfSpace | ck.LayeredHalfSpace)]
@@ -144,6 +151,7 @@ def cases():
     for case in product_of({"law": laws, "edges": EDGES, **others}):
         kinds = {type(level) for level in case.values()}
         is_complete = ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds
+        is_complete &= ck.PlasticHistory not in kinds or suits_a_history(kinds)
         if is_complete and not is_refused(case.values()):
             found.append(case)
     wanted = pairwise(found)

@@ -26,6 +26,7 @@ REVEALED = {
     "pulled.state": "MotionState | None",
     "pressed.contact_area": "float",
     "pressed.of(ck.HardnessLimit)": "PlasticPart",
+    "pressed.of(ck.PlasticHistory)": "PlasticHistoryPart",
     "pressed.of(ck.SubsurfaceStress)": "StressPart",
     "pressed.of(ck.FilmMeniscus)": "FilmPart",
     "pressed.of(ck.IslandBridges)": "IslandPart",

@@ -15,7 +15,14 @@ import numpy as np
 from attrs import asdict, evolve
 
 from ...accuracy import Accuracy
-from ...contact.effects.base import Compliance, DisplacementTerm, LoadTerm, PressureBound
+from ...contact.effects.base import (
+    Attraction,
+    Compliance,
+    DisplacementTerm,
+    LoadHistory,
+    LoadTerm,
+    PressureBound,
+)
 from ...contact.effects.plasticity import HardnessLimit
 from ...contact.plan import ContactPlan, plan_contact
 from ...contact.result import ContactResult
@@ -166,11 +173,13 @@ def load_displacement(
 def _without_observers(scene: ContactScene) -> ContactScene:
     """Leave out effects that observe a contact; refuse those that act back on it."""
     kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureBound))
-    acting = [e for e in scene.effects if isinstance(e, DisplacementTerm | LoadTerm)]
+    apart = (Attraction, DisplacementTerm, LoadHistory, LoadTerm)
+    acting = [e for e in scene.effects if isinstance(e, apart)]
     if acting:
         names = ", ".join(e.name for e in acting)
         raise PlanError(
-            f"load-displacement curves are of a dry contact without friction; leave out {names}"
+            "load-displacement curves are of a dry contact without friction, adhesion and loads "
+            f"before; leave out {names}"
         )
     return evolve(scene, effects=kept)
 

@@ -6,6 +6,7 @@ plasticity      Hardness: the upper bound of the pressure.
 hardness_rules  Hardness of a layered solid over the depth of indentation.
 adhesion        Attraction of the surfaces across their gap.
 attraction_laws Laws of that attraction: Dugdale, exponential, Lennard-Jones.
+plastic_history Loads before that of the scene, with a residual shape.
 friction        Tangential traction of sliding, and the normal displacement it causes.
 stress          Stress below the surface.
 film            Meniscus force of a thin liquid film.

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...liquids.liquid import LiquidState
+    from ...scene.loading import ContactLoading
     from ...scene.scenes import ContactScene
     from ...scene.validity import ValidityNumber
     from ...scene.window import Grid
@@ -43,6 +44,7 @@ __all__ = [
     "FixedHardness",
     "FrictionalContact",
     "HardnessLaw",
+    "LoadHistory",
     "LoadTerm",
     "Observer",
     "PressureBound",
@@ -267,6 +269,15 @@ class LoadTerm(ContactEffect[Part]):
     @abc.abstractmethod
     def observe(self, contact: Contact) -> Part:
         """Return the force and where it acts, for a given contact."""
+
+
+@frozen(kw_only=True)
+class LoadHistory(ContactEffect[Part]):
+    """Loads that the contact has carried before that of the scene; none or one."""
+
+    @abc.abstractmethod
+    def loadings(self) -> tuple[ContactLoading, ...]:
+        """Return the loadings before that of the scene, the first one first."""
 
 
 @frozen(kw_only=True)

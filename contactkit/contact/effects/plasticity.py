@@ -33,8 +33,11 @@ if TYPE_CHECKING:
     from .base import Map
 
 _MOST_PLASTIC = 0.5
+AT_HARDNESS = 1.0 - 1e-6
+"""Pressure over hardness from which on a pixel is plastic [-]: one that is loaded again to where it
+was left is back at the hardness to the tolerance of the solver."""
 
-__all__ = ["HardnessLimit", "HardnessMap", "PlasticPart"]
+__all__ = ["AT_HARDNESS", "HardnessLimit", "HardnessMap", "PlasticPart"]
 
 
 def _as_map(value: Any) -> Map:
@@ -212,10 +215,10 @@ class HardnessLimit(PressureBound[PlasticPart]):
         return lambda u: kernel.effective_hardness(u, *layered, shift=self.shift)
 
     def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> PlasticPart:
-        """See `PressureBound.observe_bounded`: pixels at the hardness, to round-off."""
+        """See `PressureBound.observe_bounded`: pixels at the hardness."""
         import numpy as np
 
-        at_bound = contact.pressure >= np.asarray(bounded.hardness) * (1.0 - 1e-12)
+        at_bound = contact.pressure >= np.asarray(bounded.hardness) * AT_HARDNESS
         is_plastic = at_bound & (contact.pressure > 0.0)
         area = float(is_plastic.sum()) * contact.grid.pixel_area
         overlap = np.where(is_plastic, bounded.overlap, 0.0)

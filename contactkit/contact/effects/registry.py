@@ -11,6 +11,7 @@ from .elasticity import HalfSpace, LayeredHalfSpace
 from .film import FilmMeniscus
 from .friction import FrictionCoupling, FrictionTraction
 from .island_bridges import IslandBridges
+from .plastic_history import PlasticHistory
 from .plasticity import HardnessLimit
 from .stress import SubsurfaceStress
 
@@ -21,6 +22,7 @@ CONTACT_EFFECTS: EffectRegistry[ContactEffect[Any]] = EffectRegistry(
     LayeredHalfSpace,
     HardnessLimit,
     Adhesion,
+    PlasticHistory,
     FrictionTraction,
     FrictionCoupling,
     SubsurfaceStress,
