@@ -142,8 +142,11 @@ class _Symbols:
     ) -> None:
         self.window = (shape[0] * pixel_size[0], shape[1] * pixel_size[1])
         self.make, self.periodic = make_symbol, periodic
-        self.unit = 1.0
-        self.unit = self.own(self(shape), shape)
+        self.unit, self._made = 1.0, dict[Shape, Floats]()
+        first = self(shape)
+        self.unit = self.own(first, shape)
+        first /= self.unit
+        self._made[shape] = first  # kept for the grid that needs it
 
     def pixel(self, shape: Shape) -> tuple[float, float]:
         return self.window[0] / shape[0], self.window[1] / shape[1]
@@ -152,6 +155,8 @@ class _Symbols:
         return self_influence(symbol, shape[1] if self.periodic else 2 * shape[1])
 
     def __call__(self, shape: Shape) -> Floats:
+        if shape in self._made:
+            return self._made.pop(shape)
         symbol = symbol_of(self.make, shape, self.pixel(shape), self.periodic)
         symbol /= self.unit
         return symbol

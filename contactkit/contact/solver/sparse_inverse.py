@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from .loops_numpy import FactorRows, Ordering
 
-__all__ = ["SparseInverse", "lattice_strides", "pattern_rows"]
+__all__ = ["SparseInverse", "lattice_strides", "neighbour_matrices", "pattern_rows"]
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -65,14 +65,10 @@ def _offsets(squared: int) -> NDArray[np.int32]:
     return np.stack([y[near], x[near]], axis=1).astype(np.int32)
 
 
-def pattern_rows(
-    K: Floats,
-    shape: Shape,
-    stride: NDArray[np.int32],
-    there: NDArray[np.bool_],
-    offsets: NDArray[np.int32],
+def neighbour_matrices(
+    K: Floats, shape: Shape, strides: NDArray[np.int32], offsets: NDArray[np.int32]
 ) -> Floats:
-    """Rows of the factor for patterns of neighbours, the pixel itself last.
+    """Influence between a pixel and its neighbours on each lattice, ``(n, k + 1, k + 1)``.
 
     Parameters
     ----------
@@ -80,41 +76,64 @@ def pattern_rows(
         Response as in `reduced_system.influence_matrix`, positive.
     shape : tuple of int
         Pixels of the map.
-    stride : ndarray (2,)
-        Unit of the offsets, in pixels.
+    strides : ndarray (n, 2)
+        Unit of the offsets on each lattice, in pixels.
+    offsets : ndarray (k, 2)
+        Places of the neighbours; the pixel itself comes last.
+
+    Examples
+    --------
+    >>> K = np.array([[2.0, 1.0, 0.0]])
+    >>> neighbour_matrices(K, (1, 3), np.array([[1, 1]]), np.array([[0, 1]]))
+    array([[[2., 1.],
+            [1., 2.]]])
+    """
+    place = np.vstack([offsets, [[0, 0]]])
+    apart = np.abs(place[:, None] - place[None])[None] * strides[:, None, None, :]
+    dy, dx = apart[..., 0], apart[..., 1]
+    if K.shape != shape:
+        dy, dx = dy % shape[0], dx % shape[1]
+        dy, dx = np.minimum(dy, shape[0] - dy), np.minimum(dx, shape[1] - dx)
+    # Opposite neighbours may be farther apart than an isolated map is wide: never both there.
+    return np.asarray(K[np.minimum(dy, K.shape[0] - 1), np.minimum(dx, K.shape[1] - 1)])
+
+
+def pattern_rows(matrices: Floats, there: NDArray[np.bool_]) -> Floats:
+    """Rows of the factor for patterns of neighbours, the pixel itself last.
+
+    Parameters
+    ----------
+    matrices : ndarray (n, k + 1, k + 1)
+        Influence between the pixel and its neighbours, one matrix for each pattern.
     there : ndarray (n, k)
         Which of the neighbours are in the patterns.
-    offsets : ndarray (k, 2)
-        Places of the neighbours.
 
     Examples
     --------
     A pixel alone, and one with a neighbour:
 
-    >>> K = np.array([[2.0, 1.0, 0.0]])
-    >>> there, offsets = np.array([[False], [True]]), np.array([[0, 1]])
-    >>> pattern_rows(K, (1, 3), np.array([1, 1]), there, offsets).round(3)
+    >>> matrix = np.array([[[2.0, 1.0], [1.0, 2.0]]])
+    >>> pattern_rows(matrix.repeat(2, axis=0), np.array([[False], [True]])).round(3)
     array([[ 0.   ,  0.707],
            [-0.408,  0.816]])
     """
-    place = np.vstack([offsets, [[0, 0]]]) * stride
-    dy, dx = np.abs(place[:, None] - place[None]).transpose(2, 0, 1)
-    if K.shape != shape:
-        dy, dx = dy % shape[0], dx % shape[1]
-        dy, dx = np.minimum(dy, shape[0] - dy), np.minimum(dx, shape[1] - dx)
     inside = np.hstack([there, np.ones((len(there), 1), bool)])
-    # Opposite neighbours may be farther apart than an isolated map is wide: never both there.
-    matrix = K[np.minimum(dy, K.shape[0] - 1), np.minimum(dx, K.shape[1] - 1)]
-    G = np.where(inside[:, :, None] & inside[:, None, :], matrix, 0.0)
-    diagonal = np.arange(len(place))
-    G[:, diagonal, diagonal] = np.where(inside, matrix[0, 0] * (1.0 + 1e-7), 1.0)
-    unit = np.zeros((len(place), 1))
+    G = np.where(inside[:, :, None] & inside[:, None, :], matrices, 0.0)
+    alone, diagonal = matrices[:, -1, -1:], np.arange(inside.shape[1])
+    G[:, diagonal, diagonal] = np.where(inside, alone * (1.0 + 1e-7), 1.0)
+    unit = np.zeros((len(diagonal), 1))
     unit[-1] = 1.0
     rows = np.asarray(np.linalg.solve(G, unit[None])[..., 0])
     own = rows[:, -1:]
     bad = ~(own > 0.0).ravel()  # round-off of a nearly singular matrix: the pixel alone
-    rows[bad] = np.where(diagonal == diagonal[-1], 1.0 / matrix[0, 0], 0.0)
+    rows[bad] = np.where(diagonal == diagonal[-1], 1.0 / alone[bad], 0.0)
     return rows / np.sqrt(rows[:, -1:])
+
+
+def _coarsest(count: int, strides: NDArray[np.int32]) -> NDArray[np.int8]:
+    """Coarsest lattice that has each of the lines along one side."""
+    has = np.arange(count)[:, None] % strides == 0
+    return (strides.size - 1 - np.argmax(has[:, ::-1], axis=1)).astype(np.int8)
 
 
 class SparseInverse:
@@ -165,10 +184,8 @@ class SparseInverse:
         self.borrowed = memory is not None
         held = np.zeros(shape, np.int32) if memory is None else memory
         self.position = held.view(np.int32).ravel()[: shape[0] * shape[1]]
-        self._lattice_y, self._lattice_x = (
-            np.array([np.flatnonzero(i % s == 0)[-1] for i in range(n)], np.int8)
-            for n, s in zip(shape, self.strides.T, strict=True)
-        )
+        self._lattice_y, self._lattice_x = map(_coarsest, shape, self.strides.T)
+        self._matrices: Floats | None = None
         self.allowed = self._allowed()
         self.last = 0
         self._drop_patterns()
@@ -241,22 +258,16 @@ class SparseInverse:
         return at.astype(np.int32), self.keys[at] == keys
 
     def _solve_patterns(self, new: NDArray[np.int64]) -> None:
-        bits = 1 << np.arange(len(self.offsets))
-        for lattice in np.unique(new >> 32):
-            some = new[new >> 32 == lattice]
-            for part in np.array_split(some, 1 + some.size // 4096):
-                there = (part[:, None] & bits) > 0
-                rows = pattern_rows(
-                    self.response - self.lift,
-                    self.shape,
-                    self.strides[lattice],
-                    there,
-                    self.offsets,
-                )
-                self.keys = np.append(self.keys, part)
-                self.rows = np.vstack([self.rows, rows.astype(np.float32)])
-        at = np.argsort(self.keys)
-        self.keys, self.rows = self.keys[at], self.rows[at]
+        if self._matrices is None:
+            K = self.response - self.lift
+            self._matrices = neighbour_matrices(K, self.shape, self.strides, self.offsets)
+        bits, rows = 1 << np.arange(len(self.offsets)), [self.rows]
+        for part in np.array_split(new, 1 + new.size // 4096):
+            found = pattern_rows(self._matrices[part >> 32], (part[:, None] & bits) > 0)
+            rows.append(found.astype(np.float32))
+        keys = np.append(self.keys, new)
+        at = np.argsort(keys)
+        self.keys, self.rows = keys[at], np.vstack(rows)[at]
 
     def __call__(self, r: Singles) -> Singles:
         """Pressures that would displace the pixels by about `r`."""

@@ -142,7 +142,8 @@ class CoarseBlocks:
         self.load_fixed = False  # the sum is kept by `_without_mean`, in the weights of the blocks
         self.count = blocks[0] * blocks[1]
         self.width = shape[1]
-        self.operator = Convolution(blocks, symbol, periodic, Transforms(fast=fast), np.float32)
+        transforms = Transforms(1, fast, loops.scale_spectrum)
+        self.operator = Convolution(blocks, symbol, periodic, transforms, np.float32)
         self._row = np.arange(shape[0]) * blocks[0] // shape[0] * blocks[1]
         self._column = np.arange(shape[1]) * blocks[1] // shape[1]
         self._pixels = shape[0] * shape[1] / (blocks[0] * blocks[1])
