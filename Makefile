@@ -40,6 +40,7 @@ bench: $(VENV)/.test peers
 	$(BIN)/python -m pytest tests/benchmarks --benchmark-only --benchmark-disable-gc --benchmark-columns=min,median,max,rounds
 	$(BIN)/python tests/benchmarks/peers/compare.py --peers $(VENV)/peers $(CASES)
 	$(BIN)/python tests/benchmarks/peers/leakage.py --peers $(VENV)/peers
+	$(BIN)/python tests/benchmarks/peers/adhesion.py --peers $(VENV)/peers
 
 # Other contact solvers, each in an environment of its own; what does not install is named with the reason.
 peers: $(VENV)/.made
