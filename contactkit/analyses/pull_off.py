@@ -202,10 +202,10 @@ def pull_off_curve(
 
     Notes
     -----
-    Branches of isolated contacts do not depend on the steps; in a periodic window separation may,
-    by half a percent (see `Adhesion`). Under load control, as with a soft spring, the bodies pull
-    off at `PullOffCurve.pull_off_force` and snap in before the jump of the approach. The extremes
-    are those of the states: let the approaches be dense around them.
+    Branches of isolated contacts do not depend on the steps; in a periodic window loads next to
+    jumps may, by some percent (see `Adhesion`). Under load control, as with a soft spring, the
+    bodies pull off at `PullOffCurve.pull_off_force` and snap in before the jump of the approach.
+    The extremes are those of the states: let the approaches be dense around them.
 
     Examples
     --------
@@ -301,8 +301,8 @@ def _loss(a: _State, b: _State) -> float:
     return a.energy + 0.5 * (a.load + b.load) * (b.approach - a.approach) - b.energy
 
 
-def _is_jump(a: _State, b: _State) -> bool:
-    """Whether the loss of a short step is that of a jump."""
+def _has_loss(a: _State, b: _State) -> bool:
+    """Whether the loss of a step is more than the error of the trapezoidal rule usually is."""
     smooth = abs((b.load - a.load) * (b.approach - a.approach))
     return _loss(a, b) > max(_SUDDEN * smooth, _LEAST * _adhesive(a, b))
 
@@ -312,7 +312,7 @@ def _is_too_long(a: _State, b: _State) -> bool:
     if max(a.attracted_area, b.attracted_area) == 0.0:
         return False
     change = abs((b.load - a.load) * (b.approach - a.approach))
-    return change > _SUDDEN * _adhesive(a, b) or _is_jump(a, b)
+    return change > _SUDDEN * _adhesive(a, b) or _has_loss(a, b)
 
 
 def _adhesive(a: _State, b: _State) -> float:
@@ -349,16 +349,21 @@ def _followed(
 
 
 def _refined(
-    run: _Run, a: _State, b: _State, depth: int
+    run: _Run, a: _State, b: _State, depth: int, loss: float = 0.0
 ) -> tuple[list[_State], list[tuple[_State, _State]]]:
-    """States between two (with the second), and the pairs of them that a jump separates."""
+    """States between two (with the second), and the pairs of them that a jump separates.
+
+    `loss` is that of the step of twice the length [J]: halving a step leaves the loss of a jump
+    as it is, and a quarter or less of the error of the trapezoidal rule.
+    """
     if depth <= 0:
-        return [b], [(a, b)] if _is_jump(a, b) else []
+        is_jump = _has_loss(a, b) and _loss(a, b) > 0.5 * loss
+        return [b], [(a, b)] if is_jump else []
     if not _is_too_long(a, b):
         return [b], []
-    middle = run(0.5 * (a.approach + b.approach), a)
-    states, jumps = _refined(run, a, middle, depth - 1)
-    more, others = _refined(run, middle, b, depth - 1)
+    middle, here = run(0.5 * (a.approach + b.approach), a), _loss(a, b)
+    states, jumps = _refined(run, a, middle, depth - 1, here)
+    more, others = _refined(run, middle, b, depth - 1, here)
     return states + more, jumps + others
 
 

@@ -4,5 +4,6 @@ separation  Figures of separations and costs; axes, legends and colours of all f
 contact     Figures of contacts.
 plastic_history Figures of loading histories: force over approach, residual depth.
 roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
+adhesion    Load and area over the approach of contacts under adhesion.
 film        Figures of films on faces; animations.
 """

@@ -18,12 +18,14 @@ STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
 CARBON = ck.Material(name="carbon", young_modulus=420e9, poisson_ratio=0.25)
 COATED = ck.Stack(layers=(ck.Layer(material=CARBON, thickness=2e-8),), substrate=STEEL)
 MODULUS = 210e9 / (1.0 - 0.3**2)  # contact modulus [Pa]
+STICKY = ck.ExponentialAttraction(work_of_adhesion=0.05, range=2e-9)
 EFFECTS = {
     "friction": (ck.FrictionTraction(coefficient=0.3),),
     "friction-coupling": (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling()),
     "hardness": (ck.HardnessLimit(),),
     "five-planes-of-stress": (ck.SubsurfaceStress(depths=(0.0, 1e-9, 5e-9, 2e-8, 1e-7)),),
     "meniscus": (ck.FilmMeniscus(film_thickness=1e-9),),
+    "adhesion": (ck.Adhesion(law=STICKY),),
 }
 
 

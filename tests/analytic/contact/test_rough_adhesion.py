@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -115,9 +116,26 @@ def test_a_rough_map_meets_the_states_of_a_gradient_flow(name):
         assert int(last.contact.sum()) == pixels
 
 
-def test_a_sphere_pulls_off_as_maugis_and_dugdale_have_it():
+@pytest.fixture(scope="module")
+def jkr_like():
     levels = np.linspace(-1.2, 0.0, 6) * UNITS.approach
-    found = ck.pull_off_curve(sphere(2.0, 32, 4.0), levels, refinements=3)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ck.ValidityWarning)
+        return ck.pull_off_curve(sphere(2.0, 32, 4.0), levels, refinements=3)
+
+
+def test_a_curve_is_drawn_with_its_jumps(jkr_like):
+    plot = pytest.importorskip("contactkit.plot.adhesion")
+    for draw in (plot.pull_off_curve, plot.contact_area):
+        lines = draw(jkr_like).get_lines()
+        dotted = [line for line in lines if line.get_linestyle() == ":"]
+        assert len(dotted) == len(jkr_like.jumps) == 2
+        labels = {line.get_label() for line in lines}
+        assert {"approach", "separation"} <= labels
+
+
+def test_a_sphere_pulls_off_as_maugis_and_dugdale_have_it(jkr_like):
+    found = jkr_like
     limits = maugis_dugdale.limits(2.0)
     assert found.pull_off_force / UNITS.load == pytest.approx(-limits.pull_off.load, rel=0.03)
     assert found.jumps[0].branch == "approach"

@@ -1,0 +1,137 @@
+"""Accuracy and cost of adhesion of maps: ``python docs/scripts/measure_adhesion.py --write``.
+
+Names select some of the tables; ``--pictures`` draws those of the page instead. Seconds are those
+of the processor on one thread.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+from measured_blocks import measure
+from PIL import Image
+from validation_tables import grid
+
+import contactkit as ck
+from contactkit.adhesion import maugis_dugdale
+from contactkit.adhesion.parameters import scales
+from contactkit.analyses.pull_off import PullOffCurve
+from contactkit.plot import adhesion as curves
+from contactkit.plot import separation as plot
+
+IMG = Path(__file__).parents[1] / "img"
+RADIUS, WORK, MODULUS = 1e-6, 0.05, 1e9
+SOLID = ck.Material(young_modulus=MODULUS, poisson_ratio=0.0)
+UNITS = scales(RADIUS, WORK, MODULUS)
+# Maugis parameter: window and levels, in the units of Maugis.
+SPHERES = {
+    0.1: (9.0, -0.4, 0.2, 13),
+    0.5: (6.0, -1.0, 0.1, 12),
+    1.0: (5.0, -1.1, 0.0, 12),
+    2.0: (5.0, -1.1, 0.0, 12),
+    5.0: (5.0, -1.1, 0.0, 12),
+}
+
+
+def scene(surface: object, law: object, window: ck.Window) -> ck.ContactScene:
+    """A rigid surface on a soft flat."""
+    return ck.ContactScene(
+        interface=ck.Interface(lower=ck.Body(solid=SOLID), upper=ck.Body(surface=surface)),  # type: ignore[arg-type]
+        window=window,
+        loading=ck.Approach(approach=0.0),
+        effects=(ck.HalfSpace(), ck.Adhesion(law=law)),  # type: ignore[arg-type]
+    )
+
+
+def sphere(transition: float, pixels: int) -> PullOffCurve:
+    """Curve of a sphere of a Maugis parameter."""
+    width, low, high, count = SPHERES[transition]
+    stress = 0.5 * transition * (math.pi * WORK * (4 / 3 * MODULUS) ** 2 / RADIUS) ** (1 / 3)
+    law = ck.DugdaleAttraction(work_of_adhesion=WORK, range=WORK / stress)
+    window = ck.Window(width=width * UNITS.radius, periodic=False)
+    plan = ck.plan(scene(ck.Paraboloid(radius=RADIUS), law, window), ck.Accuracy(grid=pixels))
+    return ck.pull_off_curve(plan, np.linspace(low, high, count) * UNITS.approach)
+
+
+def spheres() -> str:
+    """Pull-off of spheres against Maugis-Dugdale, and what the curves cost."""
+    rows = []
+    for transition in SPHERES:
+        exact = maugis_dugdale.limits(transition).pull_off.load
+        row = [f"{transition:g}", f"{-exact:.4f}"]
+        for pixels in (64, 128):
+            begin = time.process_time()
+            found = sphere(transition, pixels)
+            seconds = time.process_time() - begin
+            error = -found.pull_off_force / UNITS.load / exact - 1.0
+            states = found.approaching.load.size + found.separating.load.size - 1
+            trapping = next(v.value for v in found.validity if v.name.startswith("trapping"))
+            is_fine = trapping is not None and trapping <= 0.5
+            row.append(f"{100 * error:+.2f} %" + ("" if is_fine else f" (trapping {trapping:.1f})"))
+        row += [str(states), f"{found.n_applications / states:.0f}", f"{seconds:.0f}"]
+        rows.append(row)
+    head = ["Maugis parameter", "exact / pi w R", "64 x 64", "128 x 128"]
+    return grid([*head, "states", "applications a state", "seconds of the curve"], rows)
+
+
+def rough(rms: float, pixels: int = 64, count: int = 17, *, periodic: bool = True) -> PullOffCurve:
+    """Curve of a self-affine map of eight pixels per shortest wave."""
+    width = pixels * 8e-9
+    surface = ck.SelfAffineRoughness(rms=rms, hurst=0.8, rolloff=0.5 * width, cutoff=64e-9, seed=3)
+    law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=1e-9)
+    window = ck.Window(width=width, periodic=periodic)
+    plan = ck.plan(scene(surface, law, window), ck.Accuracy(grid=pixels))
+    far = -4e-9 - rms if periodic else -14e-9
+    levels = np.linspace(far, 0.0 if periodic else 2e-9, count)
+    return ck.pull_off_curve(plan, levels)
+
+
+def steps() -> str:
+    """Change of the loads with the number of steps, and where the loop is lost."""
+    rows = []
+    for periodic in (False, True):
+        rms = 0.6e-9 if periodic else 2e-9
+        found = {n: rough(rms, 48, n, periodic=periodic) for n in (9, 33)}
+        row = ["periodic" if periodic else "isolated"]
+        for name in ("approaching", "separating"):
+            fine, other = getattr(found[33], name), getattr(found[9], name)
+            there = [int(np.argmin(np.abs(fine.approach - one))) for one in other.approach]
+            same = np.abs(fine.approach[there] - other.approach) < 1e-15
+            change = np.abs(fine.load[there] - other.load)[same].max() / np.abs(fine.load).max()
+            row.append(f"{change:.0e}")
+        one = found[33]
+        row.append(f"{100 * sum(jump.energy_lost for jump in one.jumps) / one.loop_energy:.0f} %")
+        row.append(f"{one.loop_energy / one.plan.grid.area / WORK:.3f} w")
+        rows.append(row)
+    head = ["window", "approach, 9 or 33 levels", "separation", "of the loop in jumps", "loop"]
+    return grid(head, rows)
+
+
+def pictures() -> None:
+    """Draw a sphere and a rough map."""
+    figure, (left, right) = plot.figure(1, 2, size=(11.0, 4.6))
+    curves.pull_off_curve(sphere(2.0, 64), left)
+    plot.title(left, "sphere, Maugis parameter 2")
+    curves.pull_off_curve(rough(0.6e-9, 64, 25), right)
+    plot.title(right, "rough map, rms slope 0.02")
+    for ax in (left, right):
+        plot.legend(ax, loc="lower left")
+    picture = IMG / "adhesion-loops.png"
+    plot.save(figure, picture)
+    with Image.open(picture) as drawn:
+        drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(picture)
+
+
+TABLES = {"spheres": spheres, "steps": steps}
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore", ck.ValidityWarning)
+    if "--pictures" in sys.argv:
+        pictures()
+        sys.exit()
+    sys.exit(measure(TABLES, "adhesion "))
