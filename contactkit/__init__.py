@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from .analyses.adhesion_curve import adhesion_curve
     from .analyses.division import critical_meniscus, divide_meniscus
     from .analyses.humidity_curve import humidity_curve
+    from .analyses.load_curve import LoadCurve, load_curve
     from .analyses.load_displacement.solve import load_displacement
     from .analyses.pull_off import pull_off_curve
     from .as_published.lookup import PUBLISHED, published
@@ -157,6 +158,7 @@ _HOMES = {
     "Interface": "scene.interface",
     "IslandBridges": "contact.effects.island_bridges",
     "Layer": "scene.materials",
+    "LoadCurve": "analyses.load_curve",
     "LayeredHalfSpace": "contact.effects.elasticity",
     "LennardJonesAttraction": "contact.effects.attraction_laws",
     "LimitKind": "separation.effects.base",
@@ -200,6 +202,7 @@ _HOMES = {
     "divide_meniscus": "analyses.division",
     "divide_sliding": "separation.sliding.plan",
     "humidity_curve": "analyses.humidity_curve",
+    "load_curve": "analyses.load_curve",
     "load_liquid": "files.scenes",
     "load_material": "files.scenes",
     "load_result": "files.results",
@@ -258,6 +261,7 @@ __all__ = [
     "LennardJonesAttraction",
     "LimitKind",
     "Liquid",
+    "LoadCurve",
     "Material",
     "Measured",
     "Meniscus",
@@ -298,6 +302,7 @@ __all__ = [
     "divide_meniscus",
     "divide_sliding",
     "humidity_curve",
+    "load_curve",
     "load_displacement",
     "load_liquid",
     "load_material",

@@ -6,5 +6,6 @@ pull_off           Pull-off curve of a contact under adhesion: approach, separat
 division           Division of a meniscus into many: forces and optimal number.
 division_laws      Force laws of N equal menisci between flats, for the division.
 area_over_load     Real area of contact over the load, beside the theories of rough contact.
+load_curve         A contact under a series of loads or approaches, and its cost.
 load_displacement  Load-displacement curve of a rough contact: loading, unloading, impact.
 """

@@ -5,6 +5,7 @@ grid           Heights of surfaces on a grid, and the grid of a scene.
 prepared       Preparation of a plan, done once: heights, compliance and solver.
 plan           Plan of a contact: checked and prepared.
 solve          Solve a planned contact, and run the effects that observe it.
+chain          Chain of solves, each from those before it, loads downwards.
 validity       Ranges of validity: resolution, small slopes, small strains.
 pixel_edges    Edges between the pixels in and out of contact.
 patches        Connected spots of a contact, and the distribution of their sizes.

@@ -31,7 +31,7 @@ class Target(NamedTuple):
     """Load or approach of one solve, and its initial guess.
 
     Either a mean pressure [Pa] or an approach of the zero plane of the heights [m]. `start` is a
-    pressure (ny, nx) [Pa], or pairs of mean pressure and pressure, the newest first; `hardness`
+    pressure (ny, nx) [Pa], or pairs of load or approach and pressure, the nearest first; `hardness`
     [Pa] is that of a solution nearby.
     """
 

@@ -54,9 +54,10 @@ def solve(
     plan : ContactPlan
         What to solve.
     start : ContactResult or sequence of them, optional
-        Results nearby, such as those of the loads before, the newest first: where the solve
-        begins. Of several under other loads the pressure is extrapolated. With `Adhesion`, which
-        may have several states, it also decides which of them is found.
+        Results nearby, such as those of the loads before, the nearest first: where the solve
+        begins. Of several under other loads or approaches the pressure is extrapolated;
+        `load_curve` does this for a series of loads. With `Adhesion`, which may have several
+        states, it also decides which of them is found.
     throw : bool
         Raise where the tolerance is not reached; otherwise return what was reached, with status
         ``not converged``.
@@ -131,8 +132,12 @@ def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | 
     if before and before[0].has(HardnessLimit):
         hardness = before[0].of(HardnessLimit).hardness
         near = hardness if isinstance(hardness, float) else None
-    pressures = [(one.mean_pressure, one.pressure) for one in before] or None
-    return Target(plan.mean_pressure, plan.rigid_approach, pressures, near)
+    load, approach = plan.mean_pressure, plan.rigid_approach
+    known = [
+        (one.mean_pressure if load is not None else one.rigid_approach, one.pressure)
+        for one in before
+    ]
+    return Target(load, approach, known or None, near)
 
 
 def _attracted(

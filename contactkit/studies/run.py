@@ -16,13 +16,13 @@ from typing import Any, NamedTuple
 from attrs import frozen
 
 from ..accuracy import Accuracy
+from ..contact.chain import ContactChain
 from ..contact.plan import ContactPlan, unprepared_plan
-from ..contact.result import ContactResult
-from ..contact.solve import solve
 from ..errors import ContactkitError, ConvergenceError, InfeasibleError
 from ..files.results import AnyResult, to_bytes
 from ..planning import plan
 from ..scene.scenes import ContactScene
+from ..scene.validity import warn
 from ..separation.simulate import simulate
 from .paths import Scene, changed
 from .store import Store, StudyPoint
@@ -58,16 +58,13 @@ class Task(NamedTuple):
 
 @frozen(eq=False)
 class Piece:
-    """Points that are solved in sequence, each starting from the solution of the one before."""
+    """Points that are solved in sequence, each starting from the solutions before it."""
 
     scene: Scene
     accuracy: Accuracy
     tasks: tuple[Task, ...]
     store: Store | None
     keeps_maps: bool
-
-
-_MAX_BEFORE = 3  # results from which an initial guess is extrapolated
 
 
 class Done(NamedTuple):
@@ -79,11 +76,11 @@ class Done(NamedTuple):
 
 
 class _Chain:
-    """State passed from one solve to the next: plan, and pressures for the initial guess."""
+    """State passed from one solve to the next: plan, and contacts for the initial guess."""
 
     def __init__(self) -> None:
         self._plan: ContactPlan | None = None
-        self._before: list[ContactResult] = []
+        self._contacts = ContactChain()
 
     def run(self, scene: Scene, accuracy: Accuracy) -> AnyResult:
         if not isinstance(scene, ContactScene):
@@ -91,10 +88,10 @@ class _Chain:
         made = unprepared_plan(scene, accuracy)
         if self._plan is not None and not made.has_interface_of(self._plan):
             self._plan = None  # before the next one, so that two solvers are never in memory
-            self._before = [r for r in self._before if r.pressure.shape == made.grid.shape][:1]
+            self._contacts.change_interface()
         self._plan = made.prepare(like=self._plan)
-        result = solve(self._plan, start=self._before)
-        self._before = [result, *self._before[: _MAX_BEFORE - 1]]
+        result = self._contacts.solve(self._plan)
+        warn(result.validity)
         return result
 
 

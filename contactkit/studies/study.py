@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, overload
 from attrs import evolve
 
 from ..accuracy import Accuracy
+from ..contact.chain import downwards, imposed
 from ..contact.plan import unprepared_plan
 from ..errors import DescriptionError, InfeasibleError, PlanError, ValidityWarning
 from ..files.results import from_bytes
@@ -97,9 +98,10 @@ def study(
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
         library. Paths that vary together are one key, separated by commas, with a row of values
         for each step: ``"loading.pressure, accuracy.rtol": [("1 MPa", 1e-8), ("2 MPa", 1e-9)]``.
-        Along the last key each contact starts from the solution at the value before, and reuses
-        heights and compliance where these are equal: choose the load, in steps of less than a
-        half, because an initial guess from further away does not help.
+        Along the last key each contact starts from the solutions before it, and reuses heights and
+        compliance where these are equal: choose the load, in steps of less than a half, because an
+        initial guess from further away does not help. Loads are solved downwards, as in
+        `load_curve`, which is simpler where nothing else varies.
     accuracy : Accuracy, optional
         Numerical settings; default `Accuracy.standard`.
     store : str or Path, optional
@@ -211,6 +213,7 @@ class _Run:
     ) -> None:
         self.scene, self.accuracy, self.varied = scene, accuracy, varied
         self.store, self.keeps_maps, self.progress = store, keeps_maps, progress
+        self.loads: dict[int, float] = {}  # or approaches, of contacts
         self.tasks = [self._task(i, values) for i, values in enumerate(combinations(varied))]
         self.points: dict[int, StudyPoint] = {}
         self.results: dict[int, AnyResult] = {}
@@ -224,6 +227,8 @@ class _Run:
     def _task(self, index: int, values: dict[str, Any]) -> Task:
         """Build the scene of a point, so that an invalid value is refused before any solve."""
         made = changed(self.scene, self.accuracy, values)
+        if isinstance(made[0], ContactScene):
+            self.loads[index] = imposed(made[0].loading).value
         return Task(index, values, self.store.key(*made) if self.store is not None else "")
 
     def _fetch(self, store: Store, task: Task) -> None:
@@ -244,18 +249,24 @@ class _Run:
             )
 
     def pieces(self, slots: int) -> list[Piece]:
-        """Chains of points to solve, divided if there are more slots than chains."""
+        """Chains of points to solve, downwards, divided if there are more slots than chains."""
         length = len(self.varied[-1].values)
         left = [task for task in self.tasks if task.place not in self.points]
         chains = [
             list(chain) for _, chain in itertools.groupby(left, lambda task: task.place // length)
         ]
+        if isinstance(self.scene, ContactScene):
+            chains = [self._ordered(self.scene, chain) for chain in chains]
         parts = math.ceil(slots / max(len(chains), 1))
         return [
             Piece(self.scene, self.accuracy, tuple(cut), self.store, self.keeps_maps)
             for chain in chains
             for cut in _cut(chain, parts)
         ]
+
+    def _ordered(self, scene: ContactScene, chain: list[Task]) -> list[Task]:
+        order = downwards([self.loads[task.place] for task in chain], scene)
+        return [chain[i] for i in order]
 
     def check(self, pieces: list[Piece]) -> None:
         """Refuse effects that do not fit the scene before any solve, and report progress."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.contact import chain
 from contactkit.files import contact_results as contact_archive
 from contactkit.studies import run as study_run
 
@@ -46,7 +47,7 @@ def nothing_solved(monkeypatch):
     def solve(*arguments, **named):
         raise AssertionError("something was solved")
 
-    monkeypatch.setattr(study_run, "solve", solve)
+    monkeypatch.setattr(chain, "solve_unwarned", solve)
     monkeypatch.setattr(study_run, "unprepared_plan", solve)
 
 
@@ -140,7 +141,7 @@ def test_an_error_that_is_not_ours_is_not_swallowed(monkeypatch):
     def solve(*arguments, **named):
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr(study_run, "solve", solve)
+    monkeypatch.setattr(chain, "solve_unwarned", solve)
     with pytest.raises(ZeroDivisionError, match="a bug"):
         ck.study(contact(), {"loading.pressure": [1e9, 2e9]}, ACCURACY)
 
@@ -148,12 +149,12 @@ def test_an_error_that_is_not_ours_is_not_swallowed(monkeypatch):
 DIES = """
 import os, sys
 import contactkit as ck
-from contactkit.studies import run as study_run
+from contactkit.contact import chain
 
 sys.path.insert(0, sys.argv[1])
 import test_study_errors as scenes
 
-study_run.solve = lambda *arguments, **named: os._exit(1)  # in the workers too
+chain.solve_unwarned = lambda *arguments, **named: os._exit(1)  # in the workers too
 if __name__ == "__main__":
     try:
         ck.study(scenes.contact(), {"loading.pressure": [1e9, 2e9]}, scenes.ACCURACY, workers=2)

@@ -18,6 +18,7 @@ from contactkit.contact.solver.warm_start import initial_pressure
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
 MARGIN = 1.15
+PIXEL = 2.5e-6 / 128  # [m]
 LOAD = 1e8  # [Pa]: the patches of contact are too many pixels for a direct solve
 
 
@@ -26,7 +27,7 @@ def planned(*effects, pressure=LOAD, grid=128, rtol=1e-8, scene=None):
     opened = scene or open_scene("head-disk").scene
     made = attrs.evolve(
         opened,
-        window=ck.Window(width=2.5e-6),
+        window=ck.Window(width=grid * PIXEL),
         loading=ck.Pressing(pressure=pressure),
         effects=(ck.LayeredHalfSpace(), *effects),
     )
@@ -97,6 +98,113 @@ def test_friction_that_causes_nothing_is_solved_to_the_tolerance():
     assert found.of(ck.FrictionCoupling).pressure_change < 1e-4
 
 
+# Load curves ----------------------------------------------------------------------------------
+
+
+def curve_and_cold(plan, pressures, rtol):
+    """A curve of contacts, and the applications of the same ones solved alone."""
+    curve = ck.load_curve(plan, pressures=pressures, rtol=rtol, keep_maps=True)
+    exact = attrs.evolve(plan, accuracy=attrs.evolve(plan.accuracy, rtol=rtol))
+    alone = [ck.solve(exact.with_loading(ck.Pressing(pressure=p))) for p in pressures]
+    return curve, alone
+
+
+@pytest.mark.parametrize(("rtol", "goal"), [(1e-5, 12.0), (1e-8, 15.0)])
+def test_a_load_curve_costs_less_than_its_points(rtol, goal):
+    """Twenty loads over a factor of five, given in any order."""
+    pressures = np.random.default_rng(1).permutation(np.geomspace(0.2, 1.0, 20) * LOAD)
+    curve, alone = curve_and_cold(planned(), pressures, rtol)
+    largest = max(applications(one) for one in alone)
+    assert curve.applications.sum() <= goal * MARGIN * largest
+    assert curve.applications.sum() <= 0.8 * sum(applications(one) for one in alone)
+    assert curve.mean_pressure == pytest.approx(pressures)
+    assert np.all(curve.columns["residual"] <= rtol)
+    assert np.all(curve.seconds > 0.0)
+    for one, single in zip(curve.results, alone, strict=True):
+        np.testing.assert_allclose(
+            one.pressure, single.pressure, atol=100.0 * rtol * single.max_pressure
+        )
+
+
+def test_the_columns_are_those_of_the_results():
+    curve = ck.load_curve(planned(grid=48), pressures=[1e7, 1e8, 3e7], keep_maps=True)
+    results = curve.results
+    for name in ("load", "mean_pressure", "approach", "contact_area", "max_pressure"):
+        assert getattr(curve, name) == pytest.approx([getattr(one, name) for one in results])
+        assert name in curve.units
+    assert curve.applications.tolist() == [applications(one) for one in results]
+    assert np.all(np.diff(curve.contact_area[[0, 2, 1]]) > 0.0)
+    with pytest.raises(ck.NotSimulatedError, match="keep_maps=True"):
+        _ = ck.load_curve(planned(grid=32), loads=[1e-4]).results
+
+
+def test_hard_loads_of_a_curve_are_those_of_single_solves():
+    """None, tiny, jumps by a million, and nearly full contact."""
+    full = 3e11
+    pressures = [0.0, 1e2, full, 1e8, 1e8, 1e2, 1.01e8]
+    curve, alone = curve_and_cold(planned(grid=48), pressures, 1e-8)
+    for one, single in zip(curve.results, alone, strict=True):
+        assert one.status == single.status
+        np.testing.assert_allclose(
+            one.pressure, single.pressure, atol=1e-6 * max(single.max_pressure, 1e-300)
+        )
+    assert curve.columns["contact_fraction"][[0, 2]] == pytest.approx([0.0, 1.0])
+
+
+def test_a_curve_up_to_the_hardness_costs_no_more_than_its_points():
+    """Where much is plastic the nested grids start better, and are what is used."""
+    hardness = 2e10
+    plan = planned(ck.HardnessLimit(rule="constant", hardness=hardness))
+    pressures = hardness * np.array([0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.999, 0.999999])
+    curve, alone = curve_and_cold(plan, pressures, 1e-8)
+    assert curve.applications.sum() <= MARGIN * sum(applications(one) for one in alone)
+    for one, single in zip(curve.results, alone, strict=True):
+        np.testing.assert_allclose(one.pressure, single.pressure, atol=1e-6 * hardness)
+    with pytest.raises(ck.InfeasibleError, match="hardness"):
+        ck.load_curve(plan, pressures=[1e7, 1.01 * hardness])
+
+
+def test_a_curve_over_approaches_agrees_with_that_over_its_loads():
+    plan = planned(grid=64)
+    approaches = ck.load_curve(plan, pressures=np.geomspace(0.3, 1.0, 8) * LOAD).approach
+    curve = ck.load_curve(plan, approaches=approaches)
+    assert curve.mean_pressure == pytest.approx(np.geomspace(0.3, 1.0, 8) * LOAD, rel=1e-6)
+
+
+def test_effects_keep_their_numbers_along_a_curve():
+    effects = ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling(), pulling()
+    plan = planned(*effects, grid=48)
+    pressures = [1e7, 3e7, 2e7]
+    curve = ck.load_curve(plan, pressures=pressures)
+    for i, pressure in enumerate(pressures):
+        alone = ck.solve(plan.with_loading(ck.Pressing(pressure=pressure))).scalars()
+        for name in ("friction_force", "meniscus_force", "coupling_pressure_change"):
+            assert curve.columns[name][i] == pytest.approx(alone[name][0], rel=1e-4)
+
+
+def test_a_curve_warns_once_of_each_number(recwarn):
+    ck.load_curve(planned(grid=32), pressures=[1e7, 2e7, 4e7])
+    names = [str(one.message).split(" = ")[0] for one in recwarn]
+    assert names
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "none"),
+        ({"loads": [1.0], "approaches": [1e-9]}, r"one of loads \[N\], pressures \[Pa\]"),
+        ({"loads": []}, "one value or more"),
+        ({"pressures": [1e7, -1.0]}, "pressure"),
+        ({"pressures": [1e7, float("nan")]}, "pressure"),
+        ({"pressures": [1e7], "rtol": 2.0}, "rtol"),
+    ],
+)
+def test_impossible_series_are_refused(given, message):
+    with pytest.raises(ck.DescriptionError, match=message):
+        ck.load_curve(planned(grid=16), **given)
+
+
 # Initial guesses ------------------------------------------------------------------------------
 
 
@@ -105,12 +213,20 @@ def test_an_extrapolation_uses_no_more_solutions_than_it_can_trust():
     near = 1.0, np.ones((2, 2))
     almost = 1.0 + 1e-9, 1.1 * np.ones((2, 2))
     lighter = 0.9, 0.9 * np.ones((2, 2))
-    np.testing.assert_array_equal(initial_pressure([near, almost], 1.1, (2, 2)), near[1])
-    found = initial_pressure([near, lighter], 1.1, (2, 2))
+    np.testing.assert_array_equal(initial_pressure([near, almost], 1.1, True, (2, 2)), near[1])
+    found = initial_pressure([near, lighter], 1.1, True, (2, 2))
     assert found == pytest.approx(np.full((2, 2), 1.0 + 0.1 * np.log(1.1) / -np.log(0.9)))
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 0.3, 3.0, 1e6])
 def test_a_load_far_away_starts_from_the_nested_grids(ratio):
     known = [(1.0, np.ones((2, 2))), (0.9, np.ones((2, 2)))]
-    assert initial_pressure(known, ratio, (2, 2)) is None
+    assert initial_pressure(known, ratio, True, (2, 2)) is None
+
+
+def test_pixels_at_the_bound_stay_there_in_an_extrapolation():
+    """In round-off below it they would count as free."""
+    plan = planned(ck.HardnessLimit(rule="constant", hardness=2e10), pressure=3e9)
+    results = [ck.solve(plan.with_loading(ck.Pressing(pressure=p))) for p in (3.6e9, 3.4e9, 3.2e9)]
+    cold = applications(ck.solve(plan))
+    assert applications(ck.solve(plan, start=results[::-1])) <= MARGIN * cold

@@ -1,20 +1,22 @@
-"""Computation of a load-displacement curve: contacts under rising loads, and unloading curves.
+"""Computation of a load-displacement curve: contacts under a series of loads, unloading curves.
 
-Loads or approaches are solved in sequence, each starting from the solution before. Where pixels
-have yielded, the heights are reduced by the overlap for which plastic flow has made room; the
-elastic contact of that surface is the unloading curve.
+Loads or approaches are solved in sequence, downwards, each starting from the solutions before.
+Where pixels have yielded, the heights are reduced by the overlap for which plastic flow has made
+room; the elastic contact of that surface is the unloading curve.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from attrs import asdict, evolve
+from attrs import evolve
 
 from ...accuracy import Accuracy
+from ...contact.chain import ContactChain, imposed, loading_of
 from ...contact.effects.base import (
     Attraction,
     Compliance,
@@ -26,10 +28,9 @@ from ...contact.effects.base import (
 from ...contact.effects.plasticity import HardnessLimit
 from ...contact.plan import ContactPlan, plan_contact
 from ...contact.result import ContactResult
-from ...contact.solve import solve_unwarned
+from ...contact.solver.warm_start import MAX_SOLUTIONS
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
 from ...numerics.monotone_cubic import power_curve
-from ...scene.loading import Approach, ContactLoading, Pressing
 from ...scene.plan import check_scene
 from ...scene.scenes import ContactScene
 from ...scene.validity import warn
@@ -44,7 +45,6 @@ __all__ = ["load_displacement"]
 
 Progress = Callable[[float], None]
 
-_MAX_BEFORE = 2
 # Fractions of the distance from the residual to the maximum approach; 1 is known.
 _FRACTIONS = (0.01, 0.025, 0.05, 0.09, 0.15, 0.23, 0.33, 0.45, 0.58, 0.72, 0.86)
 
@@ -148,24 +148,23 @@ def load_displacement(
     scene = _without_observers(scene)
     key, values = _series(scene, loads, approaches, points, decades)
     n_unloadings = _count("unloadings", unloadings, 1)
-    last = evolve(scene, loading=_loading(key, values[-1]))
+    last = evolve(scene, loading=loading_of(key, values[-1]))
     plan = plan_contact(last, accuracy)  # refuses the maximum load before any solve
     report = progress or (lambda fraction: None)
-    nodes: list[_Node] = []
-    before: list[ContactResult] = []
-    # With a pressure bound, nested grids are a better start than the loads before.
-    is_bounded = plan.hardness is not None
-    for i, value in enumerate(values):
-        result = solve_unwarned(plan.with_loading(_loading(key, value)), start=before or None)
-        before = [] if is_bounded else [result, *before][:_MAX_BEFORE]
+    chain, nodes = ContactChain(), list[_Node]()
+    for i, value in enumerate(reversed(values)):
+        result = chain.solve(plan.with_loading(loading_of(key, value)))
+        if i == 0:
+            warn(result.validity)  # at the largest load; under a light one a spot is a pixel
         if result.load > 0.0:
-            nodes.append(_node(result, nodes))
+            nodes.insert(0, _node(result))
         report(0.5 * (i + 1) / len(values))
     if len(nodes) < 2:
         raise InfeasibleError(
             f"only {len(nodes)} of {len(values)} points touch; impose larger loads or approaches"
         )
-    warn(result.validity)  # at the largest load; under a light one a spot is a pixel
+    for before, node in pairwise(nodes):
+        _check_grows(before, node)
     computed = _unloadings(plan, nodes, n_unloadings, report)
     return _tables(plan, nodes, computed, result.approach_datum)
 
@@ -214,7 +213,7 @@ def _series(
     _count("points", points, 4)
     if not (math.isfinite(decades) and decades > 0.0):
         raise DescriptionError("load_displacement(decades)", decades, "be positive and finite")
-    key, last = _imposed(scene.loading)
+    key, last = imposed(scene.loading)
     if last <= 0.0:
         where = f"{type(scene.loading).__name__}.{key}"
         raise DescriptionError(where, last, "be positive for a load-displacement curve")
@@ -222,36 +221,30 @@ def _series(
     return key, [float(x) for x in np.geomspace(last * 10.0**-reach, last, points)]
 
 
-def _imposed(loading: ContactLoading) -> tuple[str, float]:
-    """Name and value of the imposed quantity."""
-    given = asdict(loading)
-    return next((name, value) for name, value in given.items() if value is not None)
-
-
-def _loading(key: str, value: float) -> ContactLoading:
-    return Approach(approach=value) if key == "approach" else Pressing(**{key: value})
-
-
-def _node(result: ContactResult, nodes: list[_Node]) -> _Node:
-    before = nodes[-1].approach if nodes else 0.0
-    if result.approach <= before * (1.0 + 1e-9):
-        raise InfeasibleError(
-            f"at {result.load:.6g} N the approach of {result.approach:.6g} m no longer grows: in "
-            "full contact a periodic window has no approach of its own, and flat faces have none "
-            "at all; end the loads below that, or use a window that is not periodic"
-        )
+def _node(result: ContactResult) -> _Node:
     area, overlap = 0.0, None
     if result.has(HardnessLimit) and result.plastic_area > 0.0:
         area, overlap = result.plastic_area, result.of(HardnessLimit).overlap
-    earlier = nodes[-1].overlap if nodes else None
-    if earlier is not None and (overlap is None or overlap.sum() < 0.999 * earlier.sum()):
+    return _Node(result.approach, result.load, result.contact_area, area, result.pressure, overlap)
+
+
+def _check_grows(before: _Node, node: _Node) -> None:
+    """Refuse points that no table can join."""
+    if node.approach <= before.approach * (1.0 + 1e-9):
         raise InfeasibleError(
-            f"at {result.load:.6g} N the plastic spots are smaller than at {nodes[-1].force:.6g} "
+            f"at {node.force:.6g} N the approach of {node.approach:.6g} m no longer grows: in "
+            "full contact a periodic window has no approach of its own, and flat faces have none "
+            "at all; end the loads below that, or use a window that is not periodic"
+        )
+    if before.overlap is None:
+        return
+    if node.overlap is None or node.overlap.sum() < 0.999 * before.overlap.sum():
+        raise InfeasibleError(
+            f"at {node.force:.6g} N the plastic spots are smaller than at {before.force:.6g} "
             "N: the hardness grows with the load, and residual indentations of smaller loads are "
             "lost; use HardnessLimit(rule='material') or rule='constant', or end the loads below "
             "that"
         )
-    return _Node(result.approach, result.load, result.contact_area, area, result.pressure, overlap)
 
 
 def _unloadings(
@@ -307,13 +300,14 @@ def _unloading(plan: ContactPlan, node: _Node, overlap: Map) -> Unloading:
     touch = float(deformed.max())
     residual = float(heights.max()) - touch
     length, pixel = node.approach - residual, plan.grid.pixel_area
-    start, found = node.pressure, [(1.0, 1.0, 1.0)]
+    known, found = [(length - touch, node.pressure)], [(1.0, 1.0, 1.0)]
     for fraction in reversed(_FRACTIONS):
+        approach = fraction * length - touch
         solution = plan.prepared.solver.solve(
             plan.prepared.open(deformed),
-            rigid_approach=fraction * length - touch,
+            rigid_approach=approach,
             rtol=accuracy.rtol,
-            start=start,
+            start=known,
             max_iterations=accuracy.max_iterations,
             method=accuracy.method,
         )
@@ -324,9 +318,10 @@ def _unloading(plan: ContactPlan, node: _Node, overlap: Map) -> Unloading:
                 "Accuracy.max_iterations or rtol",
                 solution,
             )
-        start = solution.pressure
-        force = float(start.sum()) * pixel / node.force
-        area = float((start > 0.0).sum()) * pixel / node.contact_area
+        p = solution.pressure
+        known = [(approach, p), *known][:MAX_SOLUTIONS]
+        force = float(p.sum()) * pixel / node.force
+        area = float((p > 0.0).sum()) * pixel / node.contact_area
         if not 0.0 < force <= found[-1][1]:
             break  # no contact to the tolerance: below, the power law holds
         found.append((fraction, force, min(area, found[-1][2])))

@@ -35,6 +35,7 @@ REFERENCE: dict[str, Callable[..., Iterate]] = {  # the fallback, or the method 
     "quasi-newton": quasi_newton,
 }
 COARSE_RTOL = 2e-2  # on coarser grids, which only provide the initial guess of the next
+AT_BOUND = 1e-9  # fraction of the bound by which an extrapolation misses it in round-off
 MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution is the better start
 
 
@@ -183,8 +184,9 @@ class ContactSolver:
             Largest violation of a contact condition to accept, over `optimality.height_scale` [-].
         start : ndarray (ny, nx) or sequence of (float, ndarray), optional
             Initial pressures [Pa], instead of those of the nested grids; or pairs of mean pressure
-            and pressures of earlier solutions, newest first, to be extrapolated. Not used where
-            much of the contact is at its bound: the nested grids are the better start there.
+            (rigid-body approach, if that is prescribed) and pressures of earlier solutions, the
+            best first, to be extrapolated. Not used far from them, or where much of the contact
+            is at its bound: the nested grids are the better start there.
         max_iterations : int
             Maximum number of iterations of the fallback, or of a reference method.
         method : {"active-set", "conjugate-gradient", "quasi-newton"}
@@ -212,7 +214,7 @@ class ContactSolver:
         self._refuse_closed_gap(problem)
         with self._lock:
             begun = time.perf_counter()
-            started = self._reset(problem, start, mean_pressure)
+            started = self._reset(problem, start, mean_pressure, rigid_approach)
             p = known_pressure(problem)
             if p is not None:
                 self.grids[0].pressure[...] = p
@@ -243,19 +245,29 @@ class ContactSolver:
                 "map is closed under any load; prescribe the load instead"
             )
 
-    def _reset(self, problem: Problem, start: Start | None, mean_pressure: float | None) -> bool:
+    def _reset(
+        self,
+        problem: Problem,
+        start: Start | None,
+        mean_pressure: float | None,
+        rigid_approach: float | None,
+    ) -> bool:
         """Reset the counters; whether a good initial guess is on the finest grid."""
         for grid in self.grids:
             grid.reset()
         if start is None:
             return False
-        first = initial_pressure(start, mean_pressure, self.shape)
+        imposed = rigid_approach if mean_pressure is None else mean_pressure
+        first = initial_pressure(start, imposed or 0.0, mean_pressure is not None, self.shape)
         if first is None:
             return False
-        p = fit(first.ravel() / problem.pressure, problem)
+        p = first.ravel() / problem.pressure
+        at_bound = p > problem.upper * (1.0 - AT_BOUND)
+        p = fit(np.where(at_bound, problem.upper, p), problem)
         self.grids[0].pressure[...] = p.reshape(self.shape)
         # With few free pixels left to take up the change of load, these overshoot.
-        return bool(np.count_nonzero(p >= problem.upper) <= MOST_AT_BOUND * np.count_nonzero(first))
+        n_at_bound = max(np.count_nonzero(at_bound), np.count_nonzero(p >= problem.upper))
+        return bool(n_at_bound <= MOST_AT_BOUND * np.count_nonzero(first))
 
     def _from_coarse_grids(self, problem: Problem) -> None:
         """Nested iteration: solve roughly on ever finer grids, for a guess on the finest."""

@@ -1,4 +1,4 @@
-"""Warm start of a load curve: pressures extrapolated from those under the previous loads.
+"""Warm start of a load curve: pressures extrapolated from those under other loads.
 
 Sign convention: pressure positive.
 """
@@ -23,22 +23,25 @@ FARTHEST_ALONE = 0.15  # the same from a single solution
 
 
 def initial_pressure(
-    start: Start, mean_pressure: float | None, shape: tuple[int, int]
+    start: Start, imposed: float, is_load: bool, shape: tuple[int, int]
 ) -> Floats | None:
-    r"""Pressures under a load from one map, or extrapolated from solutions under other loads.
+    r"""Pressures from one map, or extrapolated from solutions under other loads or approaches.
 
-    .. math:: p(\bar p) = \sum_i p_i \prod_{j \ne i}
-        \frac{\ln \bar p - \ln \bar p_j}{\ln \bar p_i - \ln \bar p_j}
+    .. math:: p(x) = \sum_i p_i \prod_{j \ne i} \frac{x - x_j}{x_i - x_j}
 
-    on the pixels in contact under the first load; negative values are set to zero.
+    with the logarithm of the mean pressure, or the approach, as x, on the pixels in contact in the
+    first solution; negative values are set to zero.
 
     Parameters
     ----------
     start : ndarray (ny, nx) or sequence of (float, ndarray)
-        Pressures [Pa]; or pairs of mean pressure and pressures, the best first, of which three
-        are used, and fewer where the extrapolation would amplify their errors.
-    mean_pressure : float or None
-        Load to extrapolate to [Pa]; without it the first pressures are taken.
+        Pressures [Pa]; or pairs of mean pressure [Pa], or rigid-body approach [m], and pressures,
+        the best first, of which three are used, and fewer where the extrapolation would amplify
+        their errors.
+    imposed : float
+        Mean pressure [Pa] or rigid-body approach [m] to extrapolate to.
+    is_load : bool
+        Which of the two it is.
     shape : tuple of int
         Required shape.
 
@@ -55,38 +58,54 @@ def initial_pressure(
     Examples
     --------
     >>> pairs = (4.0, np.full((1, 1), 3.0)), (3.0, np.full((1, 1), 2.5))
-    >>> found = initial_pressure(pairs, 5.0, (1, 1))
-    >>> round(float(found[0, 0]), 3)
+    >>> round(float(initial_pressure(pairs, 5.0, True, (1, 1))[0, 0]), 3)
     3.388
-    >>> initial_pressure(pairs, 50.0, (1, 1)) is None
+    >>> round(float(initial_pressure(pairs, 5.0, False, (1, 1))[0, 0]), 3)
+    3.5
+    >>> initial_pressure(pairs, 50.0, True, (1, 1)) is None
     True
     """
-    pairs = [(np.nan, start)] if isinstance(start, np.ndarray) else list(start)[:MAX_SOLUTIONS]
+    pairs = [(None, start)] if isinstance(start, np.ndarray) else list(start)[:MAX_SOLUTIONS]
     maps = [np.asarray(p, dtype=np.float64) for _, p in pairs]
     for p in maps or [np.zeros(0)]:
         if p.shape != shape or not np.all(np.isfinite(p)):
             raise DescriptionError("start", p.shape, f"be a finite map of shape {shape}")
-    loads = [float(load) for load, _ in pairs]
-    if mean_pressure is None or mean_pressure <= 0.0 or not loads[0] > 0.0:
+    given = [value for value, _ in pairs if value is not None]
+    if not given or given[0] == imposed:
         return maps[0]
-    at, here = [float(np.log(loads[0]))], float(np.log(mean_pressure))
-    if abs(here - at[0]) > FARTHEST:
+    if is_load and not (imposed > 0.0 and min(given) > 0.0):
         return None
-    weights = np.ones(1)
-    for load in loads[1:]:
-        if not load > 0.0 or load in loads[: len(at)]:
-            break
-        trial = [*at, float(np.log(load))]
-        found = _weights(trial, here)
-        if np.abs(found).sum() > MOST_WEIGHT:
-            break
-        at, weights = trial, found
-    if len(at) == 1 and abs(here - at[0]) > FARTHEST_ALONE:
-        return None
+    known = [float(np.log(value)) if is_load else float(value) for value in given]
+    weights = _trusted_weights(known, float(np.log(imposed)) if is_load else float(imposed))
     out = np.zeros(shape)
     for weight, p in zip(weights, maps, strict=False):
         out += weight * p
-    return np.where(maps[0] > 0.0, np.maximum(out, 0.0), 0.0)
+    out[maps[0] <= 0.0] = 0.0
+    np.maximum(out, 0.0, out=out)
+    return out if _is_near(imposed if is_load else None, given, maps, out, len(weights)) else None
+
+
+def _is_near(
+    load: float | None, given: list[float], maps: list[Floats], out: Floats, used: int
+) -> bool:
+    """Whether the extrapolation is short enough to start better than the nested grids."""
+    if load is not None:
+        return abs(float(np.log(load / given[0]))) <= (FARTHEST if used > 1 else FARTHEST_ALONE)
+    before, now = float(maps[0].sum()), float(out.sum())
+    return used > 1 and min(before, now) > 0.0 and abs(float(np.log(now / before))) <= FARTHEST
+
+
+def _trusted_weights(at: list[float], here: float) -> Floats:
+    """Weights of as many of the values at some points as do not amplify errors by much."""
+    weights = np.ones(1)
+    for n in range(2, len(at) + 1):
+        if at[n - 1] in at[: n - 1]:
+            break
+        found = _weights(at[:n], here)
+        if np.abs(found).sum() > MOST_WEIGHT:
+            break
+        weights = found
+    return weights
 
 
 def _weights(at: list[float], here: float) -> Floats:
