@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from .analyses.adhesion_curve import adhesion_curve
     from .analyses.division import critical_meniscus, divide_meniscus
     from .analyses.humidity_curve import humidity_curve
-    from .analyses.load_curve import LoadCurve, load_curve
+    from .analyses.load_curve import load_curve
     from .analyses.load_displacement.solve import load_displacement
     from .analyses.pull_off import pull_off_curve
     from .as_published.lookup import PUBLISHED, published
@@ -158,7 +158,6 @@ _HOMES = {
     "Interface": "scene.interface",
     "IslandBridges": "contact.effects.island_bridges",
     "Layer": "scene.materials",
-    "LoadCurve": "analyses.load_curve",
     "LayeredHalfSpace": "contact.effects.elasticity",
     "LennardJonesAttraction": "contact.effects.attraction_laws",
     "LimitKind": "separation.effects.base",
@@ -261,7 +260,6 @@ __all__ = [
     "LennardJonesAttraction",
     "LimitKind",
     "Liquid",
-    "LoadCurve",
     "Material",
     "Measured",
     "Meniscus",

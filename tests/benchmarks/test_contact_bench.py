@@ -5,6 +5,7 @@ from __future__ import annotations
 import tracemalloc
 
 import attrs
+import numpy as np
 import pytest
 from peers.cases import case
 
@@ -78,6 +79,73 @@ def test_curve_of_ten_loads(benchmark):
         ck.study, (scene, {"loading.pressure": loads}, ck.Accuracy(grid=N)), rounds=3
     )
     assert {point.status for point in found.points} == {"converged"}
+
+
+PLATE = ck.Material(name="plate", young_modulus=100 * 210e9, poisson_ratio=0.3)
+ON_STEEL = ck.Stack(layers=(ck.Layer(material=PLATE, thickness=3e-9),), substrate=STEEL)
+SERIES = {
+    "0.1-to-2": np.linspace(0.1, 2.0, 20),
+    "0.2-to-1": np.geomspace(0.2, 1.0, 20),
+    "0.01-to-1": np.geomspace(0.01, 1.0, 20),
+}
+SOLIDS = {
+    "half-space": (STEEL, "selfaffine", None, 1.0),
+    "half-space-rough-to-the-pixel": (STEEL, "expacf", None, 1.0),
+    "film-of-100": (ON_STEEL, "selfaffine", None, 3.0),
+    "half-space-with-hardness": (STEEL, "selfaffine", 0.1 * MODULUS, 1.0),
+}
+
+
+@pytest.mark.parametrize("rtol", [1e-5, 1e-8])
+@pytest.mark.parametrize("series", SERIES)
+@pytest.mark.parametrize("name", SOLIDS)
+def test_chain_of_twenty_loads(benchmark, name, series, rtol):
+    """Cost of a curve in single solves at its largest load but one, and of each point."""
+    solid, kind, hardness, factor = SOLIDS[name]
+    given = case(kind, N, "periodic", 5)
+    effects = [ck.HalfSpace() if solid is STEEL else ck.LayeredHalfSpace()]
+    if hardness is not None:
+        effects.append(ck.HardnessLimit(rule="constant", hardness=hardness))
+    base = given.load * MODULUS * factor
+    scene = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=solid),
+            upper=ck.Body(surface=ck.Heights(heights=given.heights * 1e-6, pixel_size=1e-6 / N)),
+        ),
+        loading=ck.Pressing(pressure=base),
+        effects=tuple(effects),
+    )
+    plan = ck.plan(scene, ck.Accuracy(rtol=rtol))
+    cold = ck.solve(plan).work.n_operator_applications
+    curve = benchmark.pedantic(
+        ck.load_curve, (plan,), {"pressures": base * SERIES[series]}, rounds=1
+    )
+    total = int(curve.applications.sum())
+    benchmark.extra_info |= {
+        "cold solve": cold,
+        "curve": total,
+        "in cold solves": round(total / cold, 1),
+        "points": " ".join(map(str, curve.applications)),
+    }
+    assert total <= 23 * cold
+
+
+CHAINS = {
+    "film": (ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True),),
+    "friction-0.1": (ck.FrictionTraction(coefficient=0.1), ck.FrictionCoupling()),
+    "friction-0.3": (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling()),
+    "friction-1": (ck.FrictionTraction(coefficient=1.0), ck.FrictionCoupling()),
+}
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_chain_to_a_balance(benchmark, name):
+    """Cost of a contact that depends on its own pressure, in dry solves."""
+    dry = ck.solve(planned(head_disk())).work.n_operator_applications
+    found = benchmark.pedantic(ck.solve, (planned(head_disk(*CHAINS[name])),), rounds=1)
+    total = found.work.n_operator_applications
+    benchmark.extra_info |= {"dry solve": dry, "in dry solves": round(total / dry, 2)}
+    assert total <= 4 * dry
 
 
 def test_memory_of_a_press(benchmark, one_map):
