@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..contact.effects.base import Attraction
 from ..contact.effects.elasticity import HalfSpace
 from ..contact.result import ContactResult
 from ..errors import DescriptionError
@@ -109,6 +110,10 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
 def _check(result: ContactResult, first: ContactResult) -> None:
     if not result.load > 0.0:
         raise DescriptionError("area_over_load.results", "a contact without load", "carry a load")
+    if result.plan.scene.effect(Attraction) is not None:
+        raise DescriptionError(
+            "area_over_load.results", "an adhesive contact", "be without adhesion, as the theories"
+        )
     if result.holes is not None:
         raise DescriptionError(
             "area_over_load.results", "a surface with holes", "have heights at every pixel"

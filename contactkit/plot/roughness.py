@@ -107,7 +107,8 @@ def patch_sizes(patches: ContactPatches, ax: Axes | None = None) -> Axes:
     """Draw the number density of contact patches over their area, and both mean areas."""
     ax = ax if ax is not None else figure()[1]
     found = patch_density(patches)
-    ax.errorbar(found.area, found.density, yerr=_scatter(found.density, found.number), fmt="o")
+    spread = _scatter(found.density, found.number)
+    ax.errorbar(found.area, found.density, yerr=spread, fmt="o", label="patches")
     for label, mean, style in (
         ("number-weighted mean", patches.mean_area, "--"),
         ("area-weighted mean", patches.area_weighted_mean, ":"),

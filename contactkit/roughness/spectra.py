@@ -37,8 +37,6 @@ from ..errors import DescriptionError
 __all__ = [
     "PlaneSpectrum",
     "Spectrum",
-    "as_map",
-    "as_pixel_size",
     "nayak_parameter",
     "persson_density",
     "plane_spectrum",

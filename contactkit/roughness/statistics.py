@@ -114,7 +114,7 @@ def rms(heights: Array) -> float:
 
     Nearly independent of the pixel; grows with the window up to the longest wave of the surface.
     """
-    return float(np.std(heights))
+    return float(np.std(as_map(heights)))
 
 
 def skewness(heights: Array) -> float:
@@ -153,7 +153,7 @@ def _slopes(heights: Array, pixel_size: Pair, periodic: bool) -> Pair:
     """Root mean squares of the slopes along y and x, from differences of neighbours."""
     if not periodic:
         _need_pixels(heights, 2)
-    found = []
+    heights, found = as_map(heights), list[float]()
     for axis, d in enumerate(pixel_size):
         step = np.roll(heights, -1, axis) - heights if periodic else np.diff(heights, axis=axis)
         found.append(math.sqrt(float(np.mean((step / d) ** 2))))
@@ -182,7 +182,7 @@ def _laplacian(heights: Array, pixel_size: Pair, periodic: bool) -> Array:
     if not periodic:
         _need_pixels(heights, 3)
     dy, dx = pixel_size
-    z = np.pad(heights, 1, mode="wrap") if periodic else heights
+    z = np.pad(as_map(heights), 1, mode="wrap") if periodic else as_map(heights)
     inner = z[1:-1, 1:-1]
     bent = (z[1:-1, 2:] - 2.0 * inner + z[1:-1, :-2]) / dx**2
     bent += (z[2:, 1:-1] - 2.0 * inner + z[:-2, 1:-1]) / dy**2
@@ -210,8 +210,9 @@ def bearing_fraction(heights: Array, level: ArrayLike) -> Array:
     >>> bearing_fraction(np.array([[0.0, 1.0], [2.0, 3.0]]), [-1.0, 2.0, 4.0]).tolist()
     [1.0, 0.5, 0.0]
     """
-    below = np.searchsorted(np.sort(heights, axis=None), np.asarray(level), side="left")
-    return np.asarray(1.0 - below / heights.size)
+    z = as_map(heights)
+    below = np.searchsorted(np.sort(z, axis=None), np.asarray(level), side="left")
+    return np.asarray(1.0 - below / z.size)
 
 
 def bearing_curve(heights: ArrayLike, points: int = 256) -> BearingCurve:
@@ -410,7 +411,7 @@ def standardised(heights: Array) -> Array:
     >>> standardised(np.array([[0.0, 4.0]])).tolist()
     [[-1.0, 1.0]]
     """
-    z = heights - heights.mean()
+    z = as_map(heights) - np.mean(heights)
     largest = float(np.abs(z).max())
     # Round-off makes a plane at a height of 1 m rough by 1e-16 m.
     if largest <= 1e-14 * float(np.abs(heights).max()):
@@ -445,7 +446,7 @@ def autocorrelation(heights: Array, periodic: bool) -> Array:
     >>> autocorrelation(np.array([[1.0, -1.0, 1.0, -1.0]]), periodic=True).tolist()
     [[1.0, -1.0, 1.0, -1.0]]
     """
-    z = heights - heights.mean()
+    z = as_map(heights) - np.mean(heights)
     shape = z.shape if periodic else tuple(2 * n - 1 for n in z.shape)
     sums: Array = fft.irfft2(np.abs(fft.rfft2(z, s=shape)) ** 2, s=shape)
     if periodic:

@@ -76,6 +76,15 @@ def test_no_extra_is_brought_along_by_the_library(brought):
     assert roots(brought["contact"]) & extras == set()
 
 
+def test_a_contact_brings_no_loop_and_no_statistics_it_does_not_call_for(brought):
+    """Neither the histories of loads nor spectra, patches and theories of rough surfaces."""
+    unused = (
+        *("contact.plastic_history", "contact.patches", "analyses.area_over_load"),
+        *("roughness.spectra", "roughness.statistics", "roughness.contact_theories"),
+    )
+    assert {f"contactkit.{name}" for name in unused} & set(brought["contact"]) == set()
+
+
 def test_only_plot_brings_matplotlib(brought):
     assert "matplotlib" not in roots(brought["all but plots"])
 

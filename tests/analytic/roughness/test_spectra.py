@@ -188,6 +188,31 @@ def test_maps_that_have_no_statistics_are_refused(heights, message):
         stats.surface_statistics(heights, 1e-9, periodic=True)
 
 
+@pytest.mark.parametrize(
+    "make",
+    [
+        stats.rms,
+        stats.skewness,
+        stats.bearing_curve,
+        lambda z: stats.bearing_fraction(z, 0.0),
+        lambda z: stats.autocorrelation(z, periodic=False),
+        lambda z: stats.rms_slope(z, (1.0, 1.0), periodic=True),
+        lambda z: stats.rms_curvature(z, (1.0, 1.0), periodic=False),
+        lambda z: stats.correlation_length(z, (1.0, 1.0), periodic=True),
+        lambda z: stats.summits(z, 1.0, periodic=True),
+        lambda z: spectra.plane_spectrum(z, 1.0, periodic=False),
+        lambda z: spectra.profile_spectrum(z, 1.0, periodic=False),
+        lambda z: spectra.spectral_moment(z, 1.0, 2),
+    ],
+)
+def test_no_statistic_overlooks_a_hole(make):
+    holes = np.zeros((8, 8), dtype=bool)
+    holes[2, 3] = True
+    with pytest.raises(DescriptionError, match="1 masked pixels"):
+        make(np.ma.MaskedArray(rough((8, 8)), holes))
+    make(np.ma.MaskedArray(rough((8, 8)), False))
+
+
 def test_impossible_choices_are_refused():
     z = rough((8, 8))
     with pytest.raises(DescriptionError, match="pixel_size"):
