@@ -62,7 +62,7 @@ def coarser(
             upper=Body(surface=surface, solid=upper.solid),
             meniscus=plan.scene.interface.meniscus,
         ),
-        window=Window(periodic=plan.grid.periodic),
+        window=Window(periodic=plan.grid.edges),
         effects=tuple(_thinned(effect, factor) for effect in plan.scene.effects),
     )
     return unprepared_plan(scene, evolve(accuracy or plan.accuracy, grid=None))

@@ -18,7 +18,7 @@ from ..scene.rough_surfaces import (
 )
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat, Paraboloid, Sphere, Surface, Wave
-from ..scene.window import Grid
+from ..scene.window import Axis, Grid
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,30 +68,33 @@ def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
                 accuracy.grid,
                 f"be that of the height map, {shape}, or left out",
             )
-        return Grid(shape, pixel, _is_periodic(scene))
+        return Grid(shape, pixel, *_edges(scene))
     if window.width is None:
         raise DescriptionError(
             "Window.width", None, "be given where no surface is measured", unit="m"
         )
     ny, nx = accuracy.shape
     height = window.height if window.height is not None else window.width
-    return Grid((ny, nx), (height / ny, window.width / nx), _is_periodic(scene))
+    return Grid((ny, nx), (height / ny, window.width / nx), *_edges(scene))
 
 
-def _is_periodic(scene: ContactScene) -> bool:
-    """Whether the surfaces of a scene repeat: as the window says, else if all of them may."""
+def _edges(scene: ContactScene) -> tuple[bool, Axis | None]:
+    """Whether the surfaces of a scene repeat, and the axis if along one alone.
+
+    As the window says, else if all of them may.
+    """
     periodic = scene.window.periodic
     if periodic is False:
-        return False
+        return False, None
     once = [one for body in scene.interface.bodies for one in _isolated(body.surface)]
     if periodic and once:
         raise DescriptionError(
             "Window.periodic",
-            True,
+            periodic,
             f"be False or left out: {' and '.join(once)} states that it does not repeat",
             hint="if it does, say so there: is_periodic=True",
         )
-    return not once
+    return (False, periodic) if isinstance(periodic, str) else (not once, None)
 
 
 def _isolated(surface: Surface) -> list[str]:
@@ -181,7 +184,7 @@ def _check_surface(surface: Surface, grid: Grid) -> None:
                 unit="m",
                 hint="a finer Accuracy.grid, or a longer wave",
             )
-    if isinstance(surface, Wave) and grid.periodic:
+    if isinstance(surface, Wave) and grid.edges:
         _check_period(surface, grid)
     if isinstance(surface, Sphere):
         _check_reach(surface, grid)
@@ -190,10 +193,12 @@ def _check_surface(surface: Surface, grid: Grid) -> None:
 def _check_period(surface: Wave, grid: Grid) -> None:
     (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
     lengths = (
-        ("wavelength", surface.wavelength, nx * dx),
-        ("wavelength_y", surface.wavelength_y, ny * dy),
+        ("wavelength", surface.wavelength, nx * dx, "x"),
+        ("wavelength_y", surface.wavelength_y, ny * dy, "y"),
     )
-    for name, length, size in lengths:
+    for name, length, size, axis in lengths:
+        if grid.along not in (None, axis):
+            continue
         if length is not None and abs(size / length - round(size / length)) > 1e-9 * size / length:
             raise DescriptionError(
                 f"Wave.{name}",

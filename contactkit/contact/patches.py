@@ -85,7 +85,7 @@ def contact_patches(
     Raises
     ------
     DescriptionError
-        If `connectivity` or `fewest_pixels` is impossible.
+        If `connectivity` or `fewest_pixels` is impossible, or the window repeats along one axis.
 
     Notes
     -----
@@ -105,6 +105,13 @@ def contact_patches(
     (2, 0)
     """
     grid = result.plan.grid
+    if grid.along:
+        raise DescriptionError(
+            "contact_patches(result)",
+            f"a window that repeats along {grid.along} alone",
+            "repeat along both axes or not at all",
+            hint="patches_of(result.contact, ...) takes them as cut at the edges",
+        )
     return patches_of(result.contact, grid.pixel_size, grid.periodic, connectivity, fewest_pixels)
 
 

@@ -9,6 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..scene.window import Edges
+
 __all__ = ["PixelEdges", "pixel_edges"]
 
 
@@ -24,15 +26,18 @@ class PixelEdges(NamedTuple):
         return self.along_x + self.along_y
 
 
-def pixel_edges(touching: NDArray[np.bool_], periodic: bool) -> PixelEdges:
+def pixel_edges(touching: NDArray[np.bool_], periodic: Edges) -> PixelEdges:
     """Count the edges between pixels in and out of contact; outside an isolated one there is none.
+
+    `periodic` may be "x" or "y": along that axis alone.
 
     Examples
     --------
     >>> pixel_edges(np.array([[True, False], [True, False]]), periodic=False)
     PixelEdges(along_x=4, along_y=2)
     """
-    return PixelEdges(_edges(touching, 1, periodic), _edges(touching, 0, periodic))
+    along_x, along_y = (periodic in (True, axis) for axis in ("x", "y"))
+    return PixelEdges(_edges(touching, 1, along_x), _edges(touching, 0, along_y))
 
 
 def _edges(touching: NDArray[np.bool_], axis: int, periodic: bool) -> int:

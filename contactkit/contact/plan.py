@@ -112,7 +112,8 @@ class ContactPlan(ScenePlan):
     def title(self) -> str:
         """The scene, the load and the grid, in a line."""
         (ny, nx), (dy, dx) = self.grid.shape, self.grid.pixel_size
-        edges = "periodic" if self.grid.periodic else "not periodic"
+        edges = "periodic" if self.grid.edges else "not periodic"
+        edges += f" along {self.grid.along}" if self.grid.along else ""
         return (
             f"{self.scene.name or 'contact'}: {self.scene.loading.summary}, window {nx * dx:g} m x "
             f"{ny * dy:g} m, {edges}, {nx} x {ny} pixels"
@@ -234,11 +235,12 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     accuracy = accuracy or Accuracy.standard
     grid = grid_of(scene, accuracy)
     _check_window(grid)
-    if scene.window.periodic is None and not grid.periodic:  # a measured surface states so
+    if scene.window.periodic is None and not grid.edges:  # a measured surface states so
         scene = evolve(scene, window=evolve(scene.window, periodic=False))
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
     _check_holes(scene)
+    _check_edges(scene, grid)
     _check_attraction(made)
     for one in (*_before(made), made):
         _check_size(one)
@@ -321,6 +323,19 @@ def _check_holes(scene: ContactScene) -> None:
         "them, or leave it out"
         for effect in scene.effects
         if not effect.takes_holes
+    ]
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _check_edges(scene: ContactScene, grid: Grid) -> None:
+    """Refuse an effect that knows no window which repeats along one axis alone."""
+    problems = [
+        f"{type(effect).__name__} needs Window(periodic=True) or False, got {grid.along!r}: along "
+        "one axis alone it is not available; take a window that repeats along both and is wide "
+        "across, or leave it out"
+        for effect in scene.effects
+        if grid.along and not effect.takes_one_axis
     ]
     if problems:
         raise PlanError("; ".join(problems))

@@ -82,7 +82,7 @@ class PreparedInterface:
         self.holes = holes_of(scene)
         self.compliances = scene.demand(Compliance).prepare(scene, grid)
         self.solver = ContactSolver(
-            grid.shape, grid.pixel_size, _sum(self.compliances), grid.periodic, threads=threads
+            grid.shape, grid.pixel_size, _sum(self.compliances), grid.edges, threads=threads
         )
         self._bodies = Once(lambda: tuple(self._operator(make) for make in self.compliances))
         self._lock = threading.Lock()
@@ -111,7 +111,7 @@ class PreparedInterface:
             return tuple(body(pressure) for body in self._bodies())
 
     def _operator(self, make_symbol: SymbolMaker) -> Convolution:
-        shape, periodic = self.grid.shape, self.grid.periodic
+        shape, periodic = self.grid.shape, self.grid.edges
         symbol = symbol_of(make_symbol, shape, self.grid.pixel_size, periodic)
         transforms = Transforms(self._threads, fast_transforms_installed())
         return Convolution(shape, symbol, periodic, transforms)

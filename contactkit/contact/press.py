@@ -16,7 +16,7 @@ from ..scene.rough_surfaces import Heights
 from ..scene.scenes import ContactScene
 from ..scene.topography import Topography, as_surface, is_topography
 from ..scene.validity import warn
-from ..scene.window import Window
+from ..scene.window import Edges, Window
 from ..units import parse_quantity
 from .effects.base import ContactEffect
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
@@ -37,7 +37,7 @@ def press(
     stack: Stack | Material,
     mean_pressure: float | str,
     hardness: float | str | NDArray[np.float64] | None = None,
-    periodic: bool | None = None,
+    periodic: Edges | None = None,
     rtol: float = 1e-8,
     threads: int = 1,
 ) -> ContactResult:
@@ -62,9 +62,9 @@ def press(
         Mean pressure over the map [Pa].
     hardness : float or array (ny, nx), optional
         Upper bound of the pressure [Pa]; None: elastic.
-    periodic : bool, optional
-        Whether the map repeats beyond its edges; if not, an isolated contact. None: it repeats,
-        unless a topography states that it does not.
+    periodic : bool, "x" or "y", optional
+        Whether the map repeats beyond its edges, or along which axis alone; if not, an isolated
+        contact. None: it repeats, unless a topography states that it does not.
     rtol : float
         Largest violation of the contact conditions over the rms height [-].
     threads : int

@@ -112,7 +112,7 @@ class ContactResult(Result):
         Anciaux and Molinari 2017). Spots should be several pixels wide; the result is at least 0.
         """
         touching, (dy, dx) = self.contact, self.plan.grid.pixel_size
-        edges = pixel_edges(touching, self.plan.grid.periodic).total
+        edges = pixel_edges(touching, self.plan.grid.edges).total
         excess = (math.pi - 1.0 + math.log(2.0)) / 24.0 * edges * dx * dy
         return max(self.contact_area - excess, 0.0)
 
@@ -152,6 +152,8 @@ class ContactResult(Result):
         stacks = self.plan.scene.interface.stacks
         if all(stack.base for stack in stacks):
             return "the rigid base of the bodies"
+        if self.plan.grid.along:
+            return "points of the surface as far from a line load as the window is wide across"
         if self.plan.grid.periodic:
             mixed = any(stack.base for stack in stacks)
             also = " of the half-space, and the rigid base of the other body" if mixed else "s"

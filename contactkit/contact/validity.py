@@ -17,6 +17,8 @@ from .pixel_edges import pixel_edges
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..scene.window import Edges
+
     Map = NDArray[np.float64]
 
 __all__ = ["check_contact"]
@@ -51,8 +53,8 @@ def check_contact(
         _peak_pressure(contact),
         _slope(contact, steps),
     ]
-    if is_periodic:
-        found.append(_jump(heights, steps))
+    if contact.grid.edges:
+        found.append(_jump(heights, contact.grid.edges))
     effects = contact.scene.effects
     own = [one for e in effects for one in e.validity(contact, parts.get(type(e)))]
     return (*found, *own)
@@ -77,7 +79,7 @@ def _pixels_per_wave(contact: Contact) -> ValidityNumber:
 def _pixels_per_spot(contact: Contact) -> ValidityNumber:
     """Diameter of discs with the same ratio of area to length of edge, in pixels."""
     touching = contact.touching
-    area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.periodic)
+    area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.edges)
     diameter = 16.0 / math.pi * area / edges.total if edges.total else math.inf
     return ValidityNumber(
         name="pixels across a contact spot",
@@ -140,10 +142,15 @@ def _around(touching: NDArray[np.bool_]) -> tuple[slice, slice]:
     return ranges[0], ranges[1]
 
 
-def _jump(heights: Map, steps: _Steps) -> ValidityNumber:
-    """Step from the last line to the first over the largest step inside, rms along the line."""
+def _jump(heights: Map, edges: Edges) -> ValidityNumber:
+    """Step from the last line to the first over the largest step inside, rms along the line.
+
+    Across the edges that repeat.
+    """
     worst = 0.0
-    for axis, each in enumerate(steps):
+    for axis, each in enumerate(_steps(heights)):
+        if edges == "yx"[1 - axis]:  # lines along the axis that repeats end at free edges
+            continue
         inside = float(each.max())
         wrapped = heights.take(0, axis) - heights.take(-1, axis)
         step = math.sqrt(float(np.square(wrapped).mean()))

@@ -9,6 +9,7 @@ depths           Planes at depth: layer, and side of an interface.
 love             Uniform pressure on a rectangle: Love's influence coefficients.
 point_load       Surface displacement under a point load, tabulated over the radius.
 influence        Influence coefficients of non-periodic contacts.
+one_axis         Influence coefficients of windows that repeat along one axis.
 stress           Subsurface stress under a map of pressure and traction.
 """
 

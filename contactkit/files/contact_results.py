@@ -46,7 +46,7 @@ def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
     header = {
         "kind": "contact",
         "scene": unstructure(made.scene, arrays),
-        "grid": [list(made.grid.shape), list(made.grid.pixel_size), made.grid.periodic],
+        "grid": [list(made.grid.shape), list(made.grid.pixel_size), *made.grid[2:]],
         "accuracy": attrs.asdict(made.accuracy),
         "status": result.status,
         "message": result.message,
@@ -66,8 +66,8 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     The plan is not made anew: a file that the scene names may have moved since.
     """
     scene = structure(with_arrays(header["scene"], arrays), ContactScene, name)
-    (ny, nx), (dy, dx), periodic = header["grid"]
-    grid, work = Grid((ny, nx), (dy, dx), periodic), header["work"]
+    (ny, nx), (dy, dx), *edges = header["grid"]
+    grid, work = Grid((ny, nx), (dy, dx), *edges), header["work"]
     accuracy = Accuracy(**header["accuracy"])
     maps = {name: arrays[name] for name in _MAPS}
     parts = {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}

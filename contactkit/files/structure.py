@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Callable, Mapping
 from importlib import resources
-from typing import Any, TypeVar, get_args, get_origin
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import attrs
 import cattrs
@@ -273,6 +273,11 @@ def _bool(value: Any, _: Any) -> bool:
     return value
 
 
+def _edges(value: Any, _: Any) -> Any:
+    """true, false, or the axis along which a window repeats; the window checks which."""
+    return value
+
+
 def _damping(value: Any, _: Any) -> DampingLaw:
     """A table of a face, or of a law as a result file holds it."""
     if isinstance(value, Mapping) and "law" in value:
@@ -313,6 +318,7 @@ for _matches, _hook in (
     (lambda kind: kind is Material, _material),
     (lambda kind: kind == Material | Stack | None, _solid),
     (lambda kind: kind == Material | RigidBase, _carrier),
+    (lambda kind: kind == bool | Literal["x", "y"] | None, _edges),
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),

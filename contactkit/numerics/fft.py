@@ -10,13 +10,14 @@ from __future__ import annotations
 import importlib
 import importlib.util
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
 __all__ = [
+    "Edges",
     "Transform",
     "fast_transforms_installed",
     "make_transform",
@@ -27,6 +28,7 @@ __all__ = [
 Array = NDArray[Any]
 Transform = Callable[[Array, Array], None]
 Scale = Callable[[Array, Array], None]
+Edges = bool | Literal["x", "y"]
 
 CHUNK_BYTES = 2**20  # of rows transformed at a time by scipy
 CACHED_BYTES = 12 * 2**20  # of a padded spectrum up to which ducc0 takes all columns at once
@@ -63,7 +65,10 @@ def scale_spectrum(spectrum: Array, symbol: Array) -> None:
 def _scipy_transform(
     symbol: Array, periodic: bool, workers: int, scale: Scale, spectrum: Array
 ) -> Transform:
-    """Rows in chunks, so that what scipy allocates stays in the cache; columns in place."""
+    """Rows in chunks, so that what scipy allocates stays in the cache; columns in place.
+
+    `periodic` is along the rows; columns are padded to the length of the symbol.
+    """
 
     def transform(source: Array, target: Array) -> None:
         ny, nx = source.shape
@@ -178,7 +183,9 @@ def _ducc_free(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Tr
     return transform
 
 
-def spectrum_shape(half: tuple[int, int], kind: Any, periodic: bool, fast: bool) -> tuple[int, int]:
+def spectrum_shape(
+    half: tuple[int, int], kind: Any, periodic: Edges, fast: bool
+) -> tuple[int, int]:
     """Shape of the complex array that `make_transform` works in.
 
     For ducc0 its rows are an odd number of cache lines long, so that no columns collide. Large free
@@ -209,7 +216,7 @@ def spectrum_shape(half: tuple[int, int], kind: Any, periodic: bool, fast: bool)
 def make_transform(
     symbol: Array,
     shape: tuple[int, int],
-    periodic: bool,
+    periodic: Edges,
     threads: int = 1,
     fast: bool = False,
     scale: Scale = scale_spectrum,
@@ -224,8 +231,9 @@ def make_transform(
         doubled map, ``(2 ny, nx + 1)``. Its dtype is the precision of the transforms.
     shape : tuple of int
         Pixels ``(ny, nx)`` of the map.
-    periodic : bool
-        Whether the map repeats; otherwise it is padded by zeros to twice its sides.
+    periodic : bool, "x" or "y"
+        Whether the map repeats, or along which axis; across it is padded by zeros to twice its
+        side. Along one axis scipy transforms, also if `fast`.
     threads : int
         Threads of the transforms.
     fast : bool
@@ -243,12 +251,14 @@ def make_transform(
     >>> bool(np.allclose(source, target))
     True
     """
-    padded = shape[0] * shape[1] * (1 if periodic else 4)
+    padded = shape[0] * shape[1] * (1 if periodic is True else 2 if periodic else 4)
     symbol = symbol / padded  # once, instead of after every inverse transform
     if spectrum is None:
         kind = np.result_type(symbol.dtype, np.complex64)
         spectrum = np.zeros(spectrum_shape(symbol.shape, symbol.dtype, periodic, fast), kind)
     spectrum = spectrum[:, : symbol.shape[1]]
+    if isinstance(periodic, str):
+        return _scipy_transform(symbol, periodic == "x", threads, scale, spectrum)
     if fast and not periodic:
         return _ducc_free(symbol, threads, scale, spectrum)
     if fast:

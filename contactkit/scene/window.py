@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, Literal, NamedTuple
 
-from attrs import field, frozen
+from attrs import Attribute, field, frozen
 
 from ..units import si
-from ..validators import Described, optional, part, positive
+from ..validators import Described, optional, positive, refuse
 
-__all__ = ["Grid", "Window"]
+__all__ = ["Axis", "Edges", "Grid", "Window"]
+
+Axis = Literal["x", "y"]
+Edges = bool | Axis
+"""Whether surfaces repeat beyond the edges: along both axes, along one of them, or not."""
+
+
+def _edges(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if not (value is None or isinstance(value, bool) or value in ("x", "y")):
+        raise refuse(owner, attribute, value, 'be True, False, "x" or "y"')
 
 
 @frozen(kw_only=True)
@@ -22,23 +31,32 @@ class Window(Described):
         Its size along x [m]. None: that of a measured surface.
     height : float, optional
         Its size along y [m]. None: as along x.
-    periodic : bool, optional
+    periodic : bool, "x" or "y", optional
         Whether the surfaces repeat beyond the edges. If not, the bodies extend without load
-        beyond the window: an isolated contact. None: they repeat, unless a measured surface
-        states that it does not.
+        beyond the window: an isolated contact. "x" or "y": they repeat along that axis alone, as
+        of a line contact. None: they repeat, unless a measured surface states that it does not.
     """
 
     width: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
     height: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-    periodic: bool | None = field(default=None, validator=optional(part(bool)))
+    periodic: bool | Literal["x", "y"] | None = field(default=None, validator=_edges)
 
 
 class Grid(NamedTuple):
-    """Pixels of a window: counts (ny, nx), sizes (dy, dx) [m], periodic or not."""
+    """Pixels of a window: counts (ny, nx), sizes (dy, dx) [m], periodic or not.
+
+    `periodic` is along both axes; `along` is the axis of a window that repeats along one alone.
+    """
 
     shape: tuple[int, int]
     pixel_size: tuple[float, float]
     periodic: bool
+    along: Axis | None = None
+
+    @property
+    def edges(self) -> Edges:
+        """Whether it repeats: along both axes, along one of them, or not."""
+        return self.along or self.periodic
 
     @property
     def area(self) -> float:

@@ -148,7 +148,10 @@ scenes = st.builds(
     ck.ContactScene,
     interface=interfaces,
     window=st.builds(
-        ck.Window, width=st.none() | lengths, height=st.none() | lengths, periodic=st.booleans()
+        ck.Window,
+        width=st.none() | lengths,
+        height=st.none() | lengths,
+        periodic=st.sampled_from([True, False, None, "x", "y"]),
     ),
     loading=pressings,
     effects=st.tuples(*EFFECTS.values()).flatmap(

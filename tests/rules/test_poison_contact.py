@@ -74,7 +74,15 @@ EDGES = {
         "elasticity.point_load.*",
         *LAYERS,
     },
+    "along x": {
+        "elasticity.one_axis.*",
+        "elasticity.influence.*",
+        "elasticity.love.*",
+        "elasticity.point_load.*",
+        *LAYERS,
+    },
 }
+PERIODIC = {"periodic": True, "isolated": False, "along x": "x"}
 SHAPES = {
     "heights": set(),
     "paraboloid": {"roughness.elementary.paraboloid"},
@@ -117,7 +125,7 @@ def press(effects, edges, shape="heights"):
             upper=ck.Body(surface=SURFACES[shape]),
             meniscus=ck.Meniscus(liquid=WATER),
         ),
-        window=ck.Window(width=None if known else 4e-7, periodic=edges == "periodic"),
+        window=ck.Window(width=None if known else 4e-7, periodic=PERIODIC[edges]),
         loading=ck.Pressing(pressure=1e6),
         effects=effects,
     )
@@ -152,7 +160,10 @@ def cases():
         kinds = {type(level) for level in case.values()}
         is_complete = ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds
         is_complete &= ck.PlasticHistory not in kinds or suits_a_history(kinds)
-        if is_complete and not is_refused(case.values()):
+        knows_edges = case["edges"] != "along x" or all(
+            effect.takes_one_axis for effect in case.values() if isinstance(effect, ContactEffect)
+        )
+        if is_complete and knows_edges and not is_refused(case.values()):
             found.append(case)
     wanted = pairwise(found)
     for case in found:
@@ -185,6 +196,7 @@ def test_a_surface_calls_its_own_recipe_only(monkeypatch, shape):
 HEARTS = [
     ((), "periodic", "elasticity.layered.normal_symbol"),
     ((), "isolated", "elasticity.influence.symbol"),
+    ((), "along x", "elasticity.one_axis.symbol"),
     ((ck.HardnessLimit(),), "periodic", "contact.effects.hardness_rules.effective_hardness"),
     (
         (ck.HardnessLimit(rule="literal"),),
@@ -231,7 +243,7 @@ def transforms(monkeypatch, effects, edges="periodic"):
     return len(made), result.work.n_ffts
 
 
-@pytest.mark.parametrize("edges", EDGES, ids=label)
+@pytest.mark.parametrize("edges", ["periodic", "isolated"], ids=label)
 def test_what_a_scene_does_not_call_for_is_not_transformed(monkeypatch, edges):
     friction, none = ck.FrictionTraction(coefficient=0.2), ck.FrictionTraction(coefficient=0.0)
     alone = transforms(monkeypatch, (), edges)

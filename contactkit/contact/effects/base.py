@@ -197,6 +197,8 @@ class ContactEffect(Effect, Generic[Part]):
 
     takes_holes: ClassVar[bool] = False
     """Whether it is right with pixels that carry no load and whose gap is not known."""
+    takes_one_axis: ClassVar[bool] = False
+    """Whether it is right in a window that repeats along one axis alone."""
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""

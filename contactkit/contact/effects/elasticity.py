@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ...elasticity.layer_stack import Layers
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
-    from ...scene.window import Grid
+    from ...scene.window import Axis, Grid
     from .base import Contact, Map, SymbolMaker
 
 __all__ = ["HalfSpace", "LayeredHalfSpace", "contact_modulus", "layers_of"]
@@ -37,6 +37,7 @@ class HalfSpace(Compliance):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "half-space"
     summary: ClassVar[str] = "homogeneous elastic half-spaces"
 
@@ -70,6 +71,7 @@ class LayeredHalfSpace(Compliance):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "layered-half-space"
     summary: ClassVar[str] = "bonded elastic layers on half-spaces or rigid bases"
 
@@ -133,7 +135,7 @@ def _indentation(contact: Contact, thickness: float) -> ValidityNumber:
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
     first, free, two, *base = effect.sources
     found = [first]
-    if scene.window.periodic is False:
+    if scene.window.periodic in (False, "x", "y"):
         found.append(free)
     if len(scene.interface.stacks) > 1:
         found.append(two)
@@ -150,6 +152,8 @@ def layers_of(stack: Stack) -> Layers:
 
 
 def _maker(stack: Stack, grid: Grid) -> SymbolMaker:
+    if grid.along:
+        return partial(_along_one_axis, layers=layers_of(stack), along=grid.along)
     if grid.periodic:
         return partial(_periodic, layers=layers_of(stack))
     return partial(_isolated, layers=layers_of(stack), finest=grid.shape)
@@ -159,6 +163,14 @@ def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], layers: L
     from ...elasticity.layered import normal_symbol
 
     return normal_symbol(shape, pixel_size, *layers)
+
+
+def _along_one_axis(
+    shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers, along: Axis
+) -> Map:
+    from ...elasticity.one_axis import symbol
+
+    return symbol(shape, pixel_size, layers, along)
 
 
 def _isolated(

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import DescriptionError, InfeasibleError
+from ...numerics.fft import Edges
 from .active_set import Outcome, improve
 from .convolution import SymbolMaker
 from .nested_grids import bytes_of, prepare
@@ -55,9 +56,10 @@ class ContactSolver:
         ``make(shape, pixel_size)`` gives the real symbol [m/Pa] of any grid of the same window:
         periodic on the half spectrum ``(ny, nx // 2 + 1)``, at wavenumber 0 zero if the mean plane
         of the surface is the datum of displacements; otherwise the transform of the even influence
-        coefficients on the doubled map, ``(2 ny, nx + 1)``.
-    periodic : bool
-        Whether the window repeats; otherwise the contact is isolated.
+        coefficients on the doubled map, ``(2 ny, nx + 1)``, doubled across alone if the window
+        repeats along one axis.
+    periodic : bool, "x" or "y"
+        Whether the window repeats, or along which axis alone; otherwise the contact is isolated.
     threads : int
         Threads of the transforms and of the compiled loops.
     fast : bool, optional
@@ -109,7 +111,7 @@ class ContactSolver:
         shape: tuple[int, int],
         pixel_size: tuple[float, float],
         make_symbol: SymbolMaker,
-        periodic: bool,
+        periodic: Edges,
         threads: int = 1,
         fast: bool | None = None,
     ) -> None:
@@ -234,7 +236,7 @@ class ContactSolver:
     def _refuse_closed_gap(self, problem: Problem) -> None:
         """No load closes the whole gap of a periodic map whose mean displacement is zero."""
         if (
-            self.periodic
+            self.periodic is True
             and not self.grids[0].uniform
             and problem.approach is not None
             and problem.approach >= 0.0
@@ -329,7 +331,7 @@ class ContactSolver:
         coarse += sum(g.two_level.applications() for g in self.grids if g.two_level is not None)
         vectors = int(np.count_nonzero(p)) * (5 * 4 + 3 * np.dtype(np.intp).itemsize)
         held = bytes_of(self.grids) + problem.heights.nbytes + 2 * p.nbytes + vectors
-        padded = p.nbytes * (1 if self.periodic else 4)
+        padded = p.nbytes * (1 if self.periodic is True else 2 if self.periodic else 4)
         carried = problem.load is None or abs(float(p.sum()) - problem.load) <= 1e-9 * problem.load
         return Solution(
             pressure=p * problem.pressure,

@@ -24,7 +24,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from ...errors import DescriptionError
-from ...numerics.fft import make_transform, scale_spectrum, spectrum_shape
+from ...numerics.fft import Edges, make_transform, scale_spectrum, spectrum_shape
 
 __all__ = [
     "Convolution",
@@ -35,6 +35,7 @@ __all__ = [
     "patch_symbol",
     "self_influence",
     "symbol_of",
+    "symbol_width",
 ]
 
 Floats = NDArray[np.float64]
@@ -64,7 +65,7 @@ def symbol_of(
     make_symbol: SymbolMaker,
     shape: tuple[int, int],
     pixel_size: tuple[float, float],
-    periodic: bool,
+    periodic: Edges,
 ) -> Floats:
     """Symbol of a grid, refused if its shape, sign or values cannot be those of a compliance.
 
@@ -84,14 +85,14 @@ def symbol_of(
     array([1., 1., 1.])
     """
     ny, nx = shape
-    expected = (ny, nx // 2 + 1) if periodic else (2 * ny, nx + 1)
+    expected = (ny if periodic in (True, "y") else 2 * ny, symbol_width(nx, periodic) // 2 + 1)
     symbol = np.asarray(make_symbol(shape, pixel_size))
     if symbol.shape != expected:
         raise DescriptionError("symbol", symbol.shape, f"have the shape {expected}")
     if np.iscomplexobj(symbol) or not np.all(np.isfinite(symbol)):
         raise DescriptionError("symbol", symbol.dtype, "be real and finite")
     symbol = np.array(symbol, dtype=np.float64)
-    if periodic and not (symbol[0, 0] >= 0.0 and np.all(symbol.ravel()[1:] > 0.0)):
+    if periodic is True and not (symbol[0, 0] >= 0.0 and np.all(symbol.ravel()[1:] > 0.0)):
         raise DescriptionError(
             "symbol", float(symbol.min()), "be positive at every wavenumber but 0", unit="m/Pa"
         )
@@ -131,6 +132,17 @@ def continue_influence(symbol: Floats) -> None:
         near, far = weight * np.cos(np.pi * k * (n - 1) / n), weight * alternating
         if abs(far @ lines[:, 0]) < 0.5 * abs(near @ lines[:, 0]):
             lines += alternating[:, None] * ((near - far) @ lines)
+
+
+def symbol_width(nx: int, periodic: Edges) -> int:
+    """Columns of the map that a symbol belongs to, with those of its padding.
+
+    Examples
+    --------
+    >>> symbol_width(8, "x"), symbol_width(8, "y")
+    (8, 16)
+    """
+    return nx if periodic in (True, "x") else 2 * nx
 
 
 def self_influence(symbol: Floats, width: int) -> float:
@@ -173,8 +185,8 @@ class Convolution:
         Pixels ``(ny, nx)`` of the map.
     symbol : ndarray
         Real symbol, of the map if periodic, of the doubled map otherwise.
-    periodic : bool
-        Whether the map repeats.
+    periodic : bool, "x" or "y"
+        Whether the map repeats, or along which axis alone.
     transforms : Transforms
         Threads and backend.
     dtype : type
@@ -199,7 +211,7 @@ class Convolution:
         self,
         shape: tuple[int, int],
         symbol: Floats,
-        periodic: bool,
+        periodic: Edges,
         transforms: Transforms = BY_SCIPY,
         dtype: Any = np.float64,
         lender: Convolution | None = None,

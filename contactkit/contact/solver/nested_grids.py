@@ -11,10 +11,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.fft import fast_transforms_installed
+from ...numerics.fft import Edges, fast_transforms_installed
 from . import loops_numpy
 from .cell_inverse import CellInverse
-from .convolution import Convolution, Patch, SymbolMaker, Transforms, self_influence, symbol_of
+from .convolution import (
+    Convolution,
+    Patch,
+    SymbolMaker,
+    Transforms,
+    self_influence,
+    symbol_of,
+    symbol_width,
+)
 from .sparse_inverse import SparseInverse
 from .transfer import block_shape, nested_shapes
 from .two_level import CoarseBlocks, TwoLevel, inverse_stencil
@@ -138,7 +146,7 @@ class _Symbols:
         shape: Shape,
         pixel_size: tuple[float, float],
         make_symbol: SymbolMaker,
-        periodic: bool,
+        periodic: Edges,
     ) -> None:
         self.window = (shape[0] * pixel_size[0], shape[1] * pixel_size[1])
         self.make, self.periodic = make_symbol, periodic
@@ -152,7 +160,7 @@ class _Symbols:
         return self.window[0] / shape[0], self.window[1] / shape[1]
 
     def own(self, symbol: Floats, shape: Shape) -> float:
-        return self_influence(symbol, shape[1] if self.periodic else 2 * shape[1])
+        return self_influence(symbol, symbol_width(shape[1], self.periodic))
 
     def __call__(self, shape: Shape) -> Floats:
         if shape in self._made:
@@ -169,21 +177,21 @@ def _two_level(symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loop
         sides = block_shape(shape, symbols.pixel(shape), pixels)
         own = symbols.own(symbol, shape)
         blocks = CoarseBlocks(shape, sides, symbols(sides), symbols.periodic, loops, fast, own)
-    stencil = inverse_stencil(symbol, shape[1] if symbols.periodic else 2 * shape[1])
-    return TwoLevel(shape, symbols.periodic, stencil, blocks, loops)
+    stencil = inverse_stencil(symbol, symbol_width(shape[1], symbols.periodic))
+    return TwoLevel(shape, symbols.periodic is True, stencil, blocks, loops)
 
 
-def _decay(symbol: Floats, periodic: bool) -> float:
+def _decay(symbol: Floats, periodic: Edges) -> float:
     """How much faster the symbol falls over short waves than that of a half-space, 1 / q."""
-    column = symbol[:, 0] if periodic else symbol[::2, 0]
+    column = symbol[:, 0] if periodic in (True, "y") else symbol[::2, 0]
     top = max(column.size // 2, 1)
     low = max(top // 8, 1)
     return float(column[low] / max(column[top], 1e-300)) * low / top
 
 
-def _stiffening(symbol: Floats, periodic: bool) -> float:
+def _stiffening(symbol: Floats, periodic: Edges) -> float:
     """How much stiffer the solid is against the shortest waves than against the softest."""
-    column = symbol[:, 0] if periodic else symbol[::2, 0]
+    column = symbol[:, 0] if periodic in (True, "y") else symbol[::2, 0]
     compliance = column[: column.size // 2 + 1] * np.arange(column.size // 2 + 1)
     return float(compliance.max() / max(compliance[-1], 1e-300))
 
@@ -200,14 +208,15 @@ def _response(operator: Convolution, periodic: bool) -> Floats:
 def _grid(
     symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: bool
 ) -> Grid:
-    symbol, periodic = symbols(shape), symbols.periodic
+    # A window that repeats along one axis is preconditioned as an isolated one.
+    symbol, periodic = symbols(shape), symbols.periodic is True
     threads = threads if min(shape) >= LEAST_THREADED else 1
     transforms = Transforms(threads, fast, loops.scale_spectrum)
-    exact = Convolution(shape, symbol, periodic, transforms)
+    exact = Convolution(shape, symbol, symbols.periodic, transforms)
     response = _response(exact, periodic)
     pixel = symbols.pixel(shape)
-    decay = _decay(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
-    stiffening = _stiffening(symbol, periodic) / (1.0 if periodic else PIXEL_DECAY)
+    decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
+    stiffening = _stiffening(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
     metric = None
     if stiffening > STIFF:
         reach = 2 if stiffening > STIFFEST else 1
@@ -218,7 +227,7 @@ def _grid(
         pressure=exact.source if finest else np.zeros(shape),
         gap=exact.target if finest else np.zeros(shape),
         exact=exact if finest else None,
-        quick=Convolution(shape, symbol, periodic, transforms, np.float32, exact),
+        quick=Convolution(shape, symbol, symbols.periodic, transforms, np.float32, exact),
         patch=None if periodic else Patch(response, transforms, exact),
         response=response,
         change=np.zeros(shape[0] * shape[1], np.float32),
@@ -238,7 +247,7 @@ def prepare(
     shape: Shape,
     pixel_size: tuple[float, float],
     make_symbol: SymbolMaker,
-    periodic: bool,
+    periodic: Edges,
     threads: int,
     fast: bool | None,
 ) -> NestedGrids:
@@ -250,8 +259,8 @@ def prepare(
         Pixels ``(ny, nx)`` and their sides ``(dy, dx)`` [m].
     make_symbol : callable
         ``make(shape, pixel_size)`` as in `convolution.symbol_of` [m/Pa].
-    periodic : bool
-        Whether the map repeats.
+    periodic : bool, "x" or "y"
+        Whether the map repeats, or along which axis alone.
     threads : int
         Threads of transforms and loops; small grids take one.
     fast : bool or None

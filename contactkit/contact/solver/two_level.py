@@ -25,8 +25,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...numerics.fft import Edges
 from .conjugate_gradient import conjugate_gradient
-from .convolution import Convolution, Transforms, self_influence
+from .convolution import Convolution, Transforms, self_influence, symbol_width
 
 __all__ = ["CoarseBlocks", "Stencil", "TwoLevel", "inverse_stencil", "least_eigenvalue"]
 
@@ -111,8 +112,8 @@ class CoarseBlocks:
         Blocks along both sides.
     symbol : ndarray
         Symbol of the grid of the blocks, dimensionless as that of the grid.
-    periodic : bool
-        Whether the map repeats.
+    periodic : bool, "x" or "y"
+        Whether the map repeats, or along which axis alone.
     loops : namespace
         Loops over the pixels.
     fast : bool
@@ -133,7 +134,7 @@ class CoarseBlocks:
         shape: tuple[int, int],
         blocks: tuple[int, int],
         symbol: Floats,
-        periodic: bool,
+        periodic: Edges,
         loops: Any,
         fast: bool = False,
         own: float = 1.0,
@@ -147,7 +148,7 @@ class CoarseBlocks:
         self._row = np.arange(shape[0]) * blocks[0] // shape[0] * blocks[1]
         self._column = np.arange(shape[1]) * blocks[1] // shape[1]
         self._pixels = shape[0] * shape[1] / (blocks[0] * blocks[1])
-        width = blocks[1] if periodic else 2 * blocks[1]
+        width = symbol_width(blocks[1], periodic)
         self._own = max(own - self_influence(symbol, width) / self._pixels, 0.05 * own)
         self.weigh(np.ones(self.count), False)
 
