@@ -23,6 +23,8 @@ NUMBERS = {
     "loading_history": pytest.approx(0.1078, rel=4e-3),
     # A layer of no thickness and one without end are no layers.
     "press_a_map": pytest.approx(0.0, abs=1e-4),
+    # A sheet a hundred nips thick is a half-space.
+    "roller_on_sheet": pytest.approx(1.0, abs=1e-3),
     # The closed form leaves out the mass: 4 % at 80 degC, where the spool is released in 2.4 ms.
     "spool_sticks": pytest.approx(0.0, abs=0.05),
     # Maugis and Dugdale, on 64 pixels and with few levels.
