@@ -16,7 +16,12 @@ pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarni
 
 # What each effect may call. `*` stands for the rest of a name.
 LAYERS = {"elasticity.layered.*", "elasticity.layer_recursion.*", "elasticity.layer_stack.*"}
-FIELDS = {"elasticity.stress.periodic.*", "elasticity.stress.isolated.*", *LAYERS}
+FIELDS = {
+    "elasticity.stress.periodic.*",
+    "elasticity.stress.isolated.*",
+    "elasticity.stress.strips.*",
+    *LAYERS,
+}
 FILM = "capillary.film_islands.*"
 TO_STICK = {"work_of_adhesion": 1e-3, "range": 2e-9}
 EXPONENTIAL = ck.ExponentialAttraction(**TO_STICK)

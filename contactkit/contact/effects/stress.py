@@ -141,6 +141,7 @@ class SubsurfaceStress(Observer[StressPart]):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
     records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)
@@ -232,10 +233,14 @@ def _ordered(places: Sequence[Place]) -> list[Place]:
 def _deepest(contact: Contact, stack: Stack) -> float:
     """Depth [m] below which no maximum is looked for.
 
-    Half a period, or an isolated window; at most that of a rigid base.
+    Half a period, or an isolated window, or its side across if it repeats along one axis; at most
+    that of a rigid base.
     """
     (ny, nx), (dy, dx) = contact.grid.shape, contact.grid.pixel_size
-    deepest = (0.5 if contact.grid.periodic else 1.0) * min(ny * dy, nx * dx)
+    sides = {"x": ny * dy, "y": nx * dx}  # across the axis of their name
+    deepest = min(sides.values()) * (0.5 if contact.grid.periodic else 1.0)
+    if contact.grid.along:
+        deepest = sides[contact.grid.along]
     return min(deepest, stack.depths[-1]) if stack.base else deepest
 
 
@@ -246,7 +251,13 @@ def _sharpest(contact: Contact) -> float:
     pressure = contact.pressure
     spots, n = label(pressure > _HIGH * pressure.max())
     pixels = np.bincount(spots.ravel())[1:].min() if n else 1
-    return math.sqrt(float(pixels) * contact.grid.pixel_area / math.pi)
+    area = float(pixels) * contact.grid.pixel_area
+    radius = math.sqrt(area / math.pi)
+    if contact.grid.along is None:
+        return radius
+    (ny, nx), (dy, dx) = contact.grid.shape, contact.grid.pixel_size
+    # Or half the width of a strip, where that is what the spot may be.
+    return max(radius, 0.5 * area / (nx * dx if contact.grid.along == "x" else ny * dy))
 
 
 class _Kept(NamedTuple):
@@ -273,7 +284,7 @@ class _Planes:
         self._field = StressField(
             Tractions(contact.grid.pixel_size, contact.pressure),
             layers_of(stack),
-            mean="periodic" if contact.grid.periodic else "free",
+            mean=contact.grid.along or ("periodic" if contact.grid.periodic else "free"),
             padding=effect.window,
             reading=effect.reading,
             friction=None if effect.coefficients else ratio,

@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from ...errors import DescriptionError
-from .periodic import Modes, grid_of_modes, spectrum
+from .periodic import Grid, grid_of_modes, spectrum
+from .strips import LineStep, StripGrids, strip_grids
 
 __all__ = [
-    "Grid",
     "Grids",
     "Mean",
     "Step",
@@ -40,21 +40,13 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Pair = tuple[float, float]
 Loads = list[Complex | None]
-Mean = Literal["periodic", "free"]
+Mean = Literal["periodic", "free", "x", "y"]
 
 COARSE = 64  # points per side of the periodic window of a step
 WIDER = 4  # ratio of windows from step to step
 NARROWEST = 2.0  # side of the first window over that of the map
 SMOOTHING = 2.5  # width w of the smoothing in coarse pixels
 MARGIN = 6  # coarse points beyond the map, so that its edge is not the edge of the splines
-
-
-class Grid(NamedTuple):
-    """A periodic grid, and the window of it that is wanted."""
-
-    modes: Modes
-    pixel_size: Pair
-    window: tuple[int, int]
 
 
 class Step(NamedTuple):
@@ -106,17 +98,19 @@ class Grids(NamedTuple):
         return found
 
 
-def grids_of(shape: tuple[int, int], pixel_size: Pair, mean: Mean, padding: float) -> Grids:
+def grids_of(
+    shape: tuple[int, int], pixel_size: Pair, mean: Mean, padding: float
+) -> Grids | StripGrids:
     """Grids on which the fields of a map of tractions are computed.
 
     Parameters
     ----------
     shape, pixel_size
         Pixels (ny, nx) of the map and their size (dy, dx) [m].
-    mean : {"periodic", "free"}
-        Outside of the map: periodic images, or no load.
+    mean : {"periodic", "free", "x", "y"}
+        Outside of the map: periodic images, no load, or periodic images along one axis alone.
     padding : float
-        For "free": distance of the remaining images over the side of the map.
+        But for "periodic": distance of the remaining images over the side of the map.
 
     Raises
     ------
@@ -128,12 +122,14 @@ def grids_of(shape: tuple[int, int], pixel_size: Pair, mean: Mean, padding: floa
     >>> len(grids_of((8, 8), (1.0, 1.0), "free", 32.0).all)
     5
     """
-    if mean not in ("periodic", "free"):
-        raise DescriptionError("planes.mean", mean, 'be "periodic" or "free"')
+    if mean not in ("periodic", "free", "x", "y"):
+        raise DescriptionError("planes.mean", mean, 'be "periodic", "free", "x" or "y"')
     if mean == "periodic":
         return Grids(Grid(grid_of_modes(shape, pixel_size), pixel_size, shape), ())
     if not 1.0 <= padding < np.inf:
         raise DescriptionError("planes.padding", padding, "be 1 or more, and finite")
+    if mean != "free":
+        return strip_grids(shape, pixel_size, mean, padding)
     return isolated_grids(shape, pixel_size, padding)
 
 
@@ -186,7 +182,7 @@ def isolated_grids(window: tuple[int, int], pixel_size: Pair, padding: float) ->
     return Grids(first, tuple(steps))
 
 
-def add_correction(field: Array, wide: Array, narrow: Array, step: Step) -> None:
+def add_correction(field: Array, wide: Array, narrow: Array, step: Step | LineStep) -> None:
     """Add the correction of a step to one field of a map, in place.
 
     Examples
@@ -197,6 +193,9 @@ def add_correction(field: Array, wide: Array, narrow: Array, step: Step) -> None
     >>> bool(np.allclose(field, 2.0))
     True
     """
+    if isinstance(step, LineStep):
+        field += wide - narrow
+        return
     field += step.along_y @ (wide - narrow)[step.part] @ step.along_x.T
 
 

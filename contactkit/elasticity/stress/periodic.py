@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..layered_fields import PlaneStates, unit_stresses
 
 __all__ = [
+    "Grid",
     "Modes",
     "UnitFields",
     "grid_of_modes",
@@ -56,6 +57,14 @@ class Modes(NamedTuple):
     y: Array
     xx: Array
     yy: Array
+
+
+class Grid(NamedTuple):
+    """A periodic grid, and the window of it that is wanted."""
+
+    modes: Modes
+    pixel_size: tuple[float, float]
+    window: tuple[int, int]
 
 
 def grid_of_modes(shape: tuple[int, int], pixel_size: tuple[float, float]) -> Modes:

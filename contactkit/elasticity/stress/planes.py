@@ -10,6 +10,8 @@ Planes are computed one at a time, so that the memory is that of one plane.  A m
 periodic
     Its mean causes the uniform stresses of uniaxial strain,
     sigma_xx = sigma_yy = -nu/(1 - nu) p and sigma_zz = -p.
+x, y
+    It repeats along that axis alone, and no load acts beyond its ends across (`strips`).
 free
     No load acts outside of the map (isolated contact).  It is transformed in a larger zero-padded
     window, wavenumber zero takes the mean over all directions of the limit of long waves, and
@@ -28,9 +30,10 @@ from ...errors import DescriptionError
 from ..depths import Side, locate
 from ..layer_stack import Layers, Stack, stack_of
 from ..layered_fields import PlaneStates, plane_states
-from .isolated import Grid, Mean, add_correction, grids_of
+from .isolated import Mean, add_correction, grids_of
 from .periodic import (
     IMAGINARY,
+    Grid,
     Modes,
     UnitFields,
     into_space,
@@ -147,9 +150,9 @@ class StressField:
         displacement: bool = False,
     ) -> Iterator[Plane]:
         """Stresses on planes, one at a time; arguments and errors as of the function `planes`."""
-        if displacement and (self._mean == "free" or self._short is not None):
+        if displacement and (self._mean != "periodic" or self._short is not None):
             raise DescriptionError(
-                "planes.displacement", True, 'be False for mean="free" and other readings'
+                "planes.displacement", True, "be False for another mean or reading"
             )
         on_base = self._stack.base is not None
         places = locate(depths, sides, self._stack.h, on_base=on_base)
@@ -262,11 +265,11 @@ def planes(
         As in `layered.compliance`.
     depths, sides
         As in `depths.locate`, in order of layer and depth.
-    mean : {"periodic", "free"}, optional
-        Outside of the map: periodic images, or no load.
+    mean : {"periodic", "free", "x", "y"}, optional
+        Outside of the map: periodic images, no load, or periodic images along one axis alone.
     padding : float, optional
-        For "free": distance of the remaining images over the side of the map.  Up to 4 the map is
-        padded to that size; beyond, coarse grids are used, at a cost that hardly grows.
+        But for "periodic": distance of the remaining images over the side of the map.  Up to 4 a
+        map is padded to that size; beyond, coarse grids are used, at a cost that hardly grows.
     displacement : bool, optional
         Also return the displacements, without their mean; for "periodic" only, because those of an
         isolated load decay too slowly for any window.
@@ -385,6 +388,10 @@ def _mean_stress(states: PlaneStates, stack: Stack, mean: Mean) -> Array:
         lateral = states.shear_modulus * _long_wave_strain(stack) * (1.0 + nu) / (1.0 - nu) - ratio
     uniform = np.zeros((3, 6))
     uniform[0, :3] = lateral, lateral, -1.0
+    if mean in ("x", "y"):  # LL across, and TT along
+        extended = 2.0 * states.shear_modulus / (1.0 - nu) * _long_wave_strain(stack)
+        across, along = extended - ratio, nu * extended - ratio
+        uniform[0, :2] = (along, across) if mean == "x" else (across, along)
     uniform[1, 4] = uniform[2, 5] = -1.0
     return uniform
 

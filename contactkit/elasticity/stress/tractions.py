@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from ...errors import DescriptionError
 from ..layer_stack import Layers
 from ..layered import compliance
-from .isolated import Grid, Mean, add_correction, grids_of
-from .periodic import into_space
+from .isolated import Mean, add_correction, grids_of
+from .periodic import Grid, into_space
 
 __all__ = ["Tractions", "traction_coupling"]
 

@@ -205,10 +205,13 @@ def test_files_keep_the_axis(tmp_path):
         (
             lambda: ck.plan(
                 scene(
-                    cylinder(16), "x", ck.Pressing(pressure=1e5), effects=(ck.SubsurfaceStress(),)
+                    cylinder(16),
+                    "x",
+                    ck.Pressing(pressure=1e5),
+                    effects=(ck.FrictionTraction(coefficient=0.1), ck.FrictionCoupling()),
                 )
             ),
-            "SubsurfaceStress needs Window",
+            "FrictionCoupling needs Window",
         ),
         (
             lambda: contact_patches(solved(cylinder(16), "x", ck.Pressing(pressure=1e5))),

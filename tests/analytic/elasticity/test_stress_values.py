@@ -386,7 +386,7 @@ def test_nothing_is_searched_below_the_deepest_plane_allowed():
         ({"x": np.ones((2, 2))}, "share one shape"),
         ({"pressure": np.full((4, 4), np.nan)}, "finite"),
         ({"pixel_size": (1.0, 0.0)}, "two positive lengths"),
-        ({"mean": "none"}, '"periodic" or "free"'),
+        ({"mean": "none"}, '"periodic", "free"'),
         ({"mean": "free", "padding": 0.5}, "padding must be 1 or more"),
         ({"mean": "free", "displacement": True}, "displacement must be False"),
         ({"depths": [-1.0]}, "zero or positive"),
