@@ -11,7 +11,7 @@ from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..capillary import kelvin
-from ..contact.effects.base import Contact
+from ..contact.effects.base import Attraction, Contact
 from ..contact.effects.island_bridges import IslandBridges
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
@@ -265,6 +265,11 @@ def _contact(
     result: ContactResult, pressure: Floats, law: Law, liquid: LiquidState
 ) -> tuple[str, list[_Point], float | None]:
     plan = result.plan
+    if plan.scene.effect(Attraction) is not None:
+        raise PlanError(
+            "the menisci of a humidity curve take pressures to be positive: solve the contact "
+            "without Adhesion"
+        )
     contact = Contact(
         plan.scene,
         plan.grid,

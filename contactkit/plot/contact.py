@@ -56,7 +56,7 @@ def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
     """Draw the pressure map; pixels out of contact are white."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
-    touching = np.ma.masked_less_equal(result.pressure / 1e9, 0.0)
+    touching = np.ma.masked_where(~result.contact, result.pressure / 1e9)
     image = ax.imshow(
         touching, origin="lower", extent=extent, cmap="viridis", interpolation="nearest"
     )

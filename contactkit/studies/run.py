@@ -17,6 +17,7 @@ from attrs import frozen
 
 from ..accuracy import Accuracy
 from ..contact.chain import ContactChain
+from ..contact.effects.base import Attraction
 from ..contact.plan import ContactPlan, unprepared_plan
 from ..errors import ContactkitError, ConvergenceError, InfeasibleError
 from ..files.results import AnyResult, to_bytes
@@ -90,7 +91,10 @@ class _Chain:
             self._plan = None  # before the next one, so that two solvers are never in memory
             self._contacts.change_interface()
         self._plan = made.prepare(like=self._plan)
-        result = self._contacts.solve(self._plan)
+        # With several states a start decides which is found: that of a point is its own.
+        is_alone = scene.effect(Attraction) is not None
+        chain = ContactChain() if is_alone else self._contacts
+        result = chain.solve(self._plan)
         warn(result.validity)
         return result
 

@@ -27,6 +27,11 @@ from contactkit.plot import separation as plot
 IMG = Path(__file__).parents[1] / "img"
 RADIUS, WORK, MODULUS = 1e-6, 0.05, 1e9
 SOLID = ck.Material(young_modulus=MODULUS, poisson_ratio=0.0)
+LEVELS = {
+    "isolated": (-12e-9, 2e-9),
+    "periodic": (-4e-9, 0.0),
+    "periodic, 100 nm on a rigid base": (-8e-9, 2e-9),
+}
 UNITS = scales(RADIUS, WORK, MODULUS)
 # Maugis parameter: window and levels, in the units of Maugis.
 SPHERES = {
@@ -38,13 +43,15 @@ SPHERES = {
 }
 
 
-def scene(surface: object, law: object, window: ck.Window) -> ck.ContactScene:
+def scene(
+    surface: object, law: object, window: ck.Window, solid: object = SOLID
+) -> ck.ContactScene:
     """A rigid surface on a soft flat."""
     return ck.ContactScene(
-        interface=ck.Interface(lower=ck.Body(solid=SOLID), upper=ck.Body(surface=surface)),  # type: ignore[arg-type]
+        interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Body(surface=surface)),  # type: ignore[arg-type]
         window=window,
         loading=ck.Approach(approach=0.0),
-        effects=(ck.HalfSpace(), ck.Adhesion(law=law)),  # type: ignore[arg-type]
+        effects=(ck.LayeredHalfSpace(), ck.Adhesion(law=law)),  # type: ignore[arg-type]
     )
 
 
@@ -79,25 +86,31 @@ def spheres() -> str:
     return grid([*head, "states", "applications a state", "seconds of the curve"], rows)
 
 
-def rough(rms: float, pixels: int = 64, count: int = 17, *, periodic: bool = True) -> PullOffCurve:
+def rough(
+    rms: float, pixels: int = 64, count: int = 17, *, edges: str = "periodic"
+) -> PullOffCurve:
     """Curve of a self-affine map of eight pixels per shortest wave."""
+    on_base = ck.Stack(
+        layers=(ck.Layer(material=SOLID, thickness=1e-7),), substrate=ck.RigidBase(bonded=True)
+    )
     width = pixels * 8e-9
     surface = ck.SelfAffineRoughness(rms=rms, hurst=0.8, rolloff=0.5 * width, cutoff=64e-9, seed=3)
     law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=1e-9)
-    window = ck.Window(width=width, periodic=periodic)
-    plan = ck.plan(scene(surface, law, window), ck.Accuracy(grid=pixels))
-    far = -4e-9 - rms if periodic else -14e-9
-    levels = np.linspace(far, 0.0 if periodic else 2e-9, count)
+    window = ck.Window(width=width, periodic=edges != "isolated")
+    solid = on_base if "base" in edges else SOLID
+    plan = ck.plan(scene(surface, law, window, solid), ck.Accuracy(grid=pixels))
+    low, high = LEVELS[edges]
+    levels = np.linspace(low - rms, high, count)
     return ck.pull_off_curve(plan, levels)
 
 
 def steps() -> str:
     """Change of the loads with the number of steps, and where the loop is lost."""
     rows = []
-    for periodic in (False, True):
-        rms = 0.6e-9 if periodic else 2e-9
-        found = {n: rough(rms, 48, n, periodic=periodic) for n in (9, 33)}
-        row = ["periodic" if periodic else "isolated"]
+    for edges in LEVELS:
+        rms = 2e-9 if edges == "isolated" else 0.6e-9
+        found = {n: rough(rms, 48, n, edges=edges) for n in (9, 33)}
+        row = [edges]
         for name in ("approaching", "separating"):
             fine, other = getattr(found[33], name), getattr(found[9], name)
             there = [int(np.argmin(np.abs(fine.approach - one))) for one in other.approach]

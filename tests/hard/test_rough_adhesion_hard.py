@@ -106,6 +106,29 @@ def test_a_flat_pulls_with_the_tension_of_its_gap():
     assert result.mean_pressure == pytest.approx(-0.01 / 5e-9 * math.exp(-1.0), rel=1e-9)
 
 
+def test_a_layer_on_a_base_is_drawn_out_by_a_uniform_tension():
+    layer = ck.Material(young_modulus=1e9, poisson_ratio=0.0)
+    stack = ck.Stack(
+        layers=(ck.Layer(material=layer, thickness=1e-7),), substrate=ck.RigidBase(bonded=True)
+    )
+    result = solved(WEAK, periodic=True, approach=-5e-9, heights=np.zeros((8, 8)), solid=stack)
+    assert result.displacement == pytest.approx(1e-7 / 1e9 * result.mean_pressure, rel=1e-6)
+    assert result.gap == pytest.approx(result.displacement + 5e-9, rel=1e-9)
+    assert result.mean_pressure == pytest.approx(-2e6 * np.exp(-result.gap.mean() / 5e-9), rel=1e-6)
+
+
+def test_a_study_of_approaches_finds_the_state_of_an_approach_at_each():
+    law = ck.DugdaleAttraction(work_of_adhesion=0.2, range=3e-9)
+    levels = [0.0, -2e-9, -4e-9]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ck.ValidityWarning)
+        found = ck.study(scene(law), {"loading.approach": levels}).column("load")
+        alone = [ck.solve(ck.plan(scene(law, approach=one))).load for one in levels]
+        path = ck.pull_off_curve(ck.plan(scene(law)), levels[::-1], refinements=0)
+    assert list(found) == pytest.approx(alone, rel=1e-6)
+    assert abs(path.separating.load[-1] - alone[-1]) > 0.01 * abs(path.separating.load[-1])
+
+
 @pytest.mark.parametrize("load", [0.0, 1e5, 1e7])
 def test_a_load_below_and_above_the_attraction(load):
     result = solved(WEAK, loading=ck.Pressing(pressure=load))

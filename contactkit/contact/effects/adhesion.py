@@ -95,7 +95,8 @@ class Adhesion(Attraction[AdhesionPart]):
     -----
     At an imposed approach the branches of an isolated contact do not depend on the steps of the
     approach, as a tension anywhere narrows every gap; in a periodic window, where far pixels lift
-    each other, loads next to jumps may depend on them, by up to 7 % (measured).
+    each other, loads next to jumps may depend on them, by up to 7 % (measured), unless the bodies
+    rest on a rigid base.
     """
 
     name: ClassVar[str] = "adhesion"

@@ -150,6 +150,13 @@ def test_a_sphere_pulls_off_as_maugis_and_dugdale_have_it(jkr_like):
     assert total == pytest.approx(found.loop_energy, rel=1e-9)
 
 
+@pytest.mark.parametrize("transition", [0.2, 2.0])
+def test_the_tabor_parameter_of_a_sphere_is_that_of_its_radius(transition):
+    """Maugis' parameter is 2 (9/(16 pi))^(1/3) times that of Tabor, for a tension of work/range."""
+    found = ck.solve(sphere(transition, 32)).of(ck.Adhesion).tabor_parameter
+    assert 2.0 * (9.0 / (16.0 * math.pi)) ** (1 / 3) * found == pytest.approx(transition, rel=1e-6)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("case", CASES["maugis_dugdale"], ids=lambda case: str(case["transition"]))
 def test_the_sphere_on_a_fine_grid(case):
