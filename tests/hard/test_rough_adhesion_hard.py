@@ -31,6 +31,7 @@ def solved(*args, **given):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)
         result = ck.solve(ck.plan(scene(*args, **given)))
+    assert result.residual <= 1e-8
     numbers = [value for value, _ in result.scalars().values()]
     assert np.all(np.isfinite(numbers))
     assert all(np.all(np.isfinite(result[name])) for name in result.columns)
