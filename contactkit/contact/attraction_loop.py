@@ -61,7 +61,7 @@ class _ContactMap:
         self.law = attraction.prepare(self.solver.self_influence)
         hardness = plan.hardness
         self.hardness = hardness.value if isinstance(hardness, FixedHardness) else None
-        self.roughness = float(plan.heights.std())
+        self.unit = max(float(plan.heights.std()) / self.law.reach, 1.0)
         self.n_contacts = 0
 
     def pulled(self, tension: Map) -> Map:
@@ -77,7 +77,7 @@ class _ContactMap:
         plan, target = self.plan, self.target
         pulled = self.pulled(tension)
         load = target.mean_pressure
-        rtol = _INNER * change * self.law.reach / max(self.roughness, self.law.reach)
+        rtol = _INNER * change / self.unit
         solution = self.solver.solve(
             plan.heights + pulled,
             mean_pressure=None if load is None else load + float(tension.mean()),
@@ -142,6 +142,8 @@ def _newest(target: Target) -> Map | None:
 def _settled(contacts: _ContactMap, tension: Map, pressure: Map | None) -> tuple[_Pulled, Map, str]:
     """Iterate until the tension of the gap is the one that causes it; say what did not converge."""
     tolerance, strength = contacts.plan.accuracy.outer_rtol, contacts.law.strength
+    # Below, a change of the tension is that of contacts which are solved to a tenth of `rtol`.
+    floor = min(0.3 * contacts.plan.accuracy.rtol * contacts.unit, tolerance)
     before, age, change = tension, 0, 1.0
     rates: list[float] = []
     last: tuple[Map, Map] | None = None
@@ -155,7 +157,7 @@ def _settled(contacts: _ContactMap, tension: Map, pressure: Map | None) -> tuple
         is_exact = state.solution.kkt <= contacts.plan.accuracy.rtol
         if not (state.solution.converged or is_exact):
             return state, tension, _inner_problem(contacts, state.solution)
-        if change <= tolerance * min(rates, default=1.0):
+        if change <= max(tolerance * min(rates, default=1.0), floor):
             if is_exact:
                 return state, tension, ""
             change = 0.0  # the tension has settled in a contact that was solved loosely
