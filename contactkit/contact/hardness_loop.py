@@ -46,7 +46,8 @@ def contact_of(plan: ContactPlan, solved: Solved) -> Contact:
     if friction is not None:
         displacement = displacement + friction.displacement
         frictional = FrictionalContact(friction.displacement, friction.pressure_without)
-    gap = displacement - plan.heights - solution.rigid_approach
+    gap = displacement - plan.heights
+    gap -= solution.rigid_approach
     if solved.hardness is not None:
         bounded = BoundedContact(solved.hardness, np.maximum(-gap, 0.0))
     np.maximum(gap, 0.0, out=gap)

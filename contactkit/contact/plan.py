@@ -136,11 +136,24 @@ class ContactPlan(ScenePlan):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """See `ScenePlan.notes`: how many pixels carry no load."""
-        holes = holes_of(self.scene)
-        if holes is None:
-            return ()
-        return (f"holes: {int(holes.sum())} of {holes.size} pixels, which carry no load",)
+        """See `ScenePlan.notes`: pixels that carry no load, and memory once it is prepared."""
+        notes, holes = list[str](), holes_of(self.scene)
+        if holes is not None:
+            notes.append(f"holes: {int(holes.sum())} of {holes.size} pixels, which carry no load")
+        if self._interface.is_made:
+            notes.append(f"memory: {self.memory / 2**20:.3g} MiB, {self._maps()} without effects")
+        return tuple(notes)
+
+    def _maps(self) -> str:
+        (ny, nx), grid = self.grid.shape, self.grid
+        factor = 1 if grid.periodic else 2 if grid.along else 4
+        of = "the map" if grid.periodic else "the padded map"
+        return f"{self.memory / (8 * factor * ny * nx):.3g} arrays of {of},"
+
+    @property
+    def memory(self) -> int:
+        """Memory that the solve holds at its peak, without effects [bytes]; see `print(plan)`."""
+        return self.prepared.memory
 
     @property
     def mean_pressure(self) -> float | None:

@@ -28,6 +28,7 @@ _FEWEST_PER_SPOT = 4.0
 _HIGHEST_PRESSURE = 0.2
 _STEEPEST = 0.3
 _HIGHEST_JUMP = 2.0
+_LINES = 64
 
 
 def check_contact(
@@ -113,11 +114,14 @@ class _Steps(NamedTuple):
 
 
 def _steps(heights: Map) -> _Steps:
-    down, across = np.diff(heights, axis=0), np.diff(heights, axis=1)
-    return _Steps(
-        np.sqrt(np.einsum("ij,ij->i", down, down) / down.shape[1]),
-        np.sqrt(np.einsum("ij,ij->j", across, across) / across.shape[0]),
-    )
+    ny, nx = heights.shape
+    along_x, along_y = np.zeros(nx - 1), [np.zeros(0)]
+    for i in range(0, ny, _LINES):  # some at a time: differences take as much room as heights
+        some = heights[i : i + _LINES + 1]
+        down, across = np.diff(some, axis=0), np.diff(some[:_LINES], axis=1)
+        along_y.append(np.einsum("ij,ij->i", down, down))
+        along_x += np.einsum("ij,ij->j", across, across)
+    return _Steps(np.sqrt(np.concatenate(along_y) / nx), np.sqrt(along_x / ny))
 
 
 def _slope(contact: Contact, steps: _Steps) -> ValidityNumber:

@@ -320,12 +320,13 @@ class ContactSolver:
         self, problem: Problem, outcome: Outcome, rtol: float, fallback: bool, begun: float
     ) -> Solution:
         fine = self.grids[0]
-        p = fine.pressure.copy()
-        u = fine.gap + problem.heights
+        p, u = fine.pressure, fine.gap  # work arrays: the last use of the gap
+        u += problem.heights
         unit = problem.pressure * problem.length * self.pixel_size[0] * self.pixel_size[1]
         offset = problem.datum / problem.length
         # Not vdot: its threads of BLAS wait longer for each other than this takes.
-        energy = float(np.einsum("ij,ij->", p, 0.5 * u - problem.heights))
+        energy = 0.5 * float(np.einsum("ij,ij->", p, u))
+        energy -= float(np.einsum("ij,ij->", p, problem.heights))
         count = fine.applications()
         coarse = sum(g.applications() for g in self.grids[1:])
         coarse += sum(g.two_level.applications() for g in self.grids if g.two_level is not None)

@@ -192,7 +192,9 @@ class Convolution:
     dtype : type
         Precision, ``np.float64`` or ``np.float32``.
     lender : Convolution, optional
-        One of the same map and no less precision, to share the memory of its spectrum.
+        One of a map as large or larger, and no less precision, to share the memory of its spectrum.
+    maps : tuple of ndarray, optional
+        Memory of `source` and `target`, zeros; its own if not given.
 
     Notes
     -----
@@ -215,18 +217,20 @@ class Convolution:
         transforms: Transforms = BY_SCIPY,
         dtype: Any = np.float64,
         lender: Convolution | None = None,
+        maps: tuple[NDArray[Any], NDArray[Any]] | None = None,
     ) -> None:
         self.shape = shape
         self.count = 0
-        self.source: NDArray[Any] = np.zeros(shape, dtype)
-        self.target: NDArray[Any] = np.zeros(shape, dtype)
+        source, target = maps or (np.zeros(shape, dtype), np.zeros(shape, dtype))
+        self.source: NDArray[Any] = source
+        self.target: NDArray[Any] = target
         precise = np.dtype(dtype).itemsize
         kind = np.result_type(dtype, np.complex64)
         room = spectrum_shape(symbol.shape, dtype, periodic, transforms.fast)
         self._spectrum = _lent(lender, room, kind)
         lent = lender is not None and np.shares_memory(self._spectrum, lender._spectrum)
-        self.nbytes = precise * (2 * shape[0] * shape[1] + symbol.size)
-        self.nbytes += 0 if lent else self._spectrum.nbytes
+        self.nbytes = precise * symbol.size + (0 if lent else self._spectrum.nbytes)
+        self.nbytes += sum(one.nbytes for one in (self.source, self.target) if one.base is None)
         self._transform = make_transform(
             np.ascontiguousarray(symbol, dtype),
             shape,

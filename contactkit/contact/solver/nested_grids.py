@@ -78,6 +78,7 @@ class Grid(NamedTuple):
     steepest : largest eigenvalue of the operator
     uniform : displacement of a periodic map under uniform unit pressure
     loops : loops over the pixels, of numpy or compiled
+    room : memory that coarser grids share
     """
 
     pressure: NDArray[np.float64]
@@ -95,10 +96,13 @@ class Grid(NamedTuple):
     steepest: float
     uniform: float
     loops: Any
+    room: _Room
 
     def reset(self) -> None:
-        """Reset the counters."""
+        """Reset the counters, and the maps that a coarse grid has in the memory of the finest."""
         self.quick.count = 0
+        if self.exact is None:
+            self.quick.source[...] = 0.0
         if self.patch is not None:
             self.patch.count = 0
         if self.exact is not None:
@@ -205,14 +209,34 @@ def _response(operator: Convolution, periodic: bool) -> Floats:
     return whole[: operator.shape[0] // 2 + 1, : operator.shape[1] // 2 + 1].copy()
 
 
+class _Room:
+    """Memory of the gap of the finest grid, where coarser grids have their maps in turn before it.
+
+    They only provide its initial guess; what does not fit gets memory of its own.
+    """
+
+    def __init__(self, gap: Floats) -> None:
+        self._free = gap.reshape(-1)
+
+    def take(self, shape: Shape, kind: Any = np.float64) -> NDArray[Any]:
+        """Give a map of zeros."""
+        size = -(-shape[0] * shape[1] * np.dtype(kind).itemsize // self._free.itemsize)
+        if size > self._free.size:
+            return np.zeros(shape, kind)
+        taken, self._free = self._free[:size], self._free[size:]
+        made: NDArray[Any] = taken.view(kind)[: shape[0] * shape[1]].reshape(shape)
+        return made
+
+
 def _grid(
-    symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: bool
+    symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: Grid | None
 ) -> Grid:
     # A window that repeats along one axis is preconditioned as an isolated one.
     symbol, periodic = symbols(shape), symbols.periodic is True
     threads = threads if min(shape) >= LEAST_THREADED else 1
     transforms = Transforms(threads, fast, loops.scale_spectrum)
-    exact = Convolution(shape, symbol, symbols.periodic, transforms)
+    lender = None if finest is None else finest.exact
+    exact = Convolution(shape, symbol, symbols.periodic, transforms, lender=lender)
     response = _response(exact, periodic)
     pixel = symbols.pixel(shape)
     decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
@@ -223,14 +247,21 @@ def _grid(
         metric = CellInverse(response, shape, pixel, periodic, loops, reach)
     two_level = None if decay > PLATE or metric else _two_level(symbols, shape, symbol, fast, loops)
     spare = None if two_level is None else two_level.margin
+    pressure, gap, maps, change = exact.source, exact.target, None, None
+    if finest is not None:
+        room, change = finest.room, finest.change[: shape[0] * shape[1]]
+        pressure, gap = room.take(shape), room.take(shape)
+        maps = room.take(shape, np.float32), room.take(shape, np.float32)
+    edges, from_finest = symbols.periodic, lender or exact
+    quick = Convolution(shape, symbol, edges, transforms, np.float32, from_finest, maps)
     return Grid(
-        pressure=exact.source if finest else np.zeros(shape),
-        gap=exact.target if finest else np.zeros(shape),
-        exact=exact if finest else None,
-        quick=Convolution(shape, symbol, symbols.periodic, transforms, np.float32, exact),
-        patch=None if periodic else Patch(response, transforms, exact),
+        pressure=pressure,
+        gap=gap,
+        exact=exact if finest is None else None,
+        quick=quick,
+        patch=None if periodic else Patch(response, transforms, from_finest),
         response=response,
-        change=np.zeros(shape[0] * shape[1], np.float32),
+        change=np.zeros(shape[0] * shape[1], np.float32) if change is None else change,
         inverse=metric
         or SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
         metric=metric,
@@ -240,6 +271,7 @@ def _grid(
         steepest=float(symbol.max()),
         uniform=float(symbol[0, 0]) if periodic else 0.0,
         loops=loops,
+        room=_Room(gap) if finest is None else finest.room,
     )
 
 
@@ -269,12 +301,10 @@ def prepare(
     symbols = _Symbols(shape, pixel_size, make_symbol, periodic)
     transforms = fast_transforms_installed() if fast is None else fast
     one, many = compiled_loops(fast, 1), compiled_loops(fast, threads)
-    grids = [
-        _grid(
-            symbols, s, threads, transforms, many if min(s) >= LEAST_THREADED else one, s == shape
-        )
-        for s in nested_shapes(shape, pixel_size)
-    ]
+    grids = list[Grid]()
+    for s in nested_shapes(shape, pixel_size):
+        loops = many if min(s) >= LEAST_THREADED else one
+        grids.append(_grid(symbols, s, threads, transforms, loops, grids[0] if grids else None))
     return NestedGrids(grids, symbols.unit)
 
 
@@ -282,13 +312,10 @@ def bytes_of(grids: list[Grid]) -> int:
     """Memory that the grids hold."""
     total = 0
     for grid in grids:
-        convolutions = [grid.quick]
-        if grid.exact is not None:
-            convolutions.append(grid.exact)
-        else:
-            total += 2 * grid.pressure.nbytes
-        total += sum(c.nbytes for c in convolutions)
+        total += grid.quick.nbytes + (0 if grid.exact is None else grid.exact.nbytes)
+        maps = () if grid.exact is not None else (grid.pressure, grid.gap)
+        total += sum(one.nbytes for one in (*maps, grid.change) if one.base is None)
         total += 0 if grid.patch is None else grid.patch.nbytes
-        total += grid.response.nbytes + grid.inverse.nbytes + grid.change.nbytes
+        total += grid.response.nbytes + grid.inverse.nbytes
         total += 0 if grid.two_level is None else grid.two_level.nbytes
     return total

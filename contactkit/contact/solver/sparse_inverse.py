@@ -133,7 +133,7 @@ def pattern_rows(matrices: Floats, there: NDArray[np.bool_]) -> Floats:
 def _coarsest(count: int, strides: NDArray[np.int32]) -> NDArray[np.int8]:
     """Coarsest lattice that has each of the lines along one side."""
     has = np.arange(count)[:, None] % strides == 0
-    return (strides.size - 1 - np.argmax(has[:, ::-1], axis=1)).astype(np.int8)
+    return np.asarray(strides.size - 1 - np.argmax(has[:, ::-1], axis=1), np.int8)
 
 
 class SparseInverse:
