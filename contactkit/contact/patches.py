@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from ..capillary.film_islands import islands
+from ..capillary.film_islands import Islands, islands
 from ..errors import DescriptionError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..scene.window import Edges
     from .result import ContactResult
 
     Map = NDArray[np.float64]
@@ -112,13 +113,13 @@ def contact_patches(
             "repeat along both axes or not at all",
             hint="patches_of(result.contact, ...) takes them as cut at the edges",
         )
-    return patches_of(result.contact, grid.pixel_size, grid.periodic, connectivity, fewest_pixels)
+    return patches_of(result.contact, grid.pixel_size, grid.edges, connectivity, fewest_pixels)
 
 
 def patches_of(
     touching: NDArray[np.bool_],
     pixel_size: tuple[float, float],
-    periodic: bool,
+    periodic: Edges,
     connectivity: Literal[4, 8] = 8,
     fewest_pixels: int = 4,
 ) -> ContactPatches:
@@ -130,8 +131,8 @@ def patches_of(
         Pixels in contact.
     pixel_size : (float, float)
         Size of a pixel (dy, dx) [m].
-    periodic : bool
-        Whether spots continue across the edges.
+    periodic : bool, "x" or "y"
+        Whether spots continue across the edges: all of them, or along one axis alone.
     connectivity, fewest_pixels
         As in `contact_patches`.
 
@@ -152,7 +153,7 @@ def patches_of(
         raise DescriptionError(
             "patches.fewest_pixels", fewest_pixels, "be a whole number of at least 1"
         )
-    names, n = islands(touching, periodic, connectivity)
+    names, n = _labelled(touching, periodic, connectivity)
     pixels = np.sort(np.bincount(names.ravel(), minlength=n + 1)[1:])[::-1]
     is_small = pixels < fewest_pixels
     one = pixel_size[0] * pixel_size[1]
@@ -165,6 +166,17 @@ def patches_of(
         fewest_pixels=fewest_pixels,
         window_area=names.size * one,
     )
+
+
+def _labelled(touching: NDArray[np.bool_], periodic: Edges, connectivity: Literal[4, 8]) -> Islands:
+    """Labels of the spots from 1, 0 elsewhere, and their number."""
+    if isinstance(periodic, bool):
+        return islands(touching, periodic, connectivity)
+    # A line without contact keeps the edges apart that do not repeat.
+    ny, nx = touching.shape
+    apart = np.pad(touching, ((0, 1), (0, 0)) if periodic == "x" else ((0, 0), (0, 1)))
+    names, n = islands(apart, True, connectivity)
+    return Islands(names[:ny, :nx], n)
 
 
 def patch_density(patches: ContactPatches, per_decade: int = 5) -> PatchDensity:

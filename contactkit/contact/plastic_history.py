@@ -129,7 +129,8 @@ def residual_surface(result: ContactResult) -> Heights:
     grid, left = result.plan.grid, result.heights - depth
     if result.holes is not None:
         left = np.ma.MaskedArray(left, result.holes)
-    return Heights(heights=left, pixel_size=grid.pixel_size, is_periodic=grid.periodic)
+    repeats = grid.periodic if grid.along is None else None  # along one axis: the window says
+    return Heights(heights=left, pixel_size=grid.pixel_size, is_periodic=repeats)
 
 
 def _targets(plan: ContactPlan, history: PlasticHistory) -> list[Target]:

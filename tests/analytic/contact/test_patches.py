@@ -39,6 +39,17 @@ def test_spots_continue_across_the_edges_of_a_periodic_window(drawn, four, eight
         assert (found.labels > 0).tolist() == mask.tolist()
 
 
+@pytest.mark.parametrize(("along", "areas"), [("x", [4.0, 1.0]), ("y", [4.0, 1.0])])
+def test_spots_continue_along_the_one_axis_that_repeats(along, areas):
+    drawn = spots("#..# #..# .... ...#")  # over x: four pixels; over y: two below, one above
+    drawn = drawn if along == "x" else drawn.T
+    found = patches_of(drawn, (1.0, 1.0), along, 8, fewest_pixels=1)
+    assert found.areas.tolist() == areas
+    assert found.labels.shape == drawn.shape
+    assert patches_of(drawn, (1.0, 1.0), True, 8, fewest_pixels=1).areas.tolist() == [5.0]
+    assert patches_of(drawn, (1.0, 1.0), False, 8, fewest_pixels=1).number == 3
+
+
 def test_small_ones_are_counted_apart():
     drawn = spots("####.# ####.. ...... #.....")
     found = patches_of(drawn, PIXEL, periodic=False)

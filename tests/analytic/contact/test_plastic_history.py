@@ -260,6 +260,19 @@ def test_an_elastic_contact_has_no_memory():
     assert part.cycle_losses == (0.0,)
 
 
+def test_what_a_window_that_repeats_along_one_axis_leaves_is_pressed_in_it():
+    history = ck.PlasticHistory(pressures=(2e7, 0.0), steps=1)
+    made = scene(rough(24), ck.Pressing(pressure=2e7), MATERIAL, history, periodic="x")
+    result = ck.solve(ck.plan(made))
+    part = result.of(ck.PlasticHistory)
+    assert part.approach[3] == pytest.approx(part.approach[1], rel=1e-7)
+    assert part.plastic_work[3] == part.plastic_work[1] > 0.0
+    left = residual_surface(result)
+    assert left.is_periodic is None
+    again = scene(left, ck.Pressing(pressure=2e7), MATERIAL, periodic="x")
+    assert ck.solve(ck.plan(again)).rigid_approach == pytest.approx(result.rigid_approach, rel=1e-7)
+
+
 def test_holes_carry_no_load_and_stay_holes():
     holes = np.zeros((48, 48), dtype=bool)
     holes[10:14, 20:30] = True
