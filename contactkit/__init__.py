@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
     from .contact.effects.island_bridges import IslandBridges
     from .contact.effects.plastic_history import PlasticHistory
+    from .contact.effects.partial_slip import PartialSlip
     from .contact.effects.plasticity import HardnessLimit, HardnessMap
     from .contact.effects.stress import SubsurfaceStress
     from .contact.plan import ContactPlan
@@ -83,6 +84,7 @@ if TYPE_CHECKING:
         ImposedTime,
         Pressing,
         Sliding,
+        TangentialStep,
         Vibration,
     )
     from .scene.materials import Layer, Material, RigidBase, Stack
@@ -170,6 +172,7 @@ _HOMES = {
     "NotSimulatedError": "errors",
     "PUBLISHED": "as_published.lookup",
     "Paraboloid": "scene.surfaces",
+    "PartialSlip": "contact.effects.partial_slip",
     "Plan": "separation.plan",
     "PlanError": "errors",
     "PlasticHistory": "contact.effects.plastic_history",
@@ -188,6 +191,7 @@ _HOMES = {
     "Sphere": "scene.surfaces",
     "Stack": "scene.materials",
     "SubsurfaceStress": "contact.effects.stress",
+    "TangentialStep": "scene.loading",
     "TensionLimit": "separation.effects.registry",
     "ValidityWarning": "errors",
     "VanDerWaalsForce": "separation.effects.registry",
@@ -268,6 +272,7 @@ __all__ = [
     "NotSimulatedError",
     "PUBLISHED",
     "Paraboloid",
+    "PartialSlip",
     "Plan",
     "PlanError",
     "PlasticHistory",
@@ -286,6 +291,7 @@ __all__ = [
     "Sphere",
     "Stack",
     "SubsurfaceStress",
+    "TangentialStep",
     "TensionLimit",
     "ValidityWarning",
     "VanDerWaalsForce",

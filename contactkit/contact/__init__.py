@@ -18,6 +18,7 @@ plastic_history Steps of a loading history; the surface that a plastic contact l
 film_loop      Load that includes the force of a film: equilibria.
 film_estimate  Size of a film force that is reported only, were it in balance.
 effects        The physics a contact scene may list.
+slip           Partial slip under a tangential load path.
 solver         Contact solver: active set on nested grids.
 work           Counts and seconds of a solve.
 result         Maps, numbers, parts of the effects, residual.

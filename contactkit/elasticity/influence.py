@@ -26,7 +26,7 @@ from scipy import fft
 from . import love, point_load
 from .layer_stack import Base
 
-__all__ = ["coefficients", "symbol"]
+__all__ = ["coefficients", "coefficients_of", "symbol"]
 
 _NEAR = 20.0  # in longer sides of a pixel: beyond, the sixth order is below 1e-10
 _MIDDLE = 128.0  # likewise: beyond, the fourth order is below 1e-10
@@ -145,6 +145,23 @@ def coefficients(
         return love.rectangle(x, y[:, None], 0.5 * dx, 0.5 * dy, contact)
     diagonal = float(np.hypot(x[-1] + dx, y[-1] + dy))
     load = point_load.table(modulus, ratio, layers, 0.5 * min(dx, dy), diagonal, base)
+    return coefficients_of(load, shape, pixel_size)
+
+
+def coefficients_of(
+    load: point_load.PointLoad, shape: tuple[int, int], pixel_size: tuple[float, float]
+) -> NDArray[np.float64]:
+    """Influence coefficients of a tabulated point load, as `coefficients` [m/Pa].
+
+    Parameters
+    ----------
+    load : PointLoad
+        Table from half the shorter side of a pixel to the diagonal of the window and a pixel.
+    shape, pixel_size : tuple
+        As of :func:`symbol`.
+    """
+    (ny, nx), (dy, dx) = shape, pixel_size
+    x, y = dx * np.arange(nx + 1.0), dy * np.arange(ny + 1.0)
     out = _far(x, y, dx, dy, load)
     reach = _NEAR * max(dx, dy)
     near_x, near_y = min(nx, int(reach / dx) + 1), min(ny, int(reach / dy) + 1)

@@ -30,6 +30,7 @@ c             scale of the step that is subtracted                         m
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -40,7 +41,18 @@ from scipy.special import loggamma
 from . import layered
 from .layer_stack import Base
 
-__all__ = ["ORDERS", "Place", "PointLoad", "cubic", "locate", "mean_to", "table"]
+__all__ = [
+    "ORDERS",
+    "Place",
+    "PointLoad",
+    "Radii",
+    "Response",
+    "cubic",
+    "locate",
+    "mean_to",
+    "table",
+    "table_of",
+]
 
 ORDERS = 5
 """Number of functions T_0, T_1 ... that are tabulated."""
@@ -122,16 +134,54 @@ def table(
     [0.456, 1.82]
     """
     plane_compliance = 2.0 * (1.0 - poisson_ratio**2) / young_modulus
-    c_inf, c_s = float(plane_compliance[0]), 0.0 if base else float(plane_compliance[-1])
+
+    def normal(alpha: NDArray[np.float64]) -> NDArray[np.float64]:
+        return alpha * layered.compliance(alpha, young_modulus, poisson_ratio, thickness, base).C
+
+    far = 0.0 if base else float(plane_compliance[-1])
+    response = Response(normal, float(plane_compliance[0]), far)
+    return table_of(response, thickness, Radii(min_radius, max_radius))
+
+
+class Response(NamedTuple):
+    """Wavenumber times a compliance [1/Pa], as a function of the wavenumber [1/m].
+
+    `short` and `long` are its limits for short and for long waves.
+    """
+
+    at: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    short: float
+    long: float
+
+
+class Radii(NamedTuple):
+    """Ends of a table [m]."""
+
+    minimum: float
+    maximum: float
+
+
+def table_of(response: Response, thickness: NDArray[np.float64], radii: Radii) -> PointLoad:
+    """Tabulate T of any compliance of a layered half-space, as `table` does that of the normal one.
+
+    Parameters
+    ----------
+    response : Response
+        Wavenumber times compliance [1/Pa].
+    thickness : ndarray, shape (n_layers,)
+        Of the layers [m]; at least one.
+    radii : Radii
+        Ends of the table [m].
+    """
+    c_inf, c_s = response.short, response.long
     scale = float(np.sum(thickness))
-    low = min(_BELOW / scale, 0.1 / max_radius)
-    high = max(_ABOVE / float(thickness[0]), 10.0 / min_radius)
+    low = min(_BELOW / scale, 0.1 / radii.maximum)
+    high = max(_ABOVE / float(thickness[0]), 10.0 / radii.minimum)
     count = fft.next_fast_len(int(np.ceil(np.log(high / low) / _STEP)), real=True)
     alpha = low * np.exp(_STEP * np.arange(count))
-    response = alpha * layered.compliance(alpha, young_modulus, poisson_ratio, thickness, base).C
-    rest = response - (c_inf + (c_s - c_inf) * np.exp(-alpha * scale))
-    start = np.log(min_radius) - 2.0 * _STEP
-    n_radii = int(np.ceil((np.log(max_radius) - start) * _FINER / _STEP)) + 2 * _FINER
+    rest = response.at(alpha) - (c_inf + (c_s - c_inf) * np.exp(-alpha * scale))
+    start = np.log(radii.minimum) - 2.0 * _STEP
+    n_radii = int(np.ceil((np.log(radii.maximum) - start) * _FINER / _STEP)) + 2 * _FINER
     step = _STEP / _FINER
     radius = np.exp(start + step * np.arange(n_radii))
     modes = _modes(rest, np.log(low) + start)

@@ -5,6 +5,7 @@ flat_punch       Flat cylindrical punch on a half-space.
 westergaard      Westergaard: rigid wave in one direction.
 product_wave     Johnson, Greenwood and Higginson: rigid wave in two directions.
 love_patch       Uniform pressure on a rectangle, by quadrature.
+partial_slip     Sphere under a tangential force: Cattaneo, Mindlin and Deresiewicz; any contact.
 hamilton         Stresses under a sliding sphere.
 layered_wave     Wave of pressure on a layered half-space, by integration over the depth.
 reynolds         Reynolds' equation of an axisymmetric film, by finite volumes.

@@ -14,7 +14,7 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError, PlanError
 from ..units import si
-from ..validators import Described, finite, non_negative, optional, part, positive, refuse
+from ..validators import Described, count, finite, non_negative, optional, part, positive, refuse
 
 __all__ = [
     "CONTACT_LOADINGS",
@@ -29,6 +29,7 @@ __all__ = [
     "Pressing",
     "SeparationLoading",
     "Sliding",
+    "TangentialStep",
     "Vibration",
 ]
 
@@ -45,7 +46,7 @@ class Loading(Described, abc.ABC):
         """The loading in a few words, for the head of a plan."""
 
 
-def _exactly_one(loading: Loading, **units: str) -> str:
+def _exactly_one(loading: Described, **units: str) -> str:
     """Name of the only one of some fields that is given."""
     given = [name for name in units if getattr(loading, name) is not None]
     if len(given) != 1:
@@ -334,6 +335,53 @@ class Approach(ContactLoading):
     def summary(self) -> str:
         """See `Loading.summary`."""
         return f"approach {self.approach:g} m"
+
+
+@frozen(kw_only=True)
+class TangentialStep(Described):
+    """A step of a tangential load path: from the state before it to a target, in equal sub-steps.
+
+    Parameters
+    ----------
+    force : float, optional
+        Target of the tangential force on the lower body [N], at most the friction of full sliding.
+    displacement : float, optional
+        Target of the displacement of the upper body against the lower [m], from the start of the
+        path; beyond full sliding the contact slides on.
+    ratio : float, optional
+        Target of the force over that of full sliding [-], -1 to 1. Exactly one of the three.
+    steps : int
+        Equal sub-steps, each of which is a state of the result [-].
+    direction : float, optional
+        Direction of this step, from the x axis towards y [rad]; None: that of the path.
+
+    Examples
+    --------
+    A cycle after the first loading:
+
+    >>> cycle = [TangentialStep(ratio=r, steps=8) for r in (0.6, -0.6, 0.6)]
+    >>> TangentialStep(force=1.0, ratio=0.5)
+    Traceback (most recent call last):
+        ...
+    contactkit.errors.DescriptionError: TangentialStep must be given exactly one of force [N] or
+    displacement [m] or ratio [-], got ['force', 'ratio']
+    """
+
+    force: float | None = field(default=None, validator=optional(finite), metadata=si("N"))
+    displacement: float | None = field(default=None, validator=optional(finite), metadata=si("m"))
+    ratio: float | None = field(default=None, validator=optional(finite), metadata=si("-"))
+    steps: int = field(default=1, validator=count, metadata=si("-"))
+    direction: float | None = field(default=None, validator=optional(finite), metadata=si("rad"))
+
+    @ratio.validator
+    def _at_most_sliding(self, attribute: Attribute[Any], value: float | None) -> None:
+        if value is not None and abs(value) > 1.0:
+            raise refuse(
+                self, attribute, value, "lie between -1 and 1", "beyond, impose a displacement"
+            )
+
+    def __attrs_post_init__(self) -> None:
+        _exactly_one(self, force="N", displacement="m", ratio="-")
 
 
 CONTACT_LOADINGS: tuple[type[ContactLoading], ...] = (Pressing, Approach)

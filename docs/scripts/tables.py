@@ -149,6 +149,7 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
 OBJECTS = {
     "asperities": ck.AsperityPopulation(density=1.0, radius=1.0),
     "law": ck.ExponentialAttraction(work_of_adhesion=1.0, range=1.0),
+    "path": (ck.TangentialStep(ratio=1.0),),
 }
 PAIRS = {ck.ContactAngleHysteresis: {"advancing_lower": 1.0, "receding_lower": 1.0}}
 
@@ -201,6 +202,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
     "attraction laws": lambda: named([(law.kind, law) for law in ATTRACTION_LAWS], "law"),
     "contact effects": lambda: effect_table(CONTACT_EFFECTS),
+    "tangential step": lambda: keys(ck.TangentialStep),
     "contact scene": lambda: keys(ck.ContactScene),
     "body": lambda: keys(Body),
     "material": lambda: keys(ck.Material),

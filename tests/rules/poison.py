@@ -19,6 +19,7 @@ ROOMS = (
     "as_published.printed",
     "capillary",
     "contact.effects.hardness_rules",
+    "contact.slip",
     "contact.solver",
     "elasticity",
     "lubrication",

@@ -22,6 +22,14 @@ FIELDS = {
     "elasticity.stress.strips.*",
     *LAYERS,
 }
+SLIP = {
+    "contact.slip.*",
+    "elasticity.tangential.*",
+    "elasticity.love.*",
+    "elasticity.point_load.*",
+    "elasticity.influence.*",
+    *LAYERS,
+}
 FILM = "capillary.film_islands.*"
 TO_STICK = {"work_of_adhesion": 1e-3, "range": 2e-9}
 EXPONENTIAL = ck.ExponentialAttraction(**TO_STICK)
@@ -48,6 +56,8 @@ OWNED = {
         "elasticity.stress.tractions.traction_coupling",
         *FIELDS,
     },
+    ck.PartialSlip(coefficient=0.2, path=(ck.TangentialStep(ratio=0.5),)): SLIP,
+    ck.PartialSlip(coefficient=0.2, path=(ck.TangentialStep(force=0.0),), components=2): SLIP,
     ck.SubsurfaceStress(depths=(0.0, 1e-8)): {
         "elasticity.stress.planes.component",
         "elasticity.stress.reading.*",
@@ -138,8 +148,11 @@ def press(effects, edges, shape="heights"):
 
 
 def is_refused(effects):
-    """Whether an attraction would make pressures negative that another effect takes, or a bound."""
+    """Whether two laws of friction are listed, or an attraction with what cannot take tension."""
     given = [effect for effect in effects if isinstance(effect, ContactEffect)]
+    kinds = {type(effect) for effect in given}
+    if ck.PartialSlip in kinds and {ck.FrictionTraction, ck.SubsurfaceStress} & kinds:
+        return True  # two laws of friction; a stress without the traction of the first
     if not any(isinstance(effect, ck.Adhesion) for effect in given):
         return False
     fixed = ("material", "constant")
@@ -212,6 +225,11 @@ HEARTS = [
         (ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),
         "periodic",
         "elasticity.stress.tractions.traction_coupling",
+    ),
+    (
+        (ck.PartialSlip(coefficient=0.2, path=(ck.TangentialStep(ratio=0.5),)),),
+        "periodic",
+        "elasticity.tangential.periodic_symbol",
     ),
     ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.maxima.plane_maxima"),
     ((ck.Adhesion(law=DUGDALE),), "isolated", "adhesion.attraction.dugdale_tension"),

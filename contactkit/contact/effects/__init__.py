@@ -8,6 +8,7 @@ adhesion        Attraction of the surfaces across their gap.
 attraction_laws Laws of that attraction: Dugdale, exponential, Lennard-Jones.
 plastic_history Loads before that of the scene, with a residual shape.
 friction        Tangential traction of sliding, and the normal displacement it causes.
+partial_slip    Stick and slip under a tangential load path.
 stress          Stress below the surface.
 film            Meniscus force of a thin liquid film.
 island_bridges  An exact bridge on each wet island of the gap.

@@ -12,6 +12,7 @@ from .film import FilmMeniscus
 from .friction import FrictionCoupling, FrictionTraction
 from .island_bridges import IslandBridges
 from .plastic_history import PlasticHistory
+from .partial_slip import PartialSlip
 from .plasticity import HardnessLimit
 from .stress import SubsurfaceStress
 
@@ -25,6 +26,7 @@ CONTACT_EFFECTS: EffectRegistry[ContactEffect[Any]] = EffectRegistry(
     PlasticHistory,
     FrictionTraction,
     FrictionCoupling,
+    PartialSlip,
     SubsurfaceStress,
     FilmMeniscus,
     IslandBridges,

@@ -1,0 +1,216 @@
+"""Partial slip: stick and slip of the contact along a tangential load path."""
+
+from __future__ import annotations
+
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+from attrs import Attribute, field, frozen
+
+from ...scene.loading import TangentialStep
+from ...scene.validity import ValidityNumber
+from ...units import si
+from ...validators import as_tuple, finite, fraction, positive, refuse
+from ..slip.states import PartialSlipPart
+from .base import Contact, Observer, Scalar
+from .elasticity import layers_of
+from .friction import FrictionTraction
+
+if TYPE_CHECKING:
+    from ...scene.interface import Interface
+    from ...scene.scenes import ContactScene
+
+__all__ = ["PartialSlip"]
+
+_TRANSVERSE = 0.4  # q_y left out over nu/(2 - nu), measured on a sphere and a rough surface
+_MOST_TRANSVERSE = 0.1
+_MOST_COUPLING = 0.1
+
+
+def _steps(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if not value or not all(isinstance(one, TangentialStep) for one in value):
+        raise refuse(owner, attribute, value, "be at least one TangentialStep")
+
+
+def _components(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if isinstance(value, bool) or value not in (1, 2):
+        raise refuse(owner, attribute, value, "be 1 or 2")
+
+
+def _last(name: str) -> Any:
+    return lambda part: float(getattr(part, name)[-1])
+
+
+@frozen(kw_only=True)
+class PartialSlip(Observer[PartialSlipPart]):
+    r"""Stick and slip of the contact under a tangential load that follows a path.
+
+    The pressure is that of the contact without friction, and stays: exact for two equal bodies and
+    for incompressible ones, otherwise the pressure changes by up to the coefficient times Dundurs'
+    second parameter, see `validity`. Each sub-step is implicit,
+
+    .. math:: \min_q \tfrac12 (q - q_0)^T H (q - q_0) - D \sum (q - q_0), \quad |q| \le \mu p,
+
+    from the tractions q_0 of the one before, with H the tangential compliance of the (layered)
+    bodies. With one component a monotonic step is exact, whatever the number of sub-steps; they
+    only add states to the result. With two it converges with them.
+
+    Parameters
+    ----------
+    coefficient : float
+        Coefficient of friction [-], 0 to 1.
+    path : tuple of TangentialStep
+        Loading, unloading, reversal: forces or displacements, one after the other.
+    components : {1, 2}
+        Tractions along the load only, or along and across it. One is exact for nu = 0; for
+        nu = 0.3 it leaves out a transverse traction of up to 7 % of the largest, and the
+        displacement is right within 0.1 %.
+    direction : float
+        Direction of the load, from the x axis towards y [rad].
+    guided : bool
+        With two components: whether the transverse displacement is held, or the transverse force
+        is zero.
+    rtol : float
+        Largest violation of a condition over the displacement of a sub-step [-].
+
+    Examples
+    --------
+    Cattaneo and Mindlin: a sphere under a tangential force of 0.6 times full sliding.
+
+    >>> import contactkit as ck
+    >>> glass = ck.Material(name="glass", young_modulus=70e9, poisson_ratio=0.3)
+    >>> scene = ck.ContactScene(
+    ...     interface=ck.Interface(
+    ...         lower=ck.Body(solid=glass), upper=ck.Body(surface=ck.Paraboloid(radius=1e-3))
+    ...     ),
+    ...     window=ck.Window(width=51.3e-6, periodic=False),
+    ...     loading=ck.Pressing(force=1.0),
+    ...     effects=(
+    ...         ck.HalfSpace(),
+    ...         ck.PartialSlip(coefficient=0.3, path=(ck.TangentialStep(ratio=0.6),)),
+    ...     ),
+    ... )
+    >>> part = ck.solve(ck.plan(scene, ck.Accuracy(grid=64))).of(ck.PartialSlip)
+    >>> f"{part.force[-1]:.2f} N, {part.displacement[-1] * 1e9:.1f} nm"
+    '0.18 N, 76.0 nm'
+    """
+
+    name: ClassVar[str] = "partial-slip"
+    summary: ClassVar[str] = "stick and slip under a tangential load path"
+    records: ClassVar[tuple[type, ...]] = (PartialSlipPart,)
+    scalars: ClassVar[tuple[Scalar, ...]] = (
+        Scalar("tangential_force", "N", _last("force")),
+        Scalar("tangential_displacement", "m", _last("displacement")),
+        Scalar("friction_work", "J", _last("dissipated_work")),
+        Scalar("tangential_stiffness", "N/m", _last("stiffness")),
+        Scalar("stick_fraction", "-", _last("stick_fraction")),
+        Scalar("slip_residual", "-", attrgetter("residual")),
+    )
+
+    coefficient: float = field(validator=fraction, metadata=si("-"))
+    path: tuple[TangentialStep, ...] = field(converter=as_tuple, validator=_steps)
+    components: Literal[1, 2] = field(default=1, validator=_components, metadata=si("-"))
+    direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
+    guided: bool = True
+    rtol: float = field(default=1e-8, validator=positive, metadata=si("-"))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Effect.sources`."""
+        return (
+            "Coulomb's law in increments: Cattaneo 1938, Mindlin and Deresiewicz 1953, "
+            "Johnson 1985, sections 7.2 to 7.4",
+            "tangential compliances F11 and Fs of the layered half-space",
+        )
+
+    def lacks(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `ContactEffect.lacks`."""
+        missing = []
+        if scene.effect(FrictionTraction) is not None:
+            missing.append(
+                "a scene without FrictionTraction, which slides everywhere: list one of them"
+            )
+        if any(effect.name == "subsurface-stress" for effect in scene.effects):
+            missing.append(
+                "a scene without SubsurfaceStress, which does not have its traction: list it with "
+                "FrictionTraction for full sliding"
+            )
+        turned = [s for s in self.path if s.direction is not None and s.direction != self.direction]
+        if self.components == 1 and turned:
+            missing.append(
+                "components=2 for path steps of another direction [rad] than its own "
+                "(or direction=... for all of them)"
+            )
+        return tuple(missing)
+
+    def observe(self, contact: Contact) -> PartialSlipPart:
+        """See `Observer.observe`."""
+        from ..slip.load_path import FrictionLaw, follow
+
+        law = FrictionLaw(self.coefficient, self.direction, self.components, self.guided, self.rtol)
+        stacks = tuple(layers_of(stack) for stack in contact.scene.interface.stacks)
+        return follow(contact.pressure, contact.grid, stacks, self.path, law)
+
+    def validity(
+        self, contact: Contact, part: PartialSlipPart | None
+    ) -> tuple[ValidityNumber, ...]:
+        """See `ContactEffect.validity`."""
+        interface = contact.scene.interface
+        found = [
+            ValidityNumber(
+                name="normal and tangential coupling left out",
+                value=self.coefficient * _dundurs(interface),
+                high=_MOST_COUPLING,
+                detail="change of the pressure by friction, about the coefficient times Dundurs' "
+                "beta; zero for two equal bodies and for nu = 1/2",
+                source="Johnson 1985, section 5.4",
+            )
+        ]
+        if self.components == 1:
+            found.append(
+                ValidityNumber(
+                    name="transverse traction left out",
+                    value=_TRANSVERSE * _cross_compliance(interface),
+                    high=_MOST_TRANSVERSE,
+                    detail="largest traction across the load over the largest along it; "
+                    "components=2 has it",
+                    source="measured on a sphere and on a rough surface, nu = 0.3",
+                )
+            )
+        if part is not None:
+            found.append(
+                ValidityNumber(
+                    name="residual of partial slip",
+                    value=part.residual,
+                    high=1.01 * self.rtol,
+                    detail="violation of Coulomb's law over the displacement of a sub-step; use "
+                    "fewer sub-steps, or a larger rtol",
+                )
+            )
+        return tuple(found)
+
+
+def _surfaces(interface: Interface) -> list[tuple[float, float, float]]:
+    """Sign of a body, shear modulus [Pa] and Poisson's ratio of its surface."""
+    found = []
+    for sign, body in ((1.0, interface.lower), (-1.0, interface.upper)):
+        if body.stack is not None:
+            top = body.stack.materials[0]
+            nu = top.poisson_ratio
+            found.append((sign, 0.5 * top.young_modulus / (1.0 + nu), nu))
+    return found
+
+
+def _dundurs(interface: Interface) -> float:
+    """Size of Dundurs' second parameter of the materials at the surfaces [-]."""
+    bodies = _surfaces(interface)
+    apart = sum(sign * (1.0 - 2.0 * nu) / (2.0 * shear) for sign, shear, nu in bodies)
+    return abs(apart) / sum((1.0 - nu) / shear for _, shear, nu in bodies)
+
+
+def _cross_compliance(interface: Interface) -> float:
+    """Part of the tangential compliance that depends on the direction [-]: nu/(2 - nu)."""
+    bodies = _surfaces(interface)
+    return sum(nu / shear for _, shear, nu in bodies) / sum(
+        (2.0 - nu) / shear for _, shear, nu in bodies
+    )
