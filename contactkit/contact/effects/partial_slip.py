@@ -97,6 +97,8 @@ class PartialSlip(Observer[PartialSlipPart]):
 
     name: ClassVar[str] = "partial-slip"
     summary: ClassVar[str] = "stick and slip under a tangential load path"
+    takes_tension: ClassVar[bool] = False
+    takes_holes: ClassVar[bool] = True
     records: ClassVar[tuple[type, ...]] = (PartialSlipPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("tangential_force", "N", _last("force")),
