@@ -152,7 +152,7 @@ class FreeDirections(NamedTuple):
         return np.asarray(x - inward * self.normal)
 
     def added(self, x: Array) -> Array:
-        """What the curved bound adds to the displacement under a change `x`."""
+        """Displacement that the curved bound adds under a change `x`."""
         if len(x) == 1:
             return np.zeros_like(x)
         return np.asarray(self.curvature * x)

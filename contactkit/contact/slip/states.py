@@ -18,7 +18,7 @@ __all__ = ["PartialSlipPart", "Zone"]
 
 
 class Zone(IntEnum):
-    """What a pixel does in a state: `REVERSE_SLIP` is slip against the direction of the load."""
+    """State of a pixel: `REVERSE_SLIP` is slip against the direction of the load."""
 
     OPEN = 0
     STICK = 1

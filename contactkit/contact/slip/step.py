@@ -41,7 +41,7 @@ _ROUND_OFF = 1e-13  # of the displacement under the largest tractions: less cann
 
 
 class Control(NamedTuple):
-    """What a step imposes.
+    """Imposed forces and displacements of a step.
 
     `along` (k, m) are orthonormal directions in which the sum of the tractions becomes `total` (m)
     [Pa]; in the others the rigid displacement grows by `displacement` (k) [m].
