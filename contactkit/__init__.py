@@ -53,8 +53,8 @@ if TYPE_CHECKING:
     from .contact.effects.film import FilmMeniscus
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
     from .contact.effects.island_bridges import IslandBridges
-    from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.partial_slip import PartialSlip
+    from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.plasticity import HardnessLimit, HardnessMap
     from .contact.effects.stress import SubsurfaceStress
     from .contact.plan import ContactPlan

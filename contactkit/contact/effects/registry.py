@@ -11,8 +11,8 @@ from .elasticity import HalfSpace, LayeredHalfSpace
 from .film import FilmMeniscus
 from .friction import FrictionCoupling, FrictionTraction
 from .island_bridges import IslandBridges
-from .plastic_history import PlasticHistory
 from .partial_slip import PartialSlip
+from .plastic_history import PlasticHistory
 from .plasticity import HardnessLimit
 from .stress import SubsurfaceStress
 
