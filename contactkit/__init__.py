@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from .analyses.load_curve import load_curve
     from .analyses.load_displacement.solve import load_displacement
     from .analyses.pull_off import pull_off_curve
+    from .analyses.stick_slip import SpringSlider, stick_slip
     from .as_published.lookup import PUBLISHED, published
     from .contact.discretisation import discretisation_error
     from .contact.effects.adhesion import Adhesion
@@ -189,6 +190,7 @@ _HOMES = {
     "SlidingResult": "separation.sliding.result",
     "SlidingScene": "scene.scenes",
     "Sphere": "scene.surfaces",
+    "SpringSlider": "analyses.stick_slip",
     "Stack": "scene.materials",
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
@@ -219,6 +221,7 @@ _HOMES = {
     "save_scene": "files.scenes",
     "simulate": "separation.simulate",
     "solve": "contact.solve",
+    "stick_slip": "analyses.stick_slip",
     "load_displacement": "analyses.load_displacement.solve",
     "study": "studies.study",
 }
@@ -289,6 +292,7 @@ __all__ = [
     "SlidingResult",
     "SlidingScene",
     "Sphere",
+    "SpringSlider",
     "Stack",
     "SubsurfaceStress",
     "TangentialStep",
@@ -320,6 +324,7 @@ __all__ = [
     "save_scene",
     "simulate",
     "solve",
+    "stick_slip",
     "study",
 ]
 

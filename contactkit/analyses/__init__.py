@@ -7,5 +7,6 @@ division           Division of a meniscus into many: forces and optimal number.
 division_laws      Force laws of N equal menisci between flats, for the division.
 area_over_load     Real area of contact over the load, beside the theories of rough contact.
 load_curve         A contact under a series of loads or approaches, and its cost.
+stick_slip         Stick-slip of a block that is pulled through a spring.
 load_displacement  Load-displacement curve of a rough contact: loading, unloading, impact.
 """

@@ -5,5 +5,6 @@ contact     Figures of contacts.
 plastic_history Figures of loading histories: force over approach, residual depth.
 roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
 adhesion    Load and area over the approach of contacts under adhesion.
+slip        Figures of partial slip and of stick-slip.
 film        Figures of films on faces; animations.
 """

@@ -75,6 +75,7 @@ SCENE_OBJECTS = [
     ck.Sliding,
     ck.SlidingScene,
     ck.Sphere,
+    ck.SpringSlider,
     ck.RigidBase,
     ck.Stack,
     ck.TangentialStep,
