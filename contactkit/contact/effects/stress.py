@@ -124,8 +124,9 @@ class SubsurfaceStress(Observer[StressPart]):
     keep : {"section", "planes"}
         Whether to keep one section and the maxima, or all planes: six arrays for each depth.
     window : float
-        Isolated contacts: distance of the repetitions that the transforms leave over the size of
-        the window [-]; stiff layers need a hundred contact radii for four digits.
+        Isolated contacts, and across windows that repeat along one axis: distance of the
+        repetitions that the transforms leave over the size of the window [-]; stiff layers need a
+        hundred contact radii for four digits.
     tolerance : float
         Of the maxima over depth, where `depths` are not given [-].
     reading : {"spline", "uniform", "trigonometric"}

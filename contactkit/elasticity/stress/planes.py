@@ -30,7 +30,7 @@ from ...errors import DescriptionError
 from ..depths import Side, locate
 from ..layer_stack import Layers, Stack, stack_of
 from ..layered_fields import PlaneStates, plane_states
-from .isolated import Mean, add_correction, grids_of
+from .isolated import Mean, Step, add_correction, grids_of
 from .periodic import (
     IMAGINARY,
     Grid,
@@ -44,6 +44,7 @@ from .periodic import (
     within,
 )
 from .reading import Reading, Shallow, ShortWaves
+from .strips import LineStep
 from .tractions import Tractions
 
 __all__ = ["Plane", "StressField", "component", "planes"]
@@ -176,6 +177,7 @@ class StressField:
     ) -> Iterator[Plane]:
         """Planes, the first of which the short waves reach."""
         count, grids, n_grids = 9 if displacement else 6, self._grids, len(self._grids.all)
+        steps: tuple[Step | LineStep, ...] = grids.steps
         for i in range(n):
             of_grids = [next(one) for one in states[:n_grids]]
             short = next(states[-1]) if i < n_shallow else None
@@ -187,7 +189,7 @@ class StressField:
                     of_grids[1:], grids.all[1:], self._loads[1:], self._means[1:], strict=True
                 )
             ]
-            for step, wide, narrow in zip(grids.steps, others[::2], others[1::2], strict=True):
+            for step, wide, narrow in zip(steps, others[::2], others[1::2], strict=True):
                 for field, far, near in zip(fields, wide, narrow, strict=True):
                     for k in range(count):
                         add_correction(field[k], far[k], near[k], step)

@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from ...errors import DescriptionError
 from ..layer_stack import Layers
 from ..layered import compliance
-from .isolated import Mean, add_correction, grids_of
+from .isolated import Mean, Step, add_correction, grids_of
 from .periodic import Grid, into_space
+from .strips import LineStep
 
 __all__ = ["Tractions", "traction_coupling"]
 
@@ -113,6 +114,7 @@ def traction_coupling(
     [ 1. -1.]
     """
     grids = grids_of(shape, pixel_size, mean, padding)
+    steps: tuple[Step | LineStep, ...] = grids.steps
     compliances = [
         np.concatenate([[0.0], compliance(grid.modes.length, *layers).F12]) for grid in grids.all
     ]
@@ -123,7 +125,7 @@ def traction_coupling(
         field, *others = (
             _displaced(*one, workers) for one in zip(grids.all, loads, compliances, strict=True)
         )
-        for step, wide, narrow in zip(grids.steps, others[::2], others[1::2], strict=True):
+        for step, wide, narrow in zip(steps, others[::2], others[1::2], strict=True):
             add_correction(field, wide, narrow, step)
         return field
 
