@@ -50,7 +50,7 @@ class Accuracy(Described):
     method : {"active-set", "quasi-newton", "conjugate-gradient"}
         Solver of the contact; the last two are references for comparison.
     max_iterations : int
-        Maximum number of iterations of the contact solver.
+        Maximum number of iterations of a reference solver of the contact.
     threads : int
         Threads of the Fourier transforms.
 

@@ -92,11 +92,15 @@ def _problem(plan: ContactPlan, solution: Solution, friction: Friction | None) -
     """What did not converge, and the cure; empty if all did."""
     if solution.converged:
         return friction.problem if friction is not None else ""
-    cure = "raise Accuracy.max_iterations or rtol"
     if solution.is_stalled:
         cure = "round-off keeps it from falling further; raise Accuracy.rtol"
-    if plan.accuracy.method != "active-set":
-        cure += ", or use method='active-set'"
+    elif plan.accuracy.method == "active-set":
+        cure = (
+            "raise Accuracy.rtol, start from the result of a lower load, or use "
+            "method='conjugate-gradient', which converges slowly but surely"
+        )
+    else:
+        cure = "raise Accuracy.max_iterations or rtol, or use method='active-set'"
     return (
         f"the contact conditions are violated by {solution.kkt:.2g} of the rms height, tolerance "
         f"{plan.accuracy.rtol:g}, after {solution.n_applications} operator applications; {cure}"

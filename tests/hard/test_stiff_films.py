@@ -91,6 +91,51 @@ def test_load_and_approach_are_two_ways_to_one_contact():
     np.testing.assert_allclose(s.pressure, by_load.pressure, atol=1e-5 * by_load.pressure.max())
 
 
+@pytest.mark.parametrize(
+    ("contrast", "thickness", "load"),
+    [(1e3, 0.03, 1.0), (1e4, 0.01, 0.1), (3.0, 0.03, 0.1), (1e2, 0.003, 0.1)],
+)
+def test_a_hardness_that_holds_nearly_all_of_a_small_contact(contrast, thickness, load):
+    """With all pixels at a bound but one, none but that one makes up for the load."""
+    solver = ContactSolver((64, 64), (1 / 64, 1 / 64), film(contrast, thickness), True, fast=False)
+    h, mean = rough(64, True), load * BASE_LOAD
+    bound = max(0.3 * solver.solve(h, mean_pressure=mean).pressure.max(), 1.1 * mean)
+    s = solver.solve(h, mean_pressure=mean, bound=bound)
+    assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 200
+    assert s.pressure.mean() == pytest.approx(mean, rel=1e-11)
+    assert s.pressure.max() <= bound * (1.0 + 1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("is_resolved", [True, False])
+@pytest.mark.parametrize("bounded", [False, True])
+def test_every_film_costs_at_most_twice_the_half_space(is_resolved, bounded):
+    """Contrast, thickness and load over six decades; the median to a contrast of 1000."""
+    h, loads = rough(128, is_resolved), np.array([1.0, 30.0, 1000.0])
+
+    def counts(contrast, thickness):
+        maker = film(contrast, thickness)
+        solver = ContactSolver((128, 128), (1 / 128, 1 / 128), maker, True)
+        for mean in loads * BASE_LOAD:
+            s = solver.solve(h, mean_pressure=mean)
+            if bounded:
+                bound = max(0.5 * s.pressure.max(), 1.1 * mean)
+                s = solver.solve(h, mean_pressure=mean, bound=bound)
+            assert s.converged, (contrast, thickness, mean)
+            assert not s.fallback, (contrast, thickness, mean)
+            yield s.n_applications
+
+    base = np.median(list(counts(1.0, 0.0)))
+    thick = (1e-3, 1e-2, 1e-1)
+    moderate = [n for e in (1e-3, 10.0, 1e2, 1e3) for t in thick for n in counts(e, t)]
+    extreme = [n for e in (1e-6, 1e4, 1e6) for t in (*thick, 10.0) for n in counts(e, t)]
+    assert np.median(moderate) <= 2.0 * base
+    assert max(moderate) <= 200
+    assert max(extreme) <= 600
+
+
 @pytest.mark.parametrize("load", [1.0, 1e5])
 def test_an_isolated_map_under_any_load(load):
     """At 1e5 times the load single precision cannot measure what is left of the heights."""

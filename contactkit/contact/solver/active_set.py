@@ -14,7 +14,7 @@ from typing import NamedTuple
 from .nested_grids import Grid
 from .problem import Problem
 from .projected_set import ProjectedSet
-from .state import SINGLE_LIMIT
+from .state import SINGLE_LIMIT, State
 from .truncated_set import TruncatedSet
 
 __all__ = ["Outcome", "improve"]
@@ -54,20 +54,28 @@ def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
     Outcome
         With ``relative > rtol`` if the iterations stagnate: the fallback has to finish.
     """
-    state: TruncatedSet | ProjectedSet = TruncatedSet(grid, problem, rtol)
-    if grid.metric is not None:
-        state = ProjectedSet(grid, problem, rtol, grid.metric)
     history: list[tuple[int, float]] = []
+    state: State = ProjectedSet(grid, problem, rtol)
+    if not grid.is_stiff:
+        state = TruncatedSet(grid, problem, rtol)
+        if not _iterate(state, history):
+            state = ProjectedSet(grid, problem, rtol)
+    is_done = state.done() or _iterate(state, history)
+    relative = state.relative if is_done else max(state.relative, 2.0 * rtol)
+    return Outcome(state.approach, relative, state.certificate, len(history), tuple(history))
+
+
+def _iterate(state: State, history: list[tuple[int, float]]) -> bool:
+    """Evaluate and correct until the conditions are met or the method stagnates; whether met."""
     for step in range(state.max_iterations):
         relative = state.evaluate()
-        history.append((grid.applications(), relative))
+        history.append((state.grid.applications(), relative))
         if state.done():
-            break
+            return True
         if relative <= SINGLE_LIMIT and not state.exact:
             continue  # evaluate again before anything is corrected
         if state.stagnates(step):
             break
         if step < state.max_iterations - 1:
             state.correct()
-    relative = state.relative if state.done() else max(state.relative, 2.0 * rtol)
-    return Outcome(state.approach, relative, state.certificate, len(history), tuple(history))
+    return False

@@ -50,7 +50,12 @@ def cell_sizes(shape: Shape, pixel_size: tuple[float, float]) -> NDArray[np.int3
     return np.array(sizes, np.int32)
 
 
-def cell_levels(at: NDArray[np.intp], shape: Shape, sizes: NDArray[np.int32]) -> Cells:
+def cell_levels(
+    at: NDArray[np.intp],
+    shape: Shape,
+    sizes: NDArray[np.int32],
+    before: NDArray[np.int32] | None = None,
+) -> Cells:
     """Pixel that represents each cell of each level, and the level of each pixel.
 
     Parameters
@@ -61,6 +66,8 @@ def cell_levels(at: NDArray[np.intp], shape: Shape, sizes: NDArray[np.int32]) ->
         Pixels of the map.
     sizes : ndarray (n, 2)
         Sides of the cells, of pixels first.
+    before : ndarray, optional
+        Table of an earlier set of pixels; its representatives are kept where they are free.
 
     Examples
     --------
@@ -82,6 +89,8 @@ def cell_levels(at: NDArray[np.intp], shape: Shape, sizes: NDArray[np.int32]) ->
         cell = (y // sy) * width + x // sx
         # twice the distance of the middles, an integer; the pixel breaks a tie
         off = np.abs(2 * (y % sy) + 1 - sy) + np.abs(2 * (x % sx) + 1 - sx)
+        if before is not None:
+            off[before[first[n] + cell] == at[here]] = -1
         key = off * np.int64(at.size) + here
         nearest = np.full(counts[n].prod(), np.iinfo(np.int64).max)
         np.minimum.at(nearest, cell, key)
@@ -130,9 +139,10 @@ class CellInverse:
     ) -> None:
         self.shape, self.periodic, self.loops = shape, periodic, loops
         self.reach = reach
-        self.response = response - min(0.0, float(response.min()))  # that of a period is positive
+        self.response, self._lifted = response, np.zeros((0, 0))
         self.sizes = cell_sizes(shape, pixel_size)
         self.at = np.zeros(0, np.intp)
+        self.table: NDArray[np.int32] | None = None
         width = 2 * (2 * reach + 1) ** 2
         self.neighbours = np.zeros((0, width), np.int32)
         self.values = np.zeros((0, width), np.float32)
@@ -140,16 +150,17 @@ class CellInverse:
     @property
     def nbytes(self) -> int:
         """Memory held between the solves, the factor of the last set of pixels among it."""
-        held = self.response.nbytes + self.neighbours.nbytes + self.values.nbytes
-        return int(held + self.at.nbytes)
+        held = self._lifted.nbytes + self.neighbours.nbytes + self.values.nbytes
+        return int(held + self.at.nbytes + (0 if self.table is None else self.table.nbytes))
 
     def prepare(self, at: NDArray[np.intp], load_fixed: bool = False) -> None:
         """Take a set of pixels, by sorted flat indices; a prescribed sum changes nothing here."""
-        cells = cell_levels(at, self.shape, self.sizes)
+        cells = cell_levels(at, self.shape, self.sizes, self.table)
+        self.table = cells.table
         neighbours = self.loops.cell_neighbours(at, cells, self.reach, self.shape, self.periodic)
         self.values = self._rows(at, neighbours)
         self.at, self.neighbours = at, neighbours
-        position = cells.table[: self.shape[0] * self.shape[1]]  # no longer needed
+        position = np.empty(self.shape[0] * self.shape[1], np.int32)
         position[at] = np.arange(at.size, dtype=np.int32)
         there = neighbours >= 0
         columns = position[neighbours[there]]
@@ -169,14 +180,20 @@ class CellInverse:
             same[same] = (self.neighbours[before[same]] == neighbours[same]).all(axis=1)
             values[same] = self.values[before[same]]
             new = ~same
+        if not self._lifted.size:  # a periodic response has zero mean: this makes it positive
+            self._lifted = self.response - min(0.0, float(self.response.min()))
         values[new] = self.loops.cell_rows(
-            neighbours[new], self.response, self.shape, self.periodic, ROUND_OFF
+            neighbours[new], self._lifted, self.shape, self.periodic, ROUND_OFF
         )
         return values
 
     def __call__(self, r: Singles) -> Singles:
         """Pressures that would displace the pixels by about `r`."""
         return np.asarray(self.transposed @ (self.factor @ r))
+
+    def reset(self) -> None:
+        """Forget the representatives, so that a solve does not depend on those before it."""
+        self.table = None
 
     def clean(self) -> None:
         """Nothing: the rows are kept for the next set of pixels."""

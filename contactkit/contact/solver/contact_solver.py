@@ -37,6 +37,7 @@ REFERENCE: dict[str, Callable[..., Iterate]] = {  # the fallback, or the method 
 }
 COARSE_RTOL = 2e-2  # on coarser grids, which only provide the initial guess of the next
 AT_BOUND = 1e-9  # fraction of the bound by which an extrapolation misses it in round-off
+MOST_STEPS = 400  # of the fallback: it has converged by then, or it is not worth its time
 MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution is the better start
 
 
@@ -190,7 +191,7 @@ class ContactSolver:
             best first, to be extrapolated. Not used far from them, or where much of the contact
             is at its bound: the nested grids are the better start there.
         max_iterations : int
-            Maximum number of iterations of the fallback, or of a reference method.
+            Maximum number of iterations of a reference method; the fallback takes at most 400.
         method : {"active-set", "conjugate-gradient", "quasi-newton"}
             The last two are slow reference methods.
 
@@ -227,6 +228,8 @@ class ContactSolver:
                 fallback = not outcome.relative <= rtol
             else:
                 outcome, fallback = Outcome(0.0, np.inf, 0.0, 0, ()), False
+            if fallback:
+                max_iterations = min(max_iterations, MOST_STEPS)
             if fallback or method != "active-set":
                 outcome = self._by_reference(
                     REFERENCE[method], problem, outcome, rtol, max_iterations

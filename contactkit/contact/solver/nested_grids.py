@@ -73,7 +73,8 @@ class Grid(NamedTuple):
     response : displacement under unit pressure on the first pixel; to the middle if periodic
     change : displacement added since the last exact one, in single precision
     inverse : sparse approximate inverse of the operator between the free pixels
-    metric : the same object if pressures are to be projected in its metric, for stiff films
+    metric : the inverse in whose metric pressures are projected onto their bounds
+    is_stiff : whether they are from the start, under a stiff film; `inverse` is `metric` then
     two_level : cheaper one for more than `few` of them; none where it is poor, under stiff plates
     steepest : largest eigenvalue of the operator
     uniform : displacement of a periodic map under uniform unit pressure
@@ -90,7 +91,8 @@ class Grid(NamedTuple):
     change: Singles
     inverse: SparseInverse | CellInverse
     two_level: TwoLevel | None
-    metric: CellInverse | None
+    metric: CellInverse
+    is_stiff: bool
     few: int
     periodic: bool
     steepest: float
@@ -103,6 +105,7 @@ class Grid(NamedTuple):
         self.quick.count = 0
         if self.exact is None:
             self.quick.source[...] = 0.0
+        self.metric.reset()
         if self.patch is not None:
             self.patch.count = 0
         if self.exact is not None:
@@ -241,11 +244,12 @@ def _grid(
     pixel = symbols.pixel(shape)
     decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
     stiffening = _stiffening(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
-    metric = None
-    if stiffening > STIFF:
-        reach = 2 if stiffening > STIFFEST else 1
-        metric = CellInverse(response, shape, pixel, periodic, loops, reach)
-    two_level = None if decay > PLATE or metric else _two_level(symbols, shape, symbol, fast, loops)
+    reach = 2 if stiffening > STIFFEST else 1
+    metric = CellInverse(response, shape, pixel, periodic, loops, reach)
+    is_stiff = stiffening > STIFF
+    two_level = None
+    if decay <= PLATE and not is_stiff:
+        two_level = _two_level(symbols, shape, symbol, fast, loops)
     spare = None if two_level is None else two_level.margin
     pressure, gap, maps, change = exact.source, exact.target, None, None
     if finest is not None:
@@ -263,8 +267,10 @@ def _grid(
         response=response,
         change=np.zeros(shape[0] * shape[1], np.float32) if change is None else change,
         inverse=metric
-        or SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
+        if is_stiff
+        else SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
         metric=metric,
+        is_stiff=is_stiff,
         two_level=two_level,
         few=FEW if decay <= STEEP else int(FEW_STEEP * shape[0] * shape[1]),
         periodic=periodic,
@@ -317,5 +323,7 @@ def bytes_of(grids: list[Grid]) -> int:
         total += sum(one.nbytes for one in (*maps, grid.change) if one.base is None)
         total += 0 if grid.patch is None else grid.patch.nbytes
         total += grid.response.nbytes + grid.inverse.nbytes
+        total += 0 if grid.is_stiff else grid.metric.nbytes
+        total += grid.response.nbytes + grid.inverse.nbytes + grid.change.nbytes
         total += 0 if grid.two_level is None else grid.two_level.nbytes
     return total

@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .cell_inverse import CellInverse
 from .nested_grids import Grid
 from .problem import Problem, fit
 from .projection import project_in_metric
@@ -34,6 +33,10 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 UNSETTLED = 0.05  # fraction of pixels that come or go above which the metric alone is used
 SHORT = 0.7  # step of the line search below which the trial is not taken whole
+FARTHEST = 2.0  # pressures that a trial may move before it is projected, over the load
+MAX_APPLICATIONS = 1500  # of the operator
+MOST_SHORT = 3  # such steps in a row, after which conjugate gradients are tried
+STUCK = 0.02  # step of the line search that leads nowhere
 FLOOR = 3e-3  # reduction that single precision still gives under a stiff film
 REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
     (0.01, 0.1),
@@ -42,27 +45,23 @@ REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear res
 
 
 class ProjectedSet(State):
-    """Iterations of the projected active set.
-
-    Parameters
-    ----------
-    grid, problem, rtol
-        As of `State`.
-    metric : CellInverse
-        Sparse inverse of the operator of the grid.
-    """
+    """Iterations of the projected active set; parameters as of `State`."""
 
     max_iterations = 150
 
-    def __init__(self, grid: Grid, problem: Problem, rtol: float, metric: CellInverse) -> None:
+    def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
         super().__init__(grid, problem, rtol)
-        self.metric = metric
+        self.metric = grid.metric
+        if not self.balanced():  # the line search goes between maps of one load
+            self.p[...] = fit(self.p, problem)
+            self.missing = 0.0
         self.before: tuple[Indices, Floats, Floats] | None = None
+        self.n_short = 0  # steps in a row that went less than their length
         self.changed = 1.0  # fraction of pixels that came or went in the last step
 
     def stagnates(self, step: int) -> bool:
-        """Never: the energy falls at every step."""
-        return False
+        """Whether the solve has become too long; the energy falls at every step."""
+        return self.grid.applications() > MAX_APPLICATIONS
 
     def evaluate(self) -> float:
         """Reduced gap, approach and violation, after a line search along the last step."""
@@ -77,8 +76,13 @@ class ProjectedSet(State):
         d, turn = self.p[at] - p, self.g[at] - g[at]
         slope, curvature = float((self.approach - g[at]) @ d), float(d @ turn)
         length = slope / curvature if curvature > 0.0 else 1.0
+        self.n_short = self.n_short + 1 if length < SHORT else 0
         if length >= SHORT:
             return self.relative
+        if length < STUCK and not self.exact:  # round-off of single precision decides
+            self.precise = True
+            self.p[at] = p
+            return super().evaluate()
         length = max(length, 0.0)
         self.p[at] = p + length * d
         self.g *= length
@@ -107,7 +111,8 @@ class ProjectedSet(State):
     def _trial(self, at: Indices, p: Floats, r: Floats, added: int) -> Floats:
         """Feasible pressures of the free pixels that go downhill."""
         bound = np.broadcast_to(self.upper, self.p.shape)[at]
-        if max(self.changed, added / at.size) <= UNSETTLED:
+        if self.n_short >= MOST_SHORT or max(self.changed, added / at.size) <= UNSETTLED:
+            self.n_short = 0
             x = self._solved(at, r)
             y = self._projected(at, p, x, bound)
             if float(r @ (y - p)) > 0.0:
@@ -135,6 +140,7 @@ class ProjectedSet(State):
 
     def _projected(self, at: Indices, p: Floats, x: NDArray[Any], bound: Floats) -> Floats:
         """Pressures changed by x, projected onto their bounds if they leave them."""
+        x = x * self._shortened(x)
         y: Floats = p + x
         if np.all((y >= 0.0) & (y <= bound)):
             return y
@@ -146,6 +152,11 @@ class ProjectedSet(State):
         y = np.clip(p + found.change, 0.0, bound)
         y[found.side < 0] = 0.0
         return np.asarray(np.where(found.side > 0, bound, y))
+
+    def _shortened(self, x: NDArray[Any]) -> float:
+        """Factor of a change that would move many times the load, which bounds cut off anyway."""
+        moved = 0.5 * float(np.abs(x).sum())
+        return min(1.0, FARTHEST * self.load / moved) if self.load_fixed and moved > 0.0 else 1.0
 
     def _restore_load(self, at: Indices) -> None:
         """Scale the free pixels so that the pressures sum to the load."""

@@ -33,6 +33,8 @@ Singles = NDArray[np.float32]
 MAX_SETS = 20  # sets of held pixels tried
 MAX_STEPS = 40  # of conjugate gradients on each
 REDUCTION = 0.03  # of the residual on each
+MAX_SHIFTS = 30  # of the displacement that gives the changes their sum
+UNBALANCED = 0.01  # of the sum of changes, over that of their magnitudes: scaling makes up for it
 SETTLED = 0.02  # changes of side over held pixels that may remain: the next free pixels differ more
 
 
@@ -134,6 +136,22 @@ def project_in_metric(
     """
     metric = _Metric(factor, load_fixed)
     side = (x > high).astype(np.int8) - (x < low).astype(np.int8)
+    found = _bounded(metric, x, low, high, side)
+    if not load_fixed or not _misses(found, float(x.sum(dtype=np.float64))):
+        return found
+    return _with_sum(factor, x, low, high, found)
+
+
+def _misses(found: Projected, total: float) -> bool:
+    """Whether changes do not sum up as they should: where nearly all pixels are held."""
+    missing = abs(float(found.change.sum(dtype=np.float64)) - total)
+    return missing > UNBALANCED * float(np.abs(found.change).sum(dtype=np.float64))
+
+
+def _bounded(
+    metric: _Metric, x: Singles, low: Singles, high: Singles, side: NDArray[np.int8]
+) -> Projected:
+    """Projection by sets of held pixels, from a first guess of them."""
     w = np.zeros_like(x)
     moved = x
     for _ in range(MAX_SETS):
@@ -154,3 +172,32 @@ def project_in_metric(
     change = np.clip(moved, low, high)
     change[side < 0], change[side > 0] = low[side < 0], high[side > 0]
     return Projected(change, side)
+
+
+def _with_sum(factor: Any, x: Singles, low: Singles, high: Singles, first: Projected) -> Projected:
+    """Projection whose changes sum to those of x, by the equal displacement that makes them.
+
+    The sum falls with that displacement: regula falsi (Illinois) inside a bracket.
+    """
+    metric = _Metric(factor, False)
+    k = metric.transposed @ (factor @ np.ones_like(x))
+    total, stiffness = float(x.sum(dtype=np.float64)), float(k.sum(dtype=np.float64))
+
+    def excess(shift: float, side: NDArray[np.int8]) -> tuple[float, Projected]:
+        found = _bounded(metric, x - np.float32(shift) * k, low, high, side)
+        return float(found.change.sum(dtype=np.float64)) - total, found
+
+    here, found = excess(0.0, first.side)
+    a, b, at_a, at_b = 0.0, 0.0, here, here
+    step = here / stiffness
+    for _ in range(MAX_SHIFTS):
+        if not _misses(found, total):
+            break
+        shift = b + step if at_a * at_b > 0.0 else (a * at_b - b * at_a) / (at_b - at_a)
+        here, found = excess(shift, found.side)
+        if here * at_b > 0.0 and at_a * at_b <= 0.0:
+            at_a *= 0.5
+        else:
+            a, at_a = b, at_b
+        b, at_b, step = shift, here, 2.0 * step
+    return found

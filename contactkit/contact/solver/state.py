@@ -33,6 +33,8 @@ class State:
         Relative violation to reach.
     """
 
+    max_iterations = 80
+
     def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
         self.grid, self.problem, self.rtol = grid, problem, rtol
         self.p, self.g = grid.pressure.ravel(), grid.gap.ravel()
@@ -45,12 +47,14 @@ class State:
         self.approach, self.certificate, self.exact = 0.0, 0.0, False
         rms = float(np.std(self.h))
         self.same_rms = np.array([rms, -rms])  # two heights of the same rms, for the scale
-        self.relative = np.inf
+        self.relative, self.precise = np.inf, False
 
     def evaluate(self) -> float:
         """Reduced gap, approach and relative violation of the present pressure."""
         loops = self.grid.loops
-        self.exact = self.relative <= max(SINGLE, SINGLE_NOISE * self.largest / self.scale)
+        self.exact = self.precise or self.relative <= max(
+            SINGLE, SINGLE_NOISE * self.largest / self.scale
+        )
         self.grid.displace(self.exact)
         self.scale = height_scale(self.same_rms, self.g, self.problem.flat)
         self.largest = float(max(self.g.max(), -self.g.min()))
@@ -90,6 +94,14 @@ class State:
         """Mask of the pixels whose pressure is between the bounds."""
         bound = self.upper if self.upper.size == 1 else self.upper[at]
         return np.asarray((self.p[at] > 0.0) & (self.p[at] < bound))
+
+    def stagnates(self, step: int) -> bool:
+        """Note the progress up to a step; whether there has been none for too long."""
+        raise NotImplementedError
+
+    def correct(self) -> None:
+        """Change the free pixels towards the solution."""
+        raise NotImplementedError
 
     def descend(self) -> None:
         """Projected gradient step."""

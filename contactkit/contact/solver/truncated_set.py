@@ -33,8 +33,6 @@ PATIENCE = 15  # iterations within which the residual must have halved
 class TruncatedSet(State):
     """Iterations of the truncated active set; parameters as of `State`."""
 
-    max_iterations = 80
-
     def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
         super().__init__(grid, problem, rtol)
         self.stuck, self.cautious = False, False
