@@ -97,6 +97,12 @@ def adhesion():
     return ck.adhesion_curve(scene, [0.0, 1e-8])
 
 
+def stick_slip():
+    friction = {"static_coefficient": 0.3, "kinetic_coefficient": 0.2}
+    block = ck.SpringSlider(load=1.0, **friction, stiffness=1e3, speed=1e-3, mass=1e-2)
+    return ck.stick_slip(block, slips=2)
+
+
 def pull_off():
     law = ck.ExponentialAttraction(work_of_adhesion=0.01, range=1e-8)
     return ck.pull_off_curve(ck.plan(rough(ck.Adhesion(law=law)), GRID), [-1e-8, 0.0])
@@ -140,6 +146,7 @@ MADE = {
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),
     "adhesion curve": adhesion,
     "pull-off curve": pull_off,
+    "stick-slip": stick_slip,
     "division": lambda: ck.divide_meniscus(film(), [1, 2]),
     "critical meniscus": lambda: ck.critical_meniscus(film()),
     "printed equation": lambda: ck.PUBLISHED["3.19"],
