@@ -26,6 +26,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SHOWN_EXAMPLES = (
     "area_and_theories",
     "loading_history",
+    "rubbed_sphere",
 )  # their figures, by the names of their files
 # (scene, command): figures by the name they have in the pages.
 SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
