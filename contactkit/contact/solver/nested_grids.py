@@ -324,6 +324,5 @@ def bytes_of(grids: list[Grid]) -> int:
         total += 0 if grid.patch is None else grid.patch.nbytes
         total += grid.response.nbytes + grid.inverse.nbytes
         total += 0 if grid.is_stiff else grid.metric.nbytes
-        total += grid.response.nbytes + grid.inverse.nbytes + grid.change.nbytes
         total += 0 if grid.two_level is None else grid.two_level.nbytes
     return total
