@@ -110,12 +110,15 @@ FIELDS = [
     (ck.Accuracy(), "max_iterations", "", WHOLE, [0, -5, 1.5, None]),
     (ck.Accuracy(), "threads", "", WHOLE, [0, -5, 1.5, None]),
 ]
-# Checked apart: arrays, and depths, which are many.
+# Checked apart: arrays, depths and loads before, which are many.
 ELSEWHERE = {
     ("Heights", "heights"),
     ("HardnessMap", "values"),
     ("SubsurfaceStress", "depths"),
     ("SubsurfaceStress", "coefficients"),
+    *(("PlasticHistory", name) for name in ("pressures", "forces", "approaches", "steps")),
+    # See test_partial_slip_errors.py.
+    *(("PartialSlip", name) for name in ("coefficient", "direction", "components", "rtol")),
 }
 OF_A_SEPARATION = {"time_rtol", "points", "max_steps"}
 
@@ -588,7 +591,7 @@ def test_press_refuses_an_impossible_hardness(hardness, parts):
         ({"heights": "map.npy"}, ("Heights.heights must",)),
         ({"heights": np.array([[0.0, 1j], [0.0, 0.0]])}, ("Heights.heights must",)),
         ({"pixel_size": None}, ("Heights.pixel_size must be positive and finite [m], got None",)),
-        ({"periodic": "yes"}, ("Window.periodic must be a bool, got 'yes'",)),
+        ({"periodic": "yes"}, ("Window.periodic must be True, False, ",)),
     ],
 )
 def test_press_refuses_what_it_cannot_use(given, parts):
