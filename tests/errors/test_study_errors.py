@@ -242,7 +242,7 @@ pressure = "10 MPa"
         ('"gaussian-roughness"', '"gausian"', ("did you mean 'gaussian-roughness'?",)),
         ("rms", "rmss", ("did you mean 'rms'?",)),
         ('"1 um"', '"1 Pa"', ("Window.width must be in a unit that converts to m",)),
-        ("true", '"false"', ("be true or false", "'false'", "at window")),
+        ("true", '"false"', ("must be True, False", "'false'", "at window")),
         ('"10 MPa"', '"10 MPa"\nforce = "1 N"', ("exactly one of pressure",)),
     ],
 )

@@ -98,6 +98,11 @@ hardness_rules = st.builds(
     shift=st.floats(0.0, 1.0),
     displacement=st.sampled_from(["largest", "local"]),
 ) | st.builds(ck.HardnessLimit, rule=st.just("constant"), hardness=stresses)
+tangential_steps = st.one_of(
+    st.builds(ck.TangentialStep, force=decades(-9.0, 3.0), steps=st.integers(1, 9)),
+    st.builds(ck.TangentialStep, displacement=lengths, direction=st.none() | st.floats(-4.0, 4.0)),
+    st.builds(ck.TangentialStep, ratio=st.floats(-1.0, 1.0)),
+)
 EFFECTS = {
     ck.HalfSpace: st.builds(ck.HalfSpace),
     ck.LayeredHalfSpace: st.builds(ck.LayeredHalfSpace),
@@ -112,6 +117,14 @@ EFFECTS = {
         ck.FrictionTraction, coefficient=st.floats(0.0, 1.0), direction=st.floats(-4.0, 4.0)
     ),
     ck.FrictionCoupling: st.builds(ck.FrictionCoupling),
+    ck.PartialSlip: st.builds(
+        ck.PartialSlip,
+        coefficient=st.floats(0.0, 1.0),
+        path=st.lists(tangential_steps, min_size=1, max_size=3).map(tuple),
+        components=st.sampled_from([1, 2]),
+        direction=st.floats(-4.0, 4.0),
+        guided=st.booleans(),
+    ),
     ck.SubsurfaceStress: st.builds(
         ck.SubsurfaceStress,
         depths=st.none() | st.lists(lengths, min_size=1, unique=True).map(sorted),

@@ -122,7 +122,7 @@ def test_extrapolated_pressures_start_nearer():
     known = [(p, solver.solve(h, mean_pressure=p).pressure) for p in loads[::-1]]
     goal = solver.solve(h, mean_pressure=1.15**3 * 1e-2)
     off = [
-        np.abs(initial_pressure(known[:k], 1.15**3 * 1e-2, (n, n)) - goal.pressure).mean()
+        np.abs(initial_pressure(known[:k], 1.15**3 * 1e-2, True, (n, n)) - goal.pressure).mean()
         for k in (1, 2, 3)
     ]
     assert max(off[1:]) < 0.6 * off[0]
@@ -135,11 +135,12 @@ def test_starts_that_cannot_be_are_refused_and_odd_ones_are_taken():
     one = np.ones((2, 2))
     for bad in ([], [(1.0, np.ones(3))], [(1.0, one), (2.0, np.full((2, 2), np.nan))]):
         with pytest.raises(DescriptionError, match="start"):
-            initial_pressure(bad, 1.0, (2, 2))
-    # No load to extrapolate in: the newest is taken as it is.
-    for pairs, load in (([(1.0, one), (1.0, 2 * one)], 2.0), ([(0.0, one), (1.0, one)], 2.0)):
-        np.testing.assert_array_equal(initial_pressure(pairs, load, (2, 2)), one)
-    np.testing.assert_array_equal(initial_pressure([(1.0, one), (3.0, 2 * one)], None, (2, 2)), one)
+            initial_pressure(bad, 1.0, True, (2, 2))
+    # Nothing to extrapolate in, or the same load: the newest is taken as it is.
+    for start, load in ((one, 2.0), ([(1.0, one), (1.0, 2 * one)], 1.1), ([(3.0, one)], 3.0)):
+        np.testing.assert_array_equal(initial_pressure(start, load, True, (2, 2)), one)
+    # No ratio of loads: the nested grids start better.
+    assert initial_pressure([(0.0, one), (1.0, one)], 2.0, True, (2, 2)) is None
 
 
 def test_a_borrowed_spectrum_leaves_both_convolutions_right():

@@ -133,7 +133,8 @@ def cosimulation():
 MADE = {
     "separation plan": lambda: ck.plan(film()),
     "sliding plan": lambda: ck.plan(sliding()),
-    "contact plan": lambda: ck.plan(rough(), GRID),
+    # What is prepared is not pickled, nor the memory that only it can state.
+    "contact plan": lambda: ck.plan(rough(), GRID).without_preparation(),
     "solved plan": lambda: ck.solve(ck.plan(rough(), GRID)).plan,
     "curve": lambda: ck.simulate(ck.plan(film())),
     "motion": lambda: ck.simulate(ck.plan(pulled())),
