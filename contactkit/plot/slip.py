@@ -69,12 +69,14 @@ def traction_profile(result: ContactResult, ax: Axes | None = None, row: int | N
     extent, unit = _extent(result)
     x = (np.arange(result.pressure.shape[1]) + 0.5) * extent[1] / result.pressure.shape[1]
     bound = effect.coefficient * result.pressure[row] / 1e6
-    ax.fill_between(x, -bound, bound, color="#e8e8e4", label="within mu p")
+    ax.fill_between(x, -bound, bound, fc="#e8e8e4", ec="#a0a09a", label="within mu p")
     c, s = np.cos(effect.direction), np.sin(effect.direction)
     for number in range(len(part.traction_x)):
         q = (c * part.traction_x[number, row] + s * part.traction_y[number, row]) / 1e6
         force = part.force[part.end_of(number)]
-        ax.plot(x, q, lw=1.4, label=f"step {number}, {force:.3g} N")
+        # A cycle ends where it began: dashes show the curve below.
+        dash = ("-", "--", ":")[number % 3]
+        ax.plot(x, q, dash, lw=1.4, label=f"step {number}, {force:.3g} N")
     ax.set(xlabel=f"x [{unit}]", ylabel="traction [MPa]")
     legend(ax, fontsize=7)
     return ax

@@ -147,3 +147,17 @@ def test_layers_that_slide_on_their_base_are_refused_in_isolation():
     with pytest.raises(ck.DescriptionError, match="bond them to the base, or use Window"):
         run(BUMPS, ratio(0.5), solids=loose, periodic=False)
     assert run(BUMPS, ratio(0.5), solids=loose).residual <= 1e-8
+
+
+@COMPONENTS
+@EDGES
+@pytest.mark.parametrize("far", [1e-6, 1.0, -1e3])
+def test_however_far_it_is_moved_it_slides(far, periodic, components):
+    """The tolerance is of the elastic displacement, not of the length that the contact slides."""
+    part = run(BUMPS, moved(far), moved(0.0), periodic=periodic, components=components)
+    sign = np.sign(far)
+    assert part.force[1:] == pytest.approx([sign * full(BUMPS), -sign * full(BUMPS)], rel=1e-4)
+    assert not part.stick_fraction[1:].any()
+    assert part.dissipated_work[2] == pytest.approx(2.0 * abs(far) * full(BUMPS), rel=0.02)
+    faint = run(BUMPS, moved(far), coefficient=1e-12, components=components, periodic=periodic)
+    assert faint.force[1] == pytest.approx(sign * full(BUMPS, 1e-12), rel=1e-4, abs=0.0)

@@ -10,7 +10,7 @@ from attrs import Attribute, field, frozen
 from ...scene.loading import TangentialStep
 from ...scene.validity import ValidityNumber
 from ...units import si
-from ...validators import as_tuple, finite, fraction, positive, refuse
+from ...validators import as_tuple, finite, fraction, part, positive, refuse
 from ..slip.states import PartialSlipPart
 from .base import Contact, Observer, Scalar
 from .elasticity import layers_of
@@ -33,7 +33,7 @@ def _steps(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 def _components(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    if isinstance(value, bool) or value not in (1, 2):
+    if isinstance(value, bool) or not isinstance(value, int) or value not in (1, 2):
         raise refuse(owner, attribute, value, "be 1 or 2")
 
 
@@ -113,7 +113,7 @@ class PartialSlip(Observer[PartialSlipPart]):
     path: tuple[TangentialStep, ...] = field(converter=as_tuple, validator=_steps)
     components: Literal[1, 2] = field(default=1, validator=_components, metadata=si("-"))
     direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
-    guided: bool = True
+    guided: bool = field(default=True, validator=part(bool))
     rtol: float = field(default=1e-8, validator=positive, metadata=si("-"))
 
     @property

@@ -88,7 +88,10 @@ class _Step:
         self.along = control.along
         across = np.eye(len(before)) - self.along @ self.along.T
         self.given = across @ control.displacement
-        self.floor = _ROUND_OFF * float(bound.max(initial=0.0)) * operator.largest
+        largest = float(bound.max(initial=0.0))
+        self.floor = _ROUND_OFF * largest * operator.largest
+        # Of a displacement beyond full sliding the tractions take no notice.
+        self.least = min(float(np.abs(self.given).max()), 2.0 * largest * operator.own)
 
     def state(self, q: Array, slips: NDArray[np.bool_]) -> _State:
         x = q - self.before
@@ -163,7 +166,7 @@ def solve_step(
     control : Control
         What is imposed.
     rtol : float
-        Largest violation of a condition, over the largest displacement of the step.
+        Largest violation of a condition, over the largest elastic displacement of the step.
 
     Returns
     -------
@@ -179,7 +182,7 @@ def solve_step(
     best, last, changed = np.inf, np.inf, 1.0
     for iteration in range(1, _MOST_ITERATIONS + 1):
         free, g = step.directions(state)
-        scale = max(float(np.abs(state.u).max()), float(np.abs(step.given).max()))
+        scale = max(float(np.abs(state.u).max()), step.least)
         found = step.violation(state.q, g)
         allowed = max(rtol * scale, step.floor)
         if found < best:
