@@ -27,6 +27,12 @@ if TYPE_CHECKING:
 
 __all__ = ["LoadCurve", "load_curve"]
 
+_ARGUMENTS = {
+    "force": ("loads", "N"),
+    "pressure": ("pressures", "Pa"),
+    "approach": ("approaches", "m"),
+}
+
 
 @frozen(eq=False)
 class LoadCurve:
@@ -183,11 +189,22 @@ def _series(
     known = [(name, values) for name, values in given.items() if values is not None]
     if len(known) != 1:
         expected = "be given one of loads [N], pressures [Pa] or approaches [m]"
-        raise DescriptionError("load_curve", [name for name, _ in known] or "none", expected)
+        names = [_ARGUMENTS[name][0] for name, _ in known]
+        raise DescriptionError("load_curve", names or "none", expected)
     name, values = known[0]
-    if len(values) == 0:
-        raise DescriptionError(f"load_curve({name})", "no value", "be one value or more")
-    return name, [float(value) for value in values]
+    argument, unit = _ARGUMENTS[name]
+    made = np.asarray(values)
+    if made.size == 0:
+        raise DescriptionError(f"load_curve({argument})", "no value", "be one value or more")
+    if made.dtype.kind not in "iuf" or made.ndim != 1 or not np.isfinite(made).all():
+        raise DescriptionError(
+            f"load_curve({argument})",
+            values,
+            "be a sequence of finite numbers",
+            unit=unit,
+            hint="a text with a unit is for files and studies",
+        )
+    return name, [float(value) for value in made]
 
 
 def _curve(points: list[_Point]) -> LoadCurve:

@@ -191,7 +191,7 @@ def pull_off_curve(
     NotSimulatedError
         If the scene does not list `Adhesion`.
     DescriptionError
-        If the approaches are fewer than two, or do not rise.
+        If the approaches are fewer than two, or do not rise, or `refinements` is no whole number.
     ConvergenceError
         If a state does not converge.
 
@@ -228,6 +228,10 @@ def pull_off_curve(
     """
     check_plan(plan, ContactPlan)
     plan.listed(Adhesion)
+    if isinstance(refinements, bool) or not isinstance(refinements, int) or refinements < 0:
+        raise DescriptionError(
+            "pull_off_curve(refinements)", refinements, "be a whole number of at least 0"
+        )
     levels = _checked(approaches)
     worst: dict[str, ValidityNumber] = {}
 
@@ -247,8 +251,9 @@ def pull_off_curve(
 
 
 def _checked(approaches: Sequence[float] | ArrayLike) -> list[float]:
-    given = np.atleast_1d(np.asarray(approaches, dtype=np.float64))
-    if given.ndim != 1 or given.size < 2 or not np.all(np.isfinite(given)):
+    given = np.asarray(approaches)
+    is_list = given.dtype.kind in "iuf" and given.ndim == 1 and given.size >= 2
+    if not is_list or not np.isfinite(given).all():
         raise DescriptionError(
             "pull_off_curve(approaches)", approaches, "be two finite numbers or more", unit="m"
         )

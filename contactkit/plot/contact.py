@@ -23,6 +23,7 @@ __all__ = [
     "length_unit",
     "load_curve",
     "pressure",
+    "pressure_unit",
     "stack_section",
     "von_mises_section",
 ]
@@ -41,6 +42,14 @@ def length_unit(length: float) -> tuple[float, str]:
     return 1e-9, "nm"
 
 
+def pressure_unit(pressure: float) -> tuple[float, str]:
+    """Factor and name of the unit in which a pressure [Pa] reads best."""
+    for factor, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")):
+        if abs(pressure) >= 0.1 * factor:
+            return factor, name
+    return 1.0, "Pa"
+
+
 def _extent(result: ContactResult) -> tuple[tuple[float, float, float, float], str]:
     (ny, nx), (dy, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
     factor, unit = length_unit(max(nx * dx, ny * dy))
@@ -53,16 +62,16 @@ def _place(ax: Axes, unit: str) -> None:
 
 
 def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw the pressure map; pixels out of contact are white."""
+    """Draw the pressure map; white where there is neither contact nor attraction."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
-    touching = np.ma.masked_where(~result.contact, result.pressure / 1e9)
-    image = ax.imshow(
-        touching, origin="lower", extent=extent, cmap="viridis", interpolation="nearest"
-    )
+    factor, name = pressure_unit(float(np.abs(result.pressure).max()))
+    acting = result.contact | (result.pressure != 0.0)
+    shown = np.ma.masked_where(~acting, result.pressure / factor)
+    image = ax.imshow(shown, origin="lower", extent=extent, cmap="viridis", interpolation="nearest")
     _place(ax, unit)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
-    bar.set_label("pressure [GPa]")
+    bar.set_label(f"pressure [{name}]")
     return ax
 
 

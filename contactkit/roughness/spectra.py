@@ -71,6 +71,8 @@ class Spectrum(NamedTuple):
     """Number of waves in each value; the relative scatter is one over the root of half of it."""
 
 
+_HIGHEST = 1e30  # [m]
+
 # What is accepted ---------------------------------------------------------------------------
 
 
@@ -105,6 +107,13 @@ def as_map(heights: ArrayLike) -> Array:
             f"a map with {n} pixels that are not finite",
             "have a finite height at every pixel [m]",
             hint="cut out a part without holes, or fill them first",
+        )
+    if not np.abs(z).max() <= _HIGHEST:
+        raise DescriptionError(
+            "heights",
+            f"a map of up to {np.abs(z).max():.3g} m",
+            f"be at most {_HIGHEST:g} m, as the squares of curvatures overflow",
+            hint="check their unit",
         )
     return z
 

@@ -40,6 +40,8 @@ __all__ = [
     "surface_statistics",
 ]
 
+_LOWEST = 1e-30  # [m]
+
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
 Derivatives = Literal["spectral", "differences"]
@@ -317,7 +319,8 @@ def surface_statistics(
     Raises
     ------
     DescriptionError
-        If the map has holes, is flat, or has fewer than 3 x 3 pixels without being periodic.
+        If the map has holes, is flat, has fewer than 3 x 3 pixels without being periodic, or
+        heights that are no lengths in metres.
 
     Examples
     --------
@@ -341,6 +344,13 @@ def surface_statistics(
         )
     centred = z - z.mean()
     shape = standardised(z)  # refuses a plane
+    if np.abs(centred).max() < _LOWEST:
+        raise DescriptionError(
+            "heights",
+            f"a map of {np.abs(centred).max():.3g} m",
+            f"differ by {_LOWEST:g} m or more, as the squares of curvatures underflow",
+            hint="check their unit",
+        )
     kind = derivatives or ("spectral" if periodic else "differences")
     slopes, laplacian = (_spectral if kind == "spectral" else _by_differences)(
         centred, size, periodic

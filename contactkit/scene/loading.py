@@ -293,7 +293,12 @@ class Pressing(ContactLoading):
     def _not_pulled(self, attribute: Attribute[Any], value: Any) -> None:
         if value is not None and value < 0.0:
             raise refuse(
-                self, attribute, value, "be zero or positive", "a pull is a matter of separation"
+                self,
+                attribute,
+                value,
+                "be zero or positive",
+                "a pull is a matter of separation; under Adhesion impose an Approach, or follow "
+                "the approaches of a pull_off_curve",
             )
 
     def __attrs_post_init__(self) -> None:

@@ -196,7 +196,10 @@ def test_a_curve_warns_once_of_each_number(recwarn):
         ({"loads": [1.0], "approaches": [1e-9]}, r"one of loads \[N\], pressures \[Pa\]"),
         ({"loads": []}, "one value or more"),
         ({"pressures": [1e7, -1.0]}, "pressure"),
-        ({"pressures": [1e7, float("nan")]}, "pressure"),
+        ({"pressures": [1e7, float("nan")]}, r"pressures\) must be a sequence of finite numbers"),
+        ({"pressures": 1e7}, r"pressures\) must be a sequence"),
+        ({"pressures": ["10 MPa"]}, r"pressures\) must be a sequence.*files and studies"),
+        ({"approaches": [[1e-9]]}, r"approaches\) must be a sequence"),
         ({"pressures": [1e7], "rtol": 2.0}, "rtol"),
     ],
 )

@@ -235,3 +235,39 @@ def test_a_scene_file_names_the_law(tmp_path):
     file.write_text(text.replace("exponential", "exponentiel"), "utf-8")
     with pytest.raises(ck.DescriptionError, match="did you mean 'exponential'"):
         ck.load_scene(file)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"approaches": ["-1 um", "0 um"]}, "two finite numbers"),
+        ({"approaches": [True, False]}, "two finite numbers"),
+        ({"approaches": [-1e-9, 0.0], "refinements": 1.5}, r"refinements\) must be a whole number"),
+        ({"approaches": [-1e-9, 0.0], "refinements": -1}, r"refinements\) must be a whole number"),
+    ],
+)
+def test_a_curve_refuses_what_is_no_path(given, words):
+    with pytest.raises(ck.DescriptionError, match=words):
+        ck.pull_off_curve(ck.plan(scene(WEAK)), **given)
+
+
+def test_a_pull_under_adhesion_names_what_imposes_it():
+    with pytest.raises(ck.DescriptionError, match=r"impose an Approach.*pull_off_curve"):
+        ck.Pressing(force=-1e-6)
+
+
+def test_a_map_of_a_soft_contact_has_its_unit_and_the_tension_beside_it():
+    plot = pytest.importorskip("contactkit.plot.contact")
+    soft = ck.Material(young_modulus=1e6, poisson_ratio=0.3)
+    weak = ck.ExponentialAttraction(work_of_adhesion=1e-5, range=5e-9)
+    result = solved(weak, solid=soft, approach=-1e-9)
+    assert not result.contact.any()
+    drawn = plot.pressure(result)
+    assert drawn.figure.axes[1].get_ylabel() == "pressure [kPa]"
+    assert not np.ma.getmaskarray(drawn.images[0].get_array()).any()
+
+
+def test_a_tension_that_leaves_round_off_of_the_pressure_is_refused():
+    law = ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-30)
+    with pytest.raises(ck.PlanError, match=r"work_of_adhesion/range is 5e.28 Pa.*check the units"):
+        ck.plan(scene(law))

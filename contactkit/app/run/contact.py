@@ -153,12 +153,14 @@ def _figures(
     made, axes = plot.figure(1, 2, size=(11.0, 5.2))
     contact_plot.pressure(result, axes[0])
     contact_plot.contact_spots(result, axes[1])
-    plot.title(axes[0], f"{title}, {result.mean_pressure / 1e6:.3g} MPa")
+    factor, unit = contact_plot.pressure_unit(result.mean_pressure)
+    mean = f"mean pressure {result.mean_pressure / factor:.3g} {unit}"
+    plot.title(axes[0], f"{title}, {mean}" if title else mean)
     files = [plot.save(made, out / "contact")]
     if result.plan.has(SubsurfaceStress):
         made, ax = plot.figure(size=(8.0, 5.5))
         contact_plot.von_mises_section(result, ax)
-        plot.title(ax, f"{title}: under the maximum pressure")
+        plot.title(ax, f"{title}: under the maximum pressure".removeprefix(": "))
         files.append(plot.save(made, out / "stress"))
     files.append(_stacks(result.plan, out))
     if studies:
@@ -205,7 +207,7 @@ def _load_curves(
     contact_plot.load_curve(curves, flat)
     for ax in flat[len(panels) :]:
         ax.set_visible(False)
-    plot.title(flat[0], f"{title}: load curve")
+    plot.title(flat[0], f"{title}: load curve".removeprefix(": "))
     if len(curves) > 1:
         plot.shared_legend(made, flat[0])
     return plot.save(made, out / "load-curve")

@@ -26,6 +26,7 @@ __all__ = ["Adhesion", "AdhesionPart"]
 _MOST_TRAPPING = 0.5
 _MOST_STEP = 1.0
 _MOST_AT_EDGE = 0.05
+_MOST_TENSION = 1e8  # over E*: the net pressure, a difference of tensions, keeps eight digits of E*
 
 
 class AdhesionPart(NamedTuple):
@@ -123,12 +124,21 @@ class Adhesion(Attraction[AdhesionPart]):
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
-        return tuple(
+        missing = [
             f"no {type(effect).__name__} beside it, which takes pressures to be positive: leave "
             "one of them out"
             for effect in scene.effects
             if not effect.takes_tension
-        )
+        ]
+        highest = _MOST_TENSION * contact_modulus(scene)
+        tension = self.law.work_of_adhesion / self.law.range
+        if tension > highest:
+            missing.append(
+                f"a tension of at most {_MOST_TENSION:g} E* = {highest:.3g} Pa, and "
+                f"work_of_adhesion/range is {tension:.3g} Pa: the net pressure would be round-off; "
+                "check the units of range and work_of_adhesion"
+            )
+        return tuple(missing)
 
     def prepare(self, self_influence: float) -> TensionLaw:
         """See `Attraction.prepare`."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
+from contactkit.errors import DescriptionError
 from contactkit.roughness import elementary, random_surfaces, spectra
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.height_maps import detrended
@@ -308,3 +309,11 @@ def test_a_trend_is_taken_off_as_by_least_squares(trend):
     a = np.stack([c.ravel() for c in columns], axis=1)
     fit = a @ np.linalg.lstsq(a, z.ravel())[0]
     np.testing.assert_allclose(detrended(z, trend), z - fit.reshape(z.shape), atol=1e-12)
+
+
+@pytest.mark.parametrize("scale", [1e-160, 1e200])
+def test_heights_that_are_no_lengths_are_refused(scale):
+    heights = scale * np.cos(np.arange(16.0))[:, None] * np.cos(np.arange(16.0))
+    for periodic in (False, True):
+        with pytest.raises(DescriptionError, match="check their unit"):
+            stats.surface_statistics(heights, 1e-9, periodic)
