@@ -29,6 +29,7 @@ _SUDDEN = 0.1  # energy lost over change of load times change of approach, at a 
 # over the adhesive energy, in a step that is too long
 _LEAST = 1e-3  # energy lost over the adhesive energy, at a jump
 _PASSING = "pixels across a contact spot"  # which begins and ends in a point on every branch
+_MOST_LEFT = 0.999
 _CLOSED = 1e-6  # change of energy over the adhesive energy, of a loop that is closed
 
 
@@ -89,7 +90,8 @@ class PullOffCurve:
     plan : ContactPlan
         What was solved, without its preparation.
     validity : tuple of ValidityNumber
-        The worst of each number over all states, but for the pixels across a contact spot.
+        The worst of each number over all states, but for the pixels across a contact spot; and the
+        tension at the end of the separation over the pull-off force [-].
     """
 
     approaching: AdhesiveBranch = field(repr=False)
@@ -121,11 +123,21 @@ class PullOffCurve:
 
     @property
     def loop_energy(self) -> float:
-        """Work of the load over approach and separation [J], which hysteresis dissipates."""
+        """Work of the load over approach and separation [J], which hysteresis dissipates.
+
+        By the trapezoidal rule, whose error is about `loop_error`: a loop of less is none, and may
+        come out negative.
+        """
         return sum(
             float(np.trapezoid(one.load, one.approach))
             for one in (self.approaching, self.separating)
         )
+
+    @property
+    def loop_error(self) -> float:
+        """Size of the error of `loop_energy` [J]: energy that steps gain, which none can."""
+        both = (self.approaching, self.separating)
+        return -sum(float(np.minimum(one.loss, 0.0).sum()) for one in both)
 
     @property
     def is_closed(self) -> bool:
@@ -243,7 +255,7 @@ def pull_off_curve(
 
     up, jumps_up = _followed(run, run(levels[0], None), levels[1:], "approach", refinements)
     down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", refinements)
-    found = tuple(worst.values())
+    found = (*worst.values(), _left(down))
     warn(found)
     return PullOffCurve(
         _branch(up), _branch(down), (*jumps_up, *jumps_down), plan.without_preparation(), found
@@ -291,6 +303,20 @@ def _note(worst: dict[str, ValidityNumber], found: Sequence[ValidityNumber]) -> 
             continue
         if kept is None or kept.value is None or _is_worse(one, kept):
             worst[one.name] = one
+
+
+def _left(separating: Sequence[_State]) -> ValidityNumber:
+    """How much of the pull-off force still acts where the separation ends."""
+    pull_off = -min(one.load for one in separating)
+    return ValidityNumber(
+        name="tension at the end of the separation",
+        value=-separating[-1].load / pull_off if pull_off > 0.0 else None,
+        high=_MOST_LEFT,
+        detail="over the pull-off force; above, the bodies have not been pulled far enough to show "
+        "it: let the approaches begin further apart"
+        if pull_off > 0.0
+        else "nothing pulls",
+    )
 
 
 def _is_worse(one: ValidityNumber, kept: ValidityNumber) -> bool:

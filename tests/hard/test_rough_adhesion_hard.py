@@ -271,3 +271,37 @@ def test_a_tension_that_leaves_round_off_of_the_pressure_is_refused():
     law = ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-30)
     with pytest.raises(ck.PlanError, match=r"work_of_adhesion/range is 5e.28 Pa.*check the units"):
         ck.plan(scene(law))
+
+
+@pytest.mark.parametrize(("first", "words"), [(-60e-9, ""), (0.5e-9, "begin further apart")])
+def test_a_curve_that_ends_before_the_pull_off_warns(first, words):
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", ck.ValidityWarning)
+        curve = ck.pull_off_curve(ck.plan(scene(WEAK)), [first, 2e-9], refinements=2)
+    said = [one for one in heard if "tension at the end of the separation" in str(one.message)]
+    assert bool(said) == bool(words)
+    assert all(words in str(one.message) for one in said)
+    assert curve.validity[-1].value == -curve.separating.load[-1] / curve.pull_off_force
+
+
+def test_a_reversible_loop_is_none_within_its_error():
+    """A stiff sphere with a long range, whose branches have states in different places."""
+    stiff = ck.Material(young_modulus=210e9, poisson_ratio=0.3)
+    made = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=stiff), upper=ck.Body(surface=ck.Paraboloid(radius=1e-6))
+        ),
+        window=ck.Window(width=400e-9, periodic=False),
+        loading=ck.Approach(approach=0.0),
+        effects=(
+            ck.HalfSpace(),
+            ck.Adhesion(law=ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-9)),
+        ),
+    )
+    levels = 1e-9 * np.array([-2.5, -1.0, -0.5, -0.2, 0.0, 0.05])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ck.ValidityWarning)
+        curve = ck.pull_off_curve(ck.plan(made, ck.Accuracy(grid=32, rtol=1e-6)), levels)
+    assert curve.is_closed
+    assert 0.0 < abs(curve.loop_energy) <= curve.loop_error
+    assert curve.loop_error < 0.2 * math.pi * 0.05 * 1e-6 * 1e-9
