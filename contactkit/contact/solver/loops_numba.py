@@ -209,15 +209,18 @@ def add_and_clip(p: Array, at: Array, x: Array, upper: Array) -> int:
 def scale_to_load(p: Array, at: Array, upper: Array, load: float) -> None:
     """Scale the free pixels so that all pressures sum to the load."""
     many = 0 if upper.size == 1 else 1
-    total, carried = 0.0, 0.0
-    for k in prange(p.size):
-        total += p[k]
+    free = np.empty(at.size)
+    held, carried = 0.0, 0.0
     for a in prange(at.size):
-        carried += p[at[a]]
-    rest = load - (total - carried)
-    if carried > 0.0 and rest > 0.0:
-        for a in prange(at.size):
-            p[at[a]] = min(p[at[a]] * (rest / carried), upper[at[a] * many])
+        free[a] = p[at[a]]
+        carried += free[a]
+        p[at[a]] = 0.0  # summed apart, for between rigid bodies they may dwarf the load
+    for k in prange(p.size):
+        held += p[k]
+    rest = load - held
+    factor = rest / carried if carried > 0.0 and rest > 0.0 else 1.0
+    for a in prange(at.size):
+        p[at[a]] = min(free[a] * factor, upper[at[a] * many])
 
 
 @numba.njit(inline="always")

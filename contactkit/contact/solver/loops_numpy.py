@@ -221,9 +221,10 @@ def scale_to_load(p: Array, at: Index, upper: Array, load: float) -> None:
     """Scale the free pixels so that all pressures sum to the load."""
     free = p[at]
     carried = float(free.sum())
-    rest = load - (float(p.sum()) - carried)
-    if carried > 0.0 and rest > 0.0:
-        p[at] = np.minimum(free * (rest / carried), np.broadcast_to(upper, p.shape)[at])
+    p[at] = 0.0  # summed apart, for between rigid bodies they may dwarf the load
+    rest = load - float(p.sum())
+    factor = rest / carried if carried > 0.0 and rest > 0.0 else 1.0
+    p[at] = np.minimum(free * factor, np.broadcast_to(upper, p.shape)[at])
 
 
 PART = 2**14  # rows at a time, to bound the memory of the neighbours
