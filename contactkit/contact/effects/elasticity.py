@@ -153,7 +153,9 @@ def layers_of(stack: Stack) -> Layers:
 
 def _maker(stack: Stack, grid: Grid) -> SymbolMaker:
     if grid.along:
-        return partial(_along_one_axis, layers=layers_of(stack), along=grid.along)
+        return partial(
+            _along_one_axis, layers=layers_of(stack), along=grid.along, finest=grid.shape
+        )
     if grid.periodic:
         return partial(_periodic, layers=layers_of(stack))
     return partial(_isolated, layers=layers_of(stack), finest=grid.shape)
@@ -166,11 +168,18 @@ def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], layers: L
 
 
 def _along_one_axis(
-    shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers, along: Axis
+    shape: tuple[int, int],
+    pixel_size: tuple[float, float],
+    layers: Layers,
+    along: Axis,
+    finest: tuple[int, int],
 ) -> Map:
     from ...elasticity.one_axis import symbol
 
-    return symbol(shape, pixel_size, layers, along)
+    made = symbol(shape, pixel_size, layers, along)
+    if shape == finest:
+        _yields(made, layers, max(pixel_size))
+    return made
 
 
 def _isolated(
@@ -179,13 +188,19 @@ def _isolated(
     from ...elasticity.influence import symbol
 
     made = symbol(shape, pixel_size, *layers)
-    if layers.base and shape == finest and made.min() < -_ROUND_OFF * made.max():
+    if shape == finest:
+        _yields(made, layers, max(pixel_size))
+    return made
+
+
+def _yields(symbol: Map, layers: Layers, pixel: float) -> None:
+    """Refuse layers on a base that give way upwards: incompressible and far below a pixel."""
+    if layers.base and symbol.min() < -_ROUND_OFF * symbol.max():
         raise DescriptionError(
             "Layer.thickness",
             float(sum(layers.thickness)),  # type: ignore[arg-type]
-            f"be at least a tenth of the pixel of {max(pixel_size):.3g} m where the layers on a "
+            f"be at least a tenth of the pixel of {pixel:.3g} m where the layers on a "
             "bonded base are incompressible: under a uniform pixel nothing moves but its edges",
             unit="m",
             hint="a finer Accuracy.grid, a poisson_ratio below 0.5, or Window(periodic=True)",
         )
-    return made

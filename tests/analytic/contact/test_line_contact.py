@@ -50,6 +50,12 @@ def rough(shape, seed=0):
     return 1e-8 * (heights - heights.mean()) / heights.std()
 
 
+def rubber(thickness):
+    """An incompressible sheet on a rigid table."""
+    layer = ck.Layer(material=solid(nu=0.5), thickness=thickness)
+    return ck.Stack(layers=(layer,), substrate=ck.RigidBase(bonded=True))
+
+
 def solved(*args, **kwargs):
     return ck.solve(ck.plan(scene(*args, **kwargs)))
 
@@ -216,6 +222,12 @@ def test_files_keep_the_axis(tmp_path):
         (
             lambda: contact_patches(solved(cylinder(16), "x", ck.Pressing(pressure=1e5))),
             "repeats along x alone",
+        ),
+        (
+            lambda: solved(
+                cylinder(16), "x", ck.Pressing(pressure=1e5), lower=rubber(0.003 * WIDTH / 16)
+            ),
+            "Layer.thickness must be at least a tenth of the pixel of .* incompressible",
         ),
     ],
 )
