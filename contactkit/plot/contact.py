@@ -45,7 +45,7 @@ def length_unit(length: float) -> tuple[float, str]:
 def pressure_unit(pressure: float) -> tuple[float, str]:
     """Factor and name of the unit in which a pressure [Pa] reads best."""
     for factor, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")):
-        if abs(pressure) >= 0.1 * factor:
+        if abs(pressure) >= 0.5 * factor:
             return factor, name
     return 1.0, "Pa"
 
@@ -211,7 +211,7 @@ def _block(row: int, colour: str) -> Any:
 def load_curve(
     curves: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[Axes]
 ) -> Sequence[Axes]:
-    """Draw load curves, one panel for each quantity.
+    """Draw load curves, one panel for each quantity: over the approach where a contact is pulled.
 
     Parameters
     ----------
@@ -221,14 +221,22 @@ def load_curve(
     axes : sequence of Axes
         One for each quantity of `LOAD_PANELS` that the columns have.
     """
+    is_pulled = any(np.any(np.asarray(c["mean_pressure"]) < 0.0) for _, c in curves)
     for ax, (name, label, factor) in zip(axes, panels_of(curves), strict=False):
         for (title, columns), style in zip(curves, itertools.cycle(_STYLES), strict=False):
             if name in columns:
-                imposed = columns.get("loading.pressure", columns["mean_pressure"])
-                mean = np.asarray(imposed) / 1e6
-                ax.plot(mean, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
-        ax.set(xscale="log", xlabel="mean pressure [MPa]", ylabel=label)
+                over = _over(columns, is_pulled)
+                ax.plot(over, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
+        ax.set(xlabel="approach [nm]" if is_pulled else "mean pressure [MPa]", ylabel=label)
+        ax.set_xscale("linear" if is_pulled else "log")
     return axes
+
+
+def _over(columns: Mapping[str, Any], is_pulled: bool) -> NDArray[np.float64]:
+    """Approach [nm] of contacts that are pulled, mean pressure [MPa] of others."""
+    if is_pulled:
+        return np.asarray(columns["approach"]) * 1e9
+    return np.asarray(columns.get("loading.pressure", columns["mean_pressure"])) / 1e6
 
 
 _STYLES = ("o-", "s--", "^:", "v-.")
