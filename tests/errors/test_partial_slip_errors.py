@@ -54,6 +54,7 @@ def test_a_step_has_one_target(given, expected):
         ({"path": HALF, "guided": "no"}, "guided must be a bool, got 'no'"),
         ({"path": HALF, "coefficient": -0.1}, "coefficient must lie between 0 and 1"),
         ({"path": HALF, "rtol": 0.0}, "rtol must be positive"),
+        ({"path": HALF, "rtol": 0.1}, "rtol must be at most 0.001, got 0.1"),
     ],
 )
 def test_an_effect_says_what_is_wrong(given, expected):

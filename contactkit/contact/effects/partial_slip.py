@@ -25,6 +25,7 @@ __all__ = ["PartialSlip"]
 _TRANSVERSE = 0.4  # q_y left out over nu/(2 - nu), measured on a sphere and a rough surface
 _MOST_TRANSVERSE = 0.1
 _MOST_COUPLING = 0.1
+_LOOSEST = 1e-3
 
 
 def _steps(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -35,6 +36,12 @@ def _steps(owner: object, attribute: Attribute[Any], value: Any) -> None:
 def _components(owner: object, attribute: Attribute[Any], value: Any) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or value not in (1, 2):
         raise refuse(owner, attribute, value, "be 1 or 2")
+
+
+def _tolerance(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    positive(owner, attribute, value)
+    if value > _LOOSEST:
+        raise refuse(owner, attribute, value, f"be at most {_LOOSEST:g}", "beyond, nothing slips")
 
 
 def _last(name: str) -> Any:
@@ -71,7 +78,7 @@ class PartialSlip(Observer[PartialSlipPart]):
         With two components: whether the transverse displacement is held, or the transverse force
         is zero.
     rtol : float
-        Largest violation of a condition over the displacement of a sub-step [-].
+        Largest violation of a condition over the displacement of a sub-step [-], at most 1e-3.
 
     Examples
     --------
@@ -114,7 +121,7 @@ class PartialSlip(Observer[PartialSlipPart]):
     components: Literal[1, 2] = field(default=1, validator=_components, metadata=si("-"))
     direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
     guided: bool = field(default=True, validator=part(bool))
-    rtol: float = field(default=1e-8, validator=positive, metadata=si("-"))
+    rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))
 
     @property
     def sources(self) -> tuple[str, ...]:
