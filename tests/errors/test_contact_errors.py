@@ -676,7 +676,7 @@ def test_a_tolerance_below_round_off_is_distinguished_from_a_lack_of_steps(metho
     assert refused
     for error in refused:
         assert "round-off keeps it" in str(error)
-        assert ("method='active-set'" in str(error)) == (method != "active-set")
+        assert "method=" not in str(error)  # no other one reaches further
         assert "max_iterations" not in str(error)
         assert error.result.residual < 1e-9
         assert error.result.work.n_operator_applications < 1000

@@ -81,7 +81,7 @@ class ContactSolver:
     Some 25 to 40 applications of the operator to 1e-8, whatever the number of pixels, the load or
     the bound, for a half-space and for films up to a thousand times stiffer than their ground, some
     rare ones a few hundred. Of 720 films up to a million times stiffer three needed the fallback,
-    of which two did not converge within its steps; the result says so. The method is new; it
+    of which two did not converge within its steps, as the result states. The method is new; it
     follows the primal-dual active set of [1]_ and the cascadic multigrid of [2]_.
 
     A solver owns its work arrays: threads that share one wait for each other.
