@@ -24,11 +24,12 @@ FIELDS = {
 }
 SLIP = {
     "contact.slip.*",
+    "elasticity.stress.tractions.traction_coupling",
     "elasticity.tangential.*",
     "elasticity.love.*",
     "elasticity.point_load.*",
     "elasticity.influence.*",
-    *LAYERS,
+    *FIELDS,
 }
 FILM = "capillary.film_islands.*"
 TO_STICK = {"work_of_adhesion": 1e-3, "range": 2e-9}
@@ -53,6 +54,7 @@ OWNED = {
     ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"contact.effects.hardness_rules.*"},
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
+        "contact.slip.coupling.coupling_of",
         "elasticity.stress.tractions.traction_coupling",
         *FIELDS,
     },

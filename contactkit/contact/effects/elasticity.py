@@ -13,12 +13,13 @@ from .base import Compliance
 
 if TYPE_CHECKING:
     from ...elasticity.layer_stack import Layers
+    from ...scene.interface import Interface
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
     from ...scene.window import Axis, Grid
     from .base import Contact, Map, SymbolMaker
 
-__all__ = ["HalfSpace", "LayeredHalfSpace", "contact_modulus", "layers_of"]
+__all__ = ["HalfSpace", "LayeredHalfSpace", "bodies_of", "contact_modulus", "layers_of"]
 
 _ROUND_OFF = 1e-9  # of the eigenvalues of a compliance
 _DEEPEST = 0.1  # displacement over thickness
@@ -149,6 +150,15 @@ def layers_of(stack: Stack) -> Layers:
     from ...elasticity.layer_stack import Layers
 
     return Layers(stack.young_moduli, stack.poisson_ratios, stack.thicknesses, stack.base)
+
+
+def bodies_of(interface: Interface) -> tuple[Layers | None, Layers | None]:
+    """Elastic constants and thicknesses of the lower and the upper body; None for a rigid one."""
+    lower, upper = interface.lower.stack, interface.upper.stack
+    return (
+        None if lower is None else layers_of(lower),
+        None if upper is None else layers_of(upper),
+    )
 
 
 def _maker(stack: Stack, grid: Grid) -> SymbolMaker:

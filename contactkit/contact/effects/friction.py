@@ -12,7 +12,7 @@ from attrs import field, frozen
 from ...units import si
 from ...validators import finite, fraction
 from .base import Contact, DisplacementTerm, FrictionalContact, Observer, Scalar
-from .elasticity import layers_of
+from .elasticity import bodies_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -141,31 +141,17 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
         """See `DisplacementTerm.prepare`."""
         import numpy as np
 
-        from ...elasticity.stress.tractions import traction_coupling
+        from ..slip.coupling import coupling_of
 
         ratio = scene.demand(FrictionTraction).components()
-        bodies = (scene.interface.lower, 1.0), (scene.interface.upper, -1.0)
-        signs = [sign for body, sign in bodies if body.stack is not None]
-        couplings = [
-            traction_coupling(
-                grid.shape,
-                grid.pixel_size,
-                layers_of(stack),
-                mean="periodic" if grid.periodic else "free",
-            )
-            for stack in scene.interface.stacks
-        ]
+        caused_by = coupling_of(grid, *bodies_of(scene.interface))
 
         def displacement(pressure: Map) -> Map:
-            total: Map = np.zeros(grid.shape)
             if not (ratio.x or ratio.y):  # no friction displaces nothing
-                return total
-            for sign, coupling in zip(signs, couplings, strict=True):
-                total += coupling(
-                    sign * ratio.x * pressure if ratio.x else None,
-                    sign * ratio.y * pressure if ratio.y else None,
-                )
-            return total
+                return np.zeros(grid.shape)
+            return caused_by(
+                ratio.x * pressure if ratio.x else None, ratio.y * pressure if ratio.y else None
+            )
 
         return displacement
 

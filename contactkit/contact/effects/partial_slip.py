@@ -13,7 +13,7 @@ from ...units import si
 from ...validators import as_tuple, finite, fraction, part, positive, refuse
 from ..slip.states import PartialSlipPart
 from .base import Contact, Observer, Scalar
-from .elasticity import layers_of
+from .elasticity import bodies_of, contact_modulus, layers_of
 from .friction import FrictionTraction
 
 if TYPE_CHECKING:
@@ -53,8 +53,8 @@ class PartialSlip(Observer[PartialSlipPart]):
     r"""Stick and slip of the contact under a tangential load that follows a path.
 
     The pressure is that of the contact without friction, and stays: exact for two equal bodies and
-    for incompressible ones, otherwise the pressure changes by up to the coefficient times Dundurs'
-    second parameter, see `validity`. Each sub-step is implicit,
+    for incompressible ones. Otherwise tractions displace the surfaces along the normal too, which
+    is left out; `validity` has its size. Each sub-step is implicit,
 
     .. math:: \min_q \tfrac12 (q - q_0)^T H (q - q_0) - D \sum (q - q_0), \quad |q| \le \mu p,
 
@@ -168,11 +168,13 @@ class PartialSlip(Observer[PartialSlipPart]):
         found = [
             ValidityNumber(
                 name="normal and tangential coupling left out",
-                value=self.coefficient * _dundurs(interface),
+                value=None if part is None else _coupling(contact, part),
                 high=_MOST_COUPLING,
-                detail="change of the pressure by friction, about the coefficient times Dundurs' "
-                "beta; zero for two equal bodies and for nu = 1/2",
-                source="Johnson 1985, section 5.4",
+                detail="range of the normal displacement by the largest tractions of the path over "
+                "that by pressure; the pressure of a pixel changes by one to four times that. "
+                "FrictionTraction with FrictionCoupling has it for full sliding",
+                source="coupling compliance F12 of the layered half-space; Johnson 1985, "
+                "section 5.4",
             )
         ]
         if self.components == 1:
@@ -199,27 +201,32 @@ class PartialSlip(Observer[PartialSlipPart]):
         return tuple(found)
 
 
-def _surfaces(interface: Interface) -> list[tuple[float, float, float]]:
-    """Sign of a body, shear modulus [Pa] and Poisson's ratio of its surface."""
-    found = []
-    for sign, body in ((1.0, interface.lower), (-1.0, interface.upper)):
-        if body.stack is not None:
-            top = body.stack.materials[0]
-            nu = top.poisson_ratio
-            found.append((sign, 0.5 * top.young_modulus / (1.0 + nu), nu))
-    return found
+def _surfaces(interface: Interface) -> list[tuple[float, float]]:
+    """Shear modulus [Pa] and Poisson's ratio of the surfaces that deform."""
+    tops = [stack.materials[0] for stack in interface.stacks]
+    return [
+        (0.5 * top.young_modulus / (1.0 + top.poisson_ratio), top.poisson_ratio) for top in tops
+    ]
 
 
-def _dundurs(interface: Interface) -> float:
-    """Size of Dundurs' second parameter of the materials at the surfaces [-]."""
-    bodies = _surfaces(interface)
-    apart = sum(sign * (1.0 - 2.0 * nu) / (2.0 * shear) for sign, shear, nu in bodies)
-    return abs(apart) / sum((1.0 - nu) / shear for _, shear, nu in bodies)
+def _coupling(contact: Contact, part: PartialSlipPart) -> float:
+    """Range of the normal displacement by the largest tractions over that by pressure [-]."""
+    import numpy as np
+
+    from ..slip.coupling import coupling_of, relative_coupling
+
+    lower, upper = bodies_of(contact.scene.interface)
+    largest = int(np.argmax((part.traction_x**2 + part.traction_y**2).sum(axis=(1, 2))))
+    x, y = part.traction_x[largest], part.traction_y[largest]
+    if lower == upper or not (x.any() or y.any()):
+        return 0.0
+    caused_by = coupling_of(contact.grid, lower, upper, contact.threads)
+    size = float(contact.pressure.max()) / contact_modulus(contact.scene) * contact.grid.area**0.5
+    caused = caused_by(x if x.any() else None, y if y.any() else None)
+    return relative_coupling(caused, contact.displacement, size)
 
 
 def _cross_compliance(interface: Interface) -> float:
     """Part of the tangential compliance that depends on the direction [-]: nu/(2 - nu)."""
     bodies = _surfaces(interface)
-    return sum(nu / shear for _, shear, nu in bodies) / sum(
-        (2.0 - nu) / shear for _, shear, nu in bodies
-    )
+    return sum(nu / shear for shear, nu in bodies) / sum((2.0 - nu) / shear for shear, nu in bodies)
