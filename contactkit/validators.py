@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ __all__ = [
     "angle",
     "as_pair",
     "as_tuple",
+    "as_whole",
     "choice",
     "count",
     "finite",
@@ -175,6 +177,12 @@ def part(*kinds: type) -> Validator:
 def as_tuple(value: Any) -> tuple[Any, ...]:
     """Convert a collection, or a single object, to a tuple."""
     return tuple(value) if isinstance(value, Iterable) else (value,)
+
+
+def as_whole(value: Any) -> Any:
+    """Convert a whole number of another library, such as of an array, to an int."""
+    is_whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    return int(value) if is_whole else value
 
 
 def as_pair(value: Any) -> Any:

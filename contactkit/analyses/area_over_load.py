@@ -63,7 +63,8 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
     Raises
     ------
     DescriptionError
-        If there is none, a contact carries no load, the bodies differ, or are layered.
+        If there is none, or what is no contact; if one carries no load, or the bodies differ or
+        are layered.
 
     Notes
     -----
@@ -82,6 +83,7 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
     >>> bool((persson < found.corrected).all()), bool((found.corrected < found.counted).all())
     (True, True)
     """
+    _check_kind(results)
     if not results:
         raise DescriptionError("area_over_load.results", "none", "be one contact or more")
     ordered = sorted(results, key=lambda one: one.mean_pressure)
@@ -105,6 +107,19 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
         summits=tops,
     )
     return made._replace(theories=_theories(pressure, modulus, made))
+
+
+def _check_kind(given: object) -> None:
+    """Refuse what is no sequence of contacts."""
+    name = "area_over_load.results"
+    if isinstance(given, ContactResult):
+        cure = "put it in a list: area_over_load([result])"
+        raise DescriptionError(name, "one contact", "be a sequence", hint=cure)
+    if not isinstance(given, Sequence):
+        raise DescriptionError(name, given, "be a sequence of ContactResult")
+    for one in given:
+        if not isinstance(one, ContactResult):
+            raise DescriptionError(name, one, "be contacts, ContactResult")
 
 
 def _check(result: ContactResult, first: ContactResult) -> None:

@@ -194,7 +194,7 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     Raises
     ------
     DescriptionError
-        If `slips` is not a whole number of at least 1.
+        If `slider` is no `SpringSlider`, or `slips` not a whole number of at least 1.
 
     Notes
     -----
@@ -219,6 +219,7 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     >>> f"{motion.stick_time:.3f} s, {motion.slip_time:.5f} s, {motion.events[1].force_after:.3f} N"
     '0.400 s, 0.01003 s, 0.100 N'
     """
+    _check_slider(slider)
     if isinstance(slips, bool) or not isinstance(slips, int) or slips < 1:
         raise DescriptionError("stick_slip(slips)", slips, "be a whole number of at least 1")
     k, speed = slider.total_stiffness, slider.speed
@@ -243,6 +244,12 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     stick = (begin - cycle.end_force) / (k * speed)
     taken = float(cycle.time[-1])
     return StickSlip(slider, time, pull, slip, tuple(events), stick, taken, cycle.top_force)
+
+
+def _check_slider(given: object) -> None:
+    if not isinstance(given, SpringSlider):
+        cure = "describe it: SpringSlider(load=..., ...)"
+        raise DescriptionError("stick_slip(slider)", given, "be a SpringSlider", hint=cure)
 
 
 def _without_inertia(slider: SpringSlider) -> _Cycle:

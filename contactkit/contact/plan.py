@@ -254,6 +254,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_liquid(made)
     _check_holes(scene)
     _check_edges(scene, grid)
+    _check_free_sheets(scene, grid)
     _check_attraction(made)
     for one in (*_before(made), made):
         _check_size(one)
@@ -349,6 +350,19 @@ def _check_edges(scene: ContactScene, grid: Grid) -> None:
         "across, or leave it out"
         for effect in scene.effects
         if grid.along and not effect.takes_one_axis
+    ]
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
+    """Refuse an effect under which an isolated body slides off along its base."""
+    is_free = any(stack.base == "frictionless" for stack in scene.interface.stacks)
+    problems = [
+        f"{type(effect).__name__} needs RigidBase(bonded=True) below a sheet in a window that does "
+        "not repeat: nothing else holds it along the base; bond it, or use Window(periodic=True)"
+        for effect in scene.effects
+        if is_free and not grid.edges and not effect.takes_free_sheets
     ]
     if problems:
         raise PlanError("; ".join(problems))

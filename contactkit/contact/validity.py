@@ -17,7 +17,7 @@ from .pixel_edges import pixel_edges
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..scene.window import Edges
+    from ..scene.window import Axis, Edges
 
     Map = NDArray[np.float64]
 
@@ -78,10 +78,12 @@ def _pixels_per_wave(contact: Contact) -> ValidityNumber:
 
 
 def _pixels_per_spot(contact: Contact) -> ValidityNumber:
-    """Diameter of discs with the same ratio of area to length of edge, in pixels."""
+    """Diameter of discs with the same ratio of area to length of edge, or width, in pixels."""
     touching = contact.touching
     area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.edges)
-    diameter = 16.0 / math.pi * area / edges.total if edges.total else math.inf
+    diameter = _width(touching, contact.grid.along) or (
+        16.0 / math.pi * area / edges.total if edges.total else math.inf
+    )
     return ValidityNumber(
         name="pixels across a contact spot",
         value=diameter if area else None,
@@ -92,6 +94,24 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
         else "there is no contact",
         source="16/pi x area/edges; measured, docs/accuracy.md, Pixels per wave",
     )
+
+
+def _width(touching: NDArray[np.bool_], along: Axis | None) -> float | None:
+    """Mean width [pixels] across the axis that repeats of what runs through the window along it.
+
+    None where nothing does: spots that end inside the window are about as wide as they are long.
+    """
+    if along is None or not touching.any(axis=0 if along == "x" else 1).all():
+        return None
+    from ..capillary.film_islands import islands
+
+    lines = touching.T if along == "x" else touching  # along the axis, from first to last
+    names, _ = islands(lines, False)
+    through = np.unique(names[0][(names[0] == names[-1]) & (names[0] > 0)])
+    if not through.size:
+        return None
+    strip = np.isin(names, through)
+    return 2.0 * int(strip.sum()) / pixel_edges(strip, "y").along_x
 
 
 def _peak_pressure(contact: Contact) -> ValidityNumber:

@@ -38,10 +38,7 @@ def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
     numbers with their units and what each effect did.
     """
     arrays: Arrays = {name: getattr(result, name) for name in _MAPS}
-    parts = {
-        kind.name: _encode(part, kind.name, arrays)
-        for kind, part in sorted(result.parts.items(), key=lambda item: item[0].name)
-    }
+    parts = {kind.name: _encode(p, kind.name, arrays) for kind, p in result.parts.items()}
     made = result.plan
     header = {
         "kind": "contact",

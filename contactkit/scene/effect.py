@@ -103,8 +103,15 @@ class EffectRegistry(Sequence[type[E_co]], Generic[E_co]):
 def choices(effect: Effect) -> str:
     """Say what an effect does and which choices it was given."""
     given = ((a.name, getattr(effect, a.name)) for a in fields(type(effect)))
-    chosen = ", ".join(f"{name}={value!r}" for name, value in given if value is not None)
+    chosen = ", ".join(f"{name}={_written(value)}" for name, value in given if value is not None)
     return f"{effect.summary}" + (f" ({chosen})" if chosen else "")
+
+
+def _written(value: object) -> str:
+    """A choice as text; the steps of a path by their labels."""
+    if isinstance(value, tuple) and value and all(hasattr(one, "label") for one in value):
+        return f"({'; '.join(one.label for one in value)})"
+    return repr(value)
 
 
 def as_written(kind: type[Effect]) -> str:

@@ -14,7 +14,17 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError, PlanError
 from ..units import si
-from ..validators import Described, count, finite, non_negative, optional, part, positive, refuse
+from ..validators import (
+    Described,
+    as_whole,
+    count,
+    finite,
+    non_negative,
+    optional,
+    part,
+    positive,
+    refuse,
+)
 
 __all__ = [
     "CONTACT_LOADINGS",
@@ -375,7 +385,7 @@ class TangentialStep(Described):
     force: float | None = field(default=None, validator=optional(finite), metadata=si("N"))
     displacement: float | None = field(default=None, validator=optional(finite), metadata=si("m"))
     ratio: float | None = field(default=None, validator=optional(finite), metadata=si("-"))
-    steps: int = field(default=1, validator=count, metadata=si("-"))
+    steps: int = field(default=1, converter=as_whole, validator=count, metadata=si("-"))
     direction: float | None = field(default=None, validator=optional(finite), metadata=si("rad"))
 
     @ratio.validator
@@ -387,6 +397,26 @@ class TangentialStep(Described):
 
     def __attrs_post_init__(self) -> None:
         _exactly_one(self, force="N", displacement="m", ratio="-")
+
+    @property
+    def label(self) -> str:
+        """The step in a few words, for a plan.
+
+        Examples
+        --------
+        >>> TangentialStep(ratio=-0.6, steps=8).label
+        'ratio -0.6 in 8 steps'
+        """
+        targets = (("force", "N"), ("displacement", "m"), ("ratio", ""))
+        given = ((name, getattr(self, name), unit) for name, unit in targets)
+        words = [
+            f"{name} {value:g} {unit}".strip() for name, value, unit in given if value is not None
+        ]
+        if self.direction is not None:
+            words.append(f"at {self.direction:g} rad")
+        if self.steps > 1:
+            words.append(f"in {self.steps} steps")
+        return " ".join(words)
 
 
 CONTACT_LOADINGS: tuple[type[ContactLoading], ...] = (Pressing, Approach)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+from attrs import evolve
 
 import contactkit as ck
+from contactkit.files.structure import field_value
 
 SOLID = ck.Material(young_modulus=1e9, poisson_ratio=0.3)
 HALF = (ck.TangentialStep(ratio=0.5),)
@@ -78,3 +81,61 @@ def test_a_path_has_no_further_steps():
     assert part.end_of(-1) == part.end_of(0) == 1
     with pytest.raises(ck.DescriptionError, match="must be a step of the path, 0 to 0, got 1"):
         part.energy_loss(0, 1)
+
+
+def test_a_free_sheet_under_a_tangential_load_is_refused_before_the_solve():
+    slip = ck.PartialSlip(coefficient=0.3, path=HALF)
+    for bonded, periodic, is_refused in (
+        (False, False, True),
+        (True, False, False),
+        (False, True, False),
+    ):
+        sheet = ck.Stack(
+            layers=(ck.Layer(material=SOLID, thickness=1e-7),),
+            substrate=ck.RigidBase(bonded=bonded),
+        )
+        made = evolve(
+            scene(slip),
+            interface=ck.Interface(
+                lower=ck.Body(solid=sheet),
+                upper=ck.Paraboloid(radius=1e-6) if not periodic else scene().interface.upper,
+            ),
+            window=ck.Window(width=1e-6, periodic=periodic),
+            effects=(ck.LayeredHalfSpace(), slip),
+        )
+        if is_refused:
+            with pytest.raises(ck.PlanError, match=r"RigidBase\(bonded=True\) .*; bond it"):
+                ck.plan(made, ck.Accuracy(grid=16))
+        else:
+            ck.plan(made, ck.Accuracy(grid=16))
+
+
+def test_a_plan_says_its_path_in_words():
+    path = (
+        ck.TangentialStep(ratio=0.5, steps=np.int64(3)),
+        ck.TangentialStep(displacement=1e-9, direction=0.5),
+    )
+    text = str(ck.plan(scene(ck.PartialSlip(coefficient=0.3, path=path, components=2))))
+    assert "path=(ratio 0.5 in 3 steps; displacement 1e-09 m at 0.5 rad)" in text
+    assert "TangentialStep" not in text
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        ck.TangentialStep(ratio=0.5, steps=np.int64(3)),
+        ck.PlasticHistory(pressures=(1e6,), steps=np.uint8(3)),
+    ],
+)
+def test_whole_numbers_of_arrays_are_whole_numbers(made):
+    assert made.steps == 3
+    assert type(made.steps) is int
+    with pytest.raises(ck.DescriptionError, match="steps must be a whole number"):
+        evolve(made, steps=np.bool_(True))
+    with pytest.raises(ck.DescriptionError, match="steps must be a whole number"):
+        evolve(made, steps=3.0)
+
+
+def test_a_text_for_a_whole_number_in_a_file_asks_for_one():
+    with pytest.raises(ck.DescriptionError, match=r"steps must be a whole number, .*'four'$"):
+        field_value(ck.TangentialStep, "steps", "four")

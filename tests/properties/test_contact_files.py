@@ -389,3 +389,9 @@ def test_a_result_outlives_its_height_map(tmp_path):
 def test_a_result_may_travel_as_bytes():
     result = contact(ck.FilmMeniscus(film_thickness=1e-9))
     assert equal(from_bytes(to_bytes(result)).of(ck.FilmMeniscus), result.of(ck.FilmMeniscus))
+
+
+def test_a_loaded_result_lists_its_numbers_in_the_same_order():
+    effects = (ck.HardnessLimit(), FRICTION, ck.FilmMeniscus(film_thickness=1e-9))
+    result = contact(*effects)
+    assert list(from_bytes(to_bytes(result)).scalars()) == list(result.scalars())

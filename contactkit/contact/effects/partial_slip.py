@@ -10,7 +10,7 @@ from attrs import Attribute, field, frozen
 from ...scene.loading import TangentialStep
 from ...scene.validity import ValidityNumber
 from ...units import si
-from ...validators import as_tuple, finite, fraction, part, positive, refuse
+from ...validators import as_tuple, as_whole, finite, fraction, part, positive, refuse
 from ..slip.states import PartialSlipPart
 from .base import Contact, Observer, Scalar
 from .elasticity import bodies_of, contact_modulus, layers_of
@@ -106,6 +106,7 @@ class PartialSlip(Observer[PartialSlipPart]):
     summary: ClassVar[str] = "stick and slip under a tangential load path"
     takes_tension: ClassVar[bool] = False
     takes_holes: ClassVar[bool] = True
+    takes_free_sheets: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (PartialSlipPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("tangential_force", "N", _last("force")),
@@ -118,7 +119,9 @@ class PartialSlip(Observer[PartialSlipPart]):
 
     coefficient: float = field(validator=fraction, metadata=si("-"))
     path: tuple[TangentialStep, ...] = field(converter=as_tuple, validator=_steps)
-    components: Literal[1, 2] = field(default=1, validator=_components, metadata=si("-"))
+    components: Literal[1, 2] = field(
+        default=1, converter=as_whole, validator=_components, metadata=si("-")
+    )
     direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
     guided: bool = field(default=True, validator=part(bool))
     rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))

@@ -234,3 +234,24 @@ def test_files_keep_the_axis(tmp_path):
 def test_what_such_a_window_cannot_do_is_refused_with_its_cure(make, says):
     with pytest.raises(ck.ContactkitError, match=says):
         make()
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_a_nip_through_the_window_is_as_wide_as_it_is(along):
+    """Strips, straight or rough, by their width; spots that end inside the window as discs."""
+
+    def spots(heights, force):
+        run = solved(heights, along, ck.Pressing(force=force), pixel=WIDTH / 64)
+        found = {number.name: number.value for number in run.validity}
+        return run, found["pixels across a contact spot"]
+
+    run, width = spots(cylinder(64, along), 12.5)
+    assert width == run.contact.sum() / 4  # the window is four pixels long
+    wavy = cylinder(64, along, 16)
+    ripple = 3e-8 * np.cos(2.0 * np.pi * np.arange(16) / 16)
+    wavy = wavy + (ripple if along == "x" else ripple[:, None])
+    run, width = spots(wavy, 50.0)
+    assert width == run.contact.sum() / 16
+    ball = cylinder(64, "x", 64) + cylinder(64, "y", 64)
+    run, width = spots(ball, 0.01)
+    assert width == pytest.approx(2.0 * math.sqrt(run.contact.sum() / math.pi), rel=0.1)

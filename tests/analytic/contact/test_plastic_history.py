@@ -144,6 +144,18 @@ def test_a_sphere_follows_the_dense_solution_up_down_and_up():
     assert part.work_error == pytest.approx(5.7e-3, rel=0.02)  # trapezoids of ten steps
 
 
+def test_an_imbalance_of_work_is_stated():
+    """A path in one step out of contact takes the work of the load for none of the plastic work."""
+    name = "imbalance of work and energy over the loading history"
+    for steps, is_valid in ((1, False), (8, True)):
+        history = ck.PlasticHistory(pressures=(2e7,), steps=steps)
+        result = pressed(ck.Pressing(pressure=0.0), MATERIAL, history)
+        found = {number.name: number for number in result.validity}[name]
+        assert found.value == result.of(ck.PlasticHistory).work_error > 0.0
+        assert found.is_valid is is_valid
+        assert "use more steps" in str(found)
+
+
 @pytest.mark.parametrize("periodic", [True, False])
 def test_reloading_meets_the_loading_curve_without_new_work(periodic):
     history = ck.PlasticHistory(pressures=(2e7, 0.0), steps=3)

@@ -89,3 +89,8 @@ def test_impossible_sliders_are_refused():
         SpringSlider(**{**BLOCK, "kinetic_coefficient": 0.6})
     with pytest.raises(ck.DescriptionError, match=r"stick_slip\(slips\) must be a whole number"):
         stick_slip(SpringSlider(**BLOCK), slips=0)
+
+
+def test_what_is_no_block_is_refused():
+    with pytest.raises(ck.DescriptionError, match=r"stick_slip\(slider\) must be a SpringSlider"):
+        stick_slip(3)

@@ -115,6 +115,9 @@ def test_other_contacts_have_no_theory_beside_them():
     layered = ck.Stack(layers=(ck.Layer(material=SOLID, thickness=1e-8),), substrate=SOLID)
     for other, message in (
         ([], "one contact or more"),
+        (one, r"be a sequence, .*area_over_load\(\[result\]\)"),
+        (3, "be a sequence of ContactResult"),
+        ([one, 3], "be contacts, ContactResult, got 3"),
         ([one, ck.press(2.0 * surface, 1e-9, SOLID, 1e6)], "one surface"),
         ([ck.press(surface, 1e-9, layered, 1e6)], "half-spaces"),
         ([ck.press(surface, 1e-9, SOLID, 0.0)], "load"),
