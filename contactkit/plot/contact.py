@@ -28,6 +28,8 @@ __all__ = [
     "von_mises_section",
 ]
 
+_HOLES = "#b5b5ae"
+
 SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plastic": "#c1440e"}
 """Colours of the states of a pixel."""
 
@@ -56,19 +58,34 @@ def _extent(result: ContactResult) -> tuple[tuple[float, float, float, float], s
     return (0.0, nx * dx / factor, 0.0, ny * dy / factor), unit
 
 
+def _hide_holes(ax: Axes, result: ContactResult) -> None:
+    """Cover the pixels without a height in grey."""
+    if result.holes is None:
+        return
+    cover = np.ma.masked_where(~result.holes, np.zeros(result.holes.shape))
+    ax.imshow(
+        cover,
+        origin="lower",
+        extent=_extent(result)[0],
+        interpolation="nearest",
+        cmap=ListedColormap([_HOLES]),
+    )
+
+
 def _place(ax: Axes, unit: str) -> None:
     ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
     ax.grid(visible=False)
 
 
 def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw the pressure map; white where there is neither contact nor attraction."""
+    """Draw the pressure map; white where there is neither contact nor attraction, holes grey."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
     factor, name = pressure_unit(float(np.abs(result.pressure).max()))
     acting = result.contact | (result.pressure != 0.0)
     shown = np.ma.masked_where(~acting, result.pressure / factor)
     image = ax.imshow(shown, origin="lower", extent=extent, cmap="viridis", interpolation="nearest")
+    _hide_holes(ax, result)
     _place(ax, unit)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
     bar.set_label(f"pressure [{name}]")
@@ -76,7 +93,7 @@ def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
 
 
 def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw the contact, plastic and wetted areas."""
+    """Draw the contact, plastic and wetted areas; holes grey."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
     kinds = np.zeros(result.pressure.shape, dtype=int)
@@ -95,6 +112,7 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
         vmax=3,
         cmap=ListedColormap(list(SPOTS.values())),
     )
+    _hide_holes(ax, result)
     _place(ax, unit)
     if 0 < (kinds == 3).sum() < 2e-3 * kinds.size:  # too few to be seen as pixels
         found = np.argwhere(kinds == 3)
@@ -209,7 +227,10 @@ def _block(row: int, colour: str) -> Any:
 
 
 def load_curve(
-    curves: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[Axes]
+    curves: Sequence[tuple[str, Mapping[str, Any]]],
+    axes: Sequence[Axes],
+    panels: Sequence[Panel] | None = None,
+    over: tuple[str, str] | None = None,
 ) -> Sequence[Axes]:
     """Draw load curves, one panel for each quantity: over the approach where a contact is pulled.
 
@@ -219,17 +240,45 @@ def load_curve(
         One for each line: columns by the names of `ContactResult.scalars`, over the pressure that
         is imposed.
     axes : sequence of Axes
-        One for each quantity of `LOAD_PANELS` that the columns have.
+        One for each panel.
+    panels : sequence of (column, label, factor), optional
+        Quantities to draw; those of `LOAD_PANELS` that the columns have if not given.
+    over : (column, label), optional
+        Parameter to draw them over in place of the load.
     """
     is_pulled = any(np.any(np.asarray(c["mean_pressure"]) < 0.0) for _, c in curves)
-    for ax, (name, label, factor) in zip(axes, panels_of(curves), strict=False):
+    drawn = panels_of(curves) if panels is None else panels
+    for ax, (name, label, factor) in zip(axes, drawn, strict=False):
         for (title, columns), style in zip(curves, itertools.cycle(_STYLES), strict=False):
             if name in columns:
-                over = _over(columns, is_pulled)
-                ax.plot(over, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
-        ax.set(xlabel="approach [nm]" if is_pulled else "mean pressure [MPa]", ylabel=label)
+                x = _over(columns, is_pulled) if over is None else _parameter(columns[over[0]], ax)
+                ax.plot(x, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
+        ax.set_ylabel(label)
+        if over is not None:
+            ax.set_xlabel(over[1])
+            continue
+        ax.set_xlabel("approach [nm]" if is_pulled else "mean pressure [MPa]")
         ax.set_xscale("linear" if is_pulled else "log")
     return axes
+
+
+def _parameter(values: Any, ax: Axes) -> NDArray[np.float64]:
+    """Values of a parameter; places on the axis for those that are no numbers, with their names."""
+    given = np.asarray(values)
+    if given.dtype != object:
+        return given
+    places = np.arange(float(len(given)))
+    ax.set_xticks(places, [_named(one) for one in given])
+    return places
+
+
+def _named(value: Any) -> str:
+    """A value of a parameter as text: numbers short, objects by their names."""
+    if isinstance(value, tuple):
+        return ", ".join(map(_named, value))
+    if isinstance(value, float):
+        return f"{value:g}"
+    return str(getattr(value, "name", None) or getattr(value, "label", None) or value)
 
 
 def _over(columns: Mapping[str, Any], is_pulled: bool) -> NDArray[np.float64]:
@@ -240,7 +289,8 @@ def _over(columns: Mapping[str, Any], is_pulled: bool) -> NDArray[np.float64]:
 
 
 _STYLES = ("o-", "s--", "^:", "v-.")
-LOAD_PANELS = (
+Panel = tuple[str, str, float]
+LOAD_PANELS: tuple[Panel, ...] = (
     ("max_pressure", "maximum pressure [GPa]", 1e9),
     ("contact_fraction", "contact area [% of the window]", 0.01),
     ("plastic_fraction", "plastic area [% of the window]", 0.01),
@@ -250,7 +300,19 @@ LOAD_PANELS = (
 
 
 def panels_of(
-    curves: Sequence[tuple[str, Mapping[str, Any]]],
-) -> list[tuple[str, str, float]]:
-    """Panels of `LOAD_PANELS` for which at least one curve has a column."""
-    return [panel for panel in LOAD_PANELS if any(panel[0] in c for _, c in curves)]
+    curves: Sequence[tuple[str, Mapping[str, Any]]], more: Sequence[Panel] = ()
+) -> list[Panel]:
+    """Panels of `LOAD_PANELS`, and of `more`, for which at least one curve has a column.
+
+    The maximum pressure is in the unit in which it reads best.
+    """
+    found = [panel for panel in (*LOAD_PANELS, *more) if any(panel[0] in c for _, c in curves)]
+    return [_scaled(curves) if panel[0] == "max_pressure" else panel for panel in found]
+
+
+def _scaled(curves: Sequence[tuple[str, Mapping[str, Any]]]) -> Panel:
+    """Panel of the maximum pressure."""
+    values = [np.asarray(c["max_pressure"], float) for _, c in curves if "max_pressure" in c]
+    known = np.concatenate([one[np.isfinite(one)] for one in values])
+    factor, unit = pressure_unit(float(known.max(initial=0.0)))
+    return "max_pressure", f"maximum pressure [{unit}]", factor

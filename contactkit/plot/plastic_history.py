@@ -6,7 +6,7 @@ import numpy as np
 
 from ..contact.effects.plastic_history import PlasticHistory
 from ..contact.result import ContactResult
-from .contact import _extent, _place, length_unit
+from .contact import _extent, _hide_holes, _place, length_unit
 from .separation import Axes, figure, legend
 
 __all__ = ["force_approach", "residual_depth"]
@@ -45,6 +45,7 @@ def residual_depth(result: ContactResult, ax: Axes | None = None) -> Axes:
     factor, name = length_unit(float(part.residual_depth.max()))
     left = np.ma.masked_less_equal(part.residual_depth / factor, 0.0)
     image = ax.imshow(left, origin="lower", extent=around, cmap="magma_r", interpolation="nearest")
+    _hide_holes(ax, result)
     _place(ax, unit)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
     bar.set_label(f"residual depth [{name}]")

@@ -8,7 +8,7 @@ from ..analyses.stick_slip import StickSlip
 from ..contact.effects.partial_slip import PartialSlip
 from ..contact.result import ContactResult
 from ..contact.slip.states import Zone
-from .contact import _extent, _place, length_unit
+from .contact import _extent, _hide_holes, _place, length_unit
 from .separation import Axes, ListedColormap, Patch, figure, legend
 
 __all__ = ["hysteresis", "slip_zones", "stick_slip_force", "traction_profile"]
@@ -36,6 +36,7 @@ def slip_zones(result: ContactResult, ax: Axes | None = None, step: int = -1) ->
         vmax=len(Zone) - 1,
         cmap=ListedColormap([colour for colour, _ in ZONES.values()]),
     )
+    _hide_holes(ax, result)
     _place(ax, unit)
     n = max(int((zones > Zone.OPEN).sum()), 1)
     shown = [zone for zone in Zone if zone is not Zone.OPEN and (zones == zone).any()]

@@ -157,3 +157,14 @@ def test_points_that_a_topography_has_not_are_holes():
     found = ck.press(Topography(), None, STEEL, 1e8)
     assert np.array_equal(found.holes, Topography().heights().mask.T)
     assert not found.pressure[found.holes].any()
+
+
+@pytest.mark.parametrize("name", ["pressure", "contact_spots"])
+def test_maps_hide_the_holes(name):
+    plot = pytest.importorskip("contactkit.plot.contact")
+    result = ck.press(masked(), PIXEL, STEEL, 2e9)
+    covers = getattr(plot, name)(result).get_images()
+    assert len(covers) == 2
+    assert np.array_equal(np.ma.getmaskarray(covers[1].get_array()), ~result.holes)
+    whole = ck.press(np.nan_to_num(masked().data), PIXEL, STEEL, 2e9)
+    assert len(getattr(plot, name)(whole).get_images()) == 1

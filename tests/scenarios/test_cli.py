@@ -174,3 +174,65 @@ def test_the_module_runs_as_a_script(scene):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0
     assert "viscous-force" in done.stdout
+
+
+TOUCH = """\
+[interface.lower]
+solid = "bearing-steel"
+[interface.upper]
+shape = "paraboloid"
+radius = "1 mm"
+[window]
+width = "60 um"
+periodic = false
+[loading]
+kind = "pressing"
+force = "1 N"
+[[effects]]
+effect = "half-space"
+[[effects]]
+{effects}
+[accuracy]
+grid = 24
+[study]
+{study}
+"""
+SLIP = (
+    'effect = "partial-slip"\ncoefficient = 0.3\npath = [{ ratio = 0.6, steps = 2 }]',
+    '"effects.partial-slip.coefficient" = [0.1, 0.2]',
+    "slip.png",
+    ["tangential_force", "friction_work"],
+)
+HISTORY = (
+    'effect = "hardness-limit"\nrule = "constant"\nhardness = "1 GPa"\n'
+    '[[effects]]\neffect = "plastic-history"\nforces = [2.0]\nsteps = 3',
+    '"effects.plastic-history.forces" = [[1.5], [2.0, 0.1]]',
+    "loading-history.png",
+    ["plastic_work", "max_residual_depth"],
+)
+
+
+@pytest.mark.parametrize(("effects", "study", "figure", "names"), [SLIP, HISTORY])
+def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
+    tmp_path, capsys, monkeypatch, effects, study, figure, names
+):
+    plot = pytest.importorskip("contactkit.plot.contact")
+    drawn = []
+    draw = plot.load_curve
+    monkeypatch.setattr(plot, "load_curve", lambda *args, **more: drawn.append(draw(*args, **more)))
+    path = tmp_path / "touch.toml"
+    path.write_text(TOUCH.format(effects=effects, study=study))
+    assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
+    assert (tmp_path / "out" / figure).is_file()
+    table = capsys.readouterr().out.partition("\nstudy, dry:\n")[2].partition("\n")[0]
+    assert all(name in table for name in names)
+    shown = {ax.get_ylabel().partition(" [")[0]: ax for ax in drawn[0] if ax.lines}
+    assert {name.replace("_", " ") for name in names} <= set(shown)
+    for ax in shown.values():
+        assert len(set(ax.lines[0].get_xdata())) == 2
+        assert ax.get_xlabel().split(" [")[0] in (
+            "partial-slip coefficient",
+            "plastic-history forces",
+        )
+    # Friction does not change the pressure: no panel shows a straight line.
+    assert ("maximum pressure" in shown) == (figure != "slip.png")

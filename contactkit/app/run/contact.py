@@ -8,10 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
 from attrs import evolve
 
 from ...accuracy import Accuracy
 from ...contact.effects.film import FilmMeniscus
+from ...contact.effects.partial_slip import PartialSlip
+from ...contact.effects.plastic_history import PlasticHistory
 from ...contact.effects.stress import SubsurfaceStress
 from ...errors import ValidityWarning
 from ...planning import plan
@@ -27,6 +30,7 @@ __all__ = ["Variant", "run_contact", "study_variants"]
 
 Progress = Callable[[float], None]
 
+_ROUND_OFF = 1e-6  # of a quantity that does not depend on what varies
 _REPORTED = (
     "max_pressure",
     "contact_fraction",
@@ -122,9 +126,29 @@ def _text(result: ContactResult, studies: tuple[tuple[str, Study[ContactResult]]
         f"{work.seconds:.2f} s"
     )
     for label, made in studies:
-        names = [n for n in _REPORTED if n in made.units]
-        lines += ["", f"load curve, {label}:", made.table(*names)]
+        names = [n for n in (*_REPORTED, *_of_effects(result.plan.scene)) if n in made.units]
+        lines += ["", f"{_what(made)}, {label}:", made.table(*names)]
     return "\n".join(lines)
+
+
+def _of_effects(scene: ContactScene) -> dict[str, str]:
+    """Units of the numbers of the listed effects, by name, of those without any in `_REPORTED`."""
+    return {
+        one.name: one.unit
+        for effect in scene.effects
+        for one in effect.scalars
+        if not any(each.name in _REPORTED for each in effect.scalars)
+    }
+
+
+def _parameter(made: Study[ContactResult]) -> str | None:
+    """Path that the points are drawn over; None where the load varies."""
+    paths = [path for axis in made.paths for path in axis]
+    return None if any(path.startswith("loading") for path in paths) else made.paths[-1][0]
+
+
+def _what(made: Study[ContactResult]) -> str:
+    return "load curve" if _parameter(made) is None else "study"
 
 
 def _write(
@@ -162,10 +186,37 @@ def _figures(
         contact_plot.von_mises_section(result, ax)
         plot.title(ax, f"{title}: under the maximum pressure".removeprefix(": "))
         files.append(plot.save(made, out / "stress"))
+    if PartialSlip in result.parts:
+        files.append(_slip(result, title, out))
+    if PlasticHistory in result.parts:
+        files.append(_history(result, title, out))
     files.append(_stacks(result.plan, out))
     if studies:
-        files.append(_load_curves(studies, title, out))
+        files.append(_load_curves(studies, _of_effects(result.plan.scene), title, out))
     return files
+
+
+def _slip(result: ContactResult, title: str, out: Path) -> Path:
+    from ...plot import separation as plot
+    from ...plot import slip
+
+    made, axes = plot.figure(1, 3, size=(15.0, 4.8))
+    slip.slip_zones(result, axes[0])
+    slip.traction_profile(result, axes[1])
+    slip.hysteresis(result, axes[2])
+    plot.title(axes[0], f"{title}: tangential load path".removeprefix(": "))
+    return plot.save(made, out / "slip")
+
+
+def _history(result: ContactResult, title: str, out: Path) -> Path:
+    from ...plot import plastic_history
+    from ...plot import separation as plot
+
+    made, axes = plot.figure(1, 2, size=(10.5, 4.6))
+    plastic_history.force_approach(result, axes[0])
+    plastic_history.residual_depth(result, axes[1])
+    plot.title(axes[0], f"{title}: loading history".removeprefix(": "))
+    return plot.save(made, out / "loading-history")
 
 
 def _stacks(made_plan: ContactPlan, out: Path) -> Path:
@@ -189,7 +240,10 @@ def _stacks(made_plan: ContactPlan, out: Path) -> Path:
 
 
 def _load_curves(
-    studies: tuple[tuple[str, Study[ContactResult]], ...], title: str, out: Path
+    studies: tuple[tuple[str, Study[ContactResult]], ...],
+    units: Mapping[str, str],
+    title: str,
+    out: Path,
 ) -> Path:
     from ...plot import contact as contact_plot
     from ...plot import separation as plot
@@ -199,15 +253,33 @@ def _load_curves(
         for label, made in studies
         for line in made.lines("loading")
     ]
-    panels = contact_plot.panels_of(curves)
+    first, names = studies[0][1], [n for n in units if not n.endswith("_residual")]
+    path, label = _parameter(first), ""
+    more = [(n, f"{n.replace('_', ' ')} [{units[n]}]", 1.0) for n in names]
+    panels = contact_plot.panels_of(curves, more)
+    if path is not None:
+        changing = [panel for panel in panels if _changes(curves, panel[0])]
+        panels, label = changing or panels, f"{_short(path)} [{first.unit(path)}]"
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
     made, axes = plot.figure(rows, columns, size=(4.0 * columns, 3.4 * rows), squeeze=False)
     flat = list(axes.flat)
-    contact_plot.load_curve(curves, flat)
+    contact_plot.load_curve(curves, flat, panels, over=(path, label) if path else None)
     for ax in flat[len(panels) :]:
         ax.set_visible(False)
-    plot.title(flat[0], f"{title}: load curve".removeprefix(": "))
+    plot.title(flat[0], f"{title}: {_what(first)}".removeprefix(": "))
     if len(curves) > 1:
         plot.shared_legend(made, flat[0])
     return plot.save(made, out / "load-curve")
+
+
+def _changes(curves: list[tuple[str, Mapping[str, Any]]], name: str) -> bool:
+    """Whether a column differs between the points of a curve by more than round-off."""
+    columns = (np.asarray(c[name], dtype=float) for _, c in curves if name in c)
+    known = [one[np.isfinite(one)] for one in columns]
+    return any(np.ptp(one) > _ROUND_OFF * np.abs(one).max() for one in known if one.size)
+
+
+def _short(path: str) -> str:
+    """Last names of a path, as a label."""
+    return " ".join(path.split(".")[-2:]).replace("_", " ")
