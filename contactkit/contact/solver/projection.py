@@ -32,7 +32,6 @@ __all__ = ["Projected", "project_in_metric"]
 Singles = NDArray[np.float32]
 MAX_SETS = 20  # sets of held pixels tried
 MAX_STEPS = 40  # of conjugate gradients on each
-BUDGET = 400  # of such steps in one projection
 REDUCTION = 0.03  # of the residual on each
 MAX_SHIFTS = 30  # of the displacement that gives the changes their sum
 UNBALANCED = 0.01  # of the sum of changes, over that of their magnitudes: scaling makes up for it
@@ -80,15 +79,14 @@ class _HeldSystem:
             out -= self.metric.k * np.float32(np.dot(self.k, w) / self.metric.total)
         return out
 
-    def solve(self, goal: Singles, w: Singles, most: int) -> tuple[Singles, int]:
-        """Bring ``K w`` near the goal by a few preconditioned steps; improved w, and how many."""
-        w, steps = w.copy(), 0
+    def solve(self, goal: Singles, w: Singles) -> Singles:
+        """Improve w so that ``K w`` comes near the goal, by a few preconditioned steps."""
+        w = w.copy()
         r = goal - self(w)
         z = r / self.diagonal
         d, rz = z.copy(), float(np.dot(r, z))
         stop = REDUCTION**2 * rz
-        while steps < most and rz > 0.0:
-            steps += 1
+        for _ in range(MAX_STEPS if rz > 0.0 else 0):
             q = self(d)
             dq = float(np.dot(d, q))
             if not dq > 0.0:
@@ -101,51 +99,7 @@ class _HeldSystem:
             if rz <= stop:
                 break
             d = z + np.float32(rz / before) * d
-        return w, steps
-
-
-class _HeldSets:
-    """Sets of held pixels, tried one after the other within a budget of steps.
-
-    Which pixels are held, and the displacement that holds them, are kept for the next projection.
-    """
-
-    def __init__(self, x: Singles, low: Singles, high: Singles) -> None:
-        self.low, self.high = low, high
-        self.side = (x > high).astype(np.int8) - (x < low).astype(np.int8)
-        self.w = np.zeros_like(x)
-        self.steps_left = BUDGET
-
-    def project(self, metric: _Metric, x: Singles) -> Projected:
-        """Projection by sets of held pixels; as far as it has come if the budget is spent."""
-        low, high = self.low, self.high
-        moved = x
-        for _ in range(MAX_SETS):
-            held = np.flatnonzero(self.side)
-            moved, changed = self._hold(metric, x, held)
-            if changed <= SETTLED * held.size or self.steps_left <= 0:
-                break
-        change = np.clip(moved, low, high)
-        change[self.side < 0], change[self.side > 0] = low[self.side < 0], high[self.side > 0]
-        return Projected(change, self.side)
-
-    def _hold(self, metric: _Metric, x: Singles, held: NDArray[np.intp]) -> tuple[Singles, int]:
-        """Changes with some pixels held; notes which to hold next, and returns how many differ."""
-        side = self.side[held]
-        bound = np.where(side > 0, self.high[held], self.low[held])
-        system = _HeldSystem(metric, held)
-        most = min(MAX_STEPS, self.steps_left)
-        w, steps = system.solve(bound - x[held], self.w[held], most)
-        self.steps_left -= steps
-        self.w[...] = 0.0
-        self.w[held] = w
-        moved = x + system.spread(w)
-        now = (moved > self.high).astype(np.int8) - (moved < self.low).astype(np.int8)
-        # A held pixel is freed where its bound pulls instead of pushes.
-        now[held] = np.where(side * w <= 0.0, side, 0)
-        changed = int(np.count_nonzero(now != self.side))
-        self.side = now
-        return moved, changed
+        return w
 
 
 def project_in_metric(
@@ -167,8 +121,7 @@ def project_in_metric(
     Returns
     -------
     Projected
-        Only about the nearest: the sets of held pixels need not have settled, nor the sum, where
-        that would take more than a budget of steps.
+        Only about the nearest: the sets of held pixels need not have settled.
 
     Examples
     --------
@@ -182,11 +135,11 @@ def project_in_metric(
     array([1. , 0.5, 0. ], dtype=float32)
     """
     metric = _Metric(factor, load_fixed)
-    sets = _HeldSets(x, low, high)
-    found = sets.project(metric, x)
+    side = (x > high).astype(np.int8) - (x < low).astype(np.int8)
+    found = _bounded(metric, x, low, high, side)
     if not load_fixed or not _misses(found, float(x.sum(dtype=np.float64))):
         return found
-    return _with_sum(factor, x, sets, found)
+    return _with_sum(factor, x, low, high, found)
 
 
 def _misses(found: Projected, total: float) -> bool:
@@ -195,7 +148,33 @@ def _misses(found: Projected, total: float) -> bool:
     return missing > UNBALANCED * float(np.abs(found.change).sum(dtype=np.float64))
 
 
-def _with_sum(factor: Any, x: Singles, sets: _HeldSets, found: Projected) -> Projected:
+def _bounded(
+    metric: _Metric, x: Singles, low: Singles, high: Singles, side: NDArray[np.int8]
+) -> Projected:
+    """Projection by sets of held pixels, from a first guess of them."""
+    w = np.zeros_like(x)
+    moved = x
+    for _ in range(MAX_SETS):
+        held = np.flatnonzero(side)
+        bound = np.where(side[held] > 0, high[held], low[held])
+        system = _HeldSystem(metric, held)
+        w_held = system.solve(bound - x[held], w[held])
+        w[...] = 0.0
+        w[held] = w_held
+        moved = x + system.spread(w_held)
+        now = (moved > high).astype(np.int8) - (moved < low).astype(np.int8)
+        # A held pixel is freed where its bound pulls instead of pushes.
+        now[held] = np.where(side[held] * w_held <= 0.0, side[held], 0)
+        changed = int(np.count_nonzero(now != side))
+        side = now
+        if changed <= SETTLED * held.size:
+            break
+    change = np.clip(moved, low, high)
+    change[side < 0], change[side > 0] = low[side < 0], high[side > 0]
+    return Projected(change, side)
+
+
+def _with_sum(factor: Any, x: Singles, low: Singles, high: Singles, first: Projected) -> Projected:
     """Projection whose changes sum to those of x, by the equal displacement that makes them.
 
     The sum falls with that displacement: regula falsi (Illinois) inside a bracket.
@@ -203,15 +182,19 @@ def _with_sum(factor: Any, x: Singles, sets: _HeldSets, found: Projected) -> Pro
     metric = _Metric(factor, False)
     k = metric.transposed @ (factor @ np.ones_like(x))
     total, stiffness = float(x.sum(dtype=np.float64)), float(k.sum(dtype=np.float64))
-    b = float(np.dot(k, sets.w)) / stiffness  # of the projection in the metric of a kept sum
-    a, here = b, float(found.change.sum(dtype=np.float64)) - total
-    at_a, at_b, step = here, here, here / stiffness
+
+    def excess(shift: float, side: NDArray[np.int8]) -> tuple[float, Projected]:
+        found = _bounded(metric, x - np.float32(shift) * k, low, high, side)
+        return float(found.change.sum(dtype=np.float64)) - total, found
+
+    here, found = excess(0.0, first.side)
+    a, b, at_a, at_b = 0.0, 0.0, here, here
+    step = here / stiffness
     for _ in range(MAX_SHIFTS):
-        shift = b + step if at_a * at_b > 0.0 else (a * at_b - b * at_a) / (at_b - at_a)
-        found = sets.project(metric, x - np.float32(shift) * k)
-        if not _misses(found, total) or sets.steps_left <= 0:
+        if not _misses(found, total):
             break
-        here = float(found.change.sum(dtype=np.float64)) - total
+        shift = b + step if at_a * at_b > 0.0 else (a * at_b - b * at_a) / (at_b - at_a)
+        here, found = excess(shift, found.side)
         if here * at_b > 0.0 and at_a * at_b <= 0.0:
             at_a *= 0.5
         else:
