@@ -94,8 +94,8 @@ class ContactResult(Result):
     def holes(self) -> NDArray[np.bool_] | None:
         """Pixels (ny, nx) that were masked in the heights; None if there are none.
 
-        They carry no load. Heights and gap have a number there, which means nothing: statistics
-        need ``np.ma.array(result.heights, mask=result.holes)``, which has a mask.
+        They carry no load. Heights and gap have a number there, which means nothing:
+        ``np.ma.array(result.heights, mask=result.holes)`` masks them.
         """
         return holes_of(self.plan.scene)
 

@@ -122,7 +122,7 @@ def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any
             return value
         if isinstance(value, list | tuple):
             return tuple(hook(item, target) for item in value)
-        if attribute.type is int:
+        if attribute.type is int and isinstance(value, str):
             raise DescriptionError(field, value, "be a whole number, without quotes")
         return parse_quantity(value, unit, field)
 
