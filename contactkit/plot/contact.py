@@ -59,12 +59,12 @@ def _extent(result: ContactResult) -> tuple[tuple[float, float, float, float], s
 
 
 def _hide_holes(ax: Axes, result: ContactResult) -> None:
-    """Cover the pixels without a height in grey."""
+    """Draw the pixels without a height in grey."""
     if result.holes is None:
         return
-    cover = np.ma.masked_where(~result.holes, np.zeros(result.holes.shape))
+    holes = np.ma.masked_where(~result.holes, np.zeros(result.holes.shape))
     ax.imshow(
-        cover,
+        holes,
         origin="lower",
         extent=_extent(result)[0],
         interpolation="nearest",
