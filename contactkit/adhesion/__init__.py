@@ -1,4 +1,4 @@
-"""Adhesion of solids: van der Waals attraction, JKR, DMT and Maugis-Dugdale.
+"""Adhesion of solids: laws of attraction, limits of rough surfaces, JKR, DMT, Maugis-Dugdale.
 
 attraction      Laws of attraction over the gap, on maps: Dugdale, exponential, Lennard-Jones.
 rough_limits    Rough surfaces: cost of full contact, start of stickiness.

@@ -28,43 +28,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["STICKY_BELOW", "full_contact_energy", "half_space_symbol", "stickiness_number"]
+__all__ = ["STICKY_BELOW", "full_contact_energy", "stickiness_number"]
 
 Floats = NDArray[np.float64]
 STICKY_BELOW = math.pi * (3.0 / 16.0) ** (2.0 / 3.0)
 """Value of `stickiness_number` below which a surface is sticky, 1.03."""
-
-
-def half_space_symbol(
-    shape: tuple[int, int], pixel_size: tuple[float, float], modulus: float
-) -> Floats:
-    r"""Compliance of a half-space :math:`2/(E^* |q|)` on the half spectrum [m/Pa], 0 at q = 0.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Pixels (ny, nx).
-    pixel_size : tuple of float
-        (dy, dx) [m].
-    modulus : float
-        Contact modulus E* [Pa].
-
-    Examples
-    --------
-    >>> half_space_symbol((2, 2), (1.0, 1.0), 1.0).round(3)
-    array([[0.   , 0.637],
-           [0.637, 0.45 ]])
-    """
-    q = (
-        2.0
-        * math.pi
-        * np.hypot(
-            np.fft.fftfreq(shape[0], pixel_size[0])[:, None],
-            np.fft.rfftfreq(shape[1], pixel_size[1]),
-        )
-    )
-    made: Floats = np.divide(2.0, modulus * q, out=np.zeros_like(q), where=q > 0.0)
-    return made
 
 
 def full_contact_energy(heights: Floats, symbol: Floats) -> float:
@@ -84,15 +52,16 @@ def full_contact_energy(heights: Floats, symbol: Floats) -> float:
         Heights of both bodies together [m], periodic.
     symbol : ndarray (ny, nx // 2 + 1)
         Compliance C(q) of both bodies together on the half spectrum [m/Pa], as
-        `half_space_symbol` and ``elasticity.layered.normal_symbol`` make it.
+        ``elasticity.layered.normal_symbol`` makes it of half-spaces and of layers.
 
     Examples
     --------
     A wave of amplitude 1 nm and length 1 um: :math:`U = \pi E^* a^2/(4 \lambda)`.
 
+    >>> from contactkit.elasticity.layered import normal_symbol
     >>> x = np.arange(16) / 16.0
     >>> wave = 1e-9 * np.cos(2.0 * np.pi * x) * np.ones((16, 1))
-    >>> symbol = half_space_symbol((16, 16), (6.25e-8, 6.25e-8), 1e9)
+    >>> symbol = normal_symbol((16, 16), (6.25e-8, 6.25e-8), [1e9], [0.0], [])
     >>> round(full_contact_energy(wave, symbol) / (np.pi * 1e9 * 1e-18 / 4e-6), 12)
     1.0
     """

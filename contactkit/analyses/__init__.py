@@ -1,4 +1,4 @@
-"""Analyses that take many solutions: humidity, adhesion and load-displacement curves, division.
+"""Analyses that take many solutions: curves over load, approach or humidity; stick-slip; division.
 
 humidity_curve     Meniscus force against relative humidity.
 adhesion_curve     Contact radius and approach of an adhesive sphere against load.

@@ -102,13 +102,19 @@ class Islands(NamedTuple):
     number: int
 
 
-def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> Islands:
+def islands(
+    mask: Mask, periodic: bool | Literal["x", "y"], connectivity: Literal[4, 8] = 8
+) -> Islands:
     """Connected components of a mask, labelled from 1, and their number.
 
     Parameters
     ----------
-    mask, periodic, connectivity
-        As in `meniscus_area`.
+    mask : ndarray of bool (ny, nx)
+        What is labelled.
+    periodic : bool, "x" or "y"
+        Whether components continue across the edges: all of them, or along one axis alone.
+    connectivity : {4, 8}
+        8: pixels with a common corner belong together; 4: only those with a common edge.
 
     Returns
     -------
@@ -120,9 +126,14 @@ def islands(mask: Mask, periodic: bool, connectivity: Literal[4, 8] = 8) -> Isla
     >>> islands(np.array([[True, False, True]]), periodic=True)
     Islands(names=array([[1, 0, 1]]), number=1)
     """
+    if periodic in ("x", "y"):  # a line that is not in the mask keeps the other edges apart
+        ny, nx = mask.shape
+        apart = np.pad(mask, ((0, 1), (0, 0)) if periodic == "x" else ((0, 0), (0, 1)))
+        names, n = islands(apart, True, connectivity)
+        return Islands(names[:ny, :nx], n)
     reach = ndimage.generate_binary_structure(2, 1 if connectivity == 4 else 2)
     labels, n = ndimage.label(mask, reach)
-    names: Labels = np.asarray(labels).astype(np.int64)
+    names = np.asarray(labels).astype(np.int64)
     if not periodic or n == 0:
         return Islands(names, int(n))
     pairs = np.concatenate([_across(names, connectivity), _across(names.T, connectivity)], axis=1)

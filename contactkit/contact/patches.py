@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from ..capillary.film_islands import Islands, islands
+from ..capillary.film_islands import islands
 from ..errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class PatchDensity(NamedTuple):
 def contact_patches(
     result: ContactResult, connectivity: Literal[4, 8] = 8, fewest_pixels: int = 4
 ) -> ContactPatches:
-    r"""Connected spots of a solved contact, across the edges of a periodic window.
+    r"""Connected spots of a solved contact, across the edges beyond which its window repeats.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def contact_patches(
     Raises
     ------
     DescriptionError
-        If `connectivity` or `fewest_pixels` is impossible, or the window repeats along one axis.
+        If `connectivity` or `fewest_pixels` is impossible.
 
     Notes
     -----
@@ -106,13 +106,6 @@ def contact_patches(
     (2, 0)
     """
     grid = result.plan.grid
-    if grid.along:
-        raise DescriptionError(
-            "contact_patches(result)",
-            f"a window that repeats along {grid.along} alone",
-            "repeat along both axes or not at all",
-            hint="patches_of(result.contact, ...) takes them as cut at the edges",
-        )
     return patches_of(result.contact, grid.pixel_size, grid.edges, connectivity, fewest_pixels)
 
 
@@ -153,7 +146,7 @@ def patches_of(
         raise DescriptionError(
             "patches.fewest_pixels", fewest_pixels, "be a whole number of at least 1"
         )
-    names, n = _labelled(touching, periodic, connectivity)
+    names, n = islands(touching, periodic, connectivity)
     pixels = np.sort(np.bincount(names.ravel(), minlength=n + 1)[1:])[::-1]
     is_small = pixels < fewest_pixels
     one = pixel_size[0] * pixel_size[1]
@@ -166,17 +159,6 @@ def patches_of(
         fewest_pixels=fewest_pixels,
         window_area=names.size * one,
     )
-
-
-def _labelled(touching: NDArray[np.bool_], periodic: Edges, connectivity: Literal[4, 8]) -> Islands:
-    """Labels of the spots from 1, 0 elsewhere, and their number."""
-    if isinstance(periodic, bool):
-        return islands(touching, periodic, connectivity)
-    # A line without contact keeps the edges apart that do not repeat.
-    ny, nx = touching.shape
-    apart = np.pad(touching, ((0, 1), (0, 0)) if periodic == "x" else ((0, 0), (0, 1)))
-    names, n = islands(apart, True, connectivity)
-    return Islands(names[:ny, :nx], n)
 
 
 def patch_density(patches: ContactPatches, per_decade: int = 5) -> PatchDensity:

@@ -44,7 +44,6 @@ __all__ = [
     "interpolated_area",
     "persson_area",
     "persson_pressures",
-    "work_of_full_contact",
 ]
 
 Array = NDArray[np.float64]
@@ -181,32 +180,6 @@ def persson_pressures(
     mirrored = np.exp(-0.5 * ((p - mean_pressure) / spread) ** 2)
     mirrored -= np.exp(-0.5 * ((p + mean_pressure) / spread) ** 2)
     return np.asarray(mirrored / (math.sqrt(2.0 * math.pi) * spread))
-
-
-def work_of_full_contact(contact_modulus: float, wavenumber: Array, square: Array) -> float:
-    r"""Elastic energy that full contact stores, over the nominal area [J/m2].
-
-    .. math:: U = \frac{E^*}{4} \sum_q |q| |h_q|^2
-              = \frac{E^*}{4} \int \frac{d^2q}{4\pi^2} |q|\, C_{2D}(q)
-
-    Surfaces stick in full contact only where the work of adhesion exceeds it (Persson and Tosatti
-    2001); of partial contacts it says nothing.
-
-    Parameters
-    ----------
-    contact_modulus : float
-        :math:`E^*` [Pa].
-    wavenumber : ndarray (...)
-        Wavenumbers of all waves of the plane [rad/m].
-    square : ndarray (...)
-        Squares :math:`|h_q|^2` of their amplitudes [m2]: C2D over the area of the window.
-
-    Examples
-    --------
-    >>> work_of_full_contact(1e9, np.array([1e7, 1e7]), np.array([0.25e-18, 0.25e-18]))
-    0.00125
-    """
-    return float(0.25 * contact_modulus * np.sum(wavenumber * square))
 
 
 # Independent summits ------------------------------------------------------------------------

@@ -65,14 +65,6 @@ def test_summits_are_integrals_over_their_heights(t):
     assert again == pytest.approx(float(found.fraction), rel=1e-9)
 
 
-def test_the_energy_of_full_contact_is_that_of_a_wave():
-    """Half the work of the pressure E* q a/2 that flattens a wave of amplitude a."""
-    amplitude, q = 1e-9, 2e7
-    flattening, moved = 0.5 * 1e9 * q * amplitude, amplitude
-    found = theories.work_of_full_contact(1e9, np.array([q, q]), np.full(2, amplitude**2 / 4.0))
-    assert found == pytest.approx(0.5 * 0.5 * flattening * moved, rel=1e-12)
-
-
 def test_impossible_loads_and_summits_are_refused():
     with pytest.raises(DescriptionError, match="pressure"):
         theories.greenwood_williamson_area(-1.0, 1e9, SUMMITS)

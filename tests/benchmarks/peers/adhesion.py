@@ -14,14 +14,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
 from cases import LOADS, RMS_SLOPE, half_space, rough
+from processes import interpreter, rows
 
 PEER = "tamaas"
 TARGET = 1e-6
@@ -115,19 +114,9 @@ def serve(name, sizes, budget):
 
 def run(python, name, given):
     """Rows of a solver by size and work of adhesion, or why there are none."""
-    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
-    command = [str(python), __file__, "--serve", name, "--budget", str(given.budget), "--sizes"]
-    done = subprocess.run(
-        [*command, *map(str, given.sizes)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | threads,
-    )
-    if done.returncode:
-        return {}, (done.stderr.strip().splitlines() or ["failed"])[-1][:100]
-    rows = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("[")]
-    return {(n, work): rest for n, work, *rest in rows}, ""
+    options = ["--budget", given.budget, "--sizes", *given.sizes]
+    found, reason = rows(python, __file__, name, options)
+    return {(n, work): rest for n, work, *rest in found}, reason
 
 
 def table(given, mine, peers):
@@ -163,11 +152,8 @@ def main():
     given = ask.parse_args()
     if given.serve:
         return serve(given.serve, given.sizes, given.budget)
-    refused, python = given.peers / f"{PEER}.refused", given.peers / PEER / "bin" / "python"
-    peers, reason = {}, "not installed; make peers does"
-    if refused.exists():
-        reason = refused.read_text(encoding="utf-8").strip()
-    elif python.exists():
+    peers, (python, reason) = {}, interpreter(given.peers, PEER)
+    if python:
         peers, reason = run(python, PEER, given)
     if reason:
         print(f"{PEER} left out: {reason}")

@@ -15,14 +15,13 @@ import argparse
 import importlib.util
 import itertools
 import json
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 from cases import BOUNDARIES, START, STEP, SURFACES
 from install import names
+from processes import answer, interpreter
 from report import conditions, effects_table, line, table, verdict
 
 HERE = Path(__file__).parent
@@ -59,13 +58,11 @@ def solvers(given):
     else:
         missing["fast"] = "numba or ducc0 is not installed"
     for name in (name for name in names() if name not in OF_FLOW):
-        python, refused = given.peers / name / "bin" / "python", given.peers / f"{name}.refused"
-        if refused.exists():
-            missing[name] = refused.read_text(encoding="utf-8").strip()
-        elif python.exists():
-            found[name] = str(python.absolute())  # not resolved: it is a link to its base
+        python, reason = interpreter(given.peers, name)
+        if python:
+            found[name] = python
         else:
-            missing[name] = "not installed; make peers does"
+            missing[name] = reason
     if given.only:
         found = {name: python for name, python in found.items() if name in given.only}
     return found, missing
@@ -73,27 +70,12 @@ def solvers(given):
 
 def run(python, job, patience=1.0):
     """What the process prints, or ``{"failed": reason}``."""
-    threads = str(job["threads"])
-    pinned = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
     limit = patience * (4.0 * job["budget"] + 120.0)  # of wall time: the machine may be shared
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "job.json"
         path.write_text(json.dumps(job), encoding="utf-8")
-        try:
-            done = subprocess.run(
-                [python, str(HERE / "run.py"), str(path)],
-                capture_output=True,
-                text=True,
-                check=False,
-                timeout=limit,
-                env=os.environ | dict.fromkeys(pinned, threads),
-            )
-        except subprocess.TimeoutExpired:
-            return {"failed": f"not done after {limit:.0f} s"}
-    if done.returncode:
-        last = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
-        return {"failed": last[-1][:100]}
-    return json.loads(done.stdout.strip().splitlines()[-1])
+        text, reason = answer([python, HERE / "run.py", path], job["threads"], limit)
+    return {"failed": reason} if reason else json.loads(text.strip().splitlines()[-1])
 
 
 def contest(given, found):

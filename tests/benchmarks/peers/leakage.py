@@ -12,13 +12,12 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
+from processes import interpreter, rows
 
 PEER = "reynoldsflow"
 DEVIATIONS = (0.2, 0.7)  # rms over mean gap: without contacts, and with 8 % of them
@@ -76,19 +75,9 @@ def serve(name, sizes, repeats):
 
 def run(python, name, given):
     """Rows of a solver by size and deviation, or why there are none."""
-    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
-    command = [str(python), __file__, "--serve", name, "--repeats", str(given.repeats), "--sizes"]
-    done = subprocess.run(
-        [*command, *map(str, given.sizes)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | threads,
-    )
-    if done.returncode:
-        return {}, (done.stderr.strip().splitlines() or ["failed"])[-1][:100]
-    rows = [json.loads(line) for line in done.stdout.splitlines()]
-    return {(n, deviation): (flux, seconds) for n, deviation, flux, seconds in rows}, ""
+    options = ["--repeats", given.repeats, "--sizes", *given.sizes]
+    found, reason = rows(python, __file__, name, options)
+    return {(n, deviation): (flux, seconds) for n, deviation, flux, seconds in found}, reason
 
 
 def main():
@@ -102,21 +91,16 @@ def main():
     given = ask.parse_args()
     if given.serve:
         return serve(given.serve, given.sizes, given.repeats)
-    refused = given.peers / f"{PEER}.refused"
-    if refused.exists():
-        print(f"{PEER} left out: {refused.read_text(encoding='utf-8').strip()}")
-    solvers = {"superlu": sys.executable, "amg": sys.executable}
-    solvers[PEER] = given.peers / PEER / "bin" / "python"
+    solvers = {"superlu": (sys.executable, ""), "amg": (sys.executable, "")}
+    solvers[PEER] = interpreter(given.peers, PEER)
     found = {}
-    for name, python in solvers.items():
-        if not Path(python).exists():
-            print(f"{name} left out: not installed; make peers does")
-            continue
-        rows, reason = run(python, name, given)
+    for name, (python, reason) in solvers.items():
+        if python:
+            answers, reason = run(python, name, given)
         if reason:
             print(f"{name} left out: {reason}")
         else:
-            found[name] = rows
+            found[name] = answers
     lines = [
         f"| cells | rms/mean | {' | '.join(f'{name} [s]' for name in found)} | fluxes differ |"
     ]
@@ -124,11 +108,11 @@ def main():
     worst = 0.0
     for n in given.sizes:
         for deviation in DEVIATIONS:
-            rows = [rows[n, deviation] for rows in found.values()]
-            fluxes = [flux for flux, _ in rows]
+            cells = [answers[n, deviation] for answers in found.values()]
+            fluxes = [flux for flux, _ in cells]
             differ = (max(fluxes) - min(fluxes)) / max(fluxes)
             worst = max(worst, differ)
-            seconds = " | ".join(f"{s:.3f}" for _, s in rows)
+            seconds = " | ".join(f"{s:.3f}" for _, s in cells)
             lines.append(f"| {n} | {deviation} | {seconds} | {differ:.1e} |")
     text = "\n".join(lines)
     given.out.mkdir(parents=True, exist_ok=True)
