@@ -1,4 +1,4 @@
-"""The command line: ``contactkit run | plan | cost | fmu build``."""
+"""The command line: ``contactkit run | plan | cost | gallery | fmu build``."""
 
 from __future__ import annotations
 
@@ -103,12 +103,31 @@ def _parser() -> argparse.ArgumentParser:
                 default=1e-6,
                 help="relative error to recommend a setting for",
             )
+    _add_gallery(commands)
     fmu = commands.add_parser("fmu", help="build FMUs").add_subparsers(
         metavar="COMMAND", required=True
     )
     _add_build(fmu)
     _add_system(fmu)
     return parser
+
+
+def _add_gallery(commands: Any) -> None:
+    """Command that makes the figures and tables of the source."""
+    text = "compute every figure and table of the source again, and judge it"
+    gallery = commands.add_parser("gallery", help=text, description=text)
+    gallery.add_argument(
+        "names",
+        nargs="*",
+        metavar="NAME",
+        help="pages such as 2.9, chapters such as chapter_2, or files of scripts; else all",
+    )
+    gallery.add_argument(
+        "--out", type=Path, default=Path("out/gallery"), help="folder to write to, and continue in"
+    )
+    gallery.add_argument("--quick", action="store_true", help="small sizes: a draft")
+    gallery.add_argument("--list", action="store_true", help="list the pages and exit")
+    _set_command(gallery, _gallery)
 
 
 def _add_build(fmu: Any) -> None:
@@ -231,6 +250,30 @@ def _cost(parsed: argparse.Namespace) -> None:
     with _progress(f"cost of {device.name}") as progress:
         report = device.cost(parsed.out, progress, parsed.error)
     _show(report, parsed.json)
+
+
+def _gallery(parsed: argparse.Namespace) -> int:
+    """Make pages of the gallery; the exit status is 1 if a check does not hold."""
+    from .app.gallery.run import Outcome, run_gallery
+    from .app.gallery.scripts import chosen
+
+    pages = chosen(parsed.names)
+    if parsed.list:
+        for one in pages:
+            print(f"{one.page.name:<12} {one.chapter:<10} {one.page.title}")
+        return 0
+    _check_folder(parsed.out)
+    ended: list[Outcome] = []
+
+    def report(outcome: Outcome) -> None:
+        ended.append(outcome)
+        print(f"[{len(ended)}/{len(pages)}] {outcome}", flush=True)
+
+    made = run_gallery(pages, parsed.out, draft=parsed.quick, report=report)
+    bad = sum(not one.is_good for one in made)
+    found = f"{bad} with a check that does not hold" if bad else "all checks hold"
+    print(f"{parsed.out / 'index.md'}: {len(made)} pages, {found}")
+    return 1 if bad else 0
 
 
 def _build(parsed: argparse.Namespace) -> None:

@@ -3,6 +3,7 @@
 scenes      Opening a scene by file or by name, and what the command line does with each kind.
 report      Report of a run.
 run         Running a scene from the command line: its numbers, files and figures.
+gallery     Every figure and table of the source, computed again and judged.
 cost        Work and precision of every kind of scene: error against time.
 system      Valve and film as a system structure (SSP 1.0), for masters that read those.
 crosscheck  Reference files beside native FMUs, in the format of the FMI cross-check.

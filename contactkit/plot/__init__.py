@@ -6,5 +6,6 @@ plastic_history Figures of loading histories: force over approach, residual dept
 roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
 adhesion    Load and area over the approach of contacts under adhesion.
 slip        Figures of partial slip and of stick-slip.
+gallery     Figures of the gallery: one style for print, series, bands over seeds.
 film        Figures of films on faces; animations.
 """

@@ -65,7 +65,7 @@ COLORS = {
 }
 """One colour for each quantity, the same in every figure; effects declare theirs."""
 
-_STYLE: Any = {
+STYLE: Any = {
     "font.size": 10.0,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -103,7 +103,7 @@ def figure(
     rows: int = 1, columns: int = 1, size: tuple[float, float] = (7.0, 4.5), **grid: Any
 ) -> tuple[Figure, Any]:
     """Make a figure in the house style, without a window: the figure and its axes."""
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(STYLE):
         made = Figure(figsize=size)
         return made, made.subplots(rows, columns, **grid)
 
@@ -111,7 +111,7 @@ def figure(
 def save(made: Figure, path: str | Path) -> Path:
     """Write a figure as a PNG file, completely or not at all."""
     path = Path(path).with_suffix(".png")
-    with write_whole(path) as temporary, mpl.rc_context(_STYLE):
+    with write_whole(path) as temporary, mpl.rc_context(STYLE):
         made.savefig(temporary, format="png")
     return path
 

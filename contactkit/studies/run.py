@@ -32,6 +32,8 @@ __all__ = [
     "Done",
     "Piece",
     "Task",
+    "end_with_parent",
+    "one_thread",
     "put",
     "run_here",
     "run_in_processes",
@@ -176,7 +178,7 @@ def run_in_processes(
     n = min(workers, len(pieces))
     with ProcessPoolExecutor(n, context, _begin_worker, (reports, stop)) as pool:
         try:
-            with _one_thread():
+            with one_thread():
                 futures = [pool.submit(_run_in_worker, pickle.dumps(piece)) for piece in pieces]
             for found in _as_they_end(futures, lambda: _drain(reports, report)):
                 _drain(reports, report)
@@ -242,10 +244,10 @@ def _begin_worker(reports: Any, stop: Any) -> None:
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the starting process decides when to stop
     _worker.update(reports=reports, stop=stop)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    threading.Thread(target=end_with_parent, daemon=True).start()
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """End this process when its parent has been killed."""
     from multiprocessing import parent_process
 
@@ -267,7 +269,7 @@ def _drain(reports: Any, report: Callable[[], None]) -> None:
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
+def one_thread() -> Iterator[None]:
     """Environment in which started processes use one thread each."""
     before = {name: os.environ.get(name) for name in _PINNED}
     os.environ.update(dict.fromkeys(_PINNED, "1"))

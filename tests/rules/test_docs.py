@@ -19,6 +19,7 @@ SCRIPTS = DOCS / "scripts"
 PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")),
     *sorted(DOCS.glob("*.md")),
+    *sorted(DOCS.glob("gallery/*.md")),
 ]
 
 
@@ -87,7 +88,7 @@ def test_the_commands_of_the_readme_are_those_there_are():
     for line in commands():
         words = shlex.split(line, comments=True)
         assert cli._parser().parse_args(words[1:]).command is not None, line
-    for name in ("run", "plan", "cost", "fmu build"):
+    for name in ("run", "plan", "cost", "gallery", "fmu build"):
         assert any(line.startswith(f"contactkit {name}") for line in commands()), name
 
 

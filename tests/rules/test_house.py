@@ -430,10 +430,11 @@ def test_a_place_on_a_machine_would_be_seen():
 @functools.cache
 def module_names():
     import contactkit.fmu
+    import contactkit.gallery
     import contactkit.models
 
     names = ["contactkit"]
-    for package in (ck, contactkit.fmu, contactkit.models):
+    for package in (ck, contactkit.fmu, contactkit.gallery, contactkit.models):
         names += [
             info.name for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
         ]

@@ -9,7 +9,12 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = {"contactkit": "contactkit", "contactkit.fmu": "fmu", "contactkit.models": "models"}
+FOLDERS = {
+    "contactkit": "contactkit",
+    "contactkit.fmu": "fmu",
+    "contactkit.gallery": "examples/gallery",
+    "contactkit.models": "models",
+}
 
 # From the ground up. Rooms on one floor do not know each other.
 FLOORS = [
@@ -29,6 +34,7 @@ FLOORS = [
     ["models"],
     ["fmu"],
     ["app"],
+    ["gallery"],
     ["cli"],
     ["__main__"],
 ]

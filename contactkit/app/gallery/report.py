@@ -1,0 +1,117 @@
+"""Files of a page and of the index: Markdown, pictures as PNG, PDF and SVG, data, table as csv."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ...files.scenes import write_whole
+from .page import Check, Data, Table
+from .scripts import CHAPTERS, Script
+
+__all__ = ["Made", "index", "write_page"]
+
+_TITLES = {
+    "chapter_2": "Chapter 2: contact of rough layered surfaces",
+    "chapter_3": "Chapter 3: separation of wetted surfaces",
+    "measured": "Against programs and measurements of others",
+}
+
+
+class Made(NamedTuple):
+    """Computed data of a page: how long it took [s of CPU], with which sizes, which warnings."""
+
+    data: Data
+    seconds: float
+    draft: bool
+    notes: Sequence[str]
+
+
+def write_page(script: Script, made: Made, out: Path) -> list[Check]:
+    """Draw and check a page, write its files; return its checks."""
+    from ...plot.gallery import save_all
+
+    module, slug = script.module, script.slug
+    checks: list[Check] = list(module.check(made.data))
+    drawn = module.draw(made.data)
+    figures = list(drawn) if isinstance(drawn, Sequence) else [drawn]
+    names = [slug if i == 0 else f"{slug}-{i + 1}" for i in range(len(figures))]
+    for name, figure in zip(names, figures, strict=True):
+        save_all(figure, out / name)
+    table: Table | None = module.table(made.data) if hasattr(module, "table") else None
+    if table is not None:
+        with write_whole(out / f"{slug}.csv") as path, path.open("w", newline="") as file:
+            csv.writer(file).writerows([table.head, *table.rows])
+    with write_whole(out / f"{slug}.md") as path:
+        path.write_text(_page(script, made, checks, names, table), encoding="utf-8")
+    return checks
+
+
+def _page(
+    script: Script, made: Made, checks: list[Check], names: list[str], table: Table | None
+) -> str:
+    page = script.page
+    parts = [f"# {page.label}: {page.title}"]
+    if made.draft:
+        parts.append("**Draft sizes**: numbers and pictures are those of a coarse run.")
+    parts += [f"![{page.label}: {page.title}]({name}.png)" for name in names]
+    parts += [f"**Claim of the source.** {page.claim}", f"**Verdict.** {page.verdict}"]
+    if page.choices:
+        parts.append(f"**Our choices.** {page.choices}")
+    parts.append("## Checks")
+    held = [("yes" if c.holds else "**no**", c.statement, c.measured) for c in checks]
+    parts.append(_grid(("holds", "statement", "measured"), held))
+    if table is not None:
+        parts += ["## Numbers", _grid(table.head, [[_cell(v) for v in row] for row in table.rows])]
+    parts += ["## How it was made", _grid(("", ""), list(_facts(script, made).items()))]
+    if made.notes:
+        notes = "\n".join(f"- {note}" for note in made.notes)
+        parts.append(f"Warnings of the run, each once:\n\n{notes}")
+    return "\n\n".join(parts) + "\n"
+
+
+def _facts(script: Script, made: Made) -> Mapping[str, str]:
+    page = script.page
+    facts = {
+        "code": f"`examples/gallery/{script.chapter}/{script.path.name}`",
+        "command": f'`contactkit gallery "{page.name}"`',
+        "grid": page.grid,
+        "seeds": page.seeds,
+        "time": f"{made.seconds:.2g} s of CPU, one thread",
+    }
+    return {name: text for name, text in facts.items() if text}
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _grid(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in lines)
+
+
+def index(scripts: Sequence[Script], out: Path, summaries: Mapping[str, str]) -> str:
+    """Index of the pages that are there, by chapter."""
+    parts = ["# Gallery", _LEAD]
+    folders = [*CHAPTERS, *sorted({s.chapter for s in scripts} - set(CHAPTERS))]
+    for chapter in folders:
+        there = [s for s in scripts if s.chapter == chapter and (out / f"{s.slug}.md").is_file()]
+        if there:
+            rows = [
+                (f"[{s.page.label}]({s.slug}.md)", s.page.title, summaries.get(s.slug, ""))
+                for s in there
+            ]
+            parts += [
+                f"## {_TITLES.get(chapter, chapter)}",
+                _grid(("page", "shows", "checks"), rows),
+            ]
+    return "\n\n".join(parts) + "\n"
+
+
+_LEAD = """\
+Every figure and table of the source, computed again: what it states, what we find, and the checks
+that decide it. A statement that is wrong stays as a check of the corrected one, and the page names
+the reason. `contactkit gallery` makes all of them; each page names the script that makes it."""

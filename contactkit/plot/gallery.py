@@ -1,0 +1,86 @@
+"""Figures of the gallery: one style for print, series, bands over seeds, maps and sections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..files.scenes import write_whole
+from .separation import STYLE, Axes, Figure, figure, mpl
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+__all__ = ["SERIES", "Axes", "Figure", "band", "figure", "letters", "save_all", "series"]
+
+SERIES: tuple[tuple[str, str, str], ...] = (
+    ("#000000", "-", "o"),
+    ("#0072b2", "--", "s"),
+    ("#d55e00", "-.", "^"),
+    ("#009e73", ":", "D"),
+    ("#cc79a7", (0, (5, 1, 1, 1, 1, 1)), "v"),  # type: ignore[arg-type]
+    ("#e69f00", (0, (8, 3)), "P"),  # type: ignore[arg-type]
+    ("#56b4e9", (0, (1, 1)), "X"),  # type: ignore[arg-type]
+)
+"""Colour, line and marker of each series: the colours of Okabe and Ito, told apart by all readers,
+and in grey by line and marker."""
+
+
+def series(i: int, **more: Any) -> dict[str, Any]:
+    """Style of series `i`, as arguments of ``plot``.
+
+    Examples
+    --------
+    >>> series(1, lw=1.0)
+    {'color': '#0072b2', 'ls': '--', 'marker': 's', 'ms': 3.5, 'lw': 1.0}
+    """
+    colour, line, marker = SERIES[i % len(SERIES)]
+    return {"color": colour, "ls": line, "marker": marker, "ms": 3.5} | more
+
+
+def band(ax: Axes, x: ArrayLike, runs: ArrayLike, i: int, label: str, **more: Any) -> None:
+    """Draw the median of several runs as series `i`, and a band from the least to the greatest.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where to draw.
+    x : array_like (n,)
+        Abscissa.
+    runs : array_like (seeds, n)
+        One row for each run.
+    i : int
+        Number of the series.
+    label : str
+        Its name in the legend.
+    **more
+        Further arguments of ``plot``.
+    """
+    values = np.asarray(runs, float)
+    style = series(i, **more)
+    ax.fill_between(x, values.min(0), values.max(0), color=style["color"], alpha=0.16, lw=0.0)
+    ax.plot(x, np.median(values, axis=0), label=label, **style)
+
+
+def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Number panels (a), (b) ... and name them."""
+    for i, (ax, text) in enumerate(zip(axes, titles, strict=True)):
+        ax.set_title(f"({chr(97 + i)}) {text}", loc="left", fontsize=10)
+
+
+def save_all(made: Figure, path: Path) -> list[Path]:
+    """Write a figure as PNG, PDF and SVG, each whole or not at all, the same bytes every time."""
+    undated = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+    written = []
+    for kind, metadata in undated.items():
+        file = path.with_suffix(f".{kind}")
+        with (
+            write_whole(file) as temporary,
+            mpl.rc_context({**STYLE, "svg.hashsalt": "contactkit", "savefig.dpi": 120}),
+        ):
+            made.savefig(temporary, format=kind, metadata=metadata)
+        written.append(file)
+    return written

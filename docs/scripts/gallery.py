@@ -1,0 +1,35 @@
+"""Pages of the gallery for the documentation: ``python docs/scripts/gallery.py [NAME ...]``.
+
+Runs ``contactkit gallery`` at full size into out/gallery, where finished data are kept, and copies
+pages and PNGs, these with a palette of 64 colours so that they stay small, into docs/gallery.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from PIL import Image
+
+ROOT = Path(__file__).parents[2]
+MADE, SHOWN = ROOT / "out" / "gallery", ROOT / "docs" / "gallery"
+COLOURS = 64
+
+
+def copy_pages() -> None:
+    """Copy every page that is made, its pictures, and the index."""
+    SHOWN.mkdir(exist_ok=True)
+    for page in sorted(MADE.glob("*.md")):
+        shutil.copyfile(page, SHOWN / page.name)
+    for picture in sorted(MADE.glob("*.png")):
+        with Image.open(picture) as image:
+            image.convert("RGB").quantize(COLOURS).save(SHOWN / picture.name, optimize=True)
+
+
+if __name__ == "__main__":
+    command = [sys.executable, "-m", "contactkit", "gallery", *sys.argv[1:], "--out", str(MADE)]
+    status = subprocess.run(command, check=False).returncode
+    copy_pages()
+    sys.exit(status)

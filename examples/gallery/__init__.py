@@ -1,0 +1,6 @@
+"""Every figure and table of the source, one script each: ``contactkit gallery``.
+
+chapter_2  Contact of rough layered surfaces, dry and wet.
+chapter_3  Separation of wetted surfaces.
+measured   Against programs and measurements of others.
+"""

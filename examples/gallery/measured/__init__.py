@@ -1,0 +1,1 @@
+"""Contactkit against programs and measurements of others."""
