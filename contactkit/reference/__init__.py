@@ -1,5 +1,7 @@
 """Reference solutions by independent methods, which share no code with what they check.
 
+Closed forms, other numerical methods, and fits that others have published.
+
 hertz            Hertz: sphere on a half-space.
 flat_punch       Flat cylindrical punch on a half-space.
 westergaard      Westergaard: rigid wave in one direction.
@@ -10,4 +12,6 @@ hamilton         Stresses under a sliding sphere.
 layered_wave     Wave of pressure on a layered half-space, by integration over the depth.
 reynolds         Reynolds' equation of an axisymmetric film, by finite volumes.
 elliptic_bridge  Liquid bridges by Legendre's elliptic integrals.
+sphere_bridges   Published fits for liquid bridges between spheres: Willett, Lian, Mikami.
+viscous_films    Published forces of films: Stefan, Reynolds, Brenner, Goldman, Cox and Brenner.
 """

@@ -32,6 +32,13 @@ class FilmShape(NamedTuple):
     height: Callable[[float], float]
     level: float = math.inf
 
+    def volume_at(self, gap: float) -> float:
+        """Volume of the liquid of one film between the bodies [m3] at a gap [m]."""
+        if math.isinf(self.sphere_radius):
+            return min(self.volume, math.pi * self.radius(gap) ** 2 * gap)
+        height = self.height(gap)
+        return min(self.volume, math.pi * self.sphere_radius * (height * height - gap * gap))
+
 
 def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
     """Ask for a volume or a rim where the film between two flats would have no end."""

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 __all__ = ["MeniscusForce"]
 
+_HEAVIEST = 0.05  # weight over force
+_LEAST_FORCE = 0.3  # gamma V^(1/3): where a force changes sign, its errors are judged by this
+
 
 @frozen(kw_only=True)
 class MeniscusForce(SeparationForce):
@@ -184,7 +187,7 @@ class MeniscusForce(SeparationForce):
     ) -> tuple[ValidityNumber, ...]:
         """See `SeparationEffect.validity`."""
         gaps = [gap for gap, _ in path]
-        found = [_bond(plan.prepared, gaps)]
+        found = [_bond(plan.prepared, gaps), _weight(plan, gaps)]
         volume = plan.prepared.film.volume
         if not plan.scene.interface.is_flat:
             found.append(_lateral(plan, gaps))
@@ -256,6 +259,29 @@ def _bond(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]) -> Va
         if density is not None
         else "liquid.density [kg/m3] is not given",
         source="rho g h max(h, r)/gamma",
+    )
+
+
+def _weight(plan: Plan, gaps: Sequence[float]) -> ValidityNumber:
+    """Weight of all menisci over their force, which it changes by a part of itself."""
+    film, law = plan.prepared.film, plan.film.laws[MeniscusForce]
+    density, tension = plan.prepared.liquid.given("density"), plan.prepared.liquid.surface_tension
+    value: float | None = None
+    if density is not None:
+        value = 0.0
+        for gap in gaps:
+            volume = film.volume_at(gap)
+            least = _LEAST_FORCE * tension * math.cbrt(volume)
+            force = max(abs(law.force(gap, 0.0)) / film.menisci, least)
+            value = max(value, numbers.GRAVITY * density * volume / force)
+    return ValidityNumber(
+        name="weight of the meniscus over its force",
+        value=value,
+        high=_HEAVIEST,
+        detail="the weight of the liquid is left out; the forces on both bodies differ by it"
+        if density is not None
+        else "not judged, liquid.density [kg/m3] is not given",
+        source="rho g V over the force, or over 0.3 gamma V^(1/3) where that is larger",
     )
 
 

@@ -12,6 +12,7 @@ from numpy.polynomial import Polynomial
 from scipy.integrate import quad
 
 import contactkit as ck
+from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
 from contactkit.lubrication import dimensionless
 from contactkit.lubrication.squeeze_film import disc_force
 from contactkit.separation.effects import film_validity
@@ -221,3 +222,100 @@ def test_numbers_say_how_much_inertia_and_rim_take(film_scene):
     inertia = 5.0 / 28.0 * reynolds.value
     assert f"about {inertia:.2g} of the force" in reynolds.detail
     assert f"about {16.0 / (3.0 * np.pi) / slender.value:.2g} of the force" in slender.detail
+
+
+# Weight of a meniscus -----------------------------------------------------------------------
+
+HEAVY = "weight of the meniscus over its force"
+
+
+def drop(volume, density=1000.0, angle=0.0, count=1, upper=None, tension=0.072, **loading):
+    water = ck.Liquid(name="water", viscosity=1e-3, surface_tension=tension, density=density)
+    film = ck.Meniscus(
+        liquid=water,
+        volume=volume,
+        contact_angle_lower=angle,
+        contact_angle_upper=angle,
+        count=count,
+    )
+    size = (volume / count) ** (1.0 / 3.0)
+    given = {"initial_gap": 0.1 * size, "final_gap": 0.5 * size, "speed": 1e-9} | loading
+    return ck.SeparationScene(
+        interface=ck.Interface(
+            lower=ck.Body(surface=ck.Flat()), upper=upper or ck.Body(surface=ck.Flat()),
+            meniscus=film,
+        ),
+        loading=ck.ImposedSpeed(**given),
+        effects=(ck.MeniscusForce(),),
+    )  # fmt: skip
+
+
+def test_the_weight_of_a_bridge_is_that_of_its_volume_over_its_least_force():
+    volume, size = 1e-9, 1e-3
+    found, warned = judged(drop(volume))
+    least = 0.072 * float(bridge(0.5 * size, volume, 0.0, 0.0).force)
+    assert found[HEAVY].value == pytest.approx(9.80665e-6 / least, rel=1e-6)
+    assert (HEAVY in warned) == (found[HEAVY].value > 0.05)
+
+
+def test_the_weight_counts_as_the_square_of_the_size():
+    """And many small bridges weigh less than one, over their force."""
+    one = judged(drop(1e-9))[0][HEAVY].value
+    assert judged(drop(1e-12))[0][HEAVY].value == pytest.approx(one / 100.0, rel=1e-6)
+    parted = judged(drop(1e-9, count=1000))[0][HEAVY].value
+    assert parted == pytest.approx(one / 100.0, rel=1e-6)
+
+
+def test_the_weight_is_not_judged_without_a_density():
+    found, warned = judged(drop(1e-9, density=None))
+    assert found[HEAVY].value is None
+    assert found[HEAVY].is_valid is None
+    assert "not judged, liquid.density [kg/m3]" in str(found[HEAVY])
+    assert HEAVY not in warned
+
+
+def test_a_force_that_changes_sign_is_judged_by_the_line_tension():
+    """At 100 degrees flats are pushed apart, and pulled together beyond half the size."""
+    angle, volume, size = math.radians(100.0), 1e-12, 1e-4
+    gaps = np.linspace(0.3, 1.2, 50) * size
+    force = bridge(gaps, volume, angle, angle).force
+    assert force[0] < 0.0 < force[-1]
+    ends = {"initial_gap": gaps[0], "final_gap": gaps[-1]}
+    found, warned = judged(drop(volume, angle=angle, **ends))
+    assert found[HEAVY].value == pytest.approx(9.80665e-9 / (0.3 * 0.072 * size), rel=1e-3)
+    assert HEAVY not in warned
+
+
+def test_the_weight_of_a_flooded_face_is_that_of_what_it_holds():
+    water = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.072, density=1000.0)
+    face = ck.Body(surface=ck.Flat(radius=1e-3))
+    scene = ck.SeparationScene(
+        interface=ck.Interface(lower=face, upper=face, meniscus=ck.Meniscus(liquid=water)),
+        loading=ck.ImposedSpeed(initial_gap=1e-5, final_gap=1e-4, speed=1e-9),
+        effects=(ck.MeniscusForce(),),
+    )
+    plan = ck.plan(scene)
+    force = ck.simulate(plan).columns["meniscus_force"][-1]
+    found, _ = judged(scene)
+    assert found[HEAVY].value == pytest.approx(9.80665 * math.pi * 1e-7 / force, rel=1e-9)
+
+
+def test_the_weight_of_a_condensed_meniscus_is_that_of_a_film_under_a_sphere():
+    """A pressure sets the height 2 gamma/p at the rim: pi R (H^2 - D^2) of liquid."""
+    water = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.072, density=1000.0)
+    film = ck.Meniscus(
+        liquid=water, pressure=-1e5, contact_angle_lower=0.0, contact_angle_upper=0.0
+    )
+    scene = ck.SeparationScene(
+        interface=ck.Interface(lower=ck.Flat(), upper=ck.Sphere(radius=1e-3), meniscus=film),
+        loading=ck.ImposedSpeed(initial_gap=2e-9, final_gap=1e-8, speed=1e-9),
+        effects=(ck.MeniscusForce(),),
+    )
+    found, warned = judged(scene)
+    height = 2.0 * 0.072 / 1e5
+    volume = math.pi * 1e-3 * (height**2 - 4e-18)
+    exact = bridge_at_pressure(2e-9, -1e5 / 0.072, 0.0, 0.0, 0.0, 1e3)
+    assert volume == pytest.approx(float(exact.volume), rel=0.05)
+    expected = 9806.65 * volume / (0.072 * float(exact.force))
+    assert found[HEAVY].value == pytest.approx(expected, rel=2e-2)
+    assert HEAVY not in warned

@@ -1,0 +1,90 @@
+"""Measured bridges of Pitois 2000, digitised by others, and what contactkit leaves out there.
+
+The only measured forces over a distance that could be read. contactkit does not meet them with the
+conditions that are quoted: the tests state by how much, and what each reason accounts for.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import contactkit as ck
+
+GALLERY = Path(__file__).parents[2] / "examples" / "gallery" / "measured"
+CASES = json.loads((GALLERY / "measurements.json").read_text(encoding="utf-8"))
+OPENING, CLOSING = CASES["pitois_2000_fig5"], CASES["pitois_2000_fig6"]
+RADIUS, VOLUME = OPENING["sphere_radius_m"], OPENING["volume_m3"]
+WEIGHT = 9.80665 * OPENING["density_kg_m3"] * VOLUME
+DISTANCE, MEASURED = (np.array(OPENING[key]) for key in ("d_over_r", "force_N"))
+NEAR, FAR = DISTANCE < 0.055, DISTANCE > 0.11
+
+
+def computed(distance, speed):
+    """Capillary and viscous force [N] at distances over R, through a scene."""
+    oil = ck.Liquid(
+        name="silicone oil",
+        viscosity=OPENING["viscosity_Pas"],
+        surface_tension=OPENING["surface_tension_N_m"],
+        density=OPENING["density_kg_m3"],
+    )
+    ball = ck.Body(surface=ck.Sphere(radius=RADIUS))
+    film = ck.Meniscus(liquid=oil, volume=VOLUME, contact_angle_lower=0.0, contact_angle_upper=0.0)
+    ends = {"initial_gap": distance[0] * RADIUS, "final_gap": distance[-1] * RADIUS}
+    scene = ck.SeparationScene(
+        interface=ck.Interface(lower=ball, upper=ball, meniscus=film),
+        loading=ck.ImposedSpeed(speed=speed, **ends),
+        effects=(ck.MeniscusForce(), ck.ViscousForce()),
+    )
+    with pytest.warns(ck.ValidityWarning, match="weight of the meniscus"):
+        found = ck.simulate(ck.plan(scene))
+    at = np.argsort(found.gap)
+    return [
+        np.interp(distance * RADIUS, found.gap[at], found.columns[name][at])
+        for name in ("meniscus_force", "viscous_force")
+    ]
+
+
+def off(force, where):
+    return float((force / MEASURED - 1.0)[where].mean())
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_the_measured_forces_are_missed_as_quoted():
+    """A third too little close by, and two fifths too much far off."""
+    capillary, viscous = computed(DISTANCE, OPENING["gap_rate_m_s"])
+    assert off(capillary + viscous, NEAR) == pytest.approx(-0.33, abs=0.01)
+    assert off(capillary + viscous, FAR) == pytest.approx(0.41, abs=0.01)
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_close_by_the_quoted_rate_is_in_doubt():
+    """Twice the rate, as in the other figure, leaves a seventh; the static point is met."""
+    capillary, viscous = computed(DISTANCE, 2.0 * OPENING["gap_rate_m_s"])
+    assert off(capillary + viscous, NEAR) == pytest.approx(-0.13, abs=0.01)
+    static = OPENING["static_first_point"]["force_N"]
+    assert capillary[0] == pytest.approx(static, rel=0.08)
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_far_off_the_weight_of_the_liquid_counts():
+    """It takes the excess from two fifths to a quarter; the viscosity has no part in it."""
+    capillary, viscous = computed(DISTANCE, OPENING["gap_rate_m_s"])
+    assert np.max((viscous / capillary)[FAR]) < 0.06
+    assert off(capillary + viscous - WEIGHT, FAR) == pytest.approx(0.26, abs=0.01)
+    assert WEIGHT / MEASURED[-1] == pytest.approx(0.245, abs=0.005)
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_a_closing_bridge_attracts_too_much():
+    """A receding angle of 0 is no advancing one; the force changes sign at the same distance."""
+    distance, measured = (np.array(CLOSING[key])[::-1] for key in ("d_over_r", "force_N"))
+    capillary, viscous = computed(distance, -CLOSING["gap_rate_m_s"])
+    force = capillary - viscous  # the film is Newtonian: closing, it resists as much
+    excess = (force / measured - 1.0)[distance > 0.05]
+    assert 0.1 < excess.min() < excess.max() < 1.0
+    crossings = [float(np.interp(0.0, f[:8], distance[:8])) for f in (force, measured)]
+    assert crossings[0] == pytest.approx(crossings[1], rel=0.12)
