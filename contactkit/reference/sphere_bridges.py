@@ -176,7 +176,7 @@ def willett_rupture(radius: float, volume: float, contact_angle: float) -> float
     """
     _checked(1.0, radius, volume, 1.0, contact_angle)
     root = (volume / radius**3) ** (1.0 / 3.0)
-    return radius * (1.0 + 0.5 * contact_angle) * (root + 0.1 * root * root)
+    return float(radius * (1.0 + 0.5 * contact_angle) * (root + 0.1 * root * root))
 
 
 def lian_rupture(volume: float, contact_angle: float) -> float:
@@ -209,7 +209,7 @@ def lian_rupture(volume: float, contact_angle: float) -> float:
     0.4202 mm
     """
     _checked(1.0, 1.0, volume, 1.0, contact_angle)
-    return (1.0 + 0.5 * contact_angle) * volume ** (1.0 / 3.0)
+    return float((1.0 + 0.5 * contact_angle) * volume ** (1.0 / 3.0))
 
 
 def mikami_force(
