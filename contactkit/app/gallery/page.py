@@ -1,4 +1,4 @@
-"""What a page of the gallery states: claim and verdict, checks, a table.
+"""Head of a page of the gallery: claim and verdict; checks; a table.
 
 A script of a page is a module with ``PAGE``, ``compute(draft) -> data``, ``draw(data) -> figure``
 (or several) and ``check(data) -> checks``, and, where numbers are to be read,

@@ -29,7 +29,7 @@ _HEAD = "gallery_page"  # entry of the data that describes them
 
 
 class Outcome(NamedTuple):
-    """How a page ended.
+    """Outcome of a page.
 
     `failed` are the statements that do not hold, `error` why there is no page; `seconds` of CPU,
     and whether the data had been kept.
@@ -50,7 +50,7 @@ class Outcome(NamedTuple):
 
     @property
     def summary(self) -> str:
-        """How the checks ended, in a few words."""
+        """Outcome of the checks, in a few words."""
         if self.error:
             return f"failed: {self.error}"
         held = self.n_checks - len(self.failed)
