@@ -215,8 +215,9 @@ def pull_off_curve(
     Notes
     -----
     Branches of isolated contacts do not depend on the steps; in a periodic window loads next to
-    jumps may, by some percent (see `Adhesion`). Under load control, as with a soft spring, the
-    bodies pull off at `PullOffCurve.pull_off_force` and snap in before the jump of the approach.
+    jumps may, by some percent (see `Adhesion`). Under load control, as with a soft spring or a
+    negative `Pressing`, the bodies pull off at `PullOffCurve.pull_off_force` and snap in before the
+    jump of the approach.
     The extremes are those of the states: let the approaches be dense around them.
 
     Examples

@@ -11,15 +11,21 @@ Where a pressure lowers the surface everywhere (isolated contacts), more tension
 the steps only rise from no tension to the state of an approach, or only fall from the state of a
 smaller gap to that of a separation. They are accelerated by momentum, which starts afresh whenever
 the iterates turn round; a third to a half of the steps remain.
+
+A load may pull: then the steps fall from the state of the bodies at rest under no load. Without
+contact no state under a load is stable, as the tension falls when the gap opens; where tension and
+pull leave no load to the contact, the bodies have been pulled off.
 """
 
 from __future__ import annotations
 
 import time
+from copy import copy
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..errors import InfeasibleError
 from .effects.base import AttractedContact, Attraction, Contact, FixedHardness
 from .friction_loop import Target
 from .hardness_loop import Solved, contact_of
@@ -39,6 +45,8 @@ _INNER = 0.1  # tolerance of a contact over the change of its gap that the tensi
 _LOOSEST = 1e-3
 _SLOWEST = 1e-3  # 1 - rate of convergence that the estimate of the error assumes at least
 _MEMORY = 5  # estimates of the rate of which the slowest counts
+_PULL_OFF = 1e-2  # error of the pull-off force in a refusal
+_MAX_HALVINGS = 20
 
 
 class _Pulled(NamedTuple):
@@ -48,6 +56,14 @@ class _Pulled(NamedTuple):
     touching: NDArray[np.bool_]
     displacement: Map
     tension: Map
+
+
+class _Settled(NamedTuple):
+    """A state, the tension that it was solved with, and what did not converge, if anything."""
+
+    state: _Pulled
+    tension: Map
+    problem: str
 
 
 class _ContactMap:
@@ -63,6 +79,17 @@ class _ContactMap:
         self.hardness = hardness.value if isinstance(hardness, FixedHardness) else None
         self.unit = max(float(plan.heights.std()) / self.law.reach, 1.0)
         self.n_contacts = 0
+
+    def under(self, load: float) -> _ContactMap:
+        """Return the same map under another mean pressure [Pa]; its contacts are counted here."""
+        other = copy(self)
+        other.target = self.target._replace(mean_pressure=load)
+        return other
+
+    def carries(self, tension: Map) -> bool:
+        """Whether a load, if one is imposed, leaves the contact something to carry."""
+        load = self.target.mean_pressure
+        return load is None or load >= 0.0 or load + float(tension.mean()) > 0.0
 
     def pulled(self, tension: Map) -> Map:
         """Displacement [m] that a tension causes against that of a pressure, (ny, nx)."""
@@ -119,18 +146,60 @@ def solve_attracted(
         State to start from, which decides on the branch; without one, the surfaces come together.
     counter : WorkCounter
         Counts the contacts.
+
+    Raises
+    ------
+    InfeasibleError
+        If the load pulls the bodies off; names the pull-off force.
     """
     begun = time.perf_counter()
     contacts = _ContactMap(plan, attraction, target, counter)
-    tension: Map = np.zeros(plan.grid.shape)
-    pressure = _newest(target)
-    if before is not None and pressure is not None:
-        tension = before.tension
-        pressure = np.where(before.touching, pressure + tension, 0.0)
-    state, tension, problem = _settled(contacts, tension, pressure)
-    solved, contact = _described(plan, contacts, state, tension, problem)
+    first = _first(contacts, before)
+    # Next to the pull-off momentum may carry the iterates past the state that still holds.
+    settled = _settled(contacts, *first) or _settled(contacts, *first, has_momentum=False)
+    if settled is None:
+        raise _pulled_off(contacts, first, before)
+    solved, contact = _described(plan, contacts, *settled)
     counter.clock(attraction.name, begun)
     return solved, contact
+
+
+def _first(contacts: _ContactMap, before: AttractedContact | None) -> tuple[Map, Map | None]:
+    """Tension and pressure of contact to start from."""
+    tension: Map = np.zeros(contacts.plan.grid.shape)
+    pressure, load = _newest(contacts.target), contacts.target.mean_pressure
+    if before is not None and pressure is not None:
+        return before.tension, np.where(before.touching, pressure + before.tension, 0.0)
+    if load is None or load >= 0.0:
+        return tension, pressure
+    at_rest = _settled(contacts.under(0.0), tension, pressure)
+    return (at_rest.tension, at_rest.state.solution.pressure) if at_rest else (tension, pressure)
+
+
+def _pulled_off(
+    contacts: _ContactMap, first: tuple[Map, Map | None], before: AttractedContact | None
+) -> InfeasibleError:
+    """Find the pull-off force, by halving, from the state to start from; say that it is exceeded.
+
+    Every smaller pull is carried, as the tension only falls as the pull grows.
+    """
+    area, pull = contacts.plan.grid.area, -float(contacts.target.mean_pressure or 0.0)
+    carried, too_much, (tension, pressure) = 0.0, min(pull, float(first[0].mean())), first
+    for _ in range(_MAX_HALVINGS):
+        if too_much - carried <= _PULL_OFF * too_much:
+            break
+        trial = 0.5 * (carried + too_much)
+        settled = _settled(contacts.under(-trial), tension, pressure)
+        if settled is None or settled.problem:
+            too_much = trial
+        else:
+            carried, tension, pressure = trial, settled.tension, settled.state.solution.pressure
+    where = "the state to start from" if before is not None else "a contact under no load"
+    return InfeasibleError(
+        f"a pull of {pull * area:.6g} N exceeds the pull-off force, about {carried * area:.3g} N "
+        f"from {where}: the bodies separate; pull less, or impose an Approach"
+        + ("" if before is not None else "; rough bodies pressed before, start=, may hold more")
+    )
 
 
 def _newest(target: Target) -> Map | None:
@@ -139,8 +208,13 @@ def _newest(target: Target) -> Map | None:
     return start if start is None or isinstance(start, np.ndarray) else start[0][1]
 
 
-def _settled(contacts: _ContactMap, tension: Map, pressure: Map | None) -> tuple[_Pulled, Map, str]:
-    """Iterate until the tension of the gap is the one that causes it; say what did not converge."""
+def _settled(
+    contacts: _ContactMap, tension: Map, pressure: Map | None, *, has_momentum: bool = True
+) -> _Settled | None:
+    """Iterate until the tension of the gap is the one that causes it.
+
+    None if the load pulls the bodies off.
+    """
     tolerance, strength = contacts.plan.accuracy.outer_rtol, contacts.law.strength
     # Below, a change of the tension is that of contacts which are solved to a tenth of `rtol`.
     floor = min(0.3 * contacts.plan.accuracy.rtol * contacts.unit, tolerance)
@@ -148,6 +222,8 @@ def _settled(contacts: _ContactMap, tension: Map, pressure: Map | None) -> tuple
     rates: list[float] = []
     last: tuple[Map, Map] | None = None
     for _ in range(_MAX_ITERATIONS):
+        if not contacts.carries(tension):
+            return None
         state = contacts.at(tension, pressure, change)
         pressure = state.solution.pressure
         residual = state.tension - tension
@@ -156,24 +232,24 @@ def _settled(contacts: _ContactMap, tension: Map, pressure: Map | None) -> tuple
             rates = [*rates[1 - _MEMORY :], _decay(tension - last[0], residual - last[1])]
         is_exact = state.solution.kkt <= contacts.plan.accuracy.rtol
         if not (state.solution.converged or is_exact):
-            return state, tension, _inner_problem(contacts, state.solution)
+            return _Settled(state, tension, _inner_problem(contacts, state.solution))
         if change <= max(tolerance * min(rates, default=1.0), floor):
             if is_exact:
-                return state, tension, ""
+                return _Settled(state, tension, "")
             change = 0.0  # the tension has settled in a contact that was solved loosely
         last = tension, residual
         step = state.tension - before
         turns = float(np.einsum("ij,ij->", residual, step)) <= 0.0
         age = 0 if turns else age + 1
         before = state.tension
-        ahead = max(age - 1, 0) / (age + 2.0)
+        ahead = max(age - 1, 0) / (age + 2.0) if has_momentum else 0.0
         tension = np.clip(before + ahead * step, 0.0, strength)
     problem = (
         f"the tension still changes by {change:.2g} of its maximum after {_MAX_ITERATIONS} "
         "iterations, next to a jump of the contact; change the approach or load a little, or "
         "raise Accuracy.rtol"
     )
-    return state, tension, problem
+    return _Settled(state, tension, problem)
 
 
 def _decay(step: Map, change: Map) -> float:

@@ -400,11 +400,11 @@ def _check_size(made: ContactPlan) -> None:
         for stack in made.scene.interface.stacks
     )
     if load is not None and not load <= _LARGEST * modulus:
-        is_force = isinstance(loading, Pressing) and loading.force is not None
-        name, unit, factor = ("force", "N", made.grid.area) if is_force else ("pressure", "Pa", 1.0)
+        name, value, unit = _imposed(loading, load)
+        factor = made.grid.area if unit == "N" else 1.0
         raise DescriptionError(
             f"loading.{name}",
-            getattr(loading, name, load),
+            value,
             f"be at most {_LARGEST * modulus * factor:.3g}, {_LARGEST:g} times the E* of "
             f"{modulus:.3g} Pa of the softer body over the window",
             unit=unit,
@@ -422,9 +422,26 @@ def _check_size(made: ContactPlan) -> None:
         )
 
 
+def _imposed(loading: ContactLoading, load: float) -> tuple[str, float, str]:
+    """Name, value and unit of the field that imposes a load [Pa]."""
+    if isinstance(loading, Pressing) and loading.force is not None:
+        return "force", loading.force, "N"
+    return "pressure", load, "Pa"
+
+
 def _check_load(made: ContactPlan) -> None:
-    """Refuse a load above hardness x area, and a film that adds to no load."""
+    """Refuse a load above hardness x area, a film that adds to no load, a pull nothing carries."""
     load, scene = made.mean_pressure, made.scene
+    if load is not None and load < 0.0 and scene.effect(Attraction) is None:
+        name, value, unit = _imposed(scene.loading, load)
+        raise DescriptionError(
+            f"Pressing.{name}",
+            value,
+            "be zero or positive",
+            unit=unit,
+            hint="only adhesion carries a pull on solids: list Adhesion(law=...); the pull on a "
+            "liquid film between them is a matter of separation",
+        )
     if load is None:
         for effect in scene.effects:
             if isinstance(effect, LoadTerm) and effect.self_consistent:

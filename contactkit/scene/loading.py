@@ -285,6 +285,9 @@ class ContactLoading(Loading):
 class Pressing(ContactLoading):
     """A load that presses the bodies together. Exactly one of the two is given.
 
+    With `Adhesion` a load may be negative: bodies that came to rest under no load are pulled, up to
+    the pull-off force.
+
     Parameters
     ----------
     pressure : float, optional
@@ -297,19 +300,6 @@ class Pressing(ContactLoading):
 
     pressure: float | None = field(default=None, validator=optional(finite), metadata=si("Pa"))
     force: float | None = field(default=None, validator=optional(finite), metadata=si("N"))
-
-    @pressure.validator
-    @force.validator
-    def _not_pulled(self, attribute: Attribute[Any], value: Any) -> None:
-        if value is not None and value < 0.0:
-            raise refuse(
-                self,
-                attribute,
-                value,
-                "be zero or positive",
-                "a pull is a matter of separation; under Adhesion impose an Approach, or follow "
-                "the approaches of a pull_off_curve",
-            )
 
     def __attrs_post_init__(self) -> None:
         _exactly_one(self, pressure="Pa", force="N")

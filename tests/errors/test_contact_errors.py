@@ -89,8 +89,8 @@ FIELDS = [
     (MAP, "pixel_size", "m", POSITIVE, [0.0, -1.0, None]),
     (WINDOW, "width", "m", POSITIVE, [0.0, -1e-6]),
     (WINDOW, "height", "m", POSITIVE, [0.0, -1e-6]),
-    (PRESSURE, "pressure", "Pa", "be zero or positive", [-1.0]),
-    (ck.Pressing(force=1.0), "force", "N", "be zero or positive", [-1.0]),
+    (PRESSURE, "pressure", "Pa", FINITE, []),
+    (ck.Pressing(force=1.0), "force", "N", FINITE, []),
     (ck.Approach(approach=1.0), "approach", "m", FINITE, []),
     (scene(), "temperature", "K", POSITIVE, [0.0, -20.0, None]),
     (ck.IslandBridges(), "film_thickness", "m", POSITIVE, [0.0, -1e-9]),
@@ -222,10 +222,15 @@ def test_exactly_one_quantity_is_imposed(given, shown):
     )
 
 
-def test_a_pull_is_a_matter_of_separation():
+@pytest.mark.parametrize(("name", "unit"), [("force", "N"), ("pressure", "Pa")])
+def test_only_adhesion_carries_a_pull(name, unit):
+    said = f"Pressing.{name} must be zero or positive [{unit}], got -1.0; only adhesion carries"
+    pulled = ck.Pressing(**{name: -1.0})
+    refuses(lambda: ck.plan(scene(HALF_SPACE, loading=pulled)), said, "list Adhesion(law=...)")
+    planned = ck.plan(scene(HALF_SPACE))
+    refuses(lambda: planned.with_loading(pulled), said)
     refuses(
-        lambda: ck.Pressing(force=-1.0),
-        "Pressing.force must be zero or positive [N], got -1.0; a pull is a matter of separation",
+        lambda: ck.load_curve(planned, **{f"{name}s".replace("forces", "loads"): [1, -1]}), said
     )
 
 

@@ -297,7 +297,7 @@ IN_FILES = {
     "a negative load": (
         TOUCH.replace("pressure", "force").replace('"10 MPa"', '"-40 N"'),
         "Pressing.force must be zero or positive [N], got -40.0",
-        "a pull is a matter of separation",
+        "list Adhesion(law=...)",
     ),
     "a grid as a text": (
         TOUCH.replace("grid = 32", 'grid = "64x64"'),

@@ -251,9 +251,19 @@ def test_a_curve_refuses_what_is_no_path(given, words):
         ck.pull_off_curve(ck.plan(scene(WEAK)), **given)
 
 
-def test_a_pull_under_adhesion_names_what_imposes_it():
-    with pytest.raises(ck.DescriptionError, match=r"impose an Approach.*pull_off_curve"):
-        ck.Pressing(force=-1e-6)
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("work", [1e-12, 0.2])
+def test_a_pull_is_carried_up_to_the_pull_off_force(work, periodic):
+    law = ck.ExponentialAttraction(work_of_adhesion=work, range=5e-9)
+    with pytest.raises(ck.InfeasibleError, match=r"a pull of 0.1 N exceeds the pull-off") as caught:
+        solved(law, periodic=periodic, loading=ck.Pressing(force=-0.1))
+    force = float(str(caught.value).split("about ")[1].split()[0])
+    assert 0.0 < force <= work / 5e-9 * 12 * 16 * 4e-16
+    result = solved(law, periodic=periodic, loading=ck.Pressing(force=-0.98 * force))
+    assert result.load == pytest.approx(-0.98 * force, rel=1e-8)
+    assert result.contact.any()
+    with pytest.raises(ck.InfeasibleError, match="may hold more"):
+        solved(law, periodic=periodic, loading=ck.Pressing(force=-1.03 * force))
 
 
 def test_a_map_of_a_soft_contact_has_its_unit_and_the_tension_beside_it():

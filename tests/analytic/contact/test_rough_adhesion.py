@@ -187,6 +187,54 @@ def test_a_load_is_carried_in_the_state_of_an_approach():
     assert below.load < pressed.load
 
 
+def test_a_sphere_is_pulled_up_to_the_force_of_maugis_and_dugdale():
+    plan, limits = sphere(1.0, 48), maugis_dugdale.limits(1.0)
+    limit = -limits.pull_off.load * UNITS.load
+    for ratio in (0.3, 0.7):
+        pulled = ck.solve(plan.with_loading(ck.Pressing(force=-ratio * limit)))
+        exact = maugis_dugdale.at_load(-ratio * limit / UNITS.load, 1.0, limits).approach
+        assert pulled.load == pytest.approx(-ratio * limit, rel=1e-9)
+        assert pulled.approach / UNITS.approach == pytest.approx(exact, abs=0.02)
+    with pytest.raises(ck.InfeasibleError, match="exceeds the pull-off force") as caught:
+        ck.solve(plan.with_loading(ck.Pressing(force=-1.05 * limit)), start=pulled)
+    named = float(str(caught.value).split("about ")[1].split()[0])
+    assert named == pytest.approx(limit, rel=0.03)
+    assert "from the state to start from" in str(caught.value)
+
+
+STICKY = ck.ExponentialAttraction(work_of_adhesion=WORK, range=1e-9)
+
+
+@pytest.mark.parametrize(("periodic", "pull"), [(False, 9e6), (True, 3e6)])
+def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
+    """One pull or four, from rest or from a load: the state before decides, not the steps."""
+    plan = rough(STICKY, n=24, scale=0.7, periodic=periodic)
+    at_once = ck.solve(plan.with_loading(ck.Pressing(pressure=-pull)))
+    steps = pull * np.array([0.0, -0.25, -0.5, -0.75, -1.0])
+    last = ck.load_curve(plan, pressures=steps, keep_maps=True).results[-1]
+    assert last.mean_pressure == pytest.approx(-pull, rel=1e-8)
+    assert last.approach == pytest.approx(at_once.approach, rel=1e-4)
+    assert np.array_equal(last.contact, at_once.contact)
+    # From a load the same pull leaves at least as much contact.
+    pressed = ck.load_curve(plan, pressures=[2e7, -pull])
+    assert pressed.contact_area[-1] >= last.contact_area
+    # The other way round, bodies that come together do not hold it: there the load is another.
+    held = ck.solve(plan.with_loading(ck.Approach(approach=last.approach)), start=last)
+    assert held.load == pytest.approx(last.load, rel=1e-4)
+    entering = ck.solve(plan.with_loading(ck.Approach(approach=last.approach)))
+    assert entering.contact_area < last.contact_area
+
+
+def test_a_chain_of_approaches_is_the_path_of_a_curve():
+    plan = rough(STICKY, n=24, scale=0.7)
+    levels = np.linspace(-3e-9, 0.0, 7)
+    path = ck.pull_off_curve(plan, levels, refinements=0)
+    chain = ck.load_curve(plan, approaches=[*levels, *levels[-2::-1]])
+    both = np.concatenate([path.approaching.load, path.separating.load[1:]])
+    np.testing.assert_allclose(chain.load, both, rtol=1e-6)
+    assert np.abs(chain.load - chain.load[::-1]).max() > 0.01 * np.abs(both).max()
+
+
 def test_branches_of_an_isolated_map_do_not_depend_on_the_steps():
     """Seven levels or thirteen: the same loads to 1e-5 of the largest."""
     law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=3e-9)
