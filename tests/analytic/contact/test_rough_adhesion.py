@@ -205,20 +205,20 @@ def test_a_sphere_is_pulled_up_to_the_force_of_maugis_and_dugdale():
 STICKY = ck.ExponentialAttraction(work_of_adhesion=WORK, range=1e-9)
 
 
-@pytest.mark.parametrize(("periodic", "pull"), [(False, 9e6), (True, 3e6)])
+@pytest.mark.parametrize(("periodic", "pull"), [(False, 3.5e6), (True, 4.5e6)])
 def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
     """One pull or four, from rest or from a load: the state before decides, not the steps."""
-    plan = rough(STICKY, n=24, scale=0.7, periodic=periodic)
+    plan = rough(STICKY, n=24, periodic=periodic)
     at_once = ck.solve(plan.with_loading(ck.Pressing(pressure=-pull)))
     steps = pull * np.array([0.0, -0.25, -0.5, -0.75, -1.0])
     last = ck.load_curve(plan, pressures=steps, keep_maps=True).results[-1]
     assert last.mean_pressure == pytest.approx(-pull, rel=1e-8)
     assert last.approach == pytest.approx(at_once.approach, rel=1e-4)
     assert np.array_equal(last.contact, at_once.contact)
-    # From a load the same pull leaves at least as much contact.
+    # From a load the same pull leaves more contact.
     pressed = ck.load_curve(plan, pressures=[2e7, -pull])
-    assert pressed.contact_area[-1] >= last.contact_area
-    # The other way round, bodies that come together do not hold it: there the load is another.
+    assert pressed.contact_area[-1] > last.contact_area
+    # Bodies that come together to the same approach have less.
     held = ck.solve(plan.with_loading(ck.Approach(approach=last.approach)), start=last)
     assert held.load == pytest.approx(last.load, rel=1e-4)
     entering = ck.solve(plan.with_loading(ck.Approach(approach=last.approach)))
@@ -226,7 +226,7 @@ def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
 
 
 def test_a_chain_of_approaches_is_the_path_of_a_curve():
-    plan = rough(STICKY, n=24, scale=0.7)
+    plan = rough(STICKY, n=24)
     levels = np.linspace(-3e-9, 0.0, 7)
     path = ck.pull_off_curve(plan, levels, refinements=0)
     chain = ck.load_curve(plan, approaches=[*levels, *levels[-2::-1]])
