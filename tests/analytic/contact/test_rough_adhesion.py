@@ -215,9 +215,9 @@ def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
     assert last.mean_pressure == pytest.approx(-pull, rel=1e-8)
     assert last.approach == pytest.approx(at_once.approach, rel=1e-4)
     assert np.array_equal(last.contact, at_once.contact)
-    # From a load the same pull leaves more contact.
+    # From a load the same pull leaves at least as much contact.
     pressed = ck.load_curve(plan, pressures=[2e7, -pull])
-    assert pressed.contact_area[-1] > last.contact_area
+    assert pressed.contact_area[-1] >= last.contact_area
     # Bodies that come together to the same approach have less.
     held = ck.solve(plan.with_loading(ck.Approach(approach=last.approach)), start=last)
     assert held.load == pytest.approx(last.load, rel=1e-4)
