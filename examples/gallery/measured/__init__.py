@@ -1,1 +1,14 @@
-"""Contactkit against programs and measurements of others."""
+"""Contactkit against programs and measurements of others.
+
+cases             What they have computed or measured, with source, licence and status.
+round_loads       Fields of uniform round loads on layers, by quadrature.
+layered_programs  Layered half-space: ELLEA1, BISAR, KENLAYER, GAMES.
+contact_ball      Ball on a plane on 19 x 19 elements: CONTACT.
+contact_square    Stress under a loaded, sheared square: CONTACT.
+rough_area        Real area of rough surfaces: the law quoted from Pastewka and Robbins.
+sphere_bridges    Bridges between spheres: Willett, Lian, Mikami.
+rupture_work      Work of rupture with and without evaporation: de Boer.
+measured_bridges  Bridges measured by Pitois, which are not met, and why.
+film_forces       Films: Stefan, Reynolds, Brenner, Goldman.
+cold_oil          Walther's law for a cold oil, and what it does to the injector.
+"""

@@ -102,7 +102,8 @@ def draw(data: Data) -> plot.Figure:
     error.plot(t, off, **plot.series(1))
     error.axhline(0.0, color="0.4", lw=0.8)
     error.axvspan(253.15, 273.0, color="0.92", zorder=0)
-    error.text(254.0, 47.0, "no data:\nthe injector's\ncold case is\nat 253 K", fontsize=8, va="top")
+    text = "grey: no data; the cold case\nof the injector is at 253 K"
+    error.text(278.0, 47.0, text, fontsize=8, va="top")
     error.set(xlabel="temperature [K]", ylabel="error of Walther's law [%]", xlim=(250, 435))
     error.set_ylim(-8.0, 50.0)
     for i, (name, delays) in enumerate(zip(CASES, data["delay"], strict=True)):

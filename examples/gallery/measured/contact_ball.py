@@ -71,7 +71,9 @@ def draw(data: Data) -> plot.Figure:
     curve = hertz.pressure(fine / 1e3, exact.contact_radius, exact.peak_pressure) / 1e6
     ax.plot(fine, curve, **plot.series(0, marker=""), label="Hertz")
     ax.plot(x, data["printed"][middle] / 1e6, ls="", **_mark(2, 8), label="CONTACT, 19 elements")
-    ax.plot(x, data["pressure"][middle] / 1e6, ls="", **_mark(1, 4), label="contactkit, 19 elements")
+    ax.plot(
+        x, data["pressure"][middle] / 1e6, ls="", **_mark(1, 4), label="contactkit, 19 elements"
+    )
     n = len(data["finer"])
     width = COUNT * PIXEL * 1e3
     at = ((np.arange(n) + 0.5) / n - 0.5) * width

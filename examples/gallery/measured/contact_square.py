@@ -57,7 +57,9 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         ours[at] = np.column_stack([spline.ev(y, x) for spline in splines])
         if plane.depth in DRAWN:
             line = np.linspace(-1.5, 1.5, 301)
-            lines[f"line_{plane.depth:g}"] = np.array([s.ev(-0.4 - SHIFT[1], line) for s in splines])
+            lines[f"line_{plane.depth:g}"] = np.array(
+                [s.ev(-0.4 - SHIFT[1], line) for s in splines]
+            )
     return {"stress": ours, "printed": printed, **lines}
 
 
@@ -77,7 +79,9 @@ def draw(data: Data) -> plot.Figure:
                 line, data[f"line_{depth:g}"][i], **style | {"marker": ""},
                 label=rf"$\sigma_{{{NAMES[i]}}}$",
             )  # fmt: skip
-            ax.plot(printed[at, 0], printed[at, 3 + i], **style | {"ls": "", "mfc": "none", "ms": 5})
+            ax.plot(
+                printed[at, 0], printed[at, 3 + i], **style | {"ls": "", "mfc": "none", "ms": 5}
+            )
         low, high = ax.get_ylim()
         ax.set(xlabel="$x$ / side [-]", ylabel="stress / pressure [-]")
         ax.set_ylim(low, high + 0.45 * (high - low))

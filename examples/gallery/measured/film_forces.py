@@ -87,7 +87,9 @@ def draw(data: Data) -> plot.Figure:
     sliding.semilogx(at, data["goldman"][narrow], **line, label="Goldman, flooded")
     for i, rim in enumerate(RIMS):
         label = f"contactkit, round film to $s = {rim:.1f} R$"
-        sliding.semilogx(at, data["sliding"][i][narrow], **plot.series(i + 1, marker=""), label=label)
+        sliding.semilogx(
+            at, data["sliding"][i][narrow], **plot.series(i + 1, marker=""), label=label
+        )
     sliding.set(xlabel="gap / radius [-]", ylabel=r"drag / $(6\pi\eta R v)$ [-]", ylim=(0.0, 11.0))
     sliding.legend(fontsize=8, loc="upper right")
     titles = ("disc drawn off by a constant force", "sphere that leaves", "sphere that slides")

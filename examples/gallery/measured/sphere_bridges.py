@@ -135,7 +135,7 @@ def check(data: Data) -> list[Check]:
         ),
         Check(
             "from 20 degrees on Willett's distance is up to 7.5 % too long, Lian's within 7.5 %",
-            bool(0.0 < rupture[0][1:].min() and max(r[1:].max() for r in rupture) < 0.075),
+            bool(rupture[0][1:].min() > 0.0 and max(r[1:].max() for r in rupture) < 0.075),
             f"Willett {100 * rupture[0][1:].min():+.1f} to {100 * rupture[0][1:].max():+.1f} %, "
             f"Lian {100 * rupture[1][1:].min():+.1f} to {100 * rupture[1][1:].max():+.1f} %",
         ),
