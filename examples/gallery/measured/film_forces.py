@@ -24,9 +24,9 @@ PAGE = Page(
     "(RigidMultiblobsWall, CCEPdynamics); the papers were not read.",
     verdict="A flooded disc follows Stefan's law, and a constant force takes his time, to the "
     "accuracy of the integration. A flooded sphere follows Reynolds; what lubrication theory lacks "
-    "of the exact flow is 0.2 % at a gap of a thousandth of the radius, 2 % at a hundredth and 13 % "
-    "at a tenth. The drag of sliding in a round film has Goldman's slope, -8/15 of a logarithm; its "
-    "constant is smaller, since no liquid lies beyond the rim.",
+    "of the exact flow is 0.2 % at a gap of a thousandth of the radius, 2 % at a hundredth and "
+    "13 % at a tenth. The drag of sliding in a round film has Goldman's slope, -8/15 of a "
+    "logarithm; its constant is smaller, since no liquid lies beyond the rim.",
     grid="81 gaps; one motion of 0.24 s",
 )
 RATIO = np.geomspace(1e-6, 1.0, 81)
@@ -130,11 +130,12 @@ def check(data: Data) -> list[Check]:
 
 
 def table(data: Data) -> Table:
-    """What lubrication theory lacks of the force on a flooded sphere."""
+    """Part of the force on a flooded sphere that lubrication theory lacks."""
     lack = 100.0 * (1.0 - data["normal"] / data["brenner"])
-    rows = []
-    for ratio in (1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0):
-        rows.append((ratio, float(np.interp(np.log(ratio), np.log(RATIO), lack))))
+    rows = [
+        (ratio, float(np.interp(np.log(ratio), np.log(RATIO), lack)))
+        for ratio in (1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0)
+    ]
     return Table(("gap / radius", "lacking [%]"), rows)
 
 

@@ -15,9 +15,9 @@ PAGE = Page(
     name="measured-bridges",
     title="Two spheres drawn apart in oil: the forces that Pitois measured",
     claim="Pitois, Moucheront and Chateau (J. Colloid Interface Sci. 231, 2000, 26, Figs. 5 and 6) "
-    "measured the force on ruby spheres of 4 mm, 1.1 mm3 of an oil of 100 Pa.s between them, opened "
-    "at 5 um/s and closed at 10 um/s. The points were digitised by others (Leibniz-IWT/ddgclib, MIT, "
-    "commits d8c30695 and f279280c); the paper was not read.",
+    "measured the force on ruby spheres of 4 mm, 1.1 mm3 of an oil of 100 Pa.s between them, "
+    "opened at 5 um/s and closed at 10 um/s. The points were digitised by others "
+    "(Leibniz-IWT/ddgclib, MIT, commits d8c30695 and f279280c); the paper was not read.",
     verdict="Does not agree as quoted: we are 33 % below the points close by and 41 % above them "
     "far off. Close by most of the force is that of the film; at twice the rate, which the "
     "other figure has, 13 % are left, and the static point is met to 8 %. So the quoted rate is "

@@ -1,6 +1,6 @@
 r"""Stress and displacement under uniform round loads on a layered half-space, by quadrature.
 
-A pressure q on a circle of radius a has the Hankel transform :math:`q a J_1(\alpha a)/\alpha`, and a
+A pressure q on a circle of radius a has the Hankel transform :math:`q a J_1(\alpha a)/\alpha`; a
 field that is f for a unit pressure of wavenumber alpha becomes
 :math:`q a \int J_1(\alpha a) f(\alpha) J_k(\alpha r) \, d\alpha`: k = 0 for what is the same in all
 directions, and for stresses along and across the surface the mean of both with k = 0 and half of
@@ -79,7 +79,7 @@ def strains(stress: Array, young_modulus: float, poisson_ratio: float) -> Array:
 
 
 def _nodes(length: float, last: float, size: float) -> tuple[Array, Array]:
-    """Wavenumbers and weights: panels that grow from far below 1/size to half a wave of `length`."""
+    """Wavenumbers and weights: panels from far below 1/size to half a wave of `length`."""
     step = 2.0 / length
     start = np.geomspace(1e-5 / size, step, 60)
     edges = np.concatenate([[0.0], start, np.arange(2.0 * step, last + step, step)])

@@ -10,10 +10,10 @@ from numpy.polynomial.legendre import leggauss
 
 from contactkit.app.gallery.page import Check, Data, Page
 from contactkit.app.gallery.run import run_page
-from contactkit.capillary import bridge, stability_limit
-from contactkit.capillary.exact.bridge import bridge_at_pressure
+from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
 from contactkit.capillary.exact.pressure_branch import branch_at_pressure
 from contactkit.capillary.exact.result import ExactBridge
+from contactkit.capillary.exact.stability import stability_limit
 from contactkit.plot import gallery as plot
 
 PAGE = Page(

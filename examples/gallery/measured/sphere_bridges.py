@@ -8,7 +8,8 @@ import numpy as np
 
 from contactkit.app.gallery.page import Check, Data, Page
 from contactkit.app.gallery.run import run_page
-from contactkit.capillary import bridge, stability_limit
+from contactkit.capillary.exact.bridge import bridge
+from contactkit.capillary.exact.stability import stability_limit
 from contactkit.gallery.measured.cases import case
 from contactkit.plot import gallery as plot
 from contactkit.reference import sphere_bridges as fits
@@ -16,16 +17,16 @@ from contactkit.reference import sphere_bridges as fits
 PAGE = Page(
     name="sphere-bridges",
     title="Liquid bridges between equal spheres, by three published fits",
-    claim="Willett et al. (Langmuir 16, 2000, 9396), Mikami et al. (Chem. Eng. Sci. 53, 1998, 1927) "
-    "and Lian et al. (J. Colloid Interface Sci. 161, 1993, 138) fit forces and distances of rupture "
-    "that they computed from the Young-Laplace equation; Willett's were confirmed by measurements. "
-    "Coefficients as in the programs Yade and LIGGGHTS; the papers were not read.",
+    claim="Willett et al. (Langmuir 16, 2000, 9396), Mikami et al. (Chem. Eng. Sci. 53, 1998, "
+    "1927) and Lian et al. (J. Colloid Interface Sci. 161, 1993, 138) fit forces and distances "
+    "of rupture that they computed from the Young-Laplace equation; Willett's were confirmed by "
+    "measurements. Coefficients as in the programs Yade and LIGGGHTS; the papers were not read.",
     verdict="The exact bridge lies on Willett's fit to 1 % on average where the fit can follow. It "
     "does not at rupture: the force has a vertical tangent there, a polynomial in logarithms has "
     "none. Mikami's fit is a coarser one, good to 6 % for liquids that wet well, and not for small "
     "volumes. Distances of rupture agree to 0.5 % (Willett) and 5 % (Lian) at 0 degrees. At larger "
-    "angles both laws are up to 4 % too long, at 60 degrees 7 %: their factor 1 + theta/2 is a fit, "
-    "and bridges above some 30 degrees tilt before they fold.",
+    "angles both laws are up to 4 % too long, at 60 degrees 7 %: their factor 1 + theta/2 is a "
+    "fit, and bridges above some 30 degrees tilt before they fold.",
     grid="exact bridges at 98 gaps",
 )
 VOLUMES, ANGLES = (1e-4, 1e-3, 1e-2, 0.1), (0.0, 20.0, 40.0, 60.0)
@@ -131,7 +132,8 @@ def check(data: Data) -> list[Check]:
         Check(
             "at 0 degrees bridges break within 0.5 % of Willett's distance and 5 % of Lian's",
             bool(np.abs(rupture[0][0]).max() < 0.005 and np.abs(rupture[1][0]).max() < 0.05),
-            f"{100 * np.abs(rupture[0][0]).max():.2f} and {100 * np.abs(rupture[1][0]).max():.1f} %",
+            f"{100 * np.abs(rupture[0][0]).max():.2f} and "
+            f"{100 * np.abs(rupture[1][0]).max():.1f} %",
         ),
         Check(
             "from 20 degrees on Willett's distance is up to 7.5 % too long, Lian's within 7.5 %",
