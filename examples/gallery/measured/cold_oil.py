@@ -10,7 +10,7 @@ from attrs import evolve
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.app.scenes import open_scene
+from contactkit.app.scenes import OpenedInjector, open_scene
 from contactkit.gallery.measured.cases import case
 from contactkit.liquids.viscosity import WaltherViscosity
 from contactkit.models.injector.monolithic import simulate
@@ -61,7 +61,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         temperature_2=370.0,
         kinematic_viscosity_2=float(listed[points[1]]),
     )
-    scene = open_scene("fuel-injector").scene
+    scene = _injector()
     chosen = FACTORS[:: 3 if draft else 1]
     delays = [[_delay(scene, factor, *of) for factor in chosen] for of in CASES.values()]
     oil = ck.load_liquid("engine-oil-15w-40")
@@ -73,6 +73,13 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         "delay": np.array(delays),
         "ours": np.array([oil.at(celsius(t)).viscosity for t in (-20.0, 150.0)]),
     }
+
+
+def _injector() -> InjectorScene:
+    opened = open_scene("fuel-injector")
+    if not isinstance(opened, OpenedInjector):
+        raise TypeError("fuel-injector: not a scene of an injector")
+    return opened.scene
 
 
 def _delay(scene: InjectorScene, factor: float, strength: float, cavity: float | None) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 import contactkit as ck
@@ -92,7 +94,7 @@ def draw(data: Data) -> plot.Figure:
     return figure
 
 
-def _mark(i: int, size: float) -> dict:
+def _mark(i: int, size: float) -> dict[str, Any]:
     style = plot.series(i)
     return {"marker": style["marker"], "color": style["color"], "ms": size, "mfc": "none"}
 

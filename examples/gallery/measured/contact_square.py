@@ -45,7 +45,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     below = planes(
         load,
         Layers([2.0 * shear * (1.0 + poisson)], [poisson]),
-        np.unique(printed[:, 2]),
+        np.unique(printed[:, 2]).tolist(),
         mean="free",
         reading="uniform",
     )
@@ -57,9 +57,8 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         ours[at] = np.column_stack([spline.ev(y, x) for spline in splines])
         if plane.depth in DRAWN:
             line = np.linspace(-1.5, 1.5, 301)
-            lines[f"line_{plane.depth:g}"] = np.array(
-                [s.ev(-0.4 - SHIFT[1], line) for s in splines]
-            )
+            side = np.full(line.size, -0.4 - SHIFT[1])
+            lines[f"line_{plane.depth:g}"] = np.array([s.ev(side, line) for s in splines])
     return {"stress": ours, "printed": printed, **lines}
 
 

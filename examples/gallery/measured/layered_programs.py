@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from contactkit.app.gallery.page import Check, Data, Page, Table
@@ -56,7 +58,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     return found
 
 
-def _strains(given: dict, x: float) -> list[float]:
+def _strains(given: dict[str, Any], x: float) -> list[float]:
     """Strain along the surface at the bottom of the first layer, vertical ones below interfaces."""
     first, second = np.cumsum(given["thickness_m"])
     ours = fields(given, [first, first, second], ["-", "+", "+"], x)

@@ -24,7 +24,9 @@ __all__ = ["fields", "strains"]
 Array = NDArray[np.float64]
 
 
-def fields(case: dict[str, Any], depths: Sequence[float], sides: Sequence[str], x: float) -> Array:
+def fields(
+    case: dict[str, Any], depths: Sequence[float] | Array, sides: Sequence[str], x: float
+) -> Array:
     """Fields at a point (x, 0) of planes at depth, of all loads of a case.
 
     Parameters

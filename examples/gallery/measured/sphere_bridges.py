@@ -78,17 +78,17 @@ def draw(data: Data) -> plot.Figure:
     force.legend(fontsize=8, ncols=2, loc="upper right")
     for k, name in enumerate(NAMES):
         off = 100.0 * (data["fitted"][:, 1:3, k] / data["exact"][:, 1:3] - 1.0)
-        for i, style in ((0, "-"), (2, "--")):
+        for i, dashes in ((0, "-"), (2, "--")):
             colour = plot.series(k)["color"]
             label = f"{name}, {ANGLES[i]:g} deg"
-            error.plot(PARTS, off[i].mean(axis=0), color=colour, ls=style, label=label)
+            error.plot(PARTS, off[i].mean(axis=0), color=colour, ls=dashes, label=label)
     error.set(xlabel="distance / distance of rupture [-]", ylabel="error of the fit [%]")
     error.set_ylim(-60.0, 75.0)
     error.legend(fontsize=7.5, ncols=2, loc="upper center")
     for i, degrees in enumerate(ANGLES):
-        for values, marker, line in ((data["willett"], "o", "-"), (data["lian"], "s", "--")):
+        for values, marker, dashes in ((data["willett"], "o", "-"), (data["lian"], "s", "--")):
             off = 100.0 * (values[i] / data["limit"][i] - 1.0)
-            style = plot.series(i) | {"ls": line, "marker": marker}
+            style = plot.series(i) | {"ls": dashes, "marker": marker}
             who = "Willett" if marker == "o" else "Lian"
             rupture.semilogx(VOLUMES, off, **style, label=f"{who}, {degrees:g} deg")
     rupture.set(xlabel="$V/R^3$ [-]", ylabel="error of the distance of rupture [%]", ylim=(-6, 15))
