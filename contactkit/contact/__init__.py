@@ -13,6 +13,7 @@ companion      A coarser companion of a contact, on fewer pixels.
 discretisation Error of the grid, estimated from a coarser companion.
 friction_loop  Displacement caused by friction, until it agrees with the pressure.
 hardness_loop  Hardness that depends on the displacement, until they agree.
+slip_loop      Partial slip of dissimilar bodies, until pressure and tractions agree.
 attraction_loop Attraction across the gap, until it agrees with the gap.
 plastic_history Steps of a loading history; the surface that a plastic contact leaves.
 film_loop      Load that includes the force of a film: equilibria.

@@ -14,6 +14,7 @@ from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..scene.validity import warn
 from .effects.base import AttractedContact, Attraction, Contact, ContactEffect, LoadTerm
+from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
 from .film_estimate import self_consistent_force
@@ -169,6 +170,10 @@ def _solve_all(
         from .plastic_history import follow_history
 
         solved, contact, parts[PlasticHistory] = follow_history(plan, history, counter)
+    elif (slip := plan.scene.effect(PartialSlip)) is not None and slip.couples(plan.scene):
+        from .slip_loop import follow_coupled
+
+        solved, contact, parts[PartialSlip] = follow_coupled(plan, slip, counter)
     else:
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)

@@ -37,7 +37,8 @@ def full(pressure, coefficient=0.3):
 
 
 def is_finite(part):
-    return all(np.isfinite(one).all() for one in part if one is not part.stiffness)
+    left_out = (part.stiffness, part.coupling)
+    return all(np.isfinite(one).all() for one in part if not any(one is x for x in left_out))
 
 
 @COMPONENTS

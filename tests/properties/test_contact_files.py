@@ -124,6 +124,8 @@ EFFECTS = {
         components=st.sampled_from([1, 2]),
         direction=st.floats(-4.0, 4.0),
         guided=st.booleans(),
+        coupled=st.booleans(),
+        pressing_steps=st.integers(1, 9),
     ),
     ck.SubsurfaceStress: st.builds(
         ck.SubsurfaceStress,

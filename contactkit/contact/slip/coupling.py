@@ -1,12 +1,22 @@
-"""Normal displacement of the bodies in contact under tangential tractions between them."""
+"""Coupling of normal and tangential displacements of the bodies in contact, by transforms.
+
+======  ======================================================================
+symbol  meaning
+======  ======================================================================
+B       normal displacement under unit tangential tractions [m/Pa]
+B^T     tangential displacement under unit pressure: by reciprocity, transposed
+S       symbol of B over i: it is real, as B is odd in space
+======  ======================================================================
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import fft
 
+from ...elasticity.stress.isolated import Mean
 from ...elasticity.stress.tractions import traction_coupling
 
 if TYPE_CHECKING:
@@ -17,21 +27,74 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["TractionEffect", "coupling_of", "relative_coupling"]
-
-TractionEffect = Callable[["Map | None", "Map | None"], "Map"]
-"""Tractions along x and y on the lower body [Pa] to the normal displacement [m], (ny, nx) each."""
+__all__ = ["CouplingOperator", "coupling_of", "relative_coupling"]
 
 _ROUND_OFF = 1e-9  # of the displacement under the largest pressure on the whole window
 
 
+class CouplingOperator:
+    """B and its transpose between the pixels of a window.
+
+    Called with tractions along x and y on the lower body [Pa], (ny, nx) or None, it returns the
+    displacement that separates the surfaces [m], (ny, nx), positive as that of a pressure.
+
+    Parameters
+    ----------
+    symbols : pair of ndarray
+        S for tractions along x and y, of the map if periodic, else of the doubled map [m/Pa].
+    shape, padded : (ny, nx)
+        Of the map, and of the map that is transformed.
+    workers : int, optional
+        Threads of the transforms.
+
+    Attributes
+    ----------
+    count : int
+        Applications of B and of its transpose.
+    """
+
+    def __init__(
+        self,
+        symbols: tuple[Map, Map],
+        shape: tuple[int, int],
+        padded: tuple[int, int],
+        workers: int | None = None,
+    ) -> None:
+        self.count = 0
+        self._symbols, self._shape, self._padded = symbols, shape, padded
+        self._workers = workers
+
+    def __call__(self, traction_x: Map | None, traction_y: Map | None) -> Map:
+        """Normal displacement [m] under tractions [Pa]: B q."""
+        self.count += 1
+        total = np.zeros(self._symbols[0].shape, dtype=np.complex128)
+        for traction, symbol in zip((traction_x, traction_y), self._symbols, strict=True):
+            if traction is not None:
+                total += symbol * self._spectrum(traction)
+        return self._map(1j * total)
+
+    def of_pressure(self, pressure: Map) -> tuple[Map, Map]:
+        """Displacement [m] along x and y of the lower body past the upper one: B^T p."""
+        self.count += 1
+        spectrum = -1j * self._spectrum(pressure)
+        x, y = (self._map(symbol * spectrum) for symbol in self._symbols)
+        return x, y
+
+    def _spectrum(self, values: Map) -> NDArray[np.complex128]:
+        return np.asarray(fft.rfft2(values, s=self._padded, workers=self._workers))
+
+    def _map(self, spectrum: NDArray[np.complex128]) -> Map:
+        ny, nx = self._shape
+        return np.asarray(fft.irfft2(spectrum, s=self._padded, workers=self._workers)[:ny, :nx])
+
+
 def coupling_of(
     grid: Grid, lower: Layers | None, upper: Layers | None, workers: int | None = None
-) -> TractionEffect:
-    """Return the normal displacement that tractions cause, as a function of them.
+) -> CouplingOperator:
+    """Make the operator between normal and tangential displacements of two bodies in contact.
 
-    That of the lower body under the tractions, and of the upper one under their opposite: it
-    closes the gap of the one where it opens that of the other, and two equal bodies have none.
+    The lower body carries the tractions, the upper one their opposite: it closes the gap where the
+    other opens it, and two equal bodies have no coupling.
 
     Parameters
     ----------
@@ -42,43 +105,39 @@ def coupling_of(
     workers : int, optional
         Threads of the transforms.
 
-    Returns
-    -------
-    callable
-        ``(traction_x, traction_y)`` on the lower body [Pa], (ny, nx) or None, to the displacement
-        that separates the surfaces [m], (ny, nx), positive as that of a pressure.
-
     Raises
     ------
     DescriptionError
         As `traction_coupling`.
     """
-    bodies = [(1.0, lower), (-1.0, upper)]
-    couplings = [
-        (
-            sign,
-            traction_coupling(
-                grid.shape,
-                grid.pixel_size,
-                layers,
-                mean="periodic" if grid.periodic else "free",
-                workers=workers,
-            ),
-        )
-        for sign, layers in bodies
-        if layers is not None
-    ]
-
-    def displacement(traction_x: Map | None, traction_y: Map | None) -> Map:
-        total: Map = np.zeros(grid.shape)
-        for sign, coupling in couplings:
-            total += coupling(
-                None if traction_x is None else sign * traction_x,
-                None if traction_y is None else sign * traction_y,
+    ny, nx = grid.shape
+    mean: Mean = "periodic" if grid.periodic else "free"
+    responses = [np.zeros((ny, nx)), np.zeros((ny, nx))]
+    unit = np.zeros((ny, nx))
+    unit[0, 0] = 1.0
+    for sign, layers in ((1.0, lower), (-1.0, upper)):
+        if layers is not None:
+            coupling = traction_coupling(
+                grid.shape, grid.pixel_size, layers, mean=mean, workers=workers
             )
-        return total
+            responses[0] += sign * coupling(unit, None)
+            responses[1] += sign * coupling(None, unit)
+    padded = (ny, nx)
+    if not grid.periodic:
+        padded = (2 * ny, 2 * nx)
+        responses = [_mirrored(responses[0]), _mirrored(responses[1].T).T]
+    x, y = (np.ascontiguousarray(fft.rfft2(one, workers=workers).imag) for one in responses)
+    return CouplingOperator((x, y), grid.shape, padded, workers)
 
-    return displacement
+
+def _mirrored(quadrant: Map) -> Map:
+    """Response at all offsets, odd along the rows and even across them, from those of one sign."""
+    ny, nx = quadrant.shape
+    full = np.zeros((2 * ny, 2 * nx))
+    full[:ny, :nx] = quadrant
+    full[:ny, nx + 1 :] = -quadrant[:, :0:-1]
+    full[ny + 1 :] = full[ny - 1 : 0 : -1]
+    return full
 
 
 def relative_coupling(caused: Map, pressed: Map, least: float) -> float:

@@ -14,6 +14,7 @@ M       approximate inverse of H
 
 from __future__ import annotations
 
+import copy
 from typing import NamedTuple
 
 import numpy as np
@@ -32,11 +33,22 @@ _SMALLEST = 8  # pixels along the sides of the rectangle around an isolated cont
 
 
 class _Place(NamedTuple):
-    """Pixels in contact on the map that is transformed."""
+    """Rectangle of the window that is transformed: its first pixel, and how it is padded."""
 
-    at: NDArray[np.intp]
+    first: tuple[int, int]
     shape: tuple[int, int]
     padded: tuple[int, int]
+
+    def indices(self, touching: NDArray[np.bool_]) -> NDArray[np.intp] | None:
+        """Flat indices of pixels (ny, nx) of the window; none if some lie outside."""
+        row, column = np.nonzero(touching)
+        row, column = row - self.first[0], column - self.first[1]
+        (ny, nx) = self.shape
+        if row.size and not (
+            row[0] >= 0 and row[-1] < ny and column.min() >= 0 and column.max() < nx
+        ):
+            return None
+        return np.asarray(row * nx + column)
 
 
 class TangentialOperator:
@@ -50,24 +62,43 @@ class TangentialOperator:
         Bound of the eigenvalues of H [m/Pa].
     is_singular : bool
         Whether a uniform traction displaces nothing: a periodic window all in contact.
-    count : int
-        Applications of H.
     """
 
-    def __init__(self, place: _Place, symbol: Rows, inverse: Rows, is_singular: bool) -> None:
-        self._place, self._symbol, self._inverse = place, symbol, inverse
+    def __init__(
+        self, place: _Place, at: NDArray[np.intp], symbol: Rows, inverse: Rows, is_uniform: bool
+    ) -> None:
+        self._place, self._at, self._symbol, self._inverse = place, at, symbol, inverse
+        self._is_uniform = is_uniform
+        self._applied = [0]
         self.components = len(symbol)
-        self.is_singular = is_singular
-        self.count = 0
         twice = [2.0 * float(s.sum()) - float(s[:, 0].sum()) for s in (symbol[0][0],)]
         if place.padded[1] % 2 == 0:
             twice[0] -= float(symbol[0][0][:, -1].sum())
         self.own = twice[0] / (place.padded[0] * place.padded[1])
         self.largest = float(sum(np.abs(row).max() for row in symbol[0]))
 
+    @property
+    def count(self) -> int:
+        """Applications of H, also between other pixels."""
+        return self._applied[0]
+
+    @property
+    def is_singular(self) -> bool:
+        """See the class."""
+        return self._is_uniform and self._at.size == self._place.shape[0] * self._place.shape[1]
+
+    def between(self, touching: NDArray[np.bool_]) -> TangentialOperator | None:
+        """Return the operator between other pixels; none if they do not fit into its rectangle."""
+        at = self._place.indices(touching)
+        if at is None:
+            return None
+        made = copy.copy(self)
+        made._at = at
+        return made
+
     def __call__(self, traction: Array) -> Array:
         """Displacement [m], (k, n), of the pixels in contact under tractions [Pa], (k, n)."""
-        self.count += 1
+        self._applied[0] += 1
         return self._convolve(traction, self._symbol, self._place.padded)
 
     def inverse(self, displacement: Array) -> Array:
@@ -75,7 +106,7 @@ class TangentialOperator:
         return self._convolve(displacement, self._inverse, self._place.shape)
 
     def _convolve(self, given: Array, symbol: Rows, padded: tuple[int, int]) -> Array:
-        (ny, nx), at = self._place.shape, self._place.at
+        (ny, nx), at = self._place.shape, self._at
         maps = np.zeros((len(given), ny * nx))
         maps[:, at] = given
         spectra = [fft.rfft2(one.reshape(ny, nx), s=padded) for one in maps]
@@ -116,20 +147,20 @@ def tangential_operator(
         return _rows(_turned(total, angle), components)
 
     if grid.periodic:
-        rows = waves(grid.shape)
-        place = _Place(np.flatnonzero(touching), grid.shape, grid.shape)
-        is_singular = bool(touching.all()) and rows[0][0][0, 0] == 0.0
-        return TangentialOperator(place, rows, _inverted(rows), is_singular)
-    rectangle, shape = _around(touching)
-    inside = touching[rectangle]
-    whole = np.zeros(shape, dtype=bool)
-    whole[: inside.shape[0], : inside.shape[1]] = inside
+        rows, place = waves(grid.shape), _Place((0, 0), grid.shape, grid.shape)
+        is_uniform = rows[0][0][0, 0] == 0.0
+        return TangentialOperator(
+            place, np.flatnonzero(touching), rows, _inverted(rows), is_uniform
+        )
+    first, shape = _around(touching)
+    place = _Place(first, shape, (2 * shape[0], 2 * shape[1]))
     kernels = [isolated_compliance(shape, grid.pixel_size, one) for one in stacks]
     symbols = TangentialCompliance(*(_transformed(one) for one in _signed(_summed(kernels))))
     rows = _rows(_turned(symbols, angle), components)
-    place = _Place(np.flatnonzero(whole), shape, (2 * shape[0], 2 * shape[1]))
+    at = place.indices(touching)
+    assert at is not None  # the rectangle is made around them
     # The inverse falls off fast in space: that of the rectangle repeated is a good one.
-    return TangentialOperator(place, rows, _inverted(waves(shape)), False)
+    return TangentialOperator(place, at, rows, _inverted(waves(shape)), False)
 
 
 def _summed(bodies: list[TangentialCompliance]) -> TangentialCompliance:
@@ -139,15 +170,15 @@ def _summed(bodies: list[TangentialCompliance]) -> TangentialCompliance:
     return total
 
 
-def _around(touching: NDArray[np.bool_]) -> tuple[tuple[slice, slice], tuple[int, int]]:
-    """Rectangle around the pixels in contact, and the shape of the map to transform."""
-    slices, shape = [], []
+def _around(touching: NDArray[np.bool_]) -> tuple[tuple[int, int], tuple[int, int]]:
+    """First pixel of the rectangle around the pixels in contact, and a shape to transform."""
+    first, shape = [], []
     for axis in (1, 0):
         lines = np.flatnonzero(touching.any(axis=axis))
-        slices.append(slice(int(lines[0]), int(lines[-1]) + 1))
         count = max(int(lines[-1]) + 1 - int(lines[0]), _SMALLEST)
+        first.append(int(lines[0]))
         shape.append(int(fft.next_fast_len(count, real=True)))
-    return (slices[0], slices[1]), (shape[0], shape[1])
+    return (first[0], first[1]), (shape[0], shape[1])
 
 
 def _signed(quadrant: TangentialCompliance) -> list[Array]:

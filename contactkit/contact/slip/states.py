@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["PartialSlipPart", "Zone"]
+__all__ = ["PartialSlipPart", "SlipCoupling", "Zone"]
 
 
 class Zone(IntEnum):
@@ -24,6 +24,25 @@ class Zone(IntEnum):
     STICK = 1
     SLIP = 2
     REVERSE_SLIP = 3
+
+
+class SlipCoupling(NamedTuple):
+    """What the coupling of normal and tangential displacements changes, and what it costs.
+
+    `displacement` (ny, nx) is the normal displacement by the tractions at the end of the path [m].
+    `pressure_change` is the largest change of the pressure by them over its maximum [-],
+    `area_change` the change of the contact area over that without them [-]. `step_error` is the
+    change of the tractions after pressing, rms over that of their bound, if the load is applied in
+    half as many steps [-]; None for a single one. `contacts` counts the contacts solved,
+    `applications` those of the coupling between normal and tangential displacements.
+    """
+
+    displacement: Map
+    pressure_change: float
+    area_change: float
+    step_error: float | None
+    contacts: int
+    applications: int
 
 
 class PartialSlipPart(NamedTuple):
@@ -41,7 +60,8 @@ class PartialSlipPart(NamedTuple):
     body [Pa], and `zones`, the `Zone` of each pixel, (n, ny, nx).
 
     `residual` is the largest violation of a condition over the displacement of its step [-];
-    `applications` counts the operator.
+    `applications` counts the operator. `coupling` is there for coupled displacements; then the
+    first state is that after pressing, whose tractions do work already.
     """
 
     force: Map
@@ -57,6 +77,7 @@ class PartialSlipPart(NamedTuple):
     zones: NDArray[np.int8]
     residual: float
     applications: int
+    coupling: SlipCoupling | None = None
 
     def end_of(self, step: int) -> int:
         """State at the end of a step of the path; -1 is the last step, as in a tuple.

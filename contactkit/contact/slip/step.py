@@ -5,17 +5,20 @@ From the tractions q_0 of the last step to those of the next one:
 .. math:: \min_q \tfrac12 (q - q_0)^T H (q - q_0) - D \cdot \sum (q - q_0), \qquad |q| \le \mu p
 
 for an increment D of the rigid displacement; its multiplier is the slip of the step, along q. Along
-a direction in which the force is imposed, the sum of q is given and D is the multiplier. The
-method is a primal-dual active set with exact projections: given which pixels slip, and along what,
-the others follow from a linear problem, solved roughly by preconditioned conjugate gradients; the
-result is projected back into the bound. An iteration that does not lower the energy is shortened,
-and at last replaced by a step along the gradient, which always does.
+a direction in which the force is imposed, the sum of q is given and D is the multiplier. A
+displacement v by other causes than tractions, such as a change of the pressure, adds v (q - q_0).
+
+The method is a primal-dual active set with exact projections: given which pixels slip, and along
+what, the others follow from a linear problem, solved roughly by preconditioned conjugate gradients;
+the result is projected back into the bound. An iteration that does not lower the energy is
+shortened, and at last replaced by a step along the gradient, which always does.
 
 ======  =======================================================
 symbol  meaning
 ======  =======================================================
 x       increment q - q_0 [Pa], (k, n)
-g       H x - D: minus the slip of the step [m], (k, n)
+u       H x + v: displacement of the step [m], (k, n)
+g       u - D: minus the slip of the step [m], (k, n)
 A       directions in which the force is imposed, (k, m)
 ======  =======================================================
 """
@@ -44,12 +47,14 @@ class Control(NamedTuple):
     """Imposed forces and displacements of a step.
 
     `along` (k, m) are orthonormal directions in which the sum of the tractions becomes `total` (m)
-    [Pa]; in the others the rigid displacement grows by `displacement` (k) [m].
+    [Pa]; in the others the rigid displacement grows by `displacement` (k) [m]. `caused` (k, n) is
+    the displacement of the lower body past the upper one by other causes than tractions [m].
     """
 
     along: Array
     total: Array
     displacement: Array
+    caused: Array | None = None
 
 
 class Increment(NamedTuple):
@@ -88,15 +93,17 @@ class _Step:
         self.along = control.along
         across = np.eye(len(before)) - self.along @ self.along.T
         self.given = across @ control.displacement
+        self.caused = control.caused if control.caused is not None else np.zeros((len(before), 1))
         largest = float(bound.max(initial=0.0))
         self.floor = _ROUND_OFF * largest * operator.largest
         # Of a displacement beyond full sliding the tractions take no notice.
-        self.least = min(float(np.abs(self.given).max()), 2.0 * largest * operator.own)
+        imposed = float(np.abs(self.given).max()) + float(np.abs(self.caused).max(initial=0.0))
+        self.least = min(imposed, 2.0 * largest * operator.own)
 
     def state(self, q: Array, slips: NDArray[np.bool_]) -> _State:
         x = q - self.before
-        u = self.operator(x)
-        energy = 0.5 * float(np.vdot(x, u)) - float(self.given @ x.sum(axis=1))
+        u = self.operator(x) + self.caused
+        energy = 0.5 * float(np.vdot(x, u + self.caused)) - float(self.given @ x.sum(axis=1))
         return _State(q, u, energy, slips)
 
     def directions(self, state: _State) -> tuple[FreeDirections, Array]:
@@ -152,6 +159,7 @@ def solve_step(
     before: Array,
     control: Control,
     rtol: float,
+    start: Array | None = None,
 ) -> Increment:
     """Solve one implicit step.
 
@@ -167,6 +175,8 @@ def solve_step(
         What is imposed.
     rtol : float
         Largest violation of a condition, over the largest elastic displacement of the step.
+    start : ndarray (k, n), optional
+        Tractions nearby to begin with [Pa].
 
     Returns
     -------
@@ -176,8 +186,8 @@ def solve_step(
     first, step = operator.count, _Step(operator, bound, before, control)
     if _slides(control, bound):
         return _full_sliding(step)
-    q = towards(before, bound, control.along, control.total)
-    q = step.project(q) if control.along.shape[1] else q
+    q = start if start is not None else towards(before, bound, control.along, control.total)
+    q = step.project(q) if start is not None or control.along.shape[1] else q
     state = step.state(q, _at_bound(q, bound))
     best, last, changed = np.inf, np.inf, 1.0
     for iteration in range(1, _MOST_ITERATIONS + 1):

@@ -1,0 +1,171 @@
+"""Partial slip of dissimilar bodies: pressure and tractions that displace each other's surfaces."""
+
+import math
+
+import numpy as np
+import pytest
+from attrs import evolve
+from scipy.optimize import brentq
+from scipy.special import ellipk
+
+import contactkit as ck
+from contactkit.contact import slip_loop
+from contactkit.contact.slip.coupling import coupling_of
+from contactkit.units import GPa, mm, nm, um
+
+RADIUS = 1 * mm
+REST = (ck.TangentialStep(force=0.0),)
+HALF = (ck.TangentialStep(ratio=0.5, steps=2),)
+
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+
+
+def pressed(nu=0.2, coefficient=0.2, force=1.0, grid=32, path=REST, **choices):
+    """A rigid sphere on a half-space."""
+    solid = ck.Material(young_modulus=70 * GPa, poisson_ratio=nu)
+    radius = (0.75 * force * RADIUS / solid.plane_strain_modulus) ** (1.0 / 3.0)
+    choices = {"components": 2, "coupled": True, "pressing_steps": 4} | choices
+    scene = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=solid), upper=ck.Body(surface=ck.Paraboloid(radius=RADIUS))
+        ),
+        window=ck.Window(width=2.4 * radius, periodic=False),
+        loading=ck.Pressing(force=force),
+        effects=(
+            ck.HalfSpace(),
+            ck.PartialSlip(coefficient=coefficient, path=path, **choices),
+        ),
+    )
+    result = ck.solve(ck.plan(scene, ck.Accuracy(grid=grid)))
+    return result, result.of(ck.PartialSlip)
+
+
+def spence(ratio):
+    """Stick radius over contact radius at a ratio of friction to Dundurs' beta (Spence 1975)."""
+    return brentq(
+        lambda c: math.atanh(c) / c - ratio * ellipk(1.0 - c * c), 1e-6, 1.0 - 1e-12, xtol=1e-12
+    )
+
+
+def test_without_coupling_of_the_bodies_the_choice_changes_nothing():
+    coupled, with_it = pressed(nu=0.5, path=HALF)
+    plain, without = pressed(nu=0.5, path=HALF, coupled=False)
+    np.testing.assert_allclose(
+        coupled.pressure, plain.pressure, rtol=0, atol=1e-6 * plain.max_pressure
+    )
+    scale = np.abs(without.traction_x).max()
+    np.testing.assert_allclose(with_it.traction_x, without.traction_x, rtol=0, atol=1e-6 * scale)
+    np.testing.assert_allclose(with_it.displacement, without.displacement, rtol=1e-6)
+
+
+def test_the_stick_circle_does_not_depend_on_the_load():
+    (_, one), (_, other) = pressed(force=1.0), pressed(force=8.0)
+    assert one.stick_fraction[0] == other.stick_fraction[0]
+    assert 0.05 < one.stick_fraction[0] < 0.5
+    assert one.coupling.pressure_change == pytest.approx(other.coupling.pressure_change, rel=1e-6)
+
+
+def test_without_tractions_in_the_gap_the_stick_circle_is_that_of_spence(monkeypatch):
+    monkeypatch.setattr(
+        slip_loop._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
+    )
+    _, part = pressed(grid=64, pressing_steps=16)
+    beta = (1.0 - 2.0 * 0.2) / (2.0 * (1.0 - 0.2))
+    assert math.sqrt(part.stick_fraction[0]) == pytest.approx(spence(0.2 / beta), rel=0.03)
+
+
+def test_friction_makes_the_contact_smaller_and_its_pressure_higher():
+    _, part = pressed(coefficient=1.0, nu=0.0)
+    assert part.coupling.area_change < 0.0
+    assert 0.2 < part.coupling.pressure_change < 0.5
+    _, weaker = pressed(coefficient=0.1, nu=0.0)
+    assert 0.0 < weaker.coupling.pressure_change < part.coupling.pressure_change
+
+
+def test_more_steps_of_pressing_change_less():
+    errors = [pressed(pressing_steps=n)[1].coupling.step_error for n in (2, 4, 8)]
+    assert errors[0] > 2.0 * errors[1] > 3.0 * errors[2]
+    assert pressed(pressing_steps=1)[1].coupling.step_error is None
+
+
+def test_the_direction_of_the_load_turns_the_tractions():
+    along, x = pressed(path=HALF)
+    across, y = pressed(path=HALF, direction=0.5 * math.pi)
+    scale = np.abs(x.traction_x).max()
+    np.testing.assert_allclose(
+        across.pressure, along.pressure.T, rtol=0, atol=1e-4 * along.max_pressure
+    )
+    np.testing.assert_allclose(y.traction_y[0], x.traction_x[0].T, rtol=0, atol=1e-4 * scale)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("is_layered", [False, True])
+def test_coupling_is_reciprocal(periodic, is_layered):
+    solid = ck.Material(young_modulus=100 * GPa, poisson_ratio=0.25)
+    stack = solid
+    if is_layered:
+        film = ck.Layer(
+            material=ck.Material(young_modulus=300 * GPa, poisson_ratio=0.2), thickness=20 * nm
+        )
+        stack = ck.Stack(layers=(film,), substrate=solid)
+    rough = ck.SelfAffineRoughness(rms=1 * nm, hurst=0.8, rolloff=0.5 * um, cutoff=100 * nm, seed=1)
+    scene = ck.ContactScene(
+        interface=ck.Interface(lower=ck.Body(solid=stack), upper=ck.Body(surface=rough)),
+        window=ck.Window(width=1 * um, periodic=periodic),
+        loading=ck.Pressing(pressure=1 * GPa),
+        effects=(ck.LayeredHalfSpace() if is_layered else ck.HalfSpace(),),
+    )
+    plan = ck.plan(scene, ck.Accuracy(grid=24))
+    from contactkit.contact.effects.elasticity import bodies_of
+
+    coupling = coupling_of(plan.grid, *bodies_of(scene.interface))
+    p, qx, qy = np.random.default_rng(3).normal(size=(3, 24, 24))
+    x, y = coupling.of_pressure(p)
+    work, other = float((coupling(qx, qy) * p).sum()), float((x * qx + y * qy).sum())
+    assert work == pytest.approx(other, rel=1e-10)
+    assert abs(work) > 0.0
+    assert coupling.count == 2
+
+    part = ck.PartialSlip(coefficient=0.3, path=HALF, components=2, coupled=True, pressing_steps=2)
+    result = ck.solve(ck.plan(evolve(scene, effects=(*scene.effects, part)), ck.Accuracy(grid=24)))
+    slip = result.of(ck.PartialSlip)
+    mu_p = 0.3 * result.pressure
+    size = np.hypot(slip.traction_x[-1], slip.traction_y[-1])
+    assert np.all(size <= mu_p * (1.0 + 1e-6) + 1e-9 * mu_p.max())
+    pixel = plan.grid.pixel_size[0] * plan.grid.pixel_size[1]
+    assert slip.traction_x[-1].sum() * pixel == pytest.approx(slip.force[-1], rel=1e-6)
+    assert result.mean_pressure == pytest.approx(1 * GPa, rel=1e-7)
+
+
+def test_a_pair_of_tractions_that_is_not_found_says_so():
+    with pytest.raises(ck.errors.ConvergenceError, match=r"lower PartialSlip\.coefficient"):
+        pressed(coefficient=1e3, nu=0.0, pressing_steps=1)
+
+
+def test_equal_bodies_are_not_coupled():
+    steel = ck.Material(young_modulus=200 * GPa, poisson_ratio=0.3)
+    scene = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=steel),
+            upper=ck.Body(surface=ck.Paraboloid(radius=RADIUS), solid=steel),
+        ),
+        window=ck.Window(width=40 * um, periodic=False),
+        loading=ck.Pressing(force=1.0),
+        effects=(
+            ck.HalfSpace(),
+            ck.PartialSlip(coefficient=0.2, path=HALF, components=2, coupled=True),
+        ),
+    )
+    part = ck.solve(ck.plan(scene, ck.Accuracy(grid=24))).of(ck.PartialSlip)
+    assert part.coupling is None
+
+
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"components": 1}, "components=2 with coupled=True"),
+    ],
+)
+def test_what_coupling_needs_is_said(choices, message):
+    with pytest.raises(ck.errors.PlanError, match=message):
+        pressed(**choices)
