@@ -316,6 +316,7 @@ class Patch:
         """Operator around pixels, by sorted flat indices; none if that is most of the map."""
         row, column = np.divmod(at, self.shape[1])
         top, left = int(row[0]), int(column.min())
+        self.corner = top, left
         wanted = (int(row[-1]) - top + 1, int(column.max()) - left + 1)
         here = self.operator
         if here is None or not self._fits(here.shape, wanted):
@@ -327,6 +328,14 @@ class Patch:
         self.operator = here
         self.at = (row - top) * here.shape[1] + (column - left)
         return here
+
+    def add_scaled(self, change: NDArray[np.float32], length: float) -> None:
+        """Add the displacement of the patch, times a length, to a flat map."""
+        if self.operator is None:
+            return
+        (top, left), (ny, nx) = self.corner, self.operator.shape
+        here = change.reshape(self.shape)[top : top + ny, left : left + nx]
+        here += np.float32(length) * self.operator.target[: here.shape[0], : here.shape[1]]
 
     def _size(self, wanted: Shape) -> Shape:
         """Pixels of a patch with some room to grow, good for transforms."""

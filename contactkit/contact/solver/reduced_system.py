@@ -118,7 +118,8 @@ class ReducedSystem:
     load_fixed : bool
         Whether the solution has a given sum instead of a given approach.
     displaces : bool
-        Whether the change of the displacement is wanted.
+        Whether the change of the displacement is wanted: of the map, or of a patch around the free
+        pixels, zero off it. A direct solution leaves it to `displace`.
     """
 
     def __init__(
@@ -128,6 +129,7 @@ class ReducedSystem:
         self.loops = grid.loops
         self.operator, self.place = grid.quick, at
         self.patch: Patch | None = None
+        self.is_direct = False
 
     def solve(self, r: Floats, reduction: float, missing: float) -> NDArray[np.floating[Any]]:
         """Pressures that reduce the residual by a factor and sum to `missing`."""
@@ -136,16 +138,16 @@ class ReducedSystem:
             matrix = influence_matrix(grid.response, self.at, grid.pressure.shape)
             x = solve_directly(matrix, r, missing if self.load_fixed else None)
             if x is not None:
-                self._displace_by(x.astype(np.float32))
+                self.is_direct = True
                 return x
         return self._iterate(r.astype(np.float32), reduction, missing)
 
-    def _displace_by(self, x: Singles) -> None:
-        """Change of the displacement of the whole map under a change of the pressure."""
-        if not self.displaces:
+    def displace(self, x: NDArray[np.floating[Any]]) -> None:
+        """Change of the displacement under the solution, if no iterations gave it."""
+        if not self.is_direct:
             return
         quick = self.grid.quick
-        self.loops.scatter(quick.source.ravel(), self.at, x)
+        self.loops.scatter(quick.source.ravel(), self.at, x.astype(np.float32))
         self.grid.change[...] = quick.run().ravel()
         quick.source.ravel()[self.at] = 0.0
 
@@ -167,8 +169,6 @@ class ReducedSystem:
         conjugate_gradient(self, x, r, reduction, MAX_ITERATIONS)
         self.operator.source.ravel()[self.place] = 0.0
         self.preconditioner.clean()
-        if self.patch is not None:
-            self._displace_by(x)
         return x
 
     def apply(self, d: Singles, q: Singles) -> None:
@@ -184,6 +184,10 @@ class ReducedSystem:
         return self.preconditioner(r)
 
     def take_step(self, length: float) -> None:
-        """Add a step to the change of the whole map; on a patch that comes last, all at once."""
-        if self.patch is None and self.displaces:
+        """Add a step to the change of the displacement."""
+        if not self.displaces:
+            return
+        if self.patch is None:
             self.loops.add_scaled(self.grid.change, self.operator.target.ravel(), length)
+        else:
+            self.patch.add_scaled(self.grid.change, length)

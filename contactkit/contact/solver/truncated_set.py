@@ -65,6 +65,7 @@ class TruncatedSet(State):
         if self.stopped and self.stuck:
             self.at, self.added = self.at[self.between(self.at)], 0
         elif self.stopped:
+            system.displace(x)
             self._predict_free()
 
     def _reduction(self) -> float:
