@@ -268,12 +268,15 @@ class ContactSolver:
         if first is None:
             return False
         p = first.ravel() / problem.pressure
-        at_bound = p > problem.upper * (1.0 - AT_BOUND)
-        p = fit(np.where(at_bound, problem.upper, p), problem)
+        at = np.flatnonzero(p)
+        bound = np.broadcast_to(problem.upper, p.shape)[at]
+        at_bound = p[at] > bound * (1.0 - AT_BOUND)
+        p[at] = np.where(at_bound, bound, p[at])
+        p = fit(p, problem)
         self.grids[0].pressure[...] = p.reshape(self.shape)
         # With few free pixels left to take up the change of load, these overshoot.
-        n_at_bound = max(np.count_nonzero(at_bound), np.count_nonzero(p >= problem.upper))
-        return bool(n_at_bound <= MOST_AT_BOUND * np.count_nonzero(first))
+        n_at_bound = max(np.count_nonzero(at_bound), np.count_nonzero(p[at] >= bound))
+        return bool(n_at_bound <= MOST_AT_BOUND * at.size)
 
     def _from_coarse_grids(self, problem: Problem) -> None:
         """Nested iteration: solve roughly on ever finer grids, for a guess on the finest."""

@@ -296,15 +296,18 @@ def fit(trial: Floats, problem: Problem) -> Floats:
     p = np.clip(trial, 0.0, problem.upper)
     if problem.load is None:
         return p
+    at = np.flatnonzero(p)
+    upper = np.broadcast_to(problem.upper, p.shape)[at]
     for _ in range(20):
-        missing = problem.load - float(p.sum())
+        q = p[at]
+        missing = problem.load - float(q.sum())
         if abs(missing) <= 4e-16 * problem.load:
             return p
-        free = (p > 0.0) & (p < problem.upper)
-        carried = float(p[free].sum())
+        free = q < upper
+        carried = float(q[free].sum())
         if carried <= 0.0 or carried + missing <= 0.0:
             break
-        p = np.where(free, np.minimum(p * (1.0 + missing / carried), problem.upper), p)
+        p[at] = np.where(free, np.minimum(q * (1.0 + missing / carried), upper), q)
     return p if abs(missing) <= 1e-12 * problem.load else project(p, problem)
 
 

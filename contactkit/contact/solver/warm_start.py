@@ -77,11 +77,10 @@ def initial_pressure(
         return None
     known = [float(np.log(value)) if is_load else float(value) for value in given]
     weights = _trusted_weights(known, float(np.log(imposed)) if is_load else float(imposed))
+    at = np.flatnonzero(maps[0] > 0.0)
+    pressure = sum(w * p.ravel()[at] for w, p in zip(weights, maps, strict=False))
     out = np.zeros(shape)
-    for weight, p in zip(weights, maps, strict=False):
-        out += weight * p
-    out[maps[0] <= 0.0] = 0.0
-    np.maximum(out, 0.0, out=out)
+    out.ravel()[at] = np.maximum(pressure, 0.0)
     return out if _is_near(imposed if is_load else None, given, maps, out, len(weights)) else None
 
 
