@@ -3,6 +3,7 @@
 separation  Figures of separations and costs; axes, legends and colours of all figures.
 contact     Figures of contacts.
 plastic_history Figures of loading histories: force over approach, residual depth.
+stress      Figures of stress below a contact: sections to scale, with the maximum marked.
 roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
 adhesion    Load and area over the approach of contacts under adhesion.
 slip        Figures of partial slip and of stick-slip.

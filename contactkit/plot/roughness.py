@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..analyses.area_over_load import AreaOverLoad
+from ..analyses.heights import SurfaceHeights
 from ..contact.patches import ContactPatches, patch_density
 from ..roughness.contact_theories import RANGES
 from ..roughness.spectra import Spectrum
@@ -18,7 +19,7 @@ from .separation import Axes, figure, legend, title
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["area_and_theories", "bearing", "patch_sizes", "power_spectrum"]
+__all__ = ["area_and_theories", "bearing", "height_map", "patch_sizes", "power_spectrum"]
 
 _THEORIES = {  # the later ones lie on top
     "fit of slope 2": "#2a9d8f",
@@ -91,6 +92,40 @@ def power_spectrum(
         ax.plot(one.wavenumber[shown], one.density[shown], label=label)
     ax.set(xscale="log", yscale="log", xlabel="wavenumber [rad/m]", ylabel=f"density [{unit}]")
     legend(ax)
+    return ax
+
+
+def height_map(found: SurfaceHeights, ax: Axes | None = None, limit: float | None = None) -> Axes:
+    """Draw heights as a map with a colour bar, white at the mean.
+
+    Parameters
+    ----------
+    found : SurfaceHeights
+        Heights, see `analyses.heights.surface_heights`.
+    ax : Axes, optional
+        Where to draw.
+    limit : float, optional
+        Height [m] of the ends of the colour bar, above and below the mean; the largest deviation
+        if not given.
+    """
+    ax = ax if ax is not None else figure()[1]
+    (ny, nx), (dy, dx) = found.heights.shape, found.pixel_size
+    length, unit = length_unit(max(nx * dx, ny * dy))
+    deviation = found.heights - found.heights.mean()
+    limit = limit if limit is not None else float(np.abs(deviation).max())
+    factor, name = length_unit(limit)
+    image = ax.imshow(
+        deviation / factor,
+        origin="lower",
+        extent=(0.0, nx * dx / length, 0.0, ny * dy / length),
+        cmap="PuOr_r",
+        vmin=-limit / factor,
+        vmax=limit / factor,
+        interpolation="nearest",
+    )
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
+    ax.grid(visible=False)
+    ax.figure.colorbar(image, ax=ax, shrink=0.6).set_label(f"height [{name}]")
     return ax
 
 

@@ -31,7 +31,9 @@ from ..work_precision import WorkPrecision
 
 __all__ = [
     "COLORS",
+    "STYLE",
     "Axes",
+    "Figure",
     "ListedColormap",
     "Patch",
     "Rectangle",
@@ -43,6 +45,7 @@ __all__ = [
     "label_axis",
     "legend",
     "motion",
+    "mpl",
     "plain_log",
     "save",
     "shared_legend",

@@ -170,7 +170,8 @@ def _compute(script: Script, out: Path, draft: bool) -> Made:
     made = Made(dict(found), seconds, draft, list(notes.values()))
     head = {"digest": digest(script, draft), "seconds": seconds, "notes": made.notes}
     with write_whole(out / f"{script.slug}.npz") as path:
-        np.savez_compressed(path, **{_HEAD: np.array(json.dumps(head))}, **made.data)
+        entries: Any = {**made.data, _HEAD: np.array(json.dumps(head))}
+        np.savez_compressed(path, **entries)
     return made
 
 

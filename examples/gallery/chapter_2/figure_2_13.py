@@ -1,0 +1,105 @@
+"""Fig. 2.13: structures I to V with layers as thin as the rms height: maps and load curves."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import contactkit as ck
+from contactkit.app.gallery.page import Check, Data, Page
+from contactkit.app.gallery.run import run_page
+from contactkit.gallery.chapter_2 import rough_contact as rough
+from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.chapter_2.stress_maps import map_figure, maps, maxima, stacked
+from contactkit.plot import gallery as plot
+
+PAGE = Page(
+    name="2.13",
+    title="Layered structures, layers of one rms height",
+    claim="II lowers pressure and stress, III raises them; IV lowers them, to an extent comparable "
+    "with II, while V makes no significant difference. Differences are smaller than with "
+    "layers ten times as thick.",
+    verdict="Differences in pressure are indeed small: 2 nm of layers below spots ten times as "
+    "wide. IV lowers the pressure by half of what II does, and V raises it by as much: "
+    "nothing makes one of them significant and the other not. The tension is the "
+    "exception: even a thin stiff layer carries far more of it.",
+    choices="Load curves up to 1e-2 E3.",
+    grid=rough.WIDE,
+    seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure, at 1e-5 E3",
+)
+LOADS, MAP_LOAD, CROP = (4e-6, 1e-5, 4e-5, 1e-4, 4e-4, 1e-3, 4e-3, 1e-2), 1e-5, 0.6e-6
+COLUMNS = ("max_pressure", "contact_fraction", "plastic_fraction")
+STRUCTURES = list(rough.STRUCTURES)
+
+
+def compute(draft: bool = False) -> dict[str, np.ndarray]:
+    """Curves and maxima of thin layers, maps of the first seed; curves of thick ones."""
+    sampling, surface, hard = rough.wide(draft), rough.SURFACES[0], ck.HardnessLimit()
+    thin, thick = (
+        [rough.body(m, (1.0, 1.0), h * surface.rms) for m in rough.STRUCTURES.values()]
+        for h in (1.0, 10.0)
+    )
+    shown, best = [], []
+    for stack in thin:
+        for seed in sampling.seeds:
+            made = rough.plan(surface, stack, sampling, seed, hard)
+            run = ck.solve(made.with_loading(ck.Pressing(pressure=MAP_LOAD * rough.MODULUS)))
+            best.append(maxima(run, (0.0,))[0])
+            if seed == sampling.seeds[0]:
+                shown.append(maps(run, round(CROP / sampling.width * sampling.pixels)))
+    curves = rough.curves([(surface, one) for one in thin], sampling, LOADS, COLUMNS, hard)
+    others = rough.curves([(surface, one) for one in thick], sampling, LOADS[:3], COLUMNS, hard)
+    stress = np.array(best).reshape(len(thin), len(sampling.seeds), -1)
+    return stacked(shown) | curves | {"stress": stress, "thick_pressure": others["max_pressure"]}
+
+
+def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
+    """Maps; load curves."""
+    titles = [f"{name}:\n{text}" for name, text in rough.MEANING.items()]
+    figure, axes = plot.figure(1, 3, size=(8.6, 3.6))
+    for ax, name in zip(axes, COLUMNS, strict=True):
+        draw_panel(ax, LOADS, name, data[name], labelled(rough.MEANING))
+    plot.shared(figure, axes[0])
+    return map_figure(data, titles, CROP), figure
+
+
+def check(data: Data) -> list[Check]:
+    """Orderings; how small the differences are."""
+    ii, iii, iv, v = (STRUCTURES.index(name) for name in ("II", "III", "IV", "V"))
+    peak = rough.ratios(data["max_pressure"][..., :3])
+    thick = rough.ratios(data["thick_pressure"])
+    mises, tension = (rough.ratios(data["stress"][..., k]) for k in (0, 1))
+    medians = np.median(peak, axis=(1, 2)) - 1.0
+    text = ", ".join(f"{STRUCTURES[k]} {rough.spread(peak[k])}" for k in (ii, iii, iv, v))
+    spread_thin, spread_thick = (np.median(one[iii] - one[ii]) for one in (peak, thick))
+    return [
+        Check(
+            "maximum pressure at the printed loads, medians: II < IV < I < V < III",
+            bool(medians[ii] < medians[iv] < 0.0 < medians[v] < medians[iii]),
+            text,
+        ),
+        Check(
+            "IV lowers the pressure and V raises it by about as much, to a factor of two (the "
+            "source: only IV matters)",
+            bool(0.5 < -medians[v] / medians[iv] < 2.0),
+            f"{100.0 * medians[iv]:+.1f} % and {100.0 * medians[v]:+.1f} %",
+        ),
+        Check(
+            "pressures of III and II differ less than with layers ten times as thick, by 4 or more",
+            bool(spread_thick > 4.0 * spread_thin),
+            f"{100.0 * spread_thin:.1f} % against {100.0 * spread_thick:.1f} % of I",
+        ),
+        Check(
+            "von Mises: every structure within 10 % of I, in the median",
+            bool((np.abs(np.median(mises, axis=1) - 1.0) < 0.1).all()),
+            ", ".join(f"{STRUCTURES[k]} {rough.spread(mises[k])}" for k in (ii, iii, iv, v)),
+        ),
+        Check(
+            "tension on each surface: more than 1.3 times that of I in III, less than 0.8 in II",
+            rough.all_above(tension[iii], 1.3) and rough.all_below(tension[ii], 0.8),
+            f"III {rough.spread(tension[iii])}, II {rough.spread(tension[ii])}",
+        ),
+    ]
+
+
+if __name__ == "__main__":
+    run_page(__file__)
