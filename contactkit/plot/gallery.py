@@ -110,7 +110,7 @@ def save_all(made: Figure, path: Path) -> list[Path]:
             write_whole(file) as temporary,
             mpl.rc_context({**STYLE, "svg.hashsalt": "contactkit", "savefig.dpi": 120}),
         ):
-            made.savefig(temporary, format=kind, metadata=metadata)
+            made.savefig(temporary, format=kind, metadata=metadata, bbox_inches="tight")
         written.append(file)
     return written
 

@@ -42,6 +42,10 @@ def _tuple(value: Any) -> tuple[float, ...] | None:
     return tuple(value) if value is not None else None
 
 
+def _floats(value: Any) -> tuple[float, ...]:
+    return tuple(value)
+
+
 def _depths(owner: object, attribute: Attribute[Any], value: Any) -> None:
     if value is None:
         return
@@ -165,7 +169,7 @@ class SubsurfaceStress(Observer[StressPart]):
     tolerance: float = field(default=0.01, validator=positive, metadata=si("-"))
     reading: Reading = field(default="spline", validator=choice(*READINGS))
     coefficients: tuple[float, ...] = field(
-        default=(), converter=tuple, validator=_coefficients, metadata=si("-")
+        default=(), converter=_floats, validator=_coefficients, metadata=si("-")
     )
 
     @property

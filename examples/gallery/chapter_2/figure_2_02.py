@@ -64,20 +64,17 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 
 def draw(data: Data) -> plot.Figure:
     """Nine sections: ratios down, friction across."""
-    figure, axes = plot.figure(3, 3, size=(8.2, 5.6), sharex=True, sharey=True)
+    figure, axes = plot.figure(3, 3, size=(8.2, 5.0), sharex=True, sharey=True)
     for i, ratio in enumerate(RATIOS):
         for j, mu in enumerate(FRICTIONS):
             ax = axes[i, j]
             at = (data["x"], data["z"], data["layer"], data["section"][i, j])
             draw_section(*at, ax, levels=LEVELS)
             (x, z), best = data["place"][i, j], data["maximum"][i, j]
-            ax.set_title(
-                rf"$E_1/E_2$ = {ratio:g}, $\mu$ = {mu:g}: {best:.3f} at ({x:.2f}, {z:.2f})",
-                fontsize=8,
-                loc="left",
-            )
+            text = rf"$\mu$ = {mu:g}: {best:.3f} at ({x:.2f}, {z:.2f})"
+            ax.set_title(text, fontsize=8, loc="left")
             ax.set_xlim(-1.6, 1.6)
-        axes[i, 0].set_ylabel("$z/a_0$ [-]")
+        axes[i, 0].set_ylabel(f"$E_1/E_2$ = {ratio:g}\n$z/a_0$ [-]")
     for ax in axes[-1]:
         ax.set_xlabel("$x/a_0$ [-]")
     plot.colour_bar(

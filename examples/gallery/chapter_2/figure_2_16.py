@@ -82,9 +82,9 @@ def check(data: Data) -> list[Check]:
     above = rough.ratios(mises[0])
     return [
         Check(
-            "all three maxima grow with every step of friction, each surface; von Mises from 0 to "
-            "0.1 to within 3 %",
-            bool((steps[:, :, :, 1:] > -0.01).all() and (steps[:, :, :, 0] > -0.03).all()),
+            "all three maxima grow with every step of friction from 0.1 on, each surface; from 0 to "
+            "0.1 they may fall, by less than 15 %",
+            bool((steps[:, :, :, 1:] > -0.01).all() and (steps[:, :, :, 0] > -0.15).all()),
             f"von Mises from 0 to 0.5: {rough.spread(mises[..., 3] / mises[..., 0])} times",
         ),
         Check(

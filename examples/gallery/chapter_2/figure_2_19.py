@@ -65,7 +65,9 @@ def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
             for i, label in enumerate(labels):
                 plot.band(ax, FRICTIONS, values[i][..., k] / 1e9, i, label)
             ax.set(ylabel=f"max. {name} [GPa]", ylim=(0.0, None))
-            ax.set_title(rf"$h = {height:g}\,\sigma$, $p_n = {load:g} E_3$", fontsize=9, loc="left")
+            ax.set_title(
+                rf"$h$ = {height:g} $\sigma$, $p_n$ = {load:g} $E_3$", fontsize=9, loc="left"
+            )
     for ax in axes[-1]:
         ax.set_xlabel("coefficient of friction [-]")
     plot.shared(figure, axes[0, 0])
@@ -81,6 +83,7 @@ def check(data: Data) -> list[Check]:
     growth = data["stress"][:, :, :, 3] / data["stress"][:, :, :, 0]
     elastic, plastic = np.median(growth[0, 0], axis=0), np.median(growth[1, 0], axis=0)
     medians = np.median(mises, axis=2)
+    steps = np.diff(data["stress"], axis=3) / data["stress"][..., :1, :]
     return [
         Check(
             "at the printed load, medians: all structures but II' have the stress of I' to 5 %",
@@ -108,8 +111,9 @@ def check(data: Data) -> list[Check]:
             f"{elastic[0]:.2f} times at 1e-5 E3, {plastic[0]:.2f} times at 1e-3 E3",
         ),
         Check(
-            "all three maxima grow with every step of friction",
-            bool((np.diff(data["stress"], axis=3) > -1e-2 * data["stress"][..., :1, :]).all()),
+            "all three maxima grow with every step of friction from 0.1 on; from 0 to 0.1 they may "
+            "fall, by less than 15 %",
+            bool((steps[:, :, :, 1:] > -0.01).all() and (steps[:, :, :, 0] > -0.15).all()),
             f"to 0.5: {', '.join(rough.spread(growth[..., k]) for k in range(3))} times",
         ),
     ]

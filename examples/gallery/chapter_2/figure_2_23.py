@@ -67,6 +67,7 @@ def draw(data: Data) -> plot.Figure:
     ax = axes[1, 1]
     draw_panel(ax, LOADS, name, data[name][0, :1], ["I, reported only"])
     plot.band(ax, LOADS, data[f"consistent_{name}"][0], 2, "I, adds to the load")
+    plot.log_above_zero(ax, [data[name][0, 0], data[f"consistent_{name}"][0]])
     ax.legend(fontsize=8)
     titles = ("$h = 10\\,\\sigma$", "$h = \\sigma$", "$h = 10\\,\\sigma$", "both treatments, I")
     plot.letters(axes.ravel(), titles)

@@ -69,17 +69,18 @@ def draw(data: Data) -> plot.Figure:
         (axes[1], "tied", data["grids"], "pixels along a side"),
     ):
         for i, load in enumerate(LOADS):
-            text = f"$p_n = {load:g} E_3$"
+            text = f"$p_n$ = {load:g} $E_3$"
             plot.band(row[0], x, data[name][:, :, 0, i] / rough.HARDNESS, i, text)
             plot.band(row[1], x, 100.0 * data[name][:, :, 1, i], i, text)
         row[0].set(ylabel="max. pressure / $H_3$", ylim=(0.0, None))
         row[1].set(ylabel="contact area [%]", yscale="log")
+        plot.plain_log(row[1].yaxis)
         for ax in row:
             ax.set(xscale="log", xlabel=label)
             ax.set_xticks(x, [str(n) for n in x])
             ax.minorticks_off()
     axes[0, 0].legend(fontsize=8)
-    titles = ("shortest wave fixed", "shortest wave fixed", "8 pixels", "8 pixels")
+    titles = ("wave fixed", "wave fixed", "wave of 8 pixels", "wave of 8 pixels")
     plot.letters(axes.ravel(), titles)
     return figure
 

@@ -86,4 +86,5 @@ def map_figure(data: Data, titles: Sequence[str], width: float) -> plot.Figure:
         ax.set_title(title, fontsize=8, loc="left")
     for ax in axes[-1]:
         ax.set_xlabel("x [um]", fontsize=8)
+        ax.set_xticks([0.0, 0.5 * width * 1e6])
     return figure

@@ -93,7 +93,7 @@ def draw(data: Data) -> plot.Figure:
             ax.axhline(100.0 * limit, color="0.6", lw=0.7, ls=":")
         ax.set_xticks(at, [q.replace(" ", "\n") for q in QUANTITIES], fontsize=8)
         ax.set(ylabel="change against I [%]")
-        ax.legend(fontsize=8)
+        ax.legend(fontsize=8, loc="upper left" if effect == "stiffness" else "lower right")
     plot.letters(axes, ("stiffness of layers", "hardness of layers"))
     return figure
 
