@@ -79,7 +79,7 @@ def band(ax: Axes, x: ArrayLike, runs: ArrayLike, i: int, label: str, **more: An
 
 
 def log_above_zero(ax: Axes, values: ArrayLike) -> None:
-    """Make the ordinate logarithmic, three decades at most below the largest of some values.
+    """Make the ordinate logarithmic, four decades at most below the largest of some values.
 
     Zeros are cut off; a panel of zeros says so.
     """
@@ -91,7 +91,7 @@ def log_above_zero(ax: Axes, values: ArrayLike) -> None:
         return
     least = float(np.nanmin(known[known > 0.0]))
     ax.set_yscale("log", nonpositive="clip")
-    ax.set_ylim(0.7 * max(least, 1e-3 * top), 1.5 * top)
+    ax.set_ylim(0.7 * max(least, 1e-4 * top), 1.5 * top)
 
 
 def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:

@@ -1,7 +1,7 @@
 """Pages of the gallery for the documentation: ``python docs/scripts/gallery.py [NAME ...]``.
 
 Runs ``contactkit gallery`` at full size into out/gallery, where finished data are kept, and copies
-pages and PNGs, these with a palette of 160 colours so that they stay small, into docs/gallery.
+pages and PNGs, these with a palette of 128 colours so that they stay small, into docs/gallery.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from PIL import Image
 
 ROOT = Path(__file__).parents[2]
 MADE, SHOWN = ROOT / "out" / "gallery", ROOT / "docs" / "gallery"
-COLOURS = 160
+COLOURS = 128
 
 
 def copy_pages() -> None:

@@ -82,8 +82,8 @@ def check(data: Data) -> list[Check]:
     above = rough.ratios(mises[0])
     return [
         Check(
-            "all three maxima grow with every step of friction from 0.1 on, each surface; from 0 to "
-            "0.1 they may fall, by less than 15 %",
+            "all three maxima grow with every step of friction from 0.1 on; from 0 to 0.1 they may "
+            "fall, by less than 15 %",
             bool((steps[:, :, :, 1:] > -0.01).all() and (steps[:, :, :, 0] > -0.15).all()),
             f"von Mises from 0 to 0.5: {rough.spread(mises[..., 3] / mises[..., 0])} times",
         ),
