@@ -63,7 +63,9 @@ def _time(value: float, pull: float) -> float:
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)
-        return ck.simulate(ck.plan(scene)).state.release_time
+        state = ck.simulate(ck.plan(scene)).state
+    assert state is not None
+    return state.release_time
 
 
 def draw(data: dict[str, Any]) -> Figure:

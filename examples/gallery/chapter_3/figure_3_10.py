@@ -116,7 +116,7 @@ def draw(data: dict[str, Any]) -> Figure:
 
 
 def check(data: dict[str, Any]) -> list[Check]:
-    """What rises and what falls; factors between the printed and the corrected values."""
+    """Trends over the separation; factors between the printed and the corrected values."""
     curves = [data[f"curve_{i}"] for i in range(len(HEIGHTS))]
     limits = [data[f"limit_{i}"][0] for i in range(len(HEIGHTS))]
     rises = all(np.all(np.diff(c[1]) > 0.0) and np.all(np.diff(c[2]) > 0.0) for c in curves)

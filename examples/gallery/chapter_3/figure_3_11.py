@@ -136,34 +136,31 @@ def check(data: dict[str, Any]) -> list[Check]:
     end = data["limits_0_0"][0]
     short = [float(np.interp(end, data["meniscus_0_0"][0], v)) / nm for v in data["viscous_0_0"]]
 
-    def listed(values: Any) -> str:
-        return ", ".join(f"{v:.2f}" for v in values)
-
     return [
         Check(
             "at contact a lower film has the larger force",
             bool(np.all(np.diff(exact[0]) < 0.0)),
-            f"{listed(exact[0])} nN for 2 to 6 nm",
+            f"{_listed(exact[0])} nN for 2 to 6 nm",
         ),
         Check(
             "at 1 nm it has the smaller one: the trend is reversed there already",
             bool(np.all(np.diff(exact[one]) > 0.0)),
-            f"{listed(exact[one])} nN",
+            f"{_listed(exact[one])} nN",
         ),
         Check(
             "neighbouring heights change places at gaps well below 1 nm, with the minus sign too",
             all(0.1 < z < 0.6 for pair in zeros.values() for z in pair),
-            f"exact at {listed(zeros['exact'])} nm, minus at {listed(zeros['minus'])} nm",
+            f"exact at {_listed(zeros['exact'])} nm, minus at {_listed(zeros['minus'])} nm",
         ),
         Check(
             "Eq. (3.12) as printed never reverses, against the text",
             bool(np.all(np.diff(plus, axis=1) > 0.0)),
-            f"at contact {listed(plus[0])} nN",
+            f"at contact {_listed(plus[0])} nN",
         ),
         Check(
             "at 1 nm the printed force is 29 to 46 % too large",
             bool(np.allclose((plus[one] / exact[one])[[0, -1]], [1.286, 1.461], atol=0.005)),
-            f"{listed(plus[one])} nN",
+            f"{_listed(plus[one])} nN",
         ),
         Check(
             "printed viscous forces of section 3.2.3, s0 = 2 to 6 nm",
@@ -186,6 +183,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             + " nm",
         ),
     ]
+
+
+def _listed(values: Any) -> str:
+    """Numbers as text."""
+    return ", ".join(f"{v:.2f}" for v in values)
 
 
 def _reversals(starts: Any, forces: Any) -> list[float]:

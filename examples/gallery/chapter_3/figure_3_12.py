@@ -56,10 +56,10 @@ def compute(draft: bool = False) -> dict[str, Any]:
             for lower in lowers.tolist():
                 pair = (lower, upper)
                 liquid = volume(height, pair)
-                found = flats(height, liquid, pair)
+                force = flats(height, liquid, pair)
                 limit, closed = break_gaps(liquid, pair)
                 disc = math.pi * RADIUS**2 * height
-                forces.append([float(found.exact), float(found.printed)])
+                forces.append([float(force.exact), float(force.printed)])
                 impulses.append(
                     [
                         disc_impulse_conserved(disc, height, limit, VISCOSITY) / TIME,

@@ -128,7 +128,7 @@ def table(data: dict[str, Any]) -> Table:
 
 
 def check(data: dict[str, Any]) -> list[Check]:
-    """Which force is larger at 0.1 us, the error of Eq. (3.27), and what the cut-off changes."""
+    """Larger force at 0.1 us, error of Eq. (3.27), effect of the cut-off."""
     times = {name: rows[:, 0] / rows[:, 2] for name, rows in data.items()}
     printed = data["flats"][:, 1] / data["flats"][:, 3]
     apart = data["apart"]

@@ -49,6 +49,9 @@ PAGE = Page(
 
 GAP = 1 * nm
 
+Film = tuple[Any, float, float, float]
+"""Upper surface, volume of liquid [m3], gap [m] and radius of the film [m]."""
+
 
 def compute(draft: bool = False) -> dict[str, Any]:
     """Travel, impulse so far over the time, and force at constant speed, for each height."""
@@ -57,19 +60,18 @@ def compute(draft: bool = False) -> dict[str, Any]:
     for i, height in enumerate(HEIGHTS.tolist()):
         radius = math.sqrt(2.0 * RADIUS * (height - GAP))
         liquid = math.pi * RADIUS * (height - GAP) * (height + GAP)
-        flats = (ck.Flat(), math.pi * RADIUS**2 * height, height, RADIUS)
-        for name, film in (
-            ("flats", flats),
-            ("sphere", (ck.Sphere(radius=RADIUS), liquid, GAP, radius)),
-        ):
-            data[f"{name}_{i}"] = _slide(*film, points)
+        flats: Film = (ck.Flat(), math.pi * RADIUS**2 * height, height, RADIUS)
+        sphere: Film = (ck.Sphere(radius=RADIUS), liquid, GAP, radius)
+        for name, film in (("flats", flats), ("sphere", sphere)):
+            data[f"{name}_{i}"] = _slide(film, points)
     data["printed_flats"] = sliding_flat_3_53(RADIUS, HEIGHTS, TIME, VISCOSITY)
     data["printed_sphere"] = sliding_sphere_3_56(RADIUS, GAP, HEIGHTS, TIME, VISCOSITY)
     return data
 
 
-def _slide(upper: Any, liquid: float, gap: float, radius: float, points: int) -> Any:
+def _slide(film: Film, points: int) -> Any:
     """Travel [m], impulse so far over the time [N], force [N] at constant speed."""
+    upper, liquid, gap, radius = film
     water = ck.Liquid(name="water", viscosity=VISCOSITY, surface_tension=0.072)
     found = []
     for imposed in ({"time": TIME}, {"speed": 2.0 * radius / TIME}):
@@ -109,7 +111,7 @@ def draw(data: dict[str, Any]) -> Figure:
 
 
 def check(data: dict[str, Any]) -> list[Check]:
-    """What rises, what falls, totals against the printed ones, orders of the heights."""
+    """Trends over the travel, totals against the printed ones, orders of the heights."""
     flats, spheres = ([data[f"{n}_{i}"] for i in range(len(HEIGHTS))] for n in ("flats", "sphere"))
     total = {
         n: np.array([c[1, -1] for c in cs]) for n, cs in (("flats", flats), ("sphere", spheres))

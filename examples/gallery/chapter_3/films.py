@@ -112,7 +112,7 @@ def separations(start: float, limits: Iterable[float], n: int) -> Array:
     step = 0.005 * start if start else 1e-3 * min(ends)
     gaps = start + np.concatenate(([0.0], np.geomspace(step, ends[-1] - start, n - 1)))
     found = np.sort(np.concatenate((gaps[:-1], ends)))
-    return found[np.append(True, np.diff(found) > 1e-12 * found[-1])]
+    return np.asarray(found[np.append(True, np.diff(found) > 1e-12 * found[-1])])
 
 
 def flats(gaps: Any, liquid: Any, pair: Sequence[int]) -> Forces:
