@@ -118,7 +118,10 @@ ELSEWHERE = {
     ("SubsurfaceStress", "coefficients"),
     *(("PlasticHistory", name) for name in ("pressures", "forces", "approaches", "steps")),
     # See test_partial_slip_errors.py.
-    *(("PartialSlip", name) for name in ("coefficient", "direction", "components", "rtol")),
+    *(
+        ("PartialSlip", name)
+        for name in ("coefficient", "direction", "components", "rtol", "pressing_steps")
+    ),
 }
 OF_A_SEPARATION = {"time_rtol", "points", "max_steps"}
 

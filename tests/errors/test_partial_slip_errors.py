@@ -56,6 +56,7 @@ def test_a_step_has_one_target(given, expected):
         ({"path": HALF, "components": 2.0}, "components must be 1 or 2, got 2.0"),
         ({"path": HALF, "guided": "no"}, "guided must be a bool, got 'no'"),
         ({"path": HALF, "coefficient": -0.1}, "coefficient must be zero or positive"),
+        ({"path": HALF, "pressing_steps": 0}, "pressing_steps must be"),
         ({"path": HALF, "rtol": 0.0}, "rtol must be positive"),
         ({"path": HALF, "rtol": 0.1}, "rtol must be at most 0.001, got 0.1"),
     ],

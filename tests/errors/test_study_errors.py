@@ -86,7 +86,7 @@ def test_a_path_that_leads_nowhere_is_put_right(nothing_solved, path):
         ({"loading.pressure": "5 MPa"}, ("must be a sequence of values", "'5 MPa'")),
         ({"loading.pressure": 5e6}, ("must be a sequence of values", "5000000.0")),
         ({"loading.pressure": ["5 nm"]}, ("Pressing.pressure must be in a unit", "Pa")),
-        ({"loading.pressure": [1e6, -1.0]}, ("Pressing.pressure must be zero or positive",)),
+        ({"loading.pressure": [1e6, float("nan")]}, ("Pressing.pressure must be a finite number",)),
         ({"loading.force": [1e-3]}, ("exactly one of pressure", "force")),
         ({"interface.lower.solid": ["stel"]}, ("be a material of the library", "stel")),
         ({"accuracy.rtol": [2.0]}, ("Accuracy.rtol must lie between",)),

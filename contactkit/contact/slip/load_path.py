@@ -64,7 +64,7 @@ class SlipState(NamedTuple):
 
 
 class Imposed(NamedTuple):
-    """What a sub-step imposes along the unit vector `along`, (k,).
+    """Load or displacement imposed on a sub-step along the unit vector `along`, (k,).
 
     The target is a force [N], the displacement of the upper body [m], or the force over that of
     full sliding [-]. `is_free` means no force across `along`, instead of no displacement.

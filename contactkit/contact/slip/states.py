@@ -27,7 +27,7 @@ class Zone(IntEnum):
 
 
 class SlipCoupling(NamedTuple):
-    """What the coupling of normal and tangential displacements changes, and what it costs.
+    """Effect and cost of the coupling of normal and tangential displacements.
 
     `displacement` (ny, nx) is the normal displacement by the tractions at the end of the path [m].
     `pressure_change` is the largest change of the pressure by them over its maximum [-],

@@ -1,4 +1,4 @@
-"""What grid and shortest wave decide: the same physics refined, and the same caption refined."""
+"""Influence of grid and shortest wave: the same physics refined, and the same caption refined."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def check(data: Data) -> list[Check]:
             "; ".join(f"{k[1]} {ours[k]}" for k in stiff),
         ),
         Check(
-            "no arrow points against that of the source",
+            "no arrow of pressure, area, film force or von Mises points against the source",
             not opposite,
             f"{len(opposite)} do",
         ),
