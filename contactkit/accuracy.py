@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 from attrs import Attribute, field, frozen
 
 from .units import si
-from .validators import Described, as_pair, choice, count, refuse
+from .validators import Described, as_number, as_pair, as_whole, choice, count, refuse
 
 __all__ = ["Accuracy"]
 
@@ -15,6 +15,11 @@ __all__ = ["Accuracy"]
 def _tolerance(owner: object, attribute: Attribute[Any], value: Any) -> None:
     if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-11 <= value <= 0.1:
         raise refuse(owner, attribute, value, "lie between 1e-11 and 0.1")
+
+
+def _as_grid(value: Any) -> Any:
+    made = as_pair(value)
+    return tuple(as_whole(n) for n in made) if isinstance(made, tuple) else as_whole(made)
 
 
 def _grid(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -60,19 +65,23 @@ class Accuracy(Described):
     1e-08
     """
 
-    time_rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))
-    points: int = field(default=200, validator=count, metadata=si("-"))
-    max_steps: int = field(default=100_000, validator=count, metadata=si("-"))
+    time_rtol: float = field(
+        default=1e-8, converter=as_number, validator=_tolerance, metadata=si("-")
+    )
+    points: int = field(default=200, converter=as_whole, validator=count, metadata=si("-"))
+    max_steps: int = field(default=100_000, converter=as_whole, validator=count, metadata=si("-"))
 
     grid: int | tuple[int, int] | None = field(
-        default=None, converter=as_pair, validator=_grid, metadata=si("-")
+        default=None, converter=_as_grid, validator=_grid, metadata=si("-")
     )
-    rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))
+    rtol: float = field(default=1e-8, converter=as_number, validator=_tolerance, metadata=si("-"))
     method: Literal["active-set", "quasi-newton", "conjugate-gradient"] = field(
         default="active-set", validator=choice("active-set", "quasi-newton", "conjugate-gradient")
     )
-    max_iterations: int = field(default=10_000, validator=count, metadata=si("-"))
-    threads: int = field(default=1, validator=count, metadata=si("-"))
+    max_iterations: int = field(
+        default=10_000, converter=as_whole, validator=count, metadata=si("-")
+    )
+    threads: int = field(default=1, converter=as_whole, validator=count, metadata=si("-"))
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -17,6 +17,7 @@ __all__ = [
     "angle",
     "as_pair",
     "as_tuple",
+    "as_number",
     "as_whole",
     "choice",
     "count",
@@ -183,6 +184,13 @@ def as_whole(value: Any) -> Any:
     """Convert a whole number of another library, such as of an array, to an int."""
     is_whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
     return int(value) if is_whole else value
+
+
+def as_number(value: Any) -> Any:
+    """Convert a number of another library, such as of an array, to an int or a float."""
+    made = as_whole(value)
+    is_foreign = isinstance(made, numbers.Real) and not isinstance(made, int | float)
+    return float(made) if is_foreign else made
 
 
 def as_pair(value: Any) -> Any:

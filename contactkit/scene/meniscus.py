@@ -14,7 +14,17 @@ from attrs import Attribute, evolve, field, frozen
 from ..errors import DescriptionError
 from ..liquids.liquid import Liquid
 from ..units import si
-from ..validators import Described, angle, count, fraction, optional, part, positive, refuse
+from ..validators import (
+    Described,
+    angle,
+    as_whole,
+    count,
+    fraction,
+    optional,
+    part,
+    positive,
+    refuse,
+)
 
 __all__ = ["Meniscus"]
 
@@ -72,7 +82,7 @@ class Meniscus(Described):
     )
     contact_angle_lower: float = field(default=0.0, validator=angle, metadata=si("rad"))
     contact_angle_upper: float = field(default=0.0, validator=angle, metadata=si("rad"))
-    count: int = field(default=1, validator=count, metadata=si("-"))
+    count: int = field(default=1, converter=as_whole, validator=count, metadata=si("-"))
     rewetting: float = field(default=1.0, validator=fraction, metadata=si("-"))
 
     def __attrs_post_init__(self) -> None:

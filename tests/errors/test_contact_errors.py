@@ -702,3 +702,14 @@ def test_the_arrays_of_a_result_are_read_only():
     for array in (run.pressure, run.gap, run.displacement, run.heights):
         with pytest.raises(ValueError, match="read-only"):
             array[0, 0] = 1.0
+
+
+@pytest.mark.parametrize("whole", [np.int64, np.int16, np.uint32])
+def test_numbers_of_arrays_are_taken_as_those_of_python(whole):
+    given = ck.Accuracy(grid=(whole(32), whole(48)), threads=whole(2), rtol=np.float32(2.0**-20))
+    assert given == ck.Accuracy(grid=(32, 48), threads=2, rtol=2.0**-20)
+    assert [type(n) for n in (*given.grid, given.threads, given.rtol)] == [int, int, int, float]
+    with pytest.raises(ck.DescriptionError, match=r"Accuracy\.threads must be a whole number"):
+        ck.Accuracy(threads=np.float64(2.0))
+    with pytest.raises(ck.DescriptionError, match=r"Accuracy\.grid must be a whole number"):
+        ck.Accuracy(grid=np.bool_(True))

@@ -223,7 +223,9 @@ def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
     path = tmp_path / "touch.toml"
     path.write_text(TOUCH.format(effects=effects, study=study))
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
-    assert (tmp_path / "out" / figure).is_file()
+    written = {each.name for each in (tmp_path / "out").iterdir()}
+    assert {figure, "study.csv", "study.png"} <= written
+    assert not any(name.startswith("load-curve") for name in written)
     table = capsys.readouterr().out.partition("\nstudy, dry:\n")[2].partition("\n")[0]
     assert all(name in table for name in names)
     shown = {ax.get_ylabel().partition(" [")[0]: ax for ax in drawn[0] if ax.lines}

@@ -158,7 +158,8 @@ def _write(
 
     files = [save_result(result, out / "result")]
     for label, made in studies:
-        name = "load-curve" if len(studies) == 1 else f"load-curve-{_slug(label)}"
+        name = _slug(_what(made))
+        name = name if len(studies) == 1 else f"{name}-{_slug(label)}"
         files.append(made.save_csv(out / name))
     return tuple(files)
 
@@ -270,7 +271,7 @@ def _load_curves(
     plot.title(flat[0], f"{title}: {_what(first)}".removeprefix(": "))
     if len(curves) > 1:
         plot.shared_legend(made, flat[0])
-    return plot.save(made, out / "load-curve")
+    return plot.save(made, out / _slug(_what(first)))
 
 
 def _changes(curves: list[tuple[str, Mapping[str, Any]]], name: str) -> bool:
