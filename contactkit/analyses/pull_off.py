@@ -30,6 +30,8 @@ _SUDDEN = 0.1  # energy lost over change of load times change of approach, at a 
 _LEAST = 1e-3  # energy lost over the adhesive energy, at a jump
 _PASSING = "pixels across a contact spot"  # which begins and ends in a point on every branch
 _MOST_LEFT = 0.999
+_SAME = 1e-3  # change of load and energy between two ways to one state
+_LONGEST = 0.25  # step over the range of the law, where states are not ordered
 _CLOSED = 1e-6  # change of energy over the adhesive energy, of a loop that is closed
 
 
@@ -195,7 +197,7 @@ def pull_off_curve(
         Rigid-body approaches from first touch [m], rising; the separation passes them in reverse
         order. Bodies apart have a negative one.
     refinements : int
-        How many times a step with a loss is halved: a jump is located to the step over
+        How many times a step with a loss is halved at most: a jump is located to the step over
         ``2**refinements``.
 
     Raises
@@ -214,8 +216,10 @@ def pull_off_curve(
 
     Notes
     -----
-    Branches of isolated contacts do not depend on the steps; in a periodic window loads next to
-    jumps may, by some percent (see `Adhesion`). Under load control, as with a soft spring or a
+    Branches do not depend on the steps. In a periodic window on half-spaces, where states are not
+    ordered (see `Adhesion`), that takes two to three times the work: a step is halved until it is a
+    quarter of the range of the law or less, and the way by its middle leads to the same state, to a
+    thousandth of load and energy. Under load control, as with a soft spring or a
     negative `Pressing`, the bodies pull off at `PullOffCurve.pull_off_force` and snap in before the
     jump of the approach.
     The extremes are those of the states: let the approaches be dense around them.
@@ -240,7 +244,7 @@ def pull_off_curve(
     ('1.67 pi w R', True)
     """
     check_plan(plan, ContactPlan)
-    plan.listed(Adhesion)
+    adhesion = plan.listed(Adhesion)
     if isinstance(refinements, bool) or not isinstance(refinements, int) or refinements < 0:
         raise DescriptionError(
             "pull_off_curve(refinements)", refinements, "be a whole number of at least 0"
@@ -254,8 +258,13 @@ def pull_off_curve(
         _note(worst, result.validity)
         return _state(result)
 
-    up, jumps_up = _followed(run, run(levels[0], None), levels[1:], "approach", refinements)
-    down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", refinements)
+    # A mean plane that is held lifts one place where another is drawn in.
+    is_held = plan.grid.periodic and not plan.prepared.solver.uniform_compliance
+    longest = _LONGEST * adhesion.law.range if is_held else None
+    up, jumps_up = _followed(
+        run, run(levels[0], None), levels[1:], "approach", refinements, longest
+    )
+    down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", refinements, longest)
     found = (*worst.values(), _left(down))
     warn(found)
     return PullOffCurve(
@@ -357,13 +366,14 @@ def _followed(
     approaches: Sequence[float],
     branch: Literal["approach", "separation"],
     refinements: int,
+    longest: float | None,
 ) -> tuple[list[_State], list[Jump]]:
     """States of a branch, and its jumps; the maps of all but the last state are given up."""
     states, jumps = [first], list[Jump]()
     for approach in approaches:
         before = states[-1]
         after = run(approach, before)
-        between, found = _refined(run, before, after, refinements)
+        between, found = _refined(run, before, after, refinements, longest)
         states[-1] = _without_maps(before)
         states += [*map(_without_maps, between[:-1]), between[-1]]
         jumps += [
@@ -381,22 +391,39 @@ def _followed(
 
 
 def _refined(
-    run: _Run, a: _State, b: _State, depth: int, loss: float = 0.0
+    run: _Run, a: _State, b: _State, depth: int, longest: float | None, loss: float = 0.0
 ) -> tuple[list[_State], list[tuple[_State, _State]]]:
     """States between two (with the second), and the pairs of them that a jump separates.
 
     `loss` is that of the step of twice the length [J]: halving a step leaves the loss of a jump
-    as it is, and a quarter or less of the error of the trapezoidal rule.
+    as it is, and a quarter or less of the error of the trapezoidal rule. `longest` is None where
+    states are ordered. Elsewhere a step is halved until it is at most that long [m] and the way by
+    its middle leads to the same state; the state at its end is that of the way.
     """
     if depth <= 0:
         is_jump = _has_loss(a, b) and _loss(a, b) > 0.5 * loss
         return [b], [(a, b)] if is_jump else []
-    if not _is_too_long(a, b):
+    is_apart, is_long = max(a.attracted_area, b.attracted_area) == 0.0, _is_too_long(a, b)
+    if is_apart or (longest is None and not is_long):
         return [b], []
     middle, here = run(0.5 * (a.approach + b.approach), a), _loss(a, b)
-    states, jumps = _refined(run, a, middle, depth - 1, here)
-    more, others = _refined(run, middle, b, depth - 1, here)
+    if longest is not None:
+        by_middle = run(b.approach, middle)
+        is_short = abs(b.approach - a.approach) <= longest and not is_long
+        if is_short and _is_same(b, by_middle):
+            return [middle, by_middle], []
+        b = by_middle
+    states, jumps = _refined(run, a, middle, depth - 1, longest, here)
+    if longest is not None and not _is_same(middle, states[-1]):
+        b = run(b.approach, states[-1])
+    more, others = _refined(run, states[-1], b, depth - 1, longest, here)
     return states + more, jumps + others
+
+
+def _is_same(a: _State, b: _State) -> bool:
+    """Whether two states at one approach are the same, to a thousandth of load and energy."""
+    is_load = abs(a.load - b.load) <= _SAME * max(abs(a.load), abs(b.load))
+    return is_load and abs(a.energy - b.energy) <= _SAME * _adhesive(a, b)
 
 
 def _without_maps(state: _State) -> _State:

@@ -10,7 +10,9 @@ the load and the tension. The energy of attraction is concave in the gap, so tha
 Where a pressure lowers the surface everywhere (isolated contacts), more tension narrows every gap:
 the steps only rise from no tension to the state of an approach, or only fall from the state of a
 smaller gap to that of a separation. They are accelerated by momentum, which starts afresh whenever
-the iterates turn round; a third to a half of the steps remain.
+the iterates turn round; a third to a half of the steps remain. In a periodic window with a mean
+plane that is held, states are not ordered and momentum could choose among those after a jump:
+there a state far from the start is that of the plain steps.
 
 A load may pull: then the steps fall from the state of the bodies at rest under no load. Without
 contact no state under a load is stable, as the tension falls when the gap opens; where tension and
@@ -45,6 +47,7 @@ _INNER = 0.1  # tolerance of a contact over the change of its gap that the tensi
 _LOOSEST = 1e-3
 _SLOWEST = 1e-3  # 1 - rate of convergence that the estimate of the error assumes at least
 _MEMORY = 5  # estimates of the rate of which the slowest counts
+_SMOOTH = 0.1  # change of the tension over its maximum, from one state to the next without a jump
 _PULL_OFF = 1e-2  # error of the pull-off force in a refusal
 _MAX_HALVINGS = 20
 
@@ -90,6 +93,17 @@ class _ContactMap:
         """Whether a load, if one is imposed, leaves the contact something to carry."""
         load = self.target.mean_pressure
         return load is None or load >= 0.0 or load + float(tension.mean()) > 0.0
+
+    def is_reached(self, tension: Map, start: Map) -> bool:
+        """Whether the state is that of the plain iterates, from wherever momentum carried them.
+
+        Where a mean plane is held, more tension here opens gaps there: after a jump, which changes
+        the tension somewhere by more than a smooth step does, momentum may end in another state.
+        """
+        is_held = self.target.mean_pressure is None and self.plan.grid.periodic
+        if not is_held or self.solver.uniform_compliance:
+            return True
+        return float(np.abs(tension - start).max()) <= _SMOOTH * self.law.strength
 
     def pulled(self, tension: Map) -> Map:
         """Displacement [m] that a tension causes against that of a pressure, (ny, nx)."""
@@ -155,8 +169,10 @@ def solve_attracted(
     begun = time.perf_counter()
     contacts = _ContactMap(plan, attraction, target, counter)
     first = _first(contacts, before)
-    # Next to the pull-off momentum may carry the iterates past the state that still holds.
-    settled = _settled(contacts, *first) or _settled(contacts, *first, has_momentum=False)
+    settled = _settled(contacts, *first)
+    # Momentum may also carry the iterates past the last state before the pull-off.
+    if settled is None or not contacts.is_reached(settled.tension, first[0]):
+        settled = _settled(contacts, *first, has_momentum=False)
     if settled is None:
         raise _pulled_off(contacts, first, before)
     solved, contact = _described(plan, contacts, *settled)

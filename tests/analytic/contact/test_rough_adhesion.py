@@ -250,6 +250,22 @@ def test_branches_of_an_isolated_map_do_not_depend_on_the_steps():
         assert np.abs(one.load - other.load[::2]).max() <= 1e-5 * scale
 
 
+def test_branches_of_a_periodic_map_do_not_depend_on_the_steps():
+    """Five levels or nine: without the way by the middle of a step the separation is 15 % off."""
+    law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=0.7e-9)
+    plan, levels = rough(law, n=24, scale=1.3), np.linspace(-4e-9, 0.0, 5)
+    few, many = (ck.pull_off_curve(plan, np.linspace(-4e-9, 0.0, n)) for n in (5, 9))
+    assert few.jumps
+    for name in ("approaching", "separating"):
+        one, other = (
+            getattr(curve, name).load[
+                [int(np.argmin(np.abs(getattr(curve, name).approach - at))) for at in levels]
+            ]
+            for curve in (few, many)
+        )
+        assert np.abs(one - other).max() <= 1e-3 * few.pull_off_force
+
+
 def test_the_energy_of_a_state_is_a_minimum_along_its_branch():
     """On a smooth branch the load is the slope of the energy over the approach."""
     plan = rough(LAWS[0], n=24)
