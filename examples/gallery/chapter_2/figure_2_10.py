@@ -23,7 +23,7 @@ PAGE = Page(
     verdict="The orderings hold on every surface. Two statements do not: the area of IV is larger "
     "by a tenth and more, as pressure and area go together; and displacement goes on growing "
     "beyond the first yield, as the load that the plastic spots cannot carry goes to others.",
-    choices="Loads up to 1e-2 E3, so that all surfaces yield: with a shortest wave of 156 nm the "
+    choices="Loads up to 1e-2 E3, so that all surfaces flow: with a shortest wave of 156 nm the "
     "surface of 1 nm and 0.5 um is elastic at all printed loads (see the page on refinement).",
     grid=rough.WIDE,
     seeds=rough.SEEDS,

@@ -18,7 +18,7 @@ PAGE = Page(
     "at both loads; the lower load is elastic, the higher one elastic-plastic.",
     verdict="Holds for the stress of von Mises. Not for tension: a compliant interlayer (IV) "
     "raises it, as the layer above it bends and is pulled at its lower face. Neither load "
-    "makes this surface yield at our shortest wave.",
+    "makes this surface flow at our shortest wave.",
     choices="Higher load 4e-5 E3, as in the caption; the text has 1e-5 in places.",
     grid=rough.WIDE,
     seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure",

@@ -57,7 +57,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 
 
 def draw(data: Data) -> plot.Figure:
-    """Relative force of thick and thin layers, force, and both ways of treating it."""
+    """Relative force of thick and thin layers, force, and both treatments of treating it."""
     figure, axes = plot.figure(2, 2, size=(8.2, 6.2))
     labels = labelled(rough.MEANING)
     name = "relative_meniscus_force"

@@ -39,7 +39,7 @@ PAGE = Page(
     "speed as the fifth power of the gap, from 50 to 109 times its mean (355 times, were "
     "rupture at the closed neck of 180 nm). The printed film keeps its radius although it keeps "
     "its volume; drawn in, it delivers half of that impulse. That the angles matter little "
-    "follows: 94 % of the impulse is spent at twice the initial gap, long before rupture.",
+    "follows: 94 % of the impulse is reached at twice the initial gap, long before rupture.",
     grid="120 gaps from h0 to the limit of stability, 60/60 degrees; rupture of all four pairs",
     choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c).",
 )
@@ -162,7 +162,7 @@ def check(data: dict[str, Any]) -> list[Check]:
             f"up to {100 * same:.2g} % (as printed {100 * printed:.2g} %)",
         ),
         Check(
-            "94 % of the impulse is spent at twice the initial gap",
+            "94 % of the impulse is reached at twice the initial gap",
             all(abs(t - 15.0 / 16.0) < 0.01 for t in twice),
             f"{ratio_text(twice)} of the whole",
         ),

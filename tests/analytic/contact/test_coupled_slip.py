@@ -137,7 +137,7 @@ def test_coupling_is_reciprocal(periodic, is_layered):
     assert result.mean_pressure == pytest.approx(1 * GPa, rel=1e-7)
 
 
-def test_a_pair_of_tractions_that_is_not_found_says_so():
+def test_a_pair_of_tractions_that_is_not_found_states_it():
     with pytest.raises(ck.errors.ConvergenceError, match=r"lower PartialSlip\.coefficient"):
         pressed(coefficient=1e3, nu=0.0, pressing_steps=1)
 
@@ -166,6 +166,6 @@ def test_equal_bodies_are_not_coupled():
         ({"components": 1}, "components=2 with coupled=True"),
     ],
 )
-def test_what_coupling_needs_is_said(choices, message):
+def test_what_coupling_needs_is_stated(choices, message):
     with pytest.raises(ck.errors.PlanError, match=message):
         pressed(**choices)
