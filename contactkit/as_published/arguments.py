@@ -74,6 +74,10 @@ def _contact_angle(meaning: str) -> Argument:
     return Argument("rad", "lie between 0 and pi", meaning, _angle)
 
 
+def _stress(component: str) -> Argument:
+    return Argument("Pa", "be a finite number", f"stress sigma_{component}", _finite)
+
+
 ARGUMENTS: Mapping[str, Argument] = MappingProxyType(
     {
         "radius": _positive_argument("m", "radius of the meniscus on the pulled body"),
@@ -104,6 +108,41 @@ ARGUMENTS: Mapping[str, Argument] = MappingProxyType(
         "position": _gap("distance from the axis"),
         "travel": _gap("distance slid, between the two centres"),
         "force": Argument("N", "be a finite number", "force of one meniscus", _finite),
+        "displacement": _gap("largest displacement u_max of the surface, from its mean"),
+        "datum": Argument(
+            "m",
+            "be zero or positive, and finite",
+            "mean displacement that the source adds to it, of 'zero wavenumber'",
+            _non_negative,
+            0.0,
+        ),
+        "thickness": _positive_argument("m", "thickness of the layer, of the top one of two"),
+        "thickness_below": _positive_argument("m", "thickness of the second layer"),
+        "young_modulus": _positive_argument("Pa", "Young's modulus of the layer"),
+        "young_modulus_below": _positive_argument("Pa", "Young's modulus of what lies below it"),
+        "young_modulus_substrate": _positive_argument("Pa", "Young's modulus of the substrate"),
+        "hardness": _positive_argument("Pa", "hardness of the layer"),
+        "hardness_below": _positive_argument("Pa", "hardness of what lies below it"),
+        "hardness_substrate": _positive_argument("Pa", "hardness of the substrate"),
+        "mean_pressure": _positive_argument("Pa", "mean pressure over the window"),
+        "window": _positive_argument("m", "width of the square window"),
+        "reduced_modulus": _positive_argument("Pa", "E/(1 - nu^2) of the substrate"),
+        "rms": _positive_argument("m", "standard deviation of the heights"),
+        "correlation_length_x": _positive_argument("m", "length beta* to 10 %, along x"),
+        "correlation_length_y": _positive_argument("m", "length beta* to 10 %, along y"),
+        "offset_x": _gap("distance of the two points along x"),
+        "offset_y": _gap("distance of the two points along y"),
+        "period": Argument(
+            "m", "be positive", "width of a window that repeats, may be inf", _above, math.inf
+        ),
+        "meniscus_area": _positive_argument("m2", "area under menisci, without the contact"),
+        "meniscus_height": _positive_argument("m", "height at which the menisci end"),
+        "stress_xx": _stress("xx"),
+        "stress_yy": _stress("yy"),
+        "stress_zz": _stress("zz"),
+        "stress_xy": _stress("xy"),
+        "stress_xz": _stress("xz"),
+        "stress_yz": _stress("yz"),
     }
 )
 """Arguments of the printed equations, by name."""
@@ -114,6 +153,8 @@ _ORDERED = (
     ("film_height", "gap_start"),
     ("film_height", "gap"),
     ("film_height", "height"),
+    ("period", "correlation_length_x"),
+    ("period", "correlation_length_y"),
 )
 
 

@@ -15,6 +15,7 @@ from typing import Any
 from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from .arguments import PublishedFormula, PublishedValue, checked_arguments, numbered
 from .capillary_and_viscous import ROWS
+from .contact import CONTACT_ROWS
 from .corrected import refuse_wide_film
 from .printed.errata import ERRATA
 from .sliding import SLIDING_ROWS
@@ -22,13 +23,18 @@ from .sliding import SLIDING_ROWS
 __all__ = ["PUBLISHED", "TABLE_4_1", "PublishedFormula", "PublishedValue", "erratum", "published"]
 
 
-def _order(number: str) -> tuple[int, str]:
-    digits = "".join(c for c in number.rpartition(".")[2] if c.isdigit())
-    return (int(digits) if digits else 1000, number)
+def _order(number: str) -> tuple[bool, str, int, str]:
+    """Chapters, then appendices, then what has a name: each by its numbers."""
+    chapter, _, rest = number.rpartition(".")
+    digits = "".join(c for c in rest if c.isdigit())
+    return (" " in number, chapter, int(digits or 0), number)
 
 
 PUBLISHED: Mapping[str, PublishedFormula] = MappingProxyType(
-    {row.number: row for row in sorted((*ROWS, *SLIDING_ROWS), key=lambda row: _order(row.number))}
+    {
+        row.number: row
+        for row in sorted((*CONTACT_ROWS, *ROWS, *SLIDING_ROWS), key=lambda row: _order(row.number))
+    }
 )
 """The printed equations with a numerical value, by number."""
 
@@ -71,8 +77,10 @@ def published(number: str, /, **arguments: Any) -> PublishedValue:
     Parameters
     ----------
     number : str
-        Number of the equation, such as ``"3.19"``; `PUBLISHED` lists them all. ``"zero neck"``
-        is the break distance of section 3.2.1.4.
+        Number of the equation, such as ``"3.19"``; `PUBLISHED` lists them all. ``"2.41"`` is the
+        fit of the hardness of one layer, ``"2.41a"`` and ``"2.41b"`` one and two layers by the
+        criteria that follow it, ``"zero wavenumber"`` the datum of their displacement, and
+        ``"zero neck"`` the break distance of section 3.2.1.4.
     **arguments : float or str
         Arguments of the equation by name, in SI units; ``PUBLISHED[number].signature`` lists them
         with their units. Angles in radians.
@@ -97,7 +105,8 @@ def published(number: str, /, **arguments: Any) -> PublishedValue:
 
     References
     ----------
-    .. [1] Equation numbers of chapter 3; Table 4.1 lists the most important ones, see `TABLE_4_1`.
+    .. [1] Equation numbers of chapters 2 and 3 and of Appendix A; Table 4.1 lists the most
+       important ones of chapter 3, see `TABLE_4_1`.
 
     Examples
     --------

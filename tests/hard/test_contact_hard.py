@@ -378,7 +378,7 @@ def test_where_the_literal_rule_jumps_it_is_reported_and_never_cycled_through(pr
 
 
 def literal(run):
-    from contactkit.contact.effects.hardness_rules import effective_hardness_literal
+    from contactkit.elasticity.hardness_rules import effective_hardness_literal
 
     layers = JUMPING.young_moduli, [m.hardness for m in JUMPING.materials], JUMPING.thicknesses
     return float(effective_hardness_literal(run.max_displacement, *layers))
@@ -409,7 +409,7 @@ INTERLAYER = ck.Stack(
 def test_the_continuous_rule_agrees_with_the_displacement_it_leads_to(
     stack, displacement, pressure
 ):
-    from contactkit.contact.effects.hardness_rules import effective_hardness
+    from contactkit.elasticity.hardness_rules import effective_hardness
 
     limit = ck.HardnessLimit(displacement=displacement)
     run = solved(limit, lower=stack, pressure=pressure)

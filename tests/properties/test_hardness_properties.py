@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contactkit.contact.effects.hardness_rules import (
+from contactkit.elasticity.hardness_rules import (
     effective_hardness,
     effective_hardness_literal,
     layer_on_substrate,

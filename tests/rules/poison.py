@@ -18,7 +18,6 @@ ROOMS = (
     "adhesion",
     "as_published.printed",
     "capillary",
-    "contact.effects.hardness_rules",
     "contact.slip",
     "contact.solver",
     "elasticity",

@@ -44,14 +44,14 @@ OF_THE_MAP = {
 OWNED = {
     ck.HalfSpace(): set(),  # by the edges of the window, below
     ck.LayeredHalfSpace(): set(),
-    ck.HardnessLimit(): {"contact.effects.hardness_rules.effective_hardness"},
+    ck.HardnessLimit(): {"elasticity.hardness_rules.effective_hardness"},
     ck.HardnessLimit(rule="literal"): {
-        "contact.effects.hardness_rules.effective_hardness_literal",
-        "contact.effects.hardness_rules.layer_on_substrate",
+        "elasticity.hardness_rules.effective_hardness_literal",
+        "elasticity.hardness_rules.layer_on_substrate",
     },
     ck.HardnessLimit(rule="material"): set(),
     ck.HardnessLimit(rule="constant", hardness=1e9): set(),
-    ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"contact.effects.hardness_rules.*"},
+    ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"elasticity.hardness_rules.*"},
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
         "contact.slip.coupling.coupling_of",
@@ -217,11 +217,11 @@ HEARTS = [
     ((), "periodic", "elasticity.layered.normal_symbol"),
     ((), "isolated", "elasticity.influence.symbol"),
     ((), "along x", "elasticity.one_axis.symbol"),
-    ((ck.HardnessLimit(),), "periodic", "contact.effects.hardness_rules.effective_hardness"),
+    ((ck.HardnessLimit(),), "periodic", "elasticity.hardness_rules.effective_hardness"),
     (
         (ck.HardnessLimit(rule="literal"),),
         "periodic",
-        "contact.effects.hardness_rules.effective_hardness_literal",
+        "elasticity.hardness_rules.effective_hardness_literal",
     ),
     (
         (ck.FrictionTraction(coefficient=0.2), ck.FrictionCoupling()),

@@ -1,4 +1,4 @@
-"""Errata of the equations of chapter 3, one sentence each, for warnings and documentation."""
+"""Errata of the equations with a number, one sentence each, for warnings and documentation."""
 
 from __future__ import annotations
 
@@ -9,6 +9,20 @@ __all__ = ["ERRATA"]
 
 ERRATA: Mapping[str, str] = MappingProxyType(
     {
+        "zero wavenumber": "The mean displacement of a periodic window is arbitrary, and is the "
+        "datum of the displacement that is compared with 0.3 h1; and 8 x 8 Gaussian points miss "
+        "the singularity of the coefficient: 8.5 % less than its mean over the cell.",
+        "2.41a": "The fit holds from depth zero; the hardness of the layer up to 0.3 h is another "
+        "rule, and the two together jump at 0.3 h: -12 % for H1 = 2 H2, +6 % for H1 = H2/2, at "
+        "equal moduli.",
+        "2.41b": "Criteria (2) and (3) compare the displacement with 0.3 h2, without h1: for "
+        "h1 >= h2, as in all the cases shown, (2) never holds, and beyond 0.3 h1 the top layer has "
+        "no effect.",
+        "2.42": "exp(-2.3) is a tenth: beta* is the length to 10 %, the decay length is beta*/2.3. "
+        "Of nearest images in a window the spectrum is negative for beta* above a fifth of it. "
+        "The slope diverges without a shortest wavelength.",
+        "2.43": "It is the Laplace pressure times the area: the surface tension along the rims and "
+        "their curvature are left out, and the force does not add to the load.",
         "3.3": "Its logarithm is natural, and its radius comes out negative for undersaturated "
         "vapour while Eqs. (3.4)-(3.6) need it positive.",
         "3.5": "It drops the curvature around the axis (twice the right force for 90/90 deg), and "
@@ -67,6 +81,10 @@ ERRATA: Mapping[str, str] = MappingProxyType(
         "force rises with the number of asperities, at a given speed as N^(1/2).",
         "3.61": "It holds at a given separation time, for travels that shrink with the menisci; at "
         "a given speed the number of menisci has no effect.",
+        "A.1": "It is J2, not the stress of von Mises, sqrt(3 J2). The figures show sqrt(J2), "
+        "which is smaller by sqrt(3); its limit is the yield stress in pure shear.",
+        "A.2": "It is the maximum principal stress of the plane x-y, and that of the tensor only "
+        "where sigma_xz and sigma_yz vanish, as on a free surface.",
     }
 )
 """Errata by equation number."""

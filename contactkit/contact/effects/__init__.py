@@ -3,7 +3,6 @@
 base            Base classes: the roles of the effects in the contact problem.
 elasticity      Elastic compliance of half-spaces and stacks of layers.
 plasticity      Hardness: the upper bound of the pressure.
-hardness_rules  Hardness of a layered solid over the depth of indentation.
 adhesion        Attraction of the surfaces across their gap.
 attraction_laws Laws of that attraction: Dugdale, exponential, Lennard-Jones.
 plastic_history Loads before that of the scene, with a residual shape.

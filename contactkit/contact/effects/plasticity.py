@@ -207,7 +207,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
 
     def _of_body(self, stack: Stack) -> Callable[[Map], Map]:
         """Hardness of one body for the displacement [m] of its surface."""
-        from . import hardness_rules as kernel
+        from ...elasticity import hardness_rules as kernel
 
         values = tuple(m.hardness or math.inf for m in stack.materials)
         layered = (stack.young_moduli, values, stack.thicknesses)

@@ -9,7 +9,7 @@ import numpy as np
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.contact.effects.hardness_rules import (
+from contactkit.elasticity.hardness_rules import (
     effective_hardness,
     effective_hardness_literal,
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.contact.effects.hardness_rules import (
+from contactkit.elasticity.hardness_rules import (
     effective_hardness,
     effective_hardness_literal,
     layer_on_substrate,

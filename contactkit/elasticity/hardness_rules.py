@@ -26,7 +26,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...errors import DescriptionError
+from ..errors import DescriptionError
 
 __all__ = ["effective_hardness", "effective_hardness_literal", "layer_on_substrate"]
 
