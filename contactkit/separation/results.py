@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING, ClassVar, Protocol, TypeVar
 
 from attrs import field, frozen
 
+from ..errors import NotSimulatedError
+from ..scene.loading import ImposedTime
 from ..scene.validity import ValidityNumber
 from .curve_result import CurveResult, LateColumns, Work
 from .effects.base import RunCurves
+from .effects.viscous import ViscousForce
 from .motion.state import MotionState
 from .plan import Plan
 from .validity import is_whole
@@ -78,6 +81,40 @@ class SeparationResult(CurveResult):
         """Pull [N]."""
         return self["pull"]
 
+    @property
+    def viscous_impulse(self) -> float:
+        """Time integral of the viscous force over the whole opening [N.s].
+
+        Without limits of the liquid no path in time changes it, so that it is known where only the
+        duration is imposed.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the scene does not list `ViscousForce`.
+        """
+        return self.of(ViscousForce).impulse
+
+    @property
+    def mean_viscous_force(self) -> float:
+        """Viscous impulse over the imposed duration [N]: the force "at rupture" of the source.
+
+        It is the constant pull that opens a film without meniscus and mass in that time; at a
+        constant speed the force begins with much more.
+
+        Raises
+        ------
+        NotSimulatedError
+            If no time is imposed, or the scene does not list `ViscousForce`.
+        """
+        loading, impulse = self.plan.scene.loading, self.viscous_impulse
+        if isinstance(loading, ImposedTime):
+            return impulse / loading.time
+        raise NotSimulatedError(
+            f"no mean viscous force of a {type(loading).__name__}: impose the duration with "
+            "ImposedTime(time=...), or divide result.viscous_impulse [N.s] by a time [s]"
+        )
+
     def of(self, kind: type[_HasPart[P_co]]) -> P_co:
         """Return what an effect did: for a force its curve and impulse, for a limit when it acted.
 
@@ -97,6 +134,8 @@ class SeparationResult(CurveResult):
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
         found = {name: (value, "N.s") for name, value in self.impulses.items()}
+        if isinstance(self.plan.scene.loading, ImposedTime) and self.has(ViscousForce):
+            found["mean_viscous_force"] = (self.mean_viscous_force, "N")
         for effect in self.plan.scene.effects:
             found |= effect.scalars(self)
         if self.state is not None:

@@ -119,3 +119,45 @@ def test_without_a_mass_there_is_no_speed_of_release(film_scene):
     heavy = run(film_scene, ck.ViscousForce(), force=1e-4, mass=1e-15, final_gap=2e-8)
     assert "m/s" in heavy.message
     assert np.isfinite(number(heavy, "release_speed"))
+
+
+# The viscous impulse of a time ----------------------------------------------------------------
+
+FILMS = {
+    "flats": {},
+    "sphere": {"upper": ck.Sphere(radius=1e-2)},
+    "flooded flats": {"film": {}},
+}
+
+
+@pytest.mark.parametrize("kind", FILMS)
+def test_the_viscous_impulse_of_a_time_is_the_integral_of_the_force_on_any_path(film_scene, kind):
+    """At a constant speed by the trapezoidal rule of its curve; at a constant pull by its time."""
+    given = {"film": {"volume": 1e-12}} | FILMS[kind]
+    viscous, duration = ck.ViscousForce(), 2e-3
+    in_time = ck.simulate(ck.plan(film_scene(viscous, time=duration, **given)))
+    fine = ck.Accuracy(points=4000)
+    at_speed = ck.simulate(ck.plan(film_scene(viscous, speed=9e-6 / duration, **given), fine))
+    curve, time = at_speed["viscous_force"], at_speed.time
+    integral = float((0.5 * (curve[1:] + curve[:-1])) @ np.diff(time))
+    assert in_time.viscous_impulse == pytest.approx(integral, rel=1e-4)
+    assert at_speed.viscous_impulse == pytest.approx(in_time.viscous_impulse, rel=1e-9)
+    mean = in_time.mean_viscous_force
+    assert in_time.scalars()["mean_viscous_force"] == (mean, "N")
+    assert mean == pytest.approx(in_time.viscous_impulse / duration)
+    assert curve[0] > 1.5 * mean  # at a constant speed it begins with more
+    pulled = ck.simulate(ck.plan(film_scene(viscous, force=mean, **given)))
+    assert pulled.state.release_time == pytest.approx(duration, rel=1e-6)
+
+
+def test_a_mean_viscous_force_needs_a_film_that_resists_and_a_time(film_scene):
+    at_speed = ck.simulate(ck.plan(film_scene(ck.ViscousForce(), speed=1e-3)))
+    with pytest.raises(ck.NotSimulatedError, match=r"ImposedSpeed: impose .*ImposedTime\(time"):
+        _ = at_speed.mean_viscous_force
+    assert "mean_viscous_force" not in at_speed.scalars()
+    film = {"volume": 1e-12}
+    still = ck.simulate(ck.plan(film_scene(ck.MeniscusForce(), film=film, time=1.0)))
+    for name in ("viscous_impulse", "mean_viscous_force"):
+        with pytest.raises(ck.NotSimulatedError, match="add ViscousForce"):
+            getattr(still, name)
+    assert "mean_viscous_force" not in still.scalars()
