@@ -1,7 +1,8 @@
 """Pages of the gallery for the documentation: ``python docs/scripts/gallery.py [NAME ...]``.
 
-Runs ``contactkit gallery`` at full size into out/gallery, where finished data are kept, and copies
-pages and PNGs, these with a palette of 128 colours so that they stay small, into docs/gallery.
+Runs ``contactkit gallery`` at full size into out/gallery, where finished data are kept, copies
+pages and PNGs, these with a palette of 128 colours so that they stay small, into docs/gallery, and
+writes the index of all pages that are there.
 """
 
 from __future__ import annotations
@@ -13,16 +14,20 @@ from pathlib import Path
 
 from PIL import Image
 
+from contactkit.app.gallery.report import index
+from contactkit.app.gallery.scripts import scripts
+
 ROOT = Path(__file__).parents[2]
 MADE, SHOWN = ROOT / "out" / "gallery", ROOT / "docs" / "gallery"
 COLOURS = 128
 
 
 def copy_pages() -> None:
-    """Copy every page that is made, its pictures, and the index."""
+    """Copy the pages that are made and their pictures; write the index of all."""
     SHOWN.mkdir(exist_ok=True)
     for page in sorted(MADE.glob("*.md")):
         shutil.copyfile(page, SHOWN / page.name)
+    (SHOWN / "index.md").write_text(index(scripts(), SHOWN), encoding="utf-8")
     for picture in sorted(MADE.glob("*.png")):
         with Image.open(picture) as image:
             image.convert("RGB").quantize(COLOURS).save(SHOWN / picture.name, optimize=True)

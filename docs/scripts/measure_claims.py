@@ -1,4 +1,4 @@
-"""Measure what statements of chapter 2 of the source come to: blocks of docs/errata-contact.md.
+"""Measure what statements of chapter 2 of the source come to: blocks of docs/errata.md.
 
 ``python docs/scripts/measure_claims.py`` prints them, ``--write`` puts them into the page; a few
 minutes. Five structures of two layers on a substrate of 100 GPa; the surface of the source (rms

@@ -19,11 +19,11 @@ import attrs
 from api_table import api_table
 from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
+from errata_table import errata_table
 from liquid_tables import law_table, liquid_table
 from validation_tables import (
     divided_force_table,
     division_table,
-    errata_table,
     exact_table,
     grid,
     limit_table,

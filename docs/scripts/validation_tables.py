@@ -27,14 +27,6 @@ def grid(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(lines)
 
 
-def errata_table() -> str:
-    """Errata of the printed equations."""
-    return grid(
-        ("equation", "error"),
-        [(n if " " in n else f"({n})", text) for n, text in published.ERRATA.items()],
-    )
-
-
 def division_table() -> str:
     """Optimal and maximum number of menisci, and the critical area, of the source's flat films."""
     water = ck.Liquid(name="water", surface_tension=0.072, viscosity=0.89e-3)

@@ -17,6 +17,7 @@ _TITLES = {
     "chapter_2": "Chapter 2: contact of rough layered surfaces",
     "chapter_3": "Chapter 3: separation of wetted surfaces",
     "measured": "Against programs and measurements of others",
+    "future_work": "Future work of the source, as far as it is done",
 }
 
 
@@ -93,22 +94,30 @@ def _grid(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in lines)
 
 
-def index(scripts: Sequence[Script], out: Path, summaries: Mapping[str, str]) -> str:
-    """Index of the pages that are there, by chapter."""
+def index(scripts: Sequence[Script], out: Path) -> str:
+    """Index of the pages that are in a folder, by chapter, with the outcome of their checks."""
     parts = ["# Gallery", _LEAD]
     folders = [*CHAPTERS, *sorted({s.chapter for s in scripts} - set(CHAPTERS))]
     for chapter in folders:
-        there = [s for s in scripts if s.chapter == chapter and (out / f"{s.slug}.md").is_file()]
-        if there:
-            rows = [
-                (f"[{s.page.label}]({s.slug}.md)", s.page.title, summaries.get(s.slug, ""))
-                for s in there
-            ]
+        files = {s: out / f"{s.slug}.md" for s in scripts if s.chapter == chapter}
+        rows = [
+            (f"[{s.page.label}]({s.slug}.md)", s.page.title, _held(file.read_text("utf-8")))
+            for s, file in files.items()
+            if file.is_file()
+        ]
+        if rows:
             parts += [
                 f"## {_TITLES.get(chapter, chapter)}",
                 _grid(("page", "shows", "checks"), rows),
             ]
     return "\n\n".join(parts) + "\n"
+
+
+def _held(page: str) -> str:
+    """Outcome of the checks of a page that is written."""
+    held = sum(line.startswith("| yes |") for line in page.splitlines())
+    failed = sum(line.startswith("| **no** |") for line in page.splitlines())
+    return f"{held} of {held + failed} hold"
 
 
 _LEAD = """\

@@ -190,15 +190,13 @@ def _read(script: Script, out: Path, draft: bool) -> Made | None:
 
 
 def _write_index(pages: Sequence[Script], made: Sequence[Outcome], out: Path) -> None:
-    """Write the index of all pages that are there, and how the checks ended."""
-    state = out / "outcomes.json"
-    known = json.loads(state.read_text("utf-8")) if state.is_file() else {}
-    known |= {s.slug: o.summary for s, o in zip(pages, made, strict=True)}
-    with write_whole(state) as path:
-        path.write_text(json.dumps(known, indent=1), encoding="utf-8")
+    """Write the index of all pages that are there; one that could not be made is there no more."""
+    for script, outcome in zip(pages, made, strict=True):
+        if outcome.error:
+            (out / f"{script.slug}.md").unlink(missing_ok=True)
     listed = {script.path: script for script in (*scripts(), *pages)}
     with write_whole(out / "index.md") as path:
-        path.write_text(index(list(listed.values()), out, known), encoding="utf-8")
+        path.write_text(index(list(listed.values()), out), encoding="utf-8")
 
 
 def run_page(file: str, out: str = "out/gallery") -> None:
