@@ -66,11 +66,11 @@ def test_a_check_that_is_named_is_there(row):
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
-def test_friction_moves_the_surface_by_its_share_of_the_compliance(nu):
+def test_friction_moves_the_surface_by_a_fraction_of_the_compliance(nu):
     """(2.34), (2.36): the part that drops out is mu (1 - 2 nu)/(2 (1 - nu)) of the rest."""
     found = compliance(2.0, [1.0], [nu], [])
-    share = float(found.F12 / found.C)
-    assert share == pytest.approx((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)))
+    fraction = float(found.F12 / found.C)
+    assert fraction == pytest.approx((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)))
 
 
 def gauss_mean(n):
