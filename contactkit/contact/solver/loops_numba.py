@@ -17,7 +17,15 @@ import numba
 import numpy as np
 from numba import prange
 
-from .loops_numpy import Cells, FactorRows, FreeSet, FreeSums, LineStep, Ordering, Violation
+from .loops_numpy import (
+    LIFT,
+    Cells,
+    FreeSet,
+    FreeSums,
+    Lattices,
+    LineStep,
+    Violation,
+)
 
 __all__ = ["compiled"]
 
@@ -231,45 +239,102 @@ def _around(i: int, size: int) -> int:
     return i - size if i >= size else i
 
 
-def neighbour_masks(order: Ordering) -> Array:
-    """One bit for every neighbour of each pixel that is there and comes before it."""
-    rank, row, column, lattice = order.rank, order.row, order.column, order.lattice
-    position, strides, offsets = order.position, order.strides, order.offsets
-    allowed, (ny, nx), periodic = order.allowed, order.shape, order.periodic
-    masks = np.zeros(rank.size, np.int32)
-    for a in prange(rank.size):
-        n, bits = lattice[a], 0
-        for k in range(offsets.shape[0]):
-            if not allowed[n, k]:
-                continue
-            y, x = row[a] + strides[n, 0] * offsets[k, 0], column[a] + strides[n, 1] * offsets[k, 1]
+def lattice_neighbours(at: Array, lattices: Lattices) -> tuple[Array, Array]:
+    """Neighbours that come before each free pixel, and the key of their pattern."""
+    position, of_row, of_column = lattices.position, lattices.of_row, lattices.of_column
+    strides, offsets, allowed = lattices.strides, lattices.offsets, lattices.allowed
+    (ny, nx), periodic = lattices.shape, lattices.periodic
+    size, count, bits = at.size, offsets.shape[0], 0
+    while size >> bits:
+        bits += 1
+    rank, keys = np.empty(size, np.int32), np.empty(size, np.int32)
+    for a in prange(size):
+        n = min(of_row[at[a] // nx], of_column[at[a] % nx])
+        rank[a] = ((strides.shape[0] - 1 - n) << bits) + a + 1
+        position[at[a]] = rank[a]
+    neighbours = np.empty((size, count + 1), np.int32)
+    for a in prange(size):
+        row, column = at[a] // nx, at[a] % nx
+        n, key = np.int64(min(of_row[row], of_column[column])), 0
+        for k in range(count):
+            neighbours[a, k] = a
+            y, x = row + strides[n, 0] * offsets[k, 0], column + strides[n, 1] * offsets[k, 1]
             if periodic:  # never farther than once around, and a division costs more than this
                 y, x = _around(y, ny), _around(x, nx)
             elif y < 0 or y >= ny or x < 0 or x >= nx:
                 continue
-            if 0 < position[y * nx + x] < rank[a]:
-                bits |= 1 << k
-        masks[a] = bits
-    return masks
+            there = position[y * nx + x]
+            if 0 < there < rank[a] and allowed[n, k]:
+                neighbours[a, k] = (there & ((1 << bits) - 1)) - 1
+                key |= 1 << k
+        neighbours[a, count] = a
+        keys[a] = key | n << count
+    for a in prange(size):
+        position[at[a]] = 0
+    return neighbours, keys
 
 
-def factor_rows(order: Ordering, rows: FactorRows) -> None:
-    """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
-    rank, row, column, lattice = order.rank, order.row, order.column, order.lattice
-    position, strides, offsets, (ny, nx) = order.position, order.strides, order.offsets, order.shape
-    masks, ids, table, first = rows.masks, rows.ids, rows.table, rows.first
-    columns, values = rows.columns, rows.values
-    for a in prange(rank.size):
-        n, at = lattice[a], first[a]
-        for k in range(offsets.shape[0]):
-            if masks[a] & (1 << k):
-                y = _around(row[a] + strides[n, 0] * offsets[k, 0], ny)
-                x = _around(column[a] + strides[n, 1] * offsets[k, 1], nx)
-                columns[at] = (position[y * nx + x] - 1) % rank.size
-                values[at] = table[ids[a], k]
-                at += 1
-        columns[at] = a
-        values[at] = table[ids[a], offsets.shape[0]]
+@numba.njit(cache=True)
+def _last_column(G: Array, w: Array, k: int, least: float) -> bool:
+    """Last column of the inverse of the Cholesky factor of k rows, transposed, into w.
+
+    False if a pivot of the factor, which takes the place of the lower half of G, is below `least`.
+    """
+    for i in range(k):
+        for j in range(i):
+            v = G[i, j]
+            for s in range(j):
+                v -= G[i, s] * G[j, s]
+            G[i, j] = v * w[j]
+        v = G[i, i]
+        for s in range(i):
+            v -= G[i, s] ** 2
+        if not v > least:
+            return False
+        w[i] = 1.0 / np.sqrt(v)
+    for t in range(k - 1, -1, -1):
+        v = 1.0 if t == k - 1 else 0.0
+        for s in range(t + 1, k):
+            v -= G[s, t] * w[s]
+        w[t] *= v
+    return True
+
+
+def pattern_rows(matrices: Array, keys: Array) -> Array:
+    """Rows of the factor for patterns of neighbours, zero for those that are not there."""
+    last = matrices.shape[1] - 1
+    alone = matrices[0, last, last]
+    rows = np.zeros((keys.size, last + 1), np.float32)
+    for a in prange(keys.size):
+        G, w = np.empty((last + 1, last + 1)), np.empty(last + 1)
+        there, count = np.empty(last + 1, np.int32), 0
+        n = keys[a] >> last
+        for k in range(last + 1):
+            if k == last or keys[a] & (1 << k):
+                there[count] = k
+                for j in range(count):
+                    G[count, j] = matrices[n, k, there[j]]
+                G[count, count] = alone * LIFT
+                count += 1
+        if _last_column(G, w, count, 0.0):
+            for j in range(count):
+                rows[a, there[j]] = w[j]
+        else:
+            rows[a, last] = 1.0 / np.sqrt(alone)
+    return rows
+
+
+def apply_factor(factor: tuple[Array, Array, Array], r: Array) -> Array:
+    """Factor times its transpose, times a residual."""
+    neighbours, rows, table = factor
+    z = np.zeros_like(r)
+    for a in range(r.size):
+        value = np.float32(0.0)
+        for k in range(neighbours.shape[1]):
+            value += table[rows[a], k] * r[neighbours[a, k]]
+        for k in range(neighbours.shape[1]):
+            z[neighbours[a, k]] += table[rows[a], k] * value
+    return z
 
 
 @numba.njit(inline="always")
@@ -346,7 +411,7 @@ def cell_rows(
     return values
 
 
-SERIAL = (free_set, block_sums)
+SERIAL = (free_set, block_sums, apply_factor)
 THREADED = (
     scale_spectrum,
     reduce_gap,
@@ -362,8 +427,8 @@ THREADED = (
     add_scaled,
     add_and_clip,
     scale_to_load,
-    neighbour_masks,
-    factor_rows,
+    lattice_neighbours,
+    pattern_rows,
     cell_neighbours,
     cell_rows,
 )
@@ -387,4 +452,9 @@ def compiled(threaded: bool) -> SimpleNamespace:
     rest = {
         f.__name__: numba.njit(f, cache=True, fastmath=FAST, parallel=threaded) for f in THREADED
     }
-    return SimpleNamespace(**serial, **rest, __name__="loops_numba")
+    return SimpleNamespace(
+        **serial,
+        **rest,
+        sparse_factor=lambda neighbours, rows, table: (neighbours, rows, table),
+        __name__="loops_numba",
+    )

@@ -20,17 +20,17 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy.sparse
 from numpy.typing import NDArray
 
 from ...numerics.fft import scale_spectrum
 
 __all__ = [
     "Cells",
-    "FactorRows",
     "FreeSet",
     "FreeSums",
+    "Lattices",
     "LineStep",
-    "Ordering",
     "Violation",
     "add_scaled",
     "add_block_values",
@@ -38,10 +38,12 @@ __all__ = [
     "block_sums",
     "cell_neighbours",
     "cell_rows",
-    "factor_rows",
+    "apply_factor",
+    "lattice_neighbours",
+    "pattern_rows",
+    "sparse_factor",
     "violation",
     "subtract_block_values",
-    "neighbour_masks",
     "gather",
     "scatter",
     "reduce_gap",
@@ -56,6 +58,7 @@ __all__ = [
 
 Array = NDArray[Any]
 Index = NDArray[np.intp]
+LIFT = 1.0 + 1e-7  # of the diagonal of small matrices, which may be singular to round-off
 
 
 class FreeSums(NamedTuple):
@@ -230,20 +233,18 @@ def scale_to_load(p: Array, at: Index, upper: Array, load: float) -> None:
 PART = 2**14  # rows at a time, to bound the memory of the neighbours
 
 
-class Ordering(NamedTuple):
-    """Free pixels in the order of nested lattices, and which neighbours each may have.
+class Lattices(NamedTuple):
+    """Nested lattices of a map, every pixel first, and the neighbours that pixels have on them.
 
-    position : (ny nx) of every pixel in the order, from 1; 0 where it is not free
-    rank, row, column, lattice : (m,) of the free pixels; the coarsest lattice is the last
+    position : (ny nx) zeros, to work in
+    of_row, of_column : coarsest lattice that has each row and each column
     strides : (n, 2) of the lattices; offsets : (k, 2) of the neighbours, in strides
     allowed : (n, k) whether an offset is another pixel; shape, periodic : of the map
     """
 
     position: Array
-    rank: Array
-    row: Array
-    column: Array
-    lattice: Array
+    of_row: Array
+    of_column: Array
     strides: Array
     offsets: Array
     allowed: Array
@@ -251,56 +252,94 @@ class Ordering(NamedTuple):
     periodic: bool
 
 
-class FactorRows(NamedTuple):
-    """Rows of a sparse factor: their table, which of it each pixel has, and room for them.
+def lattice_neighbours(
+    at: Index, lattices: Lattices
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Neighbours ``(m, k + 1)`` that come before each free pixel, and the key of their pattern.
 
-    masks, ids : (m,) neighbours by their bits, and the row of the table; table : (t, k + 1)
-    first, columns, values : compressed sparse rows
+    Pixels are in the order of the lattices, the coarsest first. Neighbours are numbers of free
+    pixels; the pixel itself is the last, and stands for those that are not there. The key has a bit
+    for each neighbour that is, and the lattice above them.
     """
-
-    masks: Array
-    ids: Array
-    table: Array
-    first: Array
-    columns: Array
-    values: Array
-
-
-def _neighbours(part: slice, order: Ordering) -> tuple[Array, NDArray[np.bool_]]:
-    """Position of the pixels around some, and which of them come before."""
-    at = order.lattice[part]
-    (ny, nx), offsets = order.shape, order.offsets
-    y = order.row[part, None] + order.strides[at, :1] * offsets[:, 0]
-    x = order.column[part, None] + order.strides[at, 1:] * offsets[:, 1]
-    valid = order.allowed[at]
-    if not order.periodic:
-        valid = valid & (y >= 0) & (y < ny) & (x >= 0) & (x < nx)
-    there = order.position[np.mod(y, ny) * nx + np.mod(x, nx)]
-    return there, valid & (there > 0) & (there < order.rank[part, None])
-
-
-def neighbour_masks(order: Ordering) -> NDArray[np.int32]:
-    """One bit for every neighbour of each pixel that is there and comes before it."""
-    size = order.rank.size
-    masks = np.zeros(size, np.int32)
-    weights = (1 << np.arange(len(order.offsets))).astype(np.int32)
-    for start in range(0, size, PART):
+    (ny, nx), count = lattices.shape, len(lattices.offsets)
+    position, bits = lattices.position, int(at.size).bit_length()
+    row, column = np.divmod(at, nx)
+    lattice = np.minimum(lattices.of_row[row], lattices.of_column[column]).astype(np.int32)
+    own = np.arange(at.size, dtype=np.int32)
+    rank = ((len(lattices.strides) - 1 - lattice) << bits) + own + 1
+    position[at] = rank
+    neighbours = np.empty((at.size, count + 1), np.int32)
+    neighbours[:, -1] = own
+    keys = lattice << count
+    weights = (1 << np.arange(count)).astype(np.int32)
+    for start in range(0, at.size, PART):
         part = slice(start, start + PART)
-        masks[part] = _neighbours(part, order)[1] @ weights
-    return masks
+        here = lattice[part]
+        y = row[part, None] + lattices.strides[here, :1] * lattices.offsets[:, 0]
+        x = column[part, None] + lattices.strides[here, 1:] * lattices.offsets[:, 1]
+        valid = lattices.allowed[here]
+        if lattices.periodic:
+            y, x = np.mod(y, ny), np.mod(x, nx)
+        else:
+            valid &= (y >= 0) & (y < ny) & (x >= 0) & (x < nx)
+            y, x = np.clip(y, 0, ny - 1), np.clip(x, 0, nx - 1)
+        there = position[y * nx + x]
+        valid &= (there > 0) & (there < rank[part, None])
+        number = (there & ((1 << bits) - 1)) - 1
+        neighbours[part, :-1] = np.where(valid, number, own[part, None])
+        keys[part] |= valid @ weights
+    position[at] = 0
+    return neighbours, keys
 
 
-def factor_rows(order: Ordering, rows: FactorRows) -> None:
-    """Columns and values of the sparse factor: neighbours by their bits, then the pixel itself."""
-    rank = order.rank
-    for start in range(0, rank.size, PART):
-        part = slice(start, min(start + PART, rank.size))
-        there, before = _neighbours(part, order)
-        there = (np.hstack([there, rank[part, None]]) - 1) % rank.size
-        before = np.hstack([before, np.ones((len(before), 1), bool)])
-        here = slice(rows.first[part.start], rows.first[part.stop])
-        rows.columns[here] = there[before]
-        rows.values[here] = rows.table[rows.ids[part]][before]
+def pattern_rows(matrices: Array, keys: Array) -> NDArray[np.float32]:
+    """Rows of the factor for patterns of neighbours, zero for those that are not there.
+
+    Parameters
+    ----------
+    matrices : ndarray (n, k + 1, k + 1)
+        Influence between a pixel and its neighbours on each lattice, the pixel last.
+    keys : ndarray (t,)
+        A bit for each neighbour that is there, and the lattice above them.
+
+    Examples
+    --------
+    A pixel alone, and one with a neighbour:
+
+    >>> pattern_rows(np.array([[[2.0, 1.0], [1.0, 2.0]]]), np.array([0, 1])).round(3)
+    array([[ 0.   ,  0.707],
+           [-0.408,  0.816]], dtype=float32)
+    """
+    size = matrices.shape[1]
+    rows = np.zeros((keys.size, size), np.float32)
+    alone, diagonal = float(matrices[0, -1, -1]), np.arange(size)
+    unit = np.zeros((size, 1))
+    unit[-1] = 1.0
+    for start in range(0, keys.size, PART // 4):
+        part = keys[start : start + PART // 4]
+        inside = np.ones((part.size, size), bool)
+        inside[:, :-1] = (part[:, None] >> diagonal[:-1]) & 1
+        G = np.where(inside[:, :, None] & inside[:, None, :], matrices[part >> (size - 1)], 0.0)
+        G[:, diagonal, diagonal] = np.where(inside, alone * LIFT, 1.0)
+        found = np.linalg.solve(G, unit[None])[..., 0]
+        bad = ~(found[:, -1] > 0.0)  # round-off of a nearly singular matrix: the pixel alone
+        found[bad] = np.where(diagonal == size - 1, 1.0 / alone, 0.0)
+        rows[start : start + PART // 4] = found / np.sqrt(found[:, -1:])
+    return rows
+
+
+def sparse_factor(neighbours: Array, rows: Array, table: Array) -> Any:
+    """Sparse factor for `apply_factor`: each pixel has the row of the table of that number."""
+    m, width = neighbours.shape
+    first = np.arange(0, m * width + 1, width, dtype=np.int32)
+    factor = scipy.sparse.csr_array((table[rows].ravel(), neighbours.ravel(), first), (m, m))
+    return factor, factor.T
+
+
+def apply_factor(factor: Any, r: Array) -> Array:
+    """Factor times its transpose, times a residual."""
+    rows, columns = factor
+    return np.asarray(columns @ (rows @ r))
 
 
 class Cells(NamedTuple):

@@ -24,12 +24,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy.sparse
 from numpy.typing import NDArray
 
-from .loops_numpy import FactorRows, Ordering
+from .loops_numpy import Lattices
 
-__all__ = ["SparseInverse", "lattice_strides", "neighbour_matrices", "pattern_rows"]
+__all__ = ["SparseInverse", "lattice_strides", "neighbour_matrices"]
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -98,42 +97,21 @@ def neighbour_matrices(
     return np.asarray(K[np.minimum(dy, K.shape[0] - 1), np.minimum(dx, K.shape[1] - 1)])
 
 
-def pattern_rows(matrices: Floats, there: NDArray[np.bool_]) -> Floats:
-    """Rows of the factor for patterns of neighbours, the pixel itself last.
-
-    Parameters
-    ----------
-    matrices : ndarray (n, k + 1, k + 1)
-        Influence between the pixel and its neighbours, one matrix for each pattern.
-    there : ndarray (n, k)
-        Which of the neighbours are in the patterns.
-
-    Examples
-    --------
-    A pixel alone, and one with a neighbour:
-
-    >>> matrix = np.array([[[2.0, 1.0], [1.0, 2.0]]])
-    >>> pattern_rows(matrix.repeat(2, axis=0), np.array([[False], [True]])).round(3)
-    array([[ 0.   ,  0.707],
-           [-0.408,  0.816]])
-    """
-    inside = np.hstack([there, np.ones((len(there), 1), bool)])
-    G = np.where(inside[:, :, None] & inside[:, None, :], matrices, 0.0)
-    alone, diagonal = matrices[:, -1, -1:], np.arange(inside.shape[1])
-    G[:, diagonal, diagonal] = np.where(inside, alone * (1.0 + 1e-7), 1.0)
-    unit = np.zeros((len(diagonal), 1))
-    unit[-1] = 1.0
-    rows = np.asarray(np.linalg.solve(G, unit[None])[..., 0])
-    own = rows[:, -1:]
-    bad = ~(own > 0.0).ravel()  # round-off of a nearly singular matrix: the pixel alone
-    rows[bad] = np.where(diagonal == diagonal[-1], 1.0 / alone[bad], 0.0)
-    return rows / np.sqrt(rows[:, -1:])
-
-
 def _coarsest(count: int, strides: NDArray[np.int32]) -> NDArray[np.int8]:
     """Coarsest lattice that has each of the lines along one side."""
     has = np.arange(count)[:, None] % strides == 0
     return np.asarray(strides.size - 1 - np.argmax(has[:, ::-1], axis=1), np.int8)
+
+
+def _allowed(
+    strides: NDArray[np.int32], offsets: NDArray[np.int32], shape: Shape | None = None
+) -> NDArray[np.bool_]:
+    """Which offsets of each lattice are not the same pixel twice across a repeating edge."""
+    if shape is None:
+        return np.ones((len(strides), len(offsets)), bool)
+    twice = 2 * strides[:, None, :] * offsets[None]
+    size = np.array(shape)
+    return np.asarray(((np.abs(twice) < size) | (twice == size)).all(axis=2))
 
 
 class SparseInverse:
@@ -176,103 +154,75 @@ class SparseInverse:
         loops: Any,
         memory: NDArray[Any] | None = None,
     ) -> None:
-        self.shape, self.periodic, self.loops = shape, periodic, loops
-        self.response = response
-        self.lift = min(0.0, float(response.min()))  # makes a periodic response positive
-        self.strides = lattice_strides(shape, pixel_size)
-        self.offsets = _offsets(WIDE if steep else NEAR)
-        self.borrowed = memory is not None
+        self.loops, self.is_wide, self.borrowed = loops, steep, memory is not None
+        strides, offsets = lattice_strides(shape, pixel_size), _offsets(WIDE if steep else NEAR)
         held = np.zeros(shape, np.int32) if memory is None else memory
-        self.position = held.view(np.int32).ravel()[: shape[0] * shape[1]]
-        self._lattice_y, self._lattice_x = map(_coarsest, shape, self.strides.T)
-        self._matrices: Floats | None = None
-        self.allowed = self._allowed()
+        self.lattices = Lattices(
+            held.view(np.int32).ravel()[: shape[0] * shape[1]],
+            _coarsest(shape[0], strides[:, 0]),
+            _coarsest(shape[1], strides[:, 1]),
+            strides,
+            offsets,
+            _allowed(strides, offsets, shape) if periodic else _allowed(strides, offsets),
+            shape,
+            periodic,
+        )
+        self.matrices = neighbour_matrices(response, shape, strides, offsets)
+        self.matrices -= min(0.0, float(response.min()))  # a periodic response has zero mean
+        # Where the row of each pattern of eight neighbours is; those of twenty are looked up.
+        self.places = np.full(0 if steep else len(strides) << len(offsets), -1, np.int32)
+        self.keys = np.zeros(0, np.int32)
+        self.rows = np.zeros((0, len(offsets) + 1), np.float32)
         self.last = 0
-        self._drop_patterns()
-
-    def _drop_patterns(self) -> None:
-        self.keys = np.zeros(0, np.int64)
-        self.rows = np.zeros((0, len(self.offsets) + 1), np.float32)
-
-    def _allowed(self) -> NDArray[np.bool_]:
-        """Which offsets of each lattice are not the same pixel twice across a repeating edge."""
-        if not self.periodic:
-            return np.ones((len(self.strides), len(self.offsets)), bool)
-        twice = 2 * self.strides[:, None, :] * self.offsets[None]
-        size = np.array(self.shape)
-        return np.asarray(((np.abs(twice) < size) | (twice == size)).all(axis=2))
 
     @property
     def nbytes(self) -> int:
         """Memory held between the solves, and by the last set of pixels."""
-        order = 0 if self.borrowed else self.position.nbytes
-        return int(order + self.rows.nbytes + self.keys.nbytes + self.last)
+        order = 0 if self.borrowed else self.lattices.position.nbytes
+        patterns = self.places.nbytes + self.keys.nbytes + self.rows.nbytes
+        return int(order + patterns + self.last)
 
     def prepare(self, at: NDArray[np.intp], load_fixed: bool = False) -> None:
         """Take a set of pixels, by sorted flat indices; a prescribed sum changes nothing here."""
-        row, column = np.divmod(at, self.shape[1])
-        lattice = np.minimum(self._lattice_y[row], self._lattice_x[column])
-        rank = (len(self.strides) - 1 - lattice).astype(np.int32) * np.int32(at.size)
-        rank += np.arange(1, at.size + 1, dtype=np.int32)
-        self.position[at] = rank
-        order = Ordering(
-            self.position,
-            rank,
-            row.astype(np.int32),
-            column.astype(np.int32),
-            lattice,
-            self.strides,
-            self.offsets,
-            self.allowed,
-            self.shape,
-            self.periodic,
-        )
-        masks = self.loops.neighbour_masks(order)
-        ids = self._rows_of(masks.astype(np.int64) | (lattice.astype(np.int64) << 32))
-        count = np.bitwise_count(masks).astype(np.int32) + 1
-        first = np.zeros(at.size + 1, np.int32)
-        np.cumsum(count, out=first[1:])
-        columns, values = np.empty(first[-1], np.int32), np.empty(first[-1], np.float32)
-        rows = FactorRows(masks, ids, self.rows, first, columns, values)
-        self.loops.factor_rows(order, rows)
-        self.position[at] = 0
-        self.factor = scipy.sparse.csr_array((values, columns, first), shape=(at.size, at.size))
-        self.transposed = self.factor.T
-        self.last = columns.nbytes + values.nbytes + first.nbytes
+        neighbours, keys = self.loops.lattice_neighbours(at, self.lattices)
+        rows = self._rows_of(keys)
+        self.factor = self.loops.sparse_factor(neighbours, rows, self.rows)
+        self.last = neighbours.nbytes + rows.nbytes
 
-    def _rows_of(self, keys: NDArray[np.int64]) -> NDArray[np.int32]:
+    def _rows_of(self, keys: NDArray[np.int32]) -> NDArray[np.int32]:
         """Rows of the table that belong to the patterns; new ones are solved first."""
         if self.keys.size > MAX_PATTERNS:
-            self._drop_patterns()
-        at, there = self._look_up(keys)
-        if not there.all():
-            self._solve_patterns(np.unique(keys[~there]))
-            at, _ = self._look_up(keys)
-        return at
+            self.keys, self.rows = self.keys[:0], self.rows[:0]
+        found = self._look_up(keys)
+        new = keys[found < 0]
+        if new.size:
+            new = np.unique(new)
+            self._add(new)
+            found = self._look_up(keys)
+        return found
 
-    def _look_up(self, keys: NDArray[np.int64]) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
-        """Places in the table, and whether the patterns are in it."""
-        if not self.keys.size:
-            return np.zeros(keys.size, np.int32), np.zeros(keys.size, bool)
-        at = np.minimum(np.searchsorted(self.keys, keys), self.keys.size - 1)
-        return at.astype(np.int32), self.keys[at] == keys
+    def _look_up(self, keys: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Places of the patterns in the table; -1 for those that are not in it."""
+        if not self.is_wide:
+            return self.places[keys]
+        at = np.searchsorted(self.keys, keys)
+        return np.where(np.append(self.keys, -1)[at] == keys, at, -1).astype(np.int32)
 
-    def _solve_patterns(self, new: NDArray[np.int64]) -> None:
-        if self._matrices is None:
-            K = self.response - self.lift
-            self._matrices = neighbour_matrices(K, self.shape, self.strides, self.offsets)
-        bits, rows = 1 << np.arange(len(self.offsets)), [self.rows]
-        for part in np.array_split(new, 1 + new.size // 4096):
-            found = pattern_rows(self._matrices[part >> 32], (part[:, None] & bits) > 0)
-            rows.append(found.astype(np.float32))
+    def _add(self, new: NDArray[np.int32]) -> None:
         keys = np.append(self.keys, new)
-        at = np.argsort(keys)
-        self.keys, self.rows = keys[at], np.vstack(rows)[at]
+        rows = np.vstack([self.rows, self.loops.pattern_rows(self.matrices, new)])
+        if self.is_wide:
+            order = np.argsort(keys)
+            keys, rows = keys[order], rows[order]
+        else:
+            self.places[new] = np.arange(self.keys.size, keys.size)
+        self.keys, self.rows = keys, rows
 
     def __call__(self, r: Singles) -> Singles:
         """Pressures that would displace the pixels by about `r`."""
-        return np.asarray(self.transposed @ (self.factor @ r))
+        z: Singles = self.loops.apply_factor(self.factor, r)
+        return z
 
     def clean(self) -> None:
         """Release the set of pixels."""
-        del self.factor, self.transposed
+        del self.factor
