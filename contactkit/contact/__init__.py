@@ -21,6 +21,7 @@ film_estimate  Size of a film force that is reported only, were it in balance.
 effects        The physics a contact scene may list.
 slip           Partial slip under a tangential load path.
 solver         Contact solver: active set on nested grids.
+scales         Reference scales: reduced modulus, rms height, area.
 work           Counts and seconds of a solve.
 result         Maps, numbers, parts of the effects, residual.
 """

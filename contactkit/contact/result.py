@@ -12,12 +12,14 @@ from attrs import field, frozen
 from ..errors import NotSimulatedError
 from ..frozen import FrozenDict
 from ..scene.result import Result
+from ..scene.scales import Scales
 from ..scene.validity import ValidityNumber
 from .effects.base import Attraction, ContactEffect
 from .effects.plasticity import HardnessLimit
 from .grid import holes_of
 from .pixel_edges import pixel_edges
 from .plan import ContactPlan
+from .scales import contact_scales
 from .work import ContactWork
 
 if TYPE_CHECKING:
@@ -80,6 +82,18 @@ class ContactResult(Result):
         """The maps by their names; ``result["gap"]`` is one of them."""
         names = ("pressure", "gap", "displacement", "heights")
         return FrozenDict({name: getattr(self, name) for name in names})
+
+    @property
+    def scales(self) -> Scales:
+        """Reduced modulus E*; rms height and area of the window, or radius of a round body.
+
+        See `contact.scales.contact_scales`.
+        """
+        return contact_scales(self.plan.scene, self.heights, self.plan.grid.area)
+
+    def unit(self, name: str) -> str:
+        """See `Result.unit`."""
+        return "Pa" if name == "pressure" else "m"
 
     @property
     def contact(self) -> NDArray[np.bool_]:

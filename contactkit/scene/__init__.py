@@ -13,6 +13,7 @@ effect               Base class of all effects, and their registry.
 scenes               Contact, separation and sliding: interface, loading and effects.
 plan                 Base class of all plans.
 result               Base class of all results.
+scales               Reference scales of a result.
 column               Name, unit, label and line of a quantity.
 validity             Numbers that state whether a model is in its range.
 """

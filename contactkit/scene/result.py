@@ -12,6 +12,7 @@ from attrs import fields
 from ..errors import DescriptionError
 from .effect import Effect
 from .plan import ScenePlan
+from .scales import Scaled, Scales
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,6 +56,62 @@ class Result(abc.ABC):
     @abc.abstractmethod
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
+
+    @property
+    @abc.abstractmethod
+    def scales(self) -> Scales:
+        """Reference scales by the SI unit of the quantities that they belong to."""
+
+    @abc.abstractmethod
+    def unit(self, name: str) -> str:
+        """Return the SI unit of a column."""
+
+    def scaled(self, name: str) -> Scaled:
+        """Return a column or a number over the scale of its unit, with the name of the scale.
+
+        A quantity whose unit has no scale is returned as it is, with its SI unit.
+
+        Raises
+        ------
+        DescriptionError
+            If there is no such column or number.
+
+        Examples
+        --------
+        >>> import contactkit as ck
+        >>> film = ck.Meniscus(liquid=ck.load_liquid("water"), volume=1e-20)
+        >>> scene = ck.SlidingScene(
+        ...     interface=ck.Interface(meniscus=film),
+        ...     loading=ck.Sliding(gap=5e-9, speed=1e-3),
+        ...     effects=(ck.CouetteForce(),),
+        ... )
+        >>> force, unit = ck.simulate(ck.plan(scene)).scaled("couette_force")
+        >>> round(float(force[0]), 12), unit
+        (1.0, 'F0')
+        """
+        import numpy as np
+
+        numbers = self.scalars()
+        if name in numbers and name not in self.columns:
+            value, unit = np.asarray(numbers[name][0]), numbers[name][1]
+        else:
+            value, unit = self[name], self.unit(name)
+        scale = self.scales.get(unit)
+        return Scaled(value, unit) if scale is None else Scaled(value / scale.value, scale.name)
+
+    def dimensionless(self) -> dict[str, tuple[float, str]]:
+        """Return the numbers of the run over their scales, each with the name of its scale.
+
+        Those whose unit has no scale are left out.
+        """
+        scales = self.scales
+        found = {}
+        for name, (value, unit) in self.scalars().items():
+            if unit == "-":
+                found[name] = (value, unit)
+            elif unit in scales:
+                found[name] = (value / scales[unit].value, scales[unit].name)
+        return found
 
     def has(self, kind: type[Effect]) -> bool:
         """Whether the scene lists an effect."""

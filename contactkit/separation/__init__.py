@@ -15,6 +15,7 @@ integrator    Implicit integration of a mass on a stiff film.
 curve_result  Base class of the results of a separation and of a sliding.
 results       Result of a separation: curves, numbers, ranges of validity, and cost.
 columns       Curves of the motion and of the state of the film.
+scales        Reference scales: capillary force, viscous impulse, time.
 validity      Numbers of validity along a run.
 sliding       One wetted surface sliding past another.
 """

@@ -77,6 +77,12 @@ class CurveResult(Result):
         """Speed of opening or of sliding [m/s]."""
         return self["speed"]
 
+    def unit(self, name: str) -> str:
+        """See `Result.unit`."""
+        plan: Any = self.plan
+        unit: str = plan.columns[name].unit
+        return unit
+
     def _refuse(self, name: str) -> None:
         plan: Any = self.plan
         owners = [k for k in plan.known_effects if name in {c.name for c in k.curves()}]

@@ -11,12 +11,14 @@ from attrs import field, frozen
 
 from ..errors import NotSimulatedError
 from ..scene.loading import ImposedTime
+from ..scene.scales import Scales
 from ..scene.validity import ValidityNumber
 from .curve_result import CurveResult, LateColumns, Work
 from .effects.base import RunCurves
 from .effects.viscous import ViscousForce
 from .motion.state import MotionState
 from .plan import Plan
+from .scales import separation_scales
 from .validity import is_whole
 
 if TYPE_CHECKING:
@@ -80,6 +82,14 @@ class SeparationResult(CurveResult):
     def pull(self) -> Curve:
         """Pull [N]."""
         return self["pull"]
+
+    @property
+    def scales(self) -> Scales:
+        """Initial gap, capillary force, viscous impulse, and what follows from them.
+
+        See `separation.scales.separation_scales`.
+        """
+        return separation_scales(self.plan)
 
     @property
     def viscous_impulse(self) -> float:

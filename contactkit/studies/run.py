@@ -149,7 +149,10 @@ def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyRes
     work = result.work._asdict()
     counts = {name: int(n) for name, n in work.items() if name.startswith("n_")}
     said = (result.status, result.message)
-    return StudyPoint(task.values, scalars, *said, seconds, counts, notes), result
+    point = StudyPoint(
+        task.values, scalars, *said, seconds, counts, notes, scales=dict(result.scales)
+    )
+    return point, result
 
 
 def run_here(pieces: Sequence[Piece], report: Callable[[], None]) -> Iterator[list[Done]]:

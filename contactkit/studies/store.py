@@ -19,13 +19,14 @@ from ..errors import DescriptionError
 from ..files.scenes import write_whole
 from ..files.unstructure import unstructure
 from ..scene.rough_surfaces import Measured
+from ..scene.scales import Scale
 
 if TYPE_CHECKING:
     from .paths import Scene
 
 __all__ = ["FAILED", "Store", "StudyPoint"]
 
-_FORMAT = 1
+_FORMAT = 2
 _OLD = 3600.0  # seconds after which the incomplete files of a killed run are removed
 
 FAILED = ("infeasible", "not converged", "refused")
@@ -52,6 +53,8 @@ class StudyPoint:
         Warnings of the run, and of its file.
     is_from_store : bool
         Whether it was read from the store, not solved.
+    scales : mapping of str to Scale
+        Reference scales of the result by unit, `Result.scales`; none without a solution.
     """
 
     values: Mapping[str, Any]
@@ -62,6 +65,7 @@ class StudyPoint:
     counts: Mapping[str, int] = field(factory=dict, repr=False)
     notes: tuple[str, ...] = ()
     is_from_store: bool = False
+    scales: Mapping[str, Scale] = field(factory=dict, repr=False)
 
     @property
     def has_failed(self) -> bool:
@@ -114,6 +118,10 @@ class Store:
             scalars = {n: (float(v), str(unit)) for n, (v, unit) in table["scalars"].items()}
             counts = {str(n): int(v) for n, v in table["counts"].items()}
             notes = tuple(map(str, table["notes"]))
+            scales = {
+                unit: Scale(float(value), str(name), str(text))
+                for unit, (value, name, text) in table["scales"].items()
+            }
             said = (str(table["status"]), str(table["message"]), float(table["seconds"]))
         except FileNotFoundError:
             return None
@@ -121,7 +129,7 @@ class Store:
             raise DescriptionError(
                 "file", path.name, "be a point of a study", hint=f"{type(error).__name__}: {error}"
             ) from None
-        return StudyPoint(values, scalars, *said, counts, notes, True)
+        return StudyPoint(values, scalars, *said, counts, notes, True, scales)
 
     def read_maps(self, key: str) -> bytes | None:
         """Return the result of a point as written; None if there is none."""
@@ -139,6 +147,7 @@ class Store:
             "message": point.message,
             # as text, because JSON has no infinity
             "scalars": {n: [repr(float(v)), unit] for n, (v, unit) in point.scalars.items()},
+            "scales": {unit: [repr(one.value), *one[1:]] for unit, one in point.scales.items()},
             "seconds": point.seconds,
             "counts": dict(point.counts),
             "notes": list(point.notes),

@@ -10,11 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from ..errors import DescriptionError, NotSimulatedError, nearest
+from ..files.results import save_npz
 from ..files.scenes import write_whole
 from ..scene.result import Result
+from ..scene.scales import Scale
+from .bands import RUNS, banded_point, banded_units, seed_axes
 from .store import StudyPoint
 
 if TYPE_CHECKING:
@@ -148,6 +151,114 @@ class Study(Generic[R_co]):
             for line in places.reshape(-1, self.shape[axis])
         )
 
+    def bands(self, over: str | None = None) -> Study[R_co]:
+        """Return the study over its other parameters, with a band over the seeds at each point.
+
+        Parameters
+        ----------
+        over : str, optional
+            Path of the parameter to aggregate over; every seed if not given.
+
+        Returns
+        -------
+        Study
+            A number ``name`` becomes the median of the runs, beside ``name_mean``, and the band
+            from ``name_low`` to ``name_high``, the least and the greatest; ``runs`` counts those
+            with a solution, and only they are taken. Seconds and counts are added up.
+
+        Raises
+        ------
+        DescriptionError
+            If no parameter is a seed, or there is no such parameter.
+
+        Examples
+        --------
+        >>> import contactkit as ck
+        >>> steel = ck.Material(young_modulus=210e9, poisson_ratio=0.3)
+        >>> rough = ck.GaussianRoughness(rms=1e-9, correlation_length=2e-7, cutoff=1e-7)
+        >>> scene = ck.ContactScene(
+        ...     interface=ck.Interface(lower=ck.Body(solid=steel), upper=ck.Body(surface=rough)),
+        ...     window=ck.Window(width=8e-7),
+        ...     loading=ck.Pressing(pressure=1e8),
+        ...     effects=(ck.HalfSpace(),),
+        ... )
+        >>> vary = {"interface.upper.surface.seed": [1, 2, 3], "loading.pressure": [5e7, 1e8]}
+        >>> found = ck.study(scene, vary, ck.Accuracy(grid=64)).bands()
+        >>> [found.column(f"contact_fraction{end}").shape for end in ("", "_low", "_high")]
+        [(2,), (2,), (2,)]
+        """
+        gone = seed_axes(self.paths, over)
+        left = [i for i in range(len(self.shape)) if i not in gone]
+        places = np.arange(len(self.points)).reshape(self.shape)
+        n = math.prod(self.shape[i] for i in gone)
+        rows = np.moveaxis(places, gone, tuple(range(-len(gone), 0))).reshape(-1, n)
+        paths = tuple(self.paths[i] for i in left)
+        kept = [path for axis in paths for path in axis]
+        points = []
+        for row in rows:
+            runs = [self.points[i] for i in row]
+            points.append(banded_point({p: runs[0].values[p] for p in kept}, runs))
+        units = self.units
+        results = {name: units[name] for name in self.points[0].scalars}
+        counts = [name for name in units if name not in results and name not in self._varied]
+        banded = {p: units[p] for p in kept} | banded_units(results.items())
+        if not left:  # one point, of all runs
+            paths = ((RUNS,),)
+            points = [evolve(points[0], values={RUNS: n})]
+        return Study(
+            tuple(points),
+            tuple(self.shape[i] for i in left) or (1,),
+            paths,
+            banded | {name: units[name] for name in counts},
+            None,
+        )
+
+    def dimensionless(self) -> Study[R_co]:
+        """Return the study in units of the reference scales of each point.
+
+        Parameters and numbers are divided by the scale of their unit, `Result.scales`, and have
+        the name of the scale as unit: a load in newtons becomes one in units of ``E* A``. What
+        has no scale stays in SI units; a point without a solution has no scales, and only nan.
+
+        Raises
+        ------
+        DescriptionError
+            If the scales are not defined in the same way at all points, or there are none.
+        """
+        scaled = [point.scales for point in self.points if point.scales]
+        if not scaled:
+            raise DescriptionError(
+                "dimensionless",
+                "no scales",
+                "be of points that were solved",
+                hint="make a study dimensionless before its bands",
+            )
+        common = set.intersection(*(set(scales) for scales in scaled))
+        for unit in sorted(common):
+            kinds = list(dict.fromkeys(scales[unit][1:] for scales in scaled))
+            if len(kinds) > 1:
+                raise DescriptionError(
+                    f"scale of [{unit}]",
+                    " and ".join(definition for _, definition in kinds),
+                    "be the same at all points",
+                )
+        first = scaled[0]
+        names = {n for n in self.units if n != "seconds" and self.units[n] in common}
+        return evolve(
+            self,
+            points=tuple(_over_scales(point, self.units, names) for point in self.points),
+            units={n: first[u].name if n in names else u for n, u in self.units.items()},
+        )
+
+    @property
+    def scales(self) -> Mapping[str, Scale]:
+        """Scales of the first point that has any, by unit; their definitions hold for all."""
+        return next((point.scales for point in self.points if point.scales), {})
+
+    @property
+    def _varied(self) -> list[str]:
+        return [path for axis in self.paths for path in axis]
+
     def table(self, *names: str) -> str:
         """Return the points as text, one per line, with remarks below.
 
@@ -213,6 +324,45 @@ class Study(Generic[R_co]):
                 cells = [_text(_number(point, n), digits=10) for n in names]
                 writer.writerow([*cells, point.status, point.message])
         return path
+
+    def save_npz(self, path: str | Path) -> Path:
+        """Write all columns to an npz file, atomically.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file; its suffix becomes ``.npz``. Each column is an array by its name, materials
+            and the like as text; ``header`` is a JSON text with units, paths and shape, and with
+            the scales of dimensionless columns.
+        """
+        columns = {name: _as_array(self.column(name)) for name in (*self.units, "status")}
+        header = {"units": dict(self.units), "paths": self.paths, "shape": self.shape}
+        scales = {one.name: one.definition for one in self.scales.values()}
+        return save_npz(path, columns, header | {"scales": scales})
+
+
+def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -> StudyPoint:
+    """A point with some of its parameters and numbers divided by the scales of their units."""
+
+    def over(name: str, value: Any) -> Any:
+        if name not in names or isinstance(value, bool) or not isinstance(value, int | float):
+            return value
+        scale = point.scales.get(units[name])
+        return value / scale.value if scale else math.nan
+
+    return evolve(
+        point,
+        values={n: over(n, value) for n, value in point.values.items()},
+        scalars={
+            n: (over(n, value), point.scales[unit].name if n in names and point.scales else unit)
+            for n, (value, unit) in point.scalars.items()
+        },
+    )
+
+
+def _as_array(column: NDArray[Any]) -> NDArray[Any]:
+    """A column as an array without objects: text for what is no number."""
+    return column if column.dtype != object else np.array([_text(value) for value in column])
 
 
 def _points(places: list[int]) -> str:

@@ -9,10 +9,12 @@ from attrs import field, frozen
 
 from ...errors import NotSimulatedError
 from ...scene.column import Column
+from ...scene.scales import Scales
 from ...scene.validity import ValidityNumber
 from ..curve_result import CurveResult, Work
 from .effects import SlidingForce
 from .plan import SlidingPlan
+from .scales import sliding_scales
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,6 +70,14 @@ class SlidingResult(CurveResult):
     def travel(self) -> Curve:
         """Travel [m]."""
         return self["travel"]
+
+    @property
+    def scales(self) -> Scales:
+        """Wetted radius, speed, Couette drag, and what follows from them.
+
+        See `separation.sliding.scales.sliding_scales`.
+        """
+        return sliding_scales(self.plan)
 
     def of(self, kind: type[_HasPart[P_co]]) -> P_co:
         """Return what a force did: its curve, its impulse, its work.
