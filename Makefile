@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # compile numpy again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo test test-all lint bench peers docs format clean
+.PHONY: demo test test-all lint bench bench-own peers docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -33,14 +33,14 @@ test-all: test $(VENV)/.test-all
 	$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m "slow or hypothesis" \
 		--hypothesis-profile=random --hypothesis-seed=$(SEED)
 
-# Ours first, then the same surfaces by the peers: some minutes. The whole table of docs/accuracy.md:
-# make bench CASES="--sizes 256 512 1024 2048 --surfaces selfaffine expacf --areas 1 5 20 --budget 120"
-CASES ?=
+# Everything against other programs, some minutes, one table. The whole table of docs/accuracy.md:
+# .venv/bin/python tests/benchmarks/peers/compare.py --sizes 256 512 1024 2048 --areas 1 5 20 --budget 120
 bench: $(VENV)/.test peers
+	$(BIN)/python tests/benchmarks/peers/bench.py --peers $(VENV)/peers
+
+# What each part of ours costs, without others.
+bench-own: $(VENV)/.test
 	$(BIN)/python -m pytest tests/benchmarks --benchmark-only --benchmark-disable-gc --benchmark-columns=min,median,max,rounds
-	$(BIN)/python tests/benchmarks/peers/compare.py --peers $(VENV)/peers $(CASES)
-	$(BIN)/python tests/benchmarks/peers/leakage.py --peers $(VENV)/peers
-	$(BIN)/python tests/benchmarks/peers/adhesion.py --peers $(VENV)/peers
 
 # Other contact solvers, each in an environment of its own; what does not install is named with the reason.
 peers: $(VENV)/.made

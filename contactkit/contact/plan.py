@@ -356,13 +356,13 @@ def _check_edges(scene: ContactScene, grid: Grid) -> None:
 
 
 def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
-    """Refuse an effect under which an isolated body slides off along its base."""
+    """Refuse an effect under which a body slides off along its base."""
     is_free = any(stack.base == "frictionless" for stack in scene.interface.stacks)
     problems = [
         f"{type(effect).__name__} needs RigidBase(bonded=True) below a sheet in a window that does "
-        "not repeat: nothing else holds it along the base; bond it, or use Window(periodic=True)"
+        "not repeat along both axes: nothing else holds it; bond it, or use Window(periodic=True)"
         for effect in scene.effects
-        if is_free and not grid.edges and not effect.takes_free_sheets
+        if is_free and not grid.periodic and not effect.takes_free_sheets
     ]
     if problems:
         raise PlanError("; ".join(problems))

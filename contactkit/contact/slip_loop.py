@@ -79,7 +79,7 @@ class _Run:
         interface = plan.scene.interface
         stacks = tuple(layers_of(stack) for stack in interface.stacks)
         self.plan, self.counter, self.law = plan, counter, effect.law
-        self.friction = Friction(plan.grid, stacks, self.law)
+        self.friction = Friction(plan.grid, stacks, self.law, plan.accuracy.threads)
         self.coupling = coupling_of(plan.grid, *bodies_of(interface), plan.accuracy.threads)
         self.n_contacts = 0
 

@@ -12,6 +12,8 @@ influence        Influence coefficients of non-periodic contacts.
 one_axis         Influence coefficients of windows that repeat along one axis.
 hardness_rules   Hardness of a layered solid over the depth of indentation.
 tangential       Tangential displacement under tangential tractions, on a grid.
+tangential_one_axis
+                 The same in windows that repeat along one axis.
 stress           Subsurface stress under a map of pressure and traction.
 """
 

@@ -135,6 +135,7 @@ class PartialSlip(Observer[PartialSlipPart]):
     summary: ClassVar[str] = "stick and slip under a tangential load path"
     takes_tension: ClassVar[bool] = False
     takes_holes: ClassVar[bool] = True
+    takes_one_axis: ClassVar[bool] = True
     takes_free_sheets: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (PartialSlipPart, SlipCoupling)
     scalars: ClassVar[tuple[Scalar, ...]] = (
@@ -228,7 +229,7 @@ class PartialSlip(Observer[PartialSlipPart]):
         from ..slip.load_path import follow
 
         stacks = tuple(layers_of(stack) for stack in contact.scene.interface.stacks)
-        return follow(contact.pressure, contact.grid, stacks, self.path, self.law)
+        return follow(contact.pressure, contact.grid, stacks, self.path, self.law, contact.threads)
 
     def validity(
         self, contact: Contact, part: PartialSlipPart | None

@@ -18,6 +18,7 @@ from scipy import fft
 
 from ...elasticity.stress.isolated import Mean
 from ...elasticity.stress.tractions import traction_coupling
+from ..solver.convolution import symbol_width
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -111,7 +112,7 @@ def coupling_of(
         As `traction_coupling`.
     """
     ny, nx = grid.shape
-    mean: Mean = "periodic" if grid.periodic else "free"
+    mean: Mean = grid.along or ("periodic" if grid.periodic else "free")
     responses = [np.zeros((ny, nx)), np.zeros((ny, nx))]
     unit = np.zeros((ny, nx))
     unit[0, 0] = 1.0
@@ -122,22 +123,20 @@ def coupling_of(
             )
             responses[0] += sign * coupling(unit, None)
             responses[1] += sign * coupling(None, unit)
-    padded = (ny, nx)
-    if not grid.periodic:
-        padded = (2 * ny, 2 * nx)
-        responses = [_mirrored(responses[0]), _mirrored(responses[1].T).T]
+    padded = ny if grid.edges in (True, "y") else 2 * ny, symbol_width(nx, grid.edges)
+    if padded[0] > ny:
+        responses = [_mirrored(responses[0], 1.0), _mirrored(responses[1], -1.0)]
+    if padded[1] > nx:
+        responses = [
+            _mirrored(one.T, sign).T for one, sign in zip(responses, (-1.0, 1.0), strict=True)
+        ]
     x, y = (np.ascontiguousarray(fft.rfft2(one, workers=workers).imag) for one in responses)
     return CouplingOperator((x, y), grid.shape, padded, workers)
 
 
-def _mirrored(quadrant: Map) -> Map:
-    """Response at all offsets, odd along the rows and even across them, from those of one sign."""
-    ny, nx = quadrant.shape
-    full = np.zeros((2 * ny, 2 * nx))
-    full[:ny, :nx] = quadrant
-    full[:ny, nx + 1 :] = -quadrant[:, :0:-1]
-    full[ny + 1 :] = full[ny - 1 : 0 : -1]
-    return full
+def _mirrored(half: Map, sign: float) -> Map:
+    """Response at all offsets along the first axis, even or odd, from those of one sign."""
+    return np.concatenate((half, np.zeros_like(half[:1]), sign * half[:0:-1]))
 
 
 def relative_coupling(caused: Map, pressed: Map, least: float) -> float:

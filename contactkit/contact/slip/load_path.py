@@ -117,6 +117,8 @@ class Friction:
         The deforming bodies.
     law : FrictionLaw
         Friction, and how it is solved.
+    threads : int, optional
+        Of the transforms.
 
     Attributes
     ----------
@@ -124,8 +126,10 @@ class Friction:
         Applications of the tangential compliance.
     """
 
-    def __init__(self, grid: Grid, stacks: tuple[Layers, ...], law: FrictionLaw) -> None:
-        self.grid, self.law, self._stacks = grid, law, stacks
+    def __init__(
+        self, grid: Grid, stacks: tuple[Layers, ...], law: FrictionLaw, threads: int | None = None
+    ) -> None:
+        self.grid, self.law, self._stacks, self._threads = grid, law, stacks, threads or 1
         self._operator: TangentialOperator | None = None
         self._counted = 0
 
@@ -151,8 +155,9 @@ class Friction:
         made = self._operator.between(touching) if self._operator is not None else None
         if made is None:
             self._counted = self.applications
+            law = self.law
             made = tangential_operator(
-                self.grid, touching, self._stacks, self.law.direction, self.law.components
+                self.grid, touching, self._stacks, law.direction, law.components, self._threads
             )
             self._operator = made
         return made
@@ -293,6 +298,7 @@ def follow(
     stacks: tuple[Layers, ...],
     path: tuple[TangentialStep, ...],
     law: FrictionLaw,
+    threads: int | None = None,
 ) -> PartialSlipPart:
     """Follow a tangential load path under a fixed pressure.
 
@@ -308,13 +314,15 @@ def follow(
         Steps, each of some sub-steps.
     law : FrictionLaw
         Friction, and how it is solved.
+    threads : int, optional
+        Of the transforms.
 
     Raises
     ------
     InfeasibleError
         If a force exceeds the friction of full sliding.
     """
-    friction = Friction(grid, stacks, law)
+    friction = Friction(grid, stacks, law, threads)
     taken = friction.rest(friction.at_rest(pressure))
     record = Record(friction, taken)
     for number, step in enumerate(path):

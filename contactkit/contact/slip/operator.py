@@ -1,7 +1,7 @@
 """Tangential displacement of the pixels in contact under the tractions on them, by transforms.
 
 Tractions and displacements are arrays (k, n) of k components on n pixels: one along the load, or
-those along x and y. Of an isolated contact only the rectangle around it is transformed.
+those along it and across. Of an isolated contact only the rectangle around it is transformed.
 
 ======  ==================================================================
 symbol  meaning
@@ -15,6 +15,8 @@ M       approximate inverse of H
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -23,21 +25,25 @@ from scipy import fft
 
 from ...elasticity.layer_stack import Layers
 from ...elasticity.tangential import TangentialCompliance, isolated_compliance, periodic_symbol
-from ...scene.window import Grid
+from ...elasticity.tangential_one_axis import one_axis_symbol
+from ...numerics.fft import fast_transforms_installed
+from ...scene.window import Edges, Grid
+from ..solver.convolution import Convolution, Transforms, self_influence, symbol_width
 
 __all__ = ["TangentialOperator", "tangential_operator"]
 
 Array = NDArray[np.float64]
 Rows = list[list[Array]]
+Maker = Callable[[tuple[int, int], tuple[float, float], Layers], TangentialCompliance]
 _SMALLEST = 8  # pixels along the sides of the rectangle around an isolated contact
 
 
 class _Place(NamedTuple):
-    """Rectangle of the window that is transformed: its first pixel, and how it is padded."""
+    """Rectangle of the window that is transformed: its first pixel, shape, and what repeats."""
 
     first: tuple[int, int]
     shape: tuple[int, int]
-    padded: tuple[int, int]
+    edges: Edges
 
     def indices(self, touching: NDArray[np.bool_]) -> NDArray[np.intp] | None:
         """Flat indices of pixels (ny, nx) of the window; none if some lie outside."""
@@ -49,6 +55,33 @@ class _Place(NamedTuple):
         ):
             return None
         return np.asarray(row * nx + column)
+
+
+class _Convolutions:
+    """Convolutions of k maps into k others by the symbols of a symmetric matrix, in one memory."""
+
+    def __init__(self, symbols: Rows, shape: tuple[int, int], edges: Edges, threads: int) -> None:
+        transforms = Transforms(threads, fast_transforms_installed())
+        first = Convolution(shape, symbols[0][0], edges, transforms)
+        maps = first.source, first.target
+        self._source, self._target = (one.ravel() for one in maps)
+        self._rows = [[first] * len(row) for row in symbols]
+        for i in range(len(symbols)):
+            for j in range(max(i, 1), len(symbols)):
+                self._rows[i][j] = self._rows[j][i] = Convolution(
+                    shape, symbols[i][j], edges, transforms, lender=first, maps=maps
+                )
+
+    def __call__(self, given: Array, at: NDArray[np.intp]) -> Array:
+        """Convolve values at pixels, zero elsewhere, to those pixels."""
+        found = np.zeros_like(given)
+        for j, values in enumerate(given):
+            self._source[:] = 0.0
+            self._source[at] = values
+            for i, row in enumerate(self._rows):
+                row[j].run()
+                found[i] += self._target[at]
+        return found
 
 
 class TangentialOperator:
@@ -65,17 +98,21 @@ class TangentialOperator:
     """
 
     def __init__(
-        self, place: _Place, at: NDArray[np.intp], symbol: Rows, inverse: Rows, is_uniform: bool
+        self,
+        place: _Place,
+        at: NDArray[np.intp],
+        symbol: Rows,
+        inverse: Rows,
+        is_uniform: bool,
+        threads: int = 1,
     ) -> None:
-        self._place, self._at, self._symbol, self._inverse = place, at, symbol, inverse
-        self._is_uniform = is_uniform
+        self._place, self._at, self._is_uniform = place, at, is_uniform
         self._applied = [0]
         self.components = len(symbol)
-        twice = [2.0 * float(s.sum()) - float(s[:, 0].sum()) for s in (symbol[0][0],)]
-        if place.padded[1] % 2 == 0:
-            twice[0] -= float(symbol[0][0][:, -1].sum())
-        self.own = twice[0] / (place.padded[0] * place.padded[1])
+        self.own = self_influence(symbol[0][0], symbol_width(place.shape[1], place.edges))
         self.largest = float(sum(np.abs(row).max() for row in symbol[0]))
+        self._forth = _Convolutions(symbol, place.shape, place.edges, threads)
+        self._back = _Convolutions(inverse, place.shape, True, threads)
 
     @property
     def count(self) -> int:
@@ -99,24 +136,11 @@ class TangentialOperator:
     def __call__(self, traction: Array) -> Array:
         """Displacement [m], (k, n), of the pixels in contact under tractions [Pa], (k, n)."""
         self._applied[0] += 1
-        return self._convolve(traction, self._symbol, self._place.padded)
+        return self._forth(traction, self._at)
 
     def inverse(self, displacement: Array) -> Array:
         """Tractions that displace the pixels by about `displacement`."""
-        return self._convolve(displacement, self._inverse, self._place.shape)
-
-    def _convolve(self, given: Array, symbol: Rows, padded: tuple[int, int]) -> Array:
-        (ny, nx), at = self._place.shape, self._at
-        maps = np.zeros((len(given), ny * nx))
-        maps[:, at] = given
-        spectra = [fft.rfft2(one.reshape(ny, nx), s=padded) for one in maps]
-        found = np.empty_like(given)
-        for i, row in enumerate(symbol):
-            total = row[0] * spectra[0]
-            for s, spectrum in zip(row[1:], spectra[1:], strict=True):
-                total += s * spectrum
-            found[i] = fft.irfft2(total, s=padded)[:ny, :nx].ravel()[at]
-        return found
+        return self._back(displacement, self._at)
 
 
 def tangential_operator(
@@ -125,6 +149,7 @@ def tangential_operator(
     stacks: tuple[Layers, ...],
     angle: float,
     components: int,
+    threads: int = 1,
 ) -> TangentialOperator:
     """Make the operator between pixels in contact.
 
@@ -140,27 +165,35 @@ def tangential_operator(
         Direction of the first component, from the x axis towards y [rad]; the second is across.
     components : int
         1 or 2.
+    threads : int
+        Of the transforms.
     """
 
-    def waves(shape: tuple[int, int]) -> Rows:
-        total = _summed([periodic_symbol(shape, grid.pixel_size, one) for one in stacks])
+    def rows(make: Maker, shape: tuple[int, int]) -> Rows:
+        total = _summed([make(shape, grid.pixel_size, one) for one in stacks])
         return _rows(_turned(total, angle), components)
 
-    if grid.periodic:
-        rows, place = waves(grid.shape), _Place((0, 0), grid.shape, grid.shape)
-        is_uniform = rows[0][0][0, 0] == 0.0
-        return TangentialOperator(
-            place, np.flatnonzero(touching), rows, _inverted(rows), is_uniform
-        )
-    first, shape = _around(touching)
-    place = _Place(first, shape, (2 * shape[0], 2 * shape[1]))
-    kernels = [isolated_compliance(shape, grid.pixel_size, one) for one in stacks]
-    symbols = TangentialCompliance(*(_transformed(one) for one in _signed(_summed(kernels))))
-    rows = _rows(_turned(symbols, angle), components)
+    if grid.edges:
+        place = _Place((0, 0), grid.shape, grid.edges)
+        symbols = inverse = rows(periodic_symbol, grid.shape)
+        if grid.along:
+            symbols = rows(partial(one_axis_symbol, along=grid.along), grid.shape)
+    else:
+        place = _Place(*_around(touching), False)
+        symbols, inverse = rows(_isolated, place.shape), rows(periodic_symbol, place.shape)
     at = place.indices(touching)
     assert at is not None  # the rectangle is made around them
+    is_uniform = grid.periodic and symbols[0][0][0, 0] == 0.0
     # The inverse falls off fast in space: that of the rectangle repeated is a good one.
-    return TangentialOperator(place, at, rows, _inverted(waves(shape)), False)
+    return TangentialOperator(place, at, symbols, _inverted(inverse), is_uniform, threads)
+
+
+def _isolated(
+    shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers
+) -> TangentialCompliance:
+    """Symbols of an isolated contact, of the rectangle doubled along both axes."""
+    kernels = _signed(isolated_compliance(shape, pixel_size, layers))
+    return TangentialCompliance(*(_transformed(one) for one in kernels))
 
 
 def _summed(bodies: list[TangentialCompliance]) -> TangentialCompliance:

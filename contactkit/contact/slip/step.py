@@ -40,6 +40,7 @@ _MOST_ITERATIONS = 120
 _MOST_INNER = 400
 _SHORTENINGS = 6
 _FULL = 1e-13  # of the force of full sliding: nearer to it is full sliding
+_STIFFNESS = 1e-5  # reduction of the residual, whose square is the error of the stiffness
 _ROUND_OFF = 1e-13  # of the displacement under the largest tractions: less cannot be measured
 
 
@@ -336,4 +337,4 @@ def stiffness(operator: TangentialOperator, increment: Increment, bound: Array) 
         return np.inf
     g = np.zeros((k, n))
     g[0] = -1.0
-    return float(_newton(step, free, g, 1e-8)[0].sum())
+    return float(_newton(step, free, g, _STIFFNESS)[0].sum())

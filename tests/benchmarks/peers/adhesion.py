@@ -7,7 +7,7 @@ Needs the peer's interpreter of install.py (`make peers`); each solver runs in a
 on one thread. Periodic, self-affine, a given mean pressure. A solver's tolerance is lowered until
 an independent operator finds the contact conditions met to 1e-6 of the rms roughness. Seconds are
 those of the processor, the least of some, compilation left out.
-The table goes to out/bench/adhesion.md.
+The table goes to out/bench/adhesion.md, numbers to out/bench/adhesion.json.
 """
 
 from __future__ import annotations
@@ -141,6 +141,20 @@ def table(given, mine, peers):
     return "\n".join(lines)
 
 
+def compared(mine, peers, missing):
+    """Rows as `features.compared` has them."""
+    found = []
+    for (n, work), (error, seconds, count, _) in mine.items():
+        row = {"what": f"adhesion, w/(E* L) = {work:g}", "n": n, "seconds": seconds}
+        row |= {"count": count, "error": error, "target": TARGET, "peer": PEER}
+        if (n, work) in peers:
+            row |= {"peer_error": peers[n, work][0], "peer_seconds": peers[n, work][1]}
+        else:
+            row["missing"] = missing or "no answer"
+        found.append(row)
+    return found
+
+
 def main():
     """Run both, compare, write."""
     ask = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -155,6 +169,7 @@ def main():
     peers, (python, reason) = {}, interpreter(given.peers, PEER)
     if python:
         peers, reason = run(python, PEER, given)
+    missing = reason
     if reason:
         print(f"{PEER} left out: {reason}")
     mine, reason = run(sys.executable, "contactkit", given)
@@ -164,6 +179,8 @@ def main():
     text = table(given, mine, peers)
     given.out.mkdir(parents=True, exist_ok=True)
     (given.out / "adhesion.md").write_text(text + "\n", encoding="utf-8")
+    found = json.dumps(compared(mine, peers, missing), indent=1)
+    (given.out / "adhesion.json").write_text(found + "\n", encoding="utf-8")
     print(text)
     return int(max(error for error, *_ in mine.values()) > TARGET)
 

@@ -5,7 +5,7 @@
 
 Needs the peer's interpreter of install.py (`make peers`); each solver runs in a process of its own
 on one thread. Seconds are those of the processor, the least of some, compilation left out.
-The table goes to out/bench/leakage.md.
+The table goes to out/bench/leakage.md, numbers to out/bench/leakage.json.
 """
 
 from __future__ import annotations
@@ -80,6 +80,24 @@ def run(python, name, given):
     return {(n, deviation): (flux, seconds) for n, deviation, flux, seconds in found}, reason
 
 
+def compared(given, found, missing):
+    """Rows as `features.compared` has them, of the faster of ours."""
+    made = []
+    for n in given.sizes:
+        for deviation in DEVIATIONS:
+            ours = {name: found[name][n, deviation] for name in ("superlu", "amg") if name in found}
+            flux, seconds = min(ours.values(), key=lambda one: one[1])
+            row = {"what": f"leakage, rms/mean = {deviation:g}", "n": n, "seconds": seconds}
+            row |= {"count": None, "error": None, "target": WORST, "peer": PEER}
+            if PEER in found:
+                other, theirs = found[PEER][n, deviation]
+                row |= {"peer_error": None, "peer_seconds": theirs, "error": abs(other / flux - 1)}
+            else:
+                row["missing"] = missing or "no answer"
+            made.append(row)
+    return made
+
+
 def main():
     """Run all, compare, write."""
     ask = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -117,6 +135,8 @@ def main():
     text = "\n".join(lines)
     given.out.mkdir(parents=True, exist_ok=True)
     (given.out / "leakage.md").write_text(text + "\n", encoding="utf-8")
+    rows_of = json.dumps(compared(given, found, solvers[PEER][1]), indent=1)
+    (given.out / "leakage.json").write_text(rows_of + "\n", encoding="utf-8")
     print(text)
     return int(worst > WORST)
 
