@@ -16,8 +16,10 @@ _EXTRAS = {
     "matplotlib": "plot",
     "mpl_toolkits": "plot",
     "numba": "fast",
+    "pandas": "data",
     "pyamg": "films",
     "pythonfmu": "fmu",
+    "xarray": "data",
     "ziglang": "native",
 }
 

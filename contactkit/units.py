@@ -26,7 +26,6 @@ __all__ = [
     "cSt",
     "deg",
     "kPa",
-    "length_text",
     "mN",
     "mPa",
     "mm",
@@ -35,6 +34,8 @@ __all__ = [
     "parse_quantity",
     "parse_unit",
     "pm",
+    "quantity_text",
+    "readable_unit",
     "si",
     "um",
     "us",
@@ -115,17 +116,50 @@ def si(unit: str) -> dict[str, str]:
     return {"unit": unit}
 
 
-def length_text(length: float) -> str:
-    """Length [m] in the unit that suits it, for messages.
+_READABLE = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "u", 1e-9: "n", 1e-12: "p"}
+_LARGE = ("Pa", "N", "J", "W", "Hz")  # units that people use with k, M and G too
+
+
+def readable_unit(size: float, unit: str) -> tuple[float, str]:
+    """Factor and name of the unit in which a quantity of some size in an SI unit reads best.
+
+    The prefix belongs to the first symbol of the unit, with its exponent; masses are in grams,
+    angles in degrees, pure numbers as they are.
 
     Examples
     --------
-    >>> length_text(5.64e-8), length_text(0.25)
-    ('56.4 nm', '250 mm')
+    >>> readable_unit(2.5e-8, "m"), readable_unit(4e-12, "m2"), readable_unit(0.05, "kg")
+    ((1e-09, 'nm'), (1e-12, 'um2'), (0.001, 'g'))
+    >>> readable_unit(0.0, "Pa"), readable_unit(0.03, "N/m"), readable_unit(5e9, "Pa")
+    ((1.0, 'Pa'), (0.001, 'mN/m'), (1000000000.0, 'GPa'))
     """
-    units = ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm"))
-    unit, name = next((pair for pair in units if length >= pair[0]), units[-1])
-    return f"{length / unit:.4g} {name}"
+    if unit == "rad":
+        return deg, "deg"
+    match = re.fullmatch(r"(kg|[A-Za-z]+)([23]?)(.*)", unit)
+    if match is None or match[1] == "K" or not (size and math.isfinite(size)):
+        return 1.0, unit
+    symbol, power = match[1], int(match[2] or 1)
+    kilo = 1e-3 if symbol == "kg" else 1.0
+    symbol = "g" if symbol == "kg" else symbol
+    for prefix, letter in _READABLE.items():
+        factor = prefix**power * kilo
+        is_used = prefix <= 1.0 or symbol in _LARGE or (symbol, prefix) == ("g", 1e3)
+        if is_used and abs(size) >= 0.9999999 * factor * 0.1 ** (power - 1):
+            return factor, f"{letter}{symbol}{match[2]}{match[3]}"
+    return factor, f"{letter}{symbol}{match[2]}{match[3]}"
+
+
+def quantity_text(value: float, unit: str) -> str:
+    """A quantity given in an SI unit, in the unit that suits it, for messages and tables.
+
+    Examples
+    --------
+    >>> quantity_text(5.64e-8, "m"), quantity_text(0.25, "m"), quantity_text(0.5, "-")
+    ('56.4 nm', '250 mm', '0.5')
+    """
+    factor, name = readable_unit(value, unit)
+    number = f"{value / factor:.4g}"
+    return number if name in ("-", "") else f"{number} {name}"
 
 
 def celsius(temperature: float) -> float:

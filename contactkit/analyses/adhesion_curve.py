@@ -9,8 +9,10 @@ import numpy as np
 from attrs import field, frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..export.contents import Contents
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
+from ..scene.tabular import Tabular, curve_contents
 from ..separation.effects.prepared import checked_liquid, prepare_scene
 from ..separation.effects.registry import AdhesiveContact
 
@@ -25,7 +27,7 @@ __all__ = ["AdhesionCurve", "adhesion_curve"]
 
 
 @frozen(eq=False)
-class AdhesionCurve:
+class AdhesionCurve(Tabular):
     """Adhesive contact of one sphere over its load; all arrays of one shape, read-only.
 
     Attributes
@@ -46,6 +48,12 @@ class AdhesionCurve:
     contact_radius: Curve = field(repr=False)
     cohesive_radius: Curve = field(repr=False)
     numbers: AdhesionNumbers
+
+    def contents(self) -> Contents:
+        """Return approach and radii over the load."""
+        lengths = ("approach", "contact_radius", "cohesive_radius")
+        columns = {"load": (self.load, "N")} | {n: (getattr(self, n), "m") for n in lengths}
+        return curve_contents("load", columns, "adhesive contact of a sphere")
 
 
 def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> AdhesionCurve:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import astuple, field, frozen
 
 from ..capillary import many_menisci as menisci
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
+from ..export.contents import Contents
 from ..numerics.roots import bracketed_root
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
+from ..scene.tabular import Tabular, curve_contents
 from ..separation.effects.registry import MeniscusForce, ViscousForce
 from .division_laws import SOURCES, DivisionLaw, Name, law_of
 
@@ -30,7 +32,7 @@ _AT_ONCE = 200  # numbers of menisci evaluated together
 
 
 @frozen(eq=False)
-class DivisionResult:
+class DivisionResult(Tabular):
     """Forces of one film divided into N equal menisci.
 
     Curves are over `counts`, read-only. The best number minimises the sum of the forces in the
@@ -67,6 +69,17 @@ class DivisionResult:
     contact_radius: Floats = field(repr=False)
     _meniscus_force: Floats | None = field(repr=False)
     _viscous_force: Floats | None = field(repr=False)
+
+    def contents(self) -> Contents:
+        """Return the curves over the number of menisci, of the forces that the scene lists."""
+        columns: dict[str, tuple[Any, str]] = {
+            "count": (self.counts, "-"),
+            "limit_gap": (self.limit_gap, "m"),
+            "contact_radius": (self.contact_radius, "m"),
+        }
+        forces = {"meniscus_force": self._meniscus_force, "viscous_force": self._viscous_force}
+        columns |= {name: (one, "N") for name, one in forces.items() if one is not None}
+        return curve_contents("count", columns, f"one film divided, law {self.law}")
 
     @property
     def meniscus_force(self) -> Floats:

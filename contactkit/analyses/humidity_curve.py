@@ -15,9 +15,11 @@ from ..contact.effects.base import Attraction, Contact
 from ..contact.effects.island_bridges import IslandBridges
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
+from ..export.contents import Contents
 from ..liquids.liquid import LiquidState
 from ..scene.meniscus import Meniscus
 from ..scene.scenes import SeparationScene
+from ..scene.tabular import Tabular, curve_contents
 from ..separation.effects.asperities import AsperityMenisci
 from ..separation.effects.prepared import prepare_scene
 
@@ -43,7 +45,7 @@ class _Point(NamedTuple):
 
 
 @frozen(eq=False)
-class HumidityCurve:
+class HumidityCurve(Tabular):
     """Meniscus force against humidity; arrays (n,), read-only.
 
     Attributes
@@ -73,6 +75,20 @@ class HumidityCurve:
     _circles: Floats | None = field(repr=False)
     _largest: Floats | None = field(repr=False)
     _area: float | None = field(repr=False)
+
+    def contents(self) -> Contents:
+        """Return the arrays over the humidity, those that the law knows."""
+        columns = {
+            "relative_humidity": (self.relative_humidity, "-"),
+            "kelvin_radius": (self.kelvin_radius, "m"),
+            "meniscus_height": (self.meniscus_height, "m"),
+            "pressure": (self.pressure, "Pa"),
+            "force": (self.force, "N"),
+            "n_menisci": (self.n_menisci, "-"),
+        }
+        if self._volume is not None:
+            columns["volume"] = (self._volume, "m3")
+        return curve_contents("relative_humidity", columns, f"humidity curve, law {self.law}")
 
     @property
     def volume(self) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -14,8 +14,10 @@ from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.work import ContactWork
 from ..errors import DescriptionError, NotSimulatedError
+from ..export.contents import Contents
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
+from ..scene.tabular import Tabular, curve_contents
 from ..scene.validity import warn
 from ..units import si
 
@@ -35,7 +37,7 @@ _ARGUMENTS = {
 
 
 @frozen(eq=False)
-class LoadCurve:
+class LoadCurve(Tabular):
     """Numbers of a contact over its load, in the order in which they were given; arrays (n,).
 
     Attributes
@@ -68,6 +70,13 @@ class LoadCurve:
     columns: Mapping[str, Floats] = field(repr=False)
     units: Mapping[str, str] = field(repr=False)
     _results: tuple[ContactResult, ...] | None = field(repr=False)
+
+    def contents(self) -> Contents:
+        """Return all columns along the load, in the order given, with the cost of each point."""
+        columns: dict[str, tuple[NDArray[Any], str]]
+        columns = {name: (values, self.units[name]) for name, values in self.columns.items()}
+        columns |= {"applications": (self.applications, "-"), "seconds": (self.seconds, "s")}
+        return curve_contents("load", columns, "load curve")
 
     @property
     def results(self) -> tuple[ContactResult, ...]:

@@ -14,8 +14,10 @@ from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.solve import solve_unwarned
 from ..errors import DescriptionError
+from ..export.contents import Contents, Quantity
 from ..scene.loading import Approach
 from ..scene.plan import check_plan
+from ..scene.tabular import Tabular
 from ..scene.validity import ValidityNumber, warn
 
 if TYPE_CHECKING:
@@ -33,6 +35,17 @@ _MOST_LEFT = 0.999
 _SAME = 1e-3  # change of load and energy between two ways to one state
 _LONGEST = 0.25  # step over the range of the law, where states are not ordered
 _CLOSED = 1e-6  # change of energy over the adhesive energy, of a loop that is closed
+_COLUMNS = (
+    ("approach", "m"),
+    ("load", "N"),
+    ("contact_area", "m2"),
+    ("attracted_area", "m2"),
+    ("elastic_energy", "J"),
+    ("adhesive_energy", "J"),
+    ("loss", "J"),
+    ("n_contacts", "-"),
+    ("n_applications", "-"),
+)
 
 
 class AdhesiveBranch(NamedTuple):
@@ -80,7 +93,7 @@ class Jump(NamedTuple):
 
 
 @frozen(eq=False)
-class PullOffCurve:
+class PullOffCurve(Tabular):
     """Approach and separation of a contact under adhesion at imposed approaches.
 
     Attributes
@@ -101,6 +114,19 @@ class PullOffCurve:
     jumps: tuple[Jump, ...]
     plan: ContactPlan = field(repr=False)
     validity: tuple[ValidityNumber, ...] = field(repr=False)
+
+    def contents(self) -> Contents:
+        """Return both branches, one after the other: ``separating`` tells which."""
+        both, axis = (self.approaching, self.separating), ("state",)
+        columns = {
+            name: Quantity(axis, np.concatenate([getattr(b, name) for b in both]), unit)
+            for name, unit in _COLUMNS
+        }
+        separating = np.repeat([False, True], [one.load.size for one in both])
+        columns["separating"] = Quantity(
+            axis, separating, "-", "whether the bodies are pulled apart"
+        )
+        return Contents(axis, columns, {"title": self.plan.title})
 
     @property
     def pull_off_force(self) -> float:

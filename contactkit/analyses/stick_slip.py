@@ -9,6 +9,8 @@ import numpy as np
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
+from ..export.contents import Contents
+from ..scene.tabular import Tabular, curve_contents
 from ..units import si
 from ..validators import Described, fraction, non_negative, optional, positive, refuse
 
@@ -112,7 +114,7 @@ class SlipEvent(NamedTuple):
 
 
 @frozen(eq=False)
-class StickSlip:
+class StickSlip(Tabular):
     """Force of the spring over time, and the slips of the block; arrays are read-only.
 
     Attributes
@@ -142,6 +144,15 @@ class StickSlip:
     stick_time: float
     slip_time: float
     largest_force: float
+
+    def contents(self) -> Contents:
+        """Return force and displacement along the points of the curve."""
+        columns = {
+            "time": (self.time, "s"),
+            "force": (self.force, "N"),
+            "displacement": (self.displacement, "m"),
+        }
+        return curve_contents("point", columns, "stick-slip")
 
     @property
     def period(self) -> float:

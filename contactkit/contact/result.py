@@ -10,9 +10,11 @@ import numpy as np
 from attrs import field, frozen
 
 from ..errors import NotSimulatedError
+from ..export.contents import Contents, Quantity
 from ..frozen import FrozenDict
 from ..scene.result import Result
 from ..scene.scales import Scales
+from ..scene.tabular import pixel_axes
 from ..scene.validity import ValidityNumber
 from .effects.base import Attraction, ContactEffect
 from .effects.plasticity import HardnessLimit
@@ -179,6 +181,29 @@ class ContactResult(Result):
     def plastic_area(self) -> float:
         """Area at the hardness [m2]; raises without `HardnessLimit`."""
         return self.of(HardnessLimit).area
+
+    def contents(self) -> Contents:
+        """Return maps over y and x, what each effect adds, and the numbers; nan in holes."""
+        grid, axes = self.plan.grid, ("y", "x")
+        found = dict(pixel_axes(grid.shape, grid.pixel_size)) | {
+            "pressure": Quantity(axes, self.pressure, "Pa", "pressure"),
+            "gap": Quantity(axes, self._known(self.gap), "m", "gap"),
+            "displacement": Quantity(axes, self.displacement, "m", "normal displacement"),
+            "heights": Quantity(axes, self._known(self.heights), "m", "heights of both bodies"),
+            "contact": Quantity(axes, self.contact, "-", "pixels in contact"),
+        }
+        for kind, part in self.parts.items():
+            arrays = ((one, one.read(part)) for one in kind.arrays)
+            found |= {
+                one.name: Quantity(one.axes, values, one.unit, one.name.replace("_", " "))
+                for one, values in arrays
+                if values is not None
+            }
+        return Contents(axes, found | self._numbers(), self._remarks())
+
+    def _known(self, values: Map) -> Map:
+        """Heights or gaps, without those of holes."""
+        return values if self.holes is None else np.where(self.holes, math.nan, values)
 
     def of(self, kind: type[ContactEffect[_Part]]) -> _Part:
         """Return the part of an effect: its maps and numbers.

@@ -1,6 +1,7 @@
 """Figures; the only room that imports matplotlib.
 
 separation  Figures of separations and costs; axes, legends and colours of all figures.
+axis_units  Units of axes: those in which a quantity of some size reads best.
 contact     Figures of contacts.
 plastic_history Figures of loading histories: force over approach, residual depth.
 stress      Figures of stress below a contact: sections to scale, with the maximum marked.

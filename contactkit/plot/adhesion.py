@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..analyses.pull_off import AdhesiveBranch, PullOffCurve
-from .contact import length_unit
+from .axis_units import axis_unit
 from .separation import Axes, figure
 
 __all__ = ["contact_area", "pull_off_curve"]
@@ -32,7 +32,7 @@ def pull_off_curve(curve: PullOffCurve, ax: Axes | None = None) -> Axes:
     """
     ax = ax if ax is not None else figure()[1]
     largest = max(float(np.abs(one.load).max()) for one in _branches(curve))
-    factor, unit = _force_unit(largest)
+    factor, unit = axis_unit(largest, "N")
     return _draw(curve, ax, "load", 1.0 / factor, f"load [{unit}]")
 
 
@@ -47,17 +47,9 @@ def _branches(curve: PullOffCurve) -> Sequence[AdhesiveBranch]:
     return curve.approaching, curve.separating
 
 
-def _force_unit(force: float) -> tuple[float, str]:
-    """Factor and name of the unit in which a force [N] reads best."""
-    for factor, name in ((1.0, "N"), (1e-3, "mN"), (1e-6, "uN"), (1e-9, "nN")):
-        if force >= factor:
-            return factor, name
-    return 1e-12, "pN"
-
-
 def _draw(curve: PullOffCurve, ax: Axes, column: str, factor: float, label: str) -> Axes:
     span = float(np.ptp(curve.approaching.approach))
-    length, unit = length_unit(span)
+    length, unit = axis_unit(span, "m")
     for one, (name, colour) in zip(_branches(curve), _BRANCHES, strict=True):
         x, y = one.approach / length, factor * getattr(one, column)
         ends = {(jump.before, jump.after) for jump in curve.jumps if jump.branch == name}

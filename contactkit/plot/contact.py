@@ -13,6 +13,7 @@ from ..contact.effects.plasticity import HardnessLimit
 from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
 from ..scene.materials import Stack
+from .axis_units import axis_unit
 from .separation import Axes, ListedColormap, Patch, Rectangle, figure, legend
 
 if TYPE_CHECKING:
@@ -20,10 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "contact_spots",
-    "length_unit",
     "load_curve",
     "pressure",
-    "pressure_unit",
     "stack_section",
     "von_mises_section",
 ]
@@ -36,25 +35,9 @@ SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plasti
 _LAYER_COLOURS = ("#264653", "#2a9d8f", "#8ab17d", "#e9c46a", "#f4a261", "#e76f51")
 
 
-def length_unit(length: float) -> tuple[float, str]:
-    """Factor and name of the unit in which a length [m] reads best."""
-    for factor, name in ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")):
-        if length >= factor:
-            return factor, name
-    return 1e-9, "nm"
-
-
-def pressure_unit(pressure: float) -> tuple[float, str]:
-    """Factor and name of the unit in which a pressure [Pa] reads best."""
-    for factor, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")):
-        if abs(pressure) >= 0.5 * factor:
-            return factor, name
-    return 1.0, "Pa"
-
-
 def _extent(result: ContactResult) -> tuple[tuple[float, float, float, float], str]:
     (ny, nx), (dy, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
-    factor, unit = length_unit(max(nx * dx, ny * dy))
+    factor, unit = axis_unit(max(nx * dx, ny * dy), "m")
     return (0.0, nx * dx / factor, 0.0, ny * dy / factor), unit
 
 
@@ -81,7 +64,7 @@ def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
     """Draw the pressure map; white where there is neither contact nor attraction, holes grey."""
     ax = ax if ax is not None else figure()[1]
     extent, unit = _extent(result)
-    factor, name = pressure_unit(float(np.abs(result.pressure).max()))
+    factor, name = axis_unit(float(np.abs(result.pressure).max()), "Pa")
     acting = result.contact | (result.pressure != 0.0)
     shown = np.ma.masked_where(~acting, result.pressure / factor)
     image = ax.imshow(shown, origin="lower", extent=extent, cmap="viridis", interpolation="nearest")
@@ -146,7 +129,7 @@ def von_mises_section(result: ContactResult, ax: Axes | None = None) -> Axes:
     centre = int(np.argmax(result.pressure[part.row]))
     half = min(nx // 2, max(16, round(float(part.depth[-1]) / dx)))
     columns = np.arange(centre - half, centre + half) % nx
-    factor, unit = length_unit(half * dx)
+    factor, unit = axis_unit(half * dx, "m")
     x = np.arange(-half, half + 1) * dx / factor
     edges = _faces(part)
     image = ax.pcolormesh(x, np.arange(len(edges)), values[:, columns], cmap="inferno")
@@ -167,7 +150,7 @@ def _depth_axis(ax: Axes, part: StressPart, edges: NDArray[np.float64], stack: S
     """Label the rows by their depths, draw interfaces, and name the layers."""
     labels, places = [], []
     for i, depth in enumerate(part.depth):
-        factor, unit = length_unit(float(depth)) if depth > 0.0 else (1e-9, "nm")
+        factor, unit = axis_unit(float(depth), "m")
         labels.append(f"{depth / factor:.3g} {unit}")
         places.append(i + 0.5)
     ax.set_yticks(places, labels, fontsize=7)
@@ -196,7 +179,7 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
         colour = _LAYER_COLOURS[i % len(_LAYER_COLOURS)]
         ax.add_patch(_block(i, colour))
         if i < len(stack.thicknesses):
-            factor, unit = length_unit(stack.thicknesses[i])
+            factor, unit = axis_unit(stack.thicknesses[i], "m")
             thickness = f"{stack.thicknesses[i] / factor:.3g} {unit}"
         else:
             thickness = "half-space"
@@ -314,5 +297,5 @@ def _scaled(curves: Sequence[tuple[str, Mapping[str, Any]]]) -> Panel:
     """Panel of the maximum pressure."""
     values = [np.asarray(c["max_pressure"], float) for _, c in curves if "max_pressure" in c]
     known = np.concatenate([one[np.isfinite(one)] for one in values])
-    factor, unit = pressure_unit(float(known.max(initial=0.0)))
+    factor, unit = axis_unit(float(known.max(initial=0.0)), "Pa")
     return "max_pressure", f"maximum pressure [{unit}]", factor

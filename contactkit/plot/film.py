@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DescriptionError
 from ..lubrication.reynolds.film import FilmState
 from ..lubrication.reynolds.motion import PullState
-from .contact import length_unit
+from .axis_units import axis_unit
 from .separation import COLORS, Axes, figure, legend
 
 if TYPE_CHECKING:
@@ -222,7 +222,7 @@ def _instant(time: float, gap: float) -> str:
     factor, unit = next(
         ((f, u) for f, u in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")) if time >= f), (1e-9, "ns")
     )
-    size, length = length_unit(gap)
+    size, length = axis_unit(gap, "m")
     return f"{time / factor:.3g} {unit}, {gap / size:.3g} {length}"
 
 
@@ -250,7 +250,7 @@ def _map(
     right, top = x0 + (nx - 0.5) * dx, y0 + (ny - 0.5) * dy
     left = 2.0 * (x0 - 0.5 * dx) - right if mirror[1] else x0 - 0.5 * dx
     bottom = 2.0 * (y0 - 0.5 * dy) - top if mirror[0] else y0 - 0.5 * dy
-    factor, unit = length_unit(max(right - left, top - bottom))
+    factor, unit = axis_unit(max(right - left, top - bottom), "m")
     extent = (left / factor, right / factor, bottom / factor, top / factor)
     low, high = limits if limits is not None else (None, None)
     image = ax.imshow(

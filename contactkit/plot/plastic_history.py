@@ -6,7 +6,8 @@ import numpy as np
 
 from ..contact.effects.plastic_history import PlasticHistory
 from ..contact.result import ContactResult
-from .contact import _extent, _hide_holes, _place, length_unit
+from .axis_units import axis_unit
+from .contact import _extent, _hide_holes, _place
 from .separation import Axes, figure, legend
 
 __all__ = ["force_approach", "residual_depth"]
@@ -21,7 +22,7 @@ def force_approach(result: ContactResult, ax: Axes | None = None) -> Axes:
     """
     ax = ax if ax is not None else figure()[1]
     part = result.of(PlasticHistory)
-    factor, unit = length_unit(float(part.approach.max()))
+    factor, unit = axis_unit(float(part.approach.max()), "m")
     d, (force, newton) = part.approach / factor, _newtons(float(part.load.max()))
     load = part.load / force
     flows = np.diff(part.plastic_work) > 0.0
@@ -42,7 +43,7 @@ def residual_depth(result: ContactResult, ax: Axes | None = None) -> Axes:
     ax = ax if ax is not None else figure()[1]
     part = result.of(PlasticHistory)
     around, unit = _extent(result)
-    factor, name = length_unit(float(part.residual_depth.max()))
+    factor, name = axis_unit(float(part.residual_depth.max()), "m")
     left = np.ma.masked_less_equal(part.residual_depth / factor, 0.0)
     image = ax.imshow(left, origin="lower", extent=around, cmap="magma_r", interpolation="nearest")
     _hide_holes(ax, result)

@@ -13,7 +13,7 @@ from ..contact.patches import ContactPatches, patch_density
 from ..roughness.contact_theories import RANGES
 from ..roughness.spectra import Spectrum
 from ..roughness.statistics import BearingCurve
-from .contact import length_unit
+from .axis_units import axis_unit
 from .separation import Axes, figure, legend, title
 
 if TYPE_CHECKING:
@@ -110,10 +110,10 @@ def height_map(found: SurfaceHeights, ax: Axes | None = None, limit: float | Non
     """
     ax = ax if ax is not None else figure()[1]
     (ny, nx), (dy, dx) = found.heights.shape, found.pixel_size
-    length, unit = length_unit(max(nx * dx, ny * dy))
+    length, unit = axis_unit(max(nx * dx, ny * dy), "m")
     deviation = found.heights - found.heights.mean()
     limit = limit if limit is not None else float(np.abs(deviation).max())
-    factor, name = length_unit(limit)
+    factor, name = axis_unit(limit, "m")
     image = ax.imshow(
         deviation / factor,
         origin="lower",
@@ -132,7 +132,7 @@ def height_map(found: SurfaceHeights, ax: Axes | None = None, limit: float | Non
 def bearing(curve: BearingCurve, ax: Axes | None = None) -> Axes:
     """Draw the Abbott-Firestone curve: height over the fraction of the map above it."""
     ax = ax if ax is not None else figure()[1]
-    factor, unit = length_unit(float(np.ptp(curve.height)))
+    factor, unit = axis_unit(float(np.ptp(curve.height)), "m")
     ax.plot(100.0 * curve.fraction, curve.height / factor)
     ax.set(xlabel="fraction at or above [%]", ylabel=f"height [{unit}]", xlim=(0.0, 100.0))
     return ax

@@ -8,7 +8,8 @@ from ..analyses.stick_slip import StickSlip
 from ..contact.effects.partial_slip import PartialSlip
 from ..contact.result import ContactResult
 from ..contact.slip.states import Zone
-from .contact import _extent, _hide_holes, _place, length_unit
+from .axis_units import axis_unit
+from .contact import _extent, _hide_holes, _place
 from .separation import Axes, ListedColormap, Patch, figure, legend
 
 __all__ = ["hysteresis", "slip_zones", "stick_slip_force", "traction_profile"]
@@ -87,7 +88,7 @@ def hysteresis(result: ContactResult, ax: Axes | None = None) -> Axes:
     """Draw the tangential force over the displacement along the load path."""
     ax = ax if ax is not None else figure()[1]
     part = result.of(PartialSlip)
-    factor, unit = length_unit(float(np.abs(part.displacement).max()))
+    factor, unit = axis_unit(float(np.abs(part.displacement).max()), "m")
     ends = [part.end_of(number) for number in range(len(part.zones))]
     x = part.displacement / factor
     ax.plot(x, part.force, ".-", ms=3.0, color="#1f4e79")

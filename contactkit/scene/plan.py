@@ -91,6 +91,14 @@ class ScenePlan(abc.ABC):
             ]
         )
 
+    def _repr_html_(self) -> str:
+        """The plan in a notebook."""
+        from ..export.html import effects_table
+
+        on = [(effect.name, choices(effect) or effect.summary) for effect in self.scene.effects]
+        off = [kind.name for kind in self.known_effects if not self.has(kind)]
+        return effects_table(self.title, on, off, self.notes)
+
 
 def check_plan(given: object, kinds: type[ScenePlan] | tuple[type[ScenePlan], ...]) -> None:
     """Refuse to run a scene that is not planned, or a plan of another kind of scene.

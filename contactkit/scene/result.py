@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from attrs import fields
 
 from ..errors import DescriptionError
+from ..export.contents import Quantity
 from .effect import Effect
 from .plan import ScenePlan
 from .scales import Scaled, Scales
+from .tabular import Tabular
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Result"]
 
 
-class Result(abc.ABC):
+class Result(Tabular):
     """Result of a plan: curves or maps, numbers, and the part of each effect.
 
     ``result["gap"]`` is a column by its name, ``result.of(kind)`` what an effect did, and
@@ -117,6 +119,20 @@ class Result(abc.ABC):
         """Whether the scene lists an effect."""
         return self.plan.has(kind)
 
+    def _numbers(self) -> dict[str, Quantity]:
+        """The numbers of the run as quantities of the whole."""
+        numbers = self.scalars().items()
+        return {n: Quantity((), v, unit, n.replace("_", " ")) for n, (v, unit) in numbers}
+
+    def _remarks(self) -> dict[str, str]:
+        """What was run, how it ended, and the sources of its equations."""
+        return {
+            "title": self.plan.title,
+            "status": self.status,
+            "message": self.message,
+            "references": self.cite(),
+        }
+
     def cite(self) -> str:
         """Sources of the equations of this run, one to a line."""
         return self.plan.cite()
@@ -172,6 +188,12 @@ class Result(abc.ABC):
         """Pickle the fields; arrays are read-only again in the copy."""
         kind: Any = type(self)  # an attrs class, as every result is
         return _restored, (kind, [getattr(self, a.name) for a in fields(kind)])
+
+    def _repr_html_(self) -> str:
+        """Status and numbers in a notebook."""
+        from ..export.html import numbers_table
+
+        return numbers_table(f"{self.status}: {self.message}", self.scalars())
 
     def __str__(self) -> str:
         numbers = self.scalars()

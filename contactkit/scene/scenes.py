@@ -47,6 +47,19 @@ class Scene(Described):
         """Name of the function that runs the plan of such a scene."""
         return "simulate"
 
+    def __str__(self) -> str:
+        """The scene in words, a line for each part; what is at its default is left out."""
+        from .description import described  # for this alone
+
+        return "\n".join(described(self).indented())
+
+    def _repr_html_(self) -> str:
+        """The same in a notebook."""
+        from ..export.html import nested_list
+        from .description import described
+
+        return nested_list(described(self))
+
     def effect(self, kind: type[_E]) -> _E | None:
         """Return the effect of a kind; None if the scene does not call for it."""
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)

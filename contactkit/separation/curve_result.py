@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from ..errors import NotSimulatedError
+from ..export.contents import Contents, Quantity
+from ..scene.column import Column
 from ..scene.result import Result
 
 if TYPE_CHECKING:
@@ -66,6 +68,22 @@ class CurveResult(Result):
 
     cure: ClassVar[str]
     """What to impose for a curve that the imposed quantity does not determine."""
+
+    def contents(self) -> Contents:
+        """Return all curves, also those that are computed when asked for, and the numbers.
+
+        Along ``time`` where that rises from each point to the next; else along ``point``.
+        """
+        plan: Any = self.plan
+        known: Mapping[str, Column] = plan.columns
+        time = self.columns.get("time")
+        rises = time is not None and bool((time[1:] > time[:-1]).all())
+        axis = ("time" if rises else "point",)
+        curves = {
+            name: Quantity(axis, values, known[name].unit, known[name].label)
+            for name, values in self.columns.items()
+        }
+        return Contents(axis, curves | self._numbers(), self._remarks())
 
     @property
     def time(self) -> Curve:

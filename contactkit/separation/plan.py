@@ -18,7 +18,7 @@ from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
 from ..scene.validity import ValidityNumber
-from ..units import length_text, nm
+from ..units import nm, quantity_text
 from .bodies import check_bodies, check_rim
 from .cavity.law import CavityLaw
 from .columns import COLUMNS
@@ -111,7 +111,7 @@ class Plan(ScenePlan):
         loading, end = self.scene.loading, self.film.end
         found = []
         if end < loading.final_gap:
-            found.append(f"the film breaks at {length_text(end)}, before the final gap")
+            found.append(f"the film breaks at {quantity_text(end, 'm')}, before the final gap")
         if isinstance(loading, ImposedForce) and loading.mass is None:
             found.append("no mass: speeds are those at which the film balances the pull")
         return (

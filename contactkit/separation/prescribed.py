@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.loading import ImposedSpeed, ImposedTime
-from ..units import length_text
+from ..units import quantity_text
 from .curve_result import Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
@@ -59,7 +59,11 @@ def _grid(plan: Plan) -> list[float]:
 def broke(plan: Plan) -> str:
     """Say at which gap the film of an opening broke; empty if it lasts to the final gap."""
     end = plan.film.end
-    return f"; the film broke at {length_text(end)}" if end < plan.scene.loading.final_gap else ""
+    return (
+        f"; the film broke at {quantity_text(end, 'm')}"
+        if end < plan.scene.loading.final_gap
+        else ""
+    )
 
 
 def acting(plan: Plan, gap: float) -> Film | None:

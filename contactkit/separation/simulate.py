@@ -11,7 +11,7 @@ from ..errors import ConvergenceError, InfeasibleError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..scene.plan import check_plan
 from ..scene.validity import warn
-from ..units import length_text
+from ..units import quantity_text
 from .curve_result import Work
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
@@ -236,7 +236,7 @@ def _rupture(states: list[MotionState]) -> str:
     first = next((state for state in states if state.n_breaks), None)
     if first is None:
         return ""
-    return f"; the film broke at {length_text(first.gap)}, after {first.break_time:.6g} s"
+    return f"; the film broke at {quantity_text(first.gap, 'm')}, after {first.break_time:.6g} s"
 
 
 def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:

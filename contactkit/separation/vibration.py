@@ -22,7 +22,7 @@ from ..errors import InfeasibleError
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.roots import bracketed_root, first_true
 from ..scene.loading import ImposedSpeed, Vibration
-from ..units import length_text
+from ..units import quantity_text
 from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
@@ -225,7 +225,7 @@ def _message(path: VibrationPath, end: float, broke: _Break, drawn: int) -> str:
         said += f", of which {drawn} were computed"
     if broke.time > end:
         return said
-    return f"{said}; the film broke at {length_text(broke.gap)}, after {broke.time:.6g} s"
+    return f"{said}; the film broke at {quantity_text(broke.gap, 'm')}, after {broke.time:.6g} s"
 
 
 def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, float]]:

@@ -6,6 +6,7 @@ import csv
 import math
 import textwrap
 from collections.abc import Mapping
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
@@ -13,10 +14,12 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from ..errors import DescriptionError, NotSimulatedError, nearest
+from ..export.contents import Contents, Quantity
 from ..files.results import save_npz
 from ..files.scenes import write_whole
 from ..scene.result import Result
 from ..scene.scales import Scale
+from ..scene.tabular import Tabular
 from .bands import RUNS, banded_point, banded_units, seed_axes
 from .store import StudyPoint
 
@@ -41,7 +44,7 @@ R_co = TypeVar("R_co", bound=Result, covariant=True)
 
 
 @frozen(eq=False)
-class Study(Generic[R_co]):
+class Study(Tabular, Generic[R_co]):
     """Points of a study, in the order of the product of the parameters, the last one fastest.
 
     Attributes
@@ -127,6 +130,32 @@ class Study(Generic[R_co]):
             raise DescriptionError(
                 "column", name, "be one of the study", hint=nearest(name, list(self.units))
             )
+
+    def contents(self) -> Contents:
+        """Return all columns over the parameters, each an axis with its shortest name.
+
+        Values that are no numbers, such as liquids, are given by their names. An axis along which
+        several parameters vary together has the name of the first.
+        """
+        varied = [path for paths in self.paths for path in paths]
+        names = _labels([*varied, *self.units], varied)
+        axes = tuple(names[paths[0]] for paths in self.paths)
+        found = {}
+        for i, paths in enumerate(self.paths):
+            at = np.moveaxis(np.arange(len(self.points)).reshape(self.shape), i, 0)
+            first = at.reshape(self.shape[i], -1)[:, 0]
+            for path in paths:
+                values = _as_array(self.column(path)[first])
+                found[names[path]] = Quantity((axes[i],), values, self.unit(path), path)
+        for name in [*self.units, "status"]:
+            if name not in varied:
+                values, unit = self.column(name).reshape(self.shape), self.units.get(name, "-")
+                found[name] = Quantity(axes, values, unit, name.replace("_", " "))
+        return Contents(axes, found, {"title": "study"})
+
+    def _repr_html_(self) -> str:
+        """The table in a notebook."""
+        return f"<pre>{escape(self.table())}</pre>"
 
     def lines(self, along: str | None = None) -> tuple[StudyLine, ...]:
         """Return the points as lines along one parameter, one for each combination of the others.

@@ -72,7 +72,7 @@ def test_the_control_sees_what_is_heavy(brought):
 
 def test_no_extra_is_brought_along_by_the_library(brought):
     """Neither by the import nor by a contact that runs without it."""
-    extras = {"numba", "ducc0", "SurfaceTopography", "distributed"}
+    extras = {"numba", "ducc0", "SurfaceTopography", "distributed", "pandas", "xarray"}
     assert roots(brought["contact"]) & extras == set()
 
 

@@ -21,9 +21,11 @@ from typing import Any, NamedTuple
 from attrs import evolve, field, fields, frozen
 
 from ...errors import DescriptionError, InfeasibleError
+from ...export.contents import Contents
 from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import bracketed_root
+from ...scene.tabular import Tabular, curve_contents
 from ...units import si
 
 __all__ = [
@@ -223,7 +225,7 @@ _SAME = 1e-12  # approaches closer than this, relatively, are one
 
 
 @frozen(kw_only=True)
-class LoadDisplacementCurve:
+class LoadDisplacementCurve(Tabular):
     """Force, stiffness and areas of a contact over its approach, with the memory of plasticity.
 
     Tables are monotone cubics, for force and area in logarithms. They start as a power law of an
@@ -314,6 +316,16 @@ class LoadDisplacementCurve:
             )
         found += [normalized(one) for one in self.unloading]
         return tuple(found)
+
+    def contents(self) -> Contents:
+        """Return force and areas of first loading over the approach."""
+        columns = {
+            "approach": (self.approach, "m"),
+            "force": (self.force, "N"),
+            "contact_area": (self.contact_area, "m2"),
+            "plastic_area": (self.plastic_area, "m2"),
+        }
+        return curve_contents("approach", columns, f"first loading, approach from {self.datum}")
 
     # the contact ------------------------------------------------------------------------------
 

@@ -19,6 +19,7 @@ from ...contact.effects.stress import SubsurfaceStress
 from ...errors import ValidityWarning
 from ...planning import plan
 from ...scene.scenes import ContactScene
+from ...units import quantity_text
 from ..report import Report
 
 if TYPE_CHECKING:
@@ -178,8 +179,7 @@ def _figures(
     made, axes = plot.figure(1, 2, size=(11.0, 5.2))
     contact_plot.pressure(result, axes[0])
     contact_plot.contact_spots(result, axes[1])
-    factor, unit = contact_plot.pressure_unit(result.mean_pressure)
-    mean = f"mean pressure {result.mean_pressure / factor:.3g} {unit}"
+    mean = f"mean pressure {quantity_text(result.mean_pressure, 'Pa')}"
     plot.title(axes[0], f"{title}, {mean}" if title else mean)
     files = [plot.save(made, out / "contact")]
     if result.plan.has(SubsurfaceStress):

@@ -29,7 +29,7 @@ import math
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ...errors import InfeasibleError
-from ...units import length_text
+from ...units import quantity_text
 from .shape import ArcShape, shape, wetting
 
 if TYPE_CHECKING:
@@ -64,7 +64,9 @@ def closed_neck_error(limit: float) -> InfeasibleError:
     >>> print(closed_neck_error(1.28e-8))
     no arc bridge beyond 12.8 nm: there its neck has closed
     """
-    return InfeasibleError(f"no arc bridge beyond {length_text(limit)}: there its neck has closed")
+    return InfeasibleError(
+        f"no arc bridge beyond {quantity_text(limit, 'm')}: there its neck has closed"
+    )
 
 
 def _smallest(value: Any) -> float:

@@ -11,7 +11,7 @@ from attrs import field, frozen
 from ...scene.validity import ValidityNumber
 from ...validators import part
 from .attraction_laws import AttractionLaw, TensionLaw
-from .base import AttractedContact, Attraction, Contact, Scalar
+from .base import Array, AttractedContact, Attraction, Contact, Scalar
 from .elasticity import contact_modulus
 
 if TYPE_CHECKING:
@@ -104,6 +104,7 @@ class Adhesion(Attraction[AdhesionPart]):
     name: ClassVar[str] = "adhesion"
     summary: ClassVar[str] = "attraction of the surfaces across their gap"
     records: ClassVar[tuple[type, ...]] = (AdhesionPart,)
+    arrays: ClassVar[tuple[Array, ...]] = (Array("tension", "Pa", attrgetter("tension")),)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("attracted_area", "m2", attrgetter("attracted_area")),
         Scalar("elastic_energy", "J", attrgetter("elastic_energy")),

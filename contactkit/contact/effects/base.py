@@ -4,7 +4,7 @@ r"""Base classes of the effects of a contact: the roles that physics may play in
 
 An effect holds choices only. `prepare` does once whatever does not depend on the unknown
 pressure; `observe` evaluates the effect in a solved contact, as its part of the result. The class
-declares which numbers of that part are shown in tables and files.
+declares which numbers and arrays of that part are shown in tables and files.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Map]
 
 __all__ = [
+    "Array",
     "AttractedContact",
     "Attraction",
     "Balance",
@@ -177,12 +178,26 @@ class Scalar(NamedTuple):
     read: Callable[[Any], float | None]
 
 
+class Array(NamedTuple):
+    """A map or curve that an effect adds to a result, over named axes; maps are over y and x.
+
+    `read` takes it from the part of the effect; None if it does not apply.
+    """
+
+    name: str
+    unit: str
+    read: Callable[[Any], Any]
+    axes: tuple[str, ...] = ("y", "x")
+
+
 @frozen(kw_only=True)
 class ContactEffect(Effect, Generic[Part]):
     """An effect of a `ContactScene`; `Part` is what ``result.of`` gives for it."""
 
     scalars: ClassVar[tuple[Scalar, ...]] = ()
     """Numbers of the part, for tables, studies and files."""
+    arrays: ClassVar[tuple[Array, ...]] = ()
+    """Maps and curves of the part, for datasets and tables."""
     records: ClassVar[tuple[type, ...]] = ()
     """Named tuples that the part is made of, so that it can be read back from a file."""
 

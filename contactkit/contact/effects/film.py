@@ -11,7 +11,7 @@ from attrs import Attribute, field, frozen
 from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import optional, part, positive, refuse
-from .base import Balance, Contact, LoadTerm, Scalar
+from .base import Array, Balance, Contact, LoadTerm, Scalar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -87,6 +87,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
     summary: ClassVar[str] = "meniscus force of a thin film on a rough contact"
     takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (FilmPart,)
+    arrays: ClassVar[tuple[Array, ...]] = (Array("meniscus", "-", attrgetter("is_meniscus")),)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("meniscus_force", "N", attrgetter("force")),
         Scalar("relative_meniscus_force", "-", attrgetter("relative_force")),

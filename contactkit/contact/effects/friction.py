@@ -11,7 +11,7 @@ from attrs import field, frozen
 
 from ...units import si
 from ...validators import finite, fraction
-from .base import Contact, DisplacementTerm, FrictionalContact, Observer, Scalar
+from .base import Array, Contact, DisplacementTerm, FrictionalContact, Observer, Scalar
 from .elasticity import bodies_of
 
 if TYPE_CHECKING:
@@ -79,6 +79,10 @@ class FrictionTraction(Observer[FrictionPart]):
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"
     takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (FrictionPart,)
+    arrays: ClassVar[tuple[Array, ...]] = (
+        Array("traction_x", "Pa", attrgetter("traction_x")),
+        Array("traction_y", "Pa", attrgetter("traction_y")),
+    )
     scalars: ClassVar[tuple[Scalar, ...]] = (Scalar("friction_force", "N", attrgetter("force")),)
 
     coefficient: float = field(validator=fraction, metadata=si("-"))

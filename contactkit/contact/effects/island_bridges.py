@@ -15,7 +15,7 @@ from ...capillary.kelvin import meniscus_height
 from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, positive, refuse
-from .base import Contact, Observer, Scalar
+from .base import Array, Contact, Observer, Scalar
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Mask = NDArray[np.bool_]
+
+_BRIDGES = ("bridge",)
 
 __all__ = ["IslandBridges", "IslandPart", "bridges_of"]
 
@@ -116,6 +118,16 @@ class IslandBridges(Observer[IslandPart]):
     summary: ClassVar[str] = "an exact bridge on each wet island of a rough contact"
     takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (IslandPart,)
+    arrays: ClassVar[tuple[Array, ...]] = (
+        Array("meniscus", "-", attrgetter("is_meniscus")),
+        Array("bridge_y", "m", lambda part: part.point[:, 0], _BRIDGES),
+        Array("bridge_x", "m", lambda part: part.point[:, 1], _BRIDGES),
+        Array("bridge_gap", "m", attrgetter("gap"), _BRIDGES),
+        Array("bridge_radius", "m", attrgetter("radius"), _BRIDGES),
+        Array("bridge_contact_radius", "m", attrgetter("contact_radius"), _BRIDGES),
+        Array("bridge_volume", "m3", attrgetter("volume"), _BRIDGES),
+        Array("bridge_force", "N", attrgetter("forces"), _BRIDGES),
+    )
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("island_force", "N", attrgetter("force")),
         Scalar("relative_island_force", "-", attrgetter("relative_force")),

@@ -12,7 +12,7 @@ from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import as_tuple, as_whole, count, finite, non_negative, part, positive, refuse
 from ..slip.states import PartialSlipPart, SlipCoupling
-from .base import Contact, LoadHistory, LoadTerm, Observer, Scalar
+from .base import Array, Contact, LoadHistory, LoadTerm, Observer, Scalar
 from .elasticity import bodies_of, contact_modulus, layers_of
 from .friction import FrictionTraction
 
@@ -20,6 +20,17 @@ if TYPE_CHECKING:
     from ...scene.interface import Interface
     from ...scene.scenes import ContactScene
     from ..slip.load_path import FrictionLaw
+
+_MAPS = ("step", "y", "x")
+_CURVES = (
+    ("force", "N"),
+    ("displacement", "m"),
+    ("transverse_force", "N"),
+    ("transverse_displacement", "m"),
+    ("dissipated_work", "J"),
+    ("stiffness", "N/m"),
+    ("stick_fraction", "-"),
+)
 
 __all__ = ["PartialSlip"]
 
@@ -138,6 +149,12 @@ class PartialSlip(Observer[PartialSlipPart]):
     takes_one_axis: ClassVar[bool] = True
     takes_free_sheets: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (PartialSlipPart, SlipCoupling)
+    arrays: ClassVar[tuple[Array, ...]] = (
+        *(Array(f"slip_{name}", unit, attrgetter(name), ("state",)) for name, unit in _CURVES),
+        Array("slip_traction_x", "Pa", attrgetter("traction_x"), _MAPS),
+        Array("slip_traction_y", "Pa", attrgetter("traction_y"), _MAPS),
+        Array("slip_zone", "-", attrgetter("zones"), _MAPS),
+    )
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("tangential_force", "N", _last("force")),
         Scalar("tangential_displacement", "m", _last("displacement")),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import Attribute, field, frozen
@@ -11,7 +12,7 @@ from ...scene.loading import Approach, ContactLoading, Pressing
 from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import as_tuple, as_whole, count, non_negative
-from .base import Compliance, Contact, LoadHistory, Observer, PressureBound, Scalar
+from .base import Array, Compliance, Contact, LoadHistory, Observer, PressureBound, Scalar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,6 +22,18 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Map = NDArray[np.float64]
+
+_CURVES = (
+    ("load", "N"),
+    ("approach", "m"),
+    ("contact_area", "m2"),
+    ("plastic_area", "m2"),
+    ("elastic_energy", "J"),
+    ("plastic_work", "J"),
+    ("external_work", "J"),
+    ("residual_volume", "m3"),
+    ("hardness", "Pa"),
+)
 
 __all__ = ["PlasticHistory", "PlasticHistoryPart"]
 
@@ -135,6 +148,10 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
     name: ClassVar[str] = "plastic-history"
     summary: ClassVar[str] = "loads before, whose plastic deformation stays"
     records: ClassVar[tuple[type, ...]] = (PlasticHistoryPart,)
+    arrays: ClassVar[tuple[Array, ...]] = (
+        Array("residual_depth", "m", attrgetter("residual_depth")),
+        *(Array(f"history_{name}", unit, attrgetter(name), ("state",)) for name, unit in _CURVES),
+    )
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("plastic_work", "J", lambda part: float(part.plastic_work[-1])),
         Scalar("elastic_energy", "J", lambda part: float(part.elastic_energy[-1])),

@@ -14,6 +14,7 @@ from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, non_negative, positive
 from .base import (
+    Array,
     BoundedContact,
     Contact,
     FixedHardness,
@@ -103,6 +104,10 @@ def _one_hardness(part: PlasticPart) -> float | None:
     return part.hardness if isinstance(part.hardness, float) else None
 
 
+def _hardness_map(part: PlasticPart) -> Map | None:
+    return None if isinstance(part.hardness, float) else part.hardness
+
+
 @frozen(kw_only=True)
 class HardnessLimit(PressureBound[PlasticPart]):
     """Elastic-perfectly plastic contact: no pressure exceeds the hardness.
@@ -133,6 +138,11 @@ class HardnessLimit(PressureBound[PlasticPart]):
     name: ClassVar[str] = "hardness-limit"
     summary: ClassVar[str] = "perfectly plastic where the pressure reaches the hardness"
     records: ClassVar[tuple[type, ...]] = (PlasticPart,)
+    arrays: ClassVar[tuple[Array, ...]] = (
+        Array("plastic", "-", attrgetter("is_plastic")),
+        Array("overlap", "m", attrgetter("overlap")),
+        Array("local_hardness", "Pa", _hardness_map),
+    )
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("plastic_area", "m2", attrgetter("area")),
         Scalar("plastic_fraction", "-", lambda part: float(part.is_plastic.mean())),

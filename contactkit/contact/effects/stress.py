@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import pairwise
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ from ...elasticity.stress.reading import READINGS, Reading
 from ...elasticity.stress.tractions import Tractions
 from ...units import si
 from ...validators import choice, fraction, non_negative, positive, refuse
-from .base import Contact, DisplacementTerm, Observer, Scalar
+from .base import Array, Contact, DisplacementTerm, Observer, Scalar
 from .elasticity import layers_of
 from .friction import FrictionTraction
 
@@ -98,6 +99,7 @@ class StressPart(NamedTuple):
     by_friction: tuple[FrictionStress, ...] = ()
 
 
+_COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _MEASURES = ("von_mises", "tension", "tresca", "sigma_xz", "sqrt_j2")
 _OF_A_MAXIMUM = (
     ("", "value", "Pa"),
@@ -150,6 +152,15 @@ class SubsurfaceStress(Observer[StressPart]):
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
     records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)
+    arrays: ClassVar[tuple[Array, ...]] = (
+        Array("component", "-", lambda part: list(_COMPONENTS), ("component",)),
+        Array("plane_depth", "m", attrgetter("depth"), ("plane",)),
+        Array("plane_side", "-", lambda part: list(part.side), ("plane",)),
+        Array("plane_layer", "-", attrgetter("layer"), ("plane",)),
+        Array("largest_von_mises", "Pa", attrgetter("largest_von_mises"), ("plane",)),
+        Array("section_stress", "Pa", attrgetter("section"), ("component", "plane", "x")),
+        Array("stress", "Pa", attrgetter("planes"), ("component", "plane", "y", "x")),
+    )
     scalars: ClassVar[tuple[Scalar, ...]] = tuple(
         Scalar(f"max_{measure}{suffix}", unit, partial(_read, measure, field))
         for measure in _MEASURES

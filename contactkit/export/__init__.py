@@ -1,0 +1,7 @@
+"""Results as objects of other packages.
+
+contents  Quantities over named axes, with units and labels.
+datasets  Datasets of xarray.
+frames    Data frames of pandas.
+html      Tables and lists in notebooks.
+"""
