@@ -13,6 +13,7 @@ conjugate_gradient  Preconditioned conjugate gradients, in place.
 sparse_inverse      Preconditioner: factorised sparse approximate inverse.
 cell_inverse        The same under stiff films: long waves carried by cells in contact.
 two_level           Preconditioner: a stencil for short waves, coarse blocks for long ones.
+first_guess         First guess of the pressure on the coarsest grid.
 nested_grids        Operators and preconditioners of the nested grids.
 transfer            Restriction and prolongation between the grids.
 warm_start          Pressures extrapolated from those under the previous loads.

@@ -21,6 +21,7 @@ from ...errors import DescriptionError, InfeasibleError
 from ...numerics.fft import Edges
 from .active_set import Outcome, improve
 from .convolution import SymbolMaker
+from .first_guess import first_guess
 from .nested_grids import bytes_of, prepare
 from .problem import Problem, Solution, coarser, fit, known_pressure, pose
 from .reference_solvers import Iterate, conjugate_gradient, quasi_newton
@@ -283,8 +284,7 @@ class ContactSolver:
         problems = [problem]
         for grid in self.grids[1:]:
             problems.append(coarser(problems[-1], grid.pressure.shape))
-        mean = (problem.load or 0.0) / problem.heights.size
-        p = np.full(self.grids[-1].pressure.shape, mean)
+        p = first_guess(self.grids[-1], problems[-1])
         for grid, coarse in zip(self.grids[::-1], problems[::-1], strict=True):
             shape = grid.pressure.shape
             p = p if p.shape == shape else prolong(p, shape)

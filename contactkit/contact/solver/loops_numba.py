@@ -40,10 +40,19 @@ def scale_spectrum(spectrum: Array, symbol: Array) -> None:
             spectrum[i, j] *= symbol[i, j]
 
 
-def reduce_gap(u: Array, h: Array) -> None:
-    """Turn a displacement into the reduced gap, in place."""
+def reduce_gap(u: Array, h: Array) -> float:
+    """Turn a displacement into the reduced gap, in place; the largest displacement."""
+    largest = 0.0
     for k in prange(u.size):
+        largest = max(largest, abs(u[k]))
         u[k] -= h[k]
+    return largest
+
+
+def add_change(g: Array, change: Array) -> None:
+    """Add a change of the displacement in single precision to the reduced gap, in place."""
+    for k in prange(g.size):
+        g[k] += change[k]
 
 
 def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
@@ -424,6 +433,7 @@ THREADED = (
     apply_stencil,
     next_direction,
     step_along,
+    add_change,
     add_scaled,
     add_and_clip,
     scale_to_load,

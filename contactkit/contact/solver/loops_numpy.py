@@ -32,6 +32,7 @@ __all__ = [
     "Lattices",
     "LineStep",
     "Violation",
+    "add_change",
     "add_scaled",
     "add_block_values",
     "step_along",
@@ -91,9 +92,16 @@ class LineStep(NamedTuple):
     squared_residual: float
 
 
-def reduce_gap(u: Array, h: Array) -> None:
-    """Turn a displacement into the reduced gap, in place."""
+def reduce_gap(u: Array, h: Array) -> float:
+    """Turn a displacement into the reduced gap, in place; the largest displacement."""
+    largest = float(max(u.max(), -u.min()))
     u -= h
+    return largest
+
+
+def add_change(g: Array, change: Array) -> None:
+    """Add a change of the displacement in single precision to the reduced gap, in place."""
+    g += change
 
 
 def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:

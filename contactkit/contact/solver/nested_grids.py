@@ -9,6 +9,7 @@ import importlib.util
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy.fft
 from numpy.typing import NDArray
 
 from ...numerics.fft import Edges, fast_transforms_installed
@@ -203,13 +204,16 @@ def _stiffening(symbol: Floats, periodic: Edges) -> float:
     return float(compliance.max() / max(compliance[-1], 1e-300))
 
 
-def _response(operator: Convolution, periodic: bool) -> Floats:
-    unit = np.zeros(operator.shape)
-    unit[0, 0] = 1.0
-    whole = operator(unit)
-    if not periodic:
-        return whole
-    return whole[: operator.shape[0] // 2 + 1, : operator.shape[1] // 2 + 1].copy()
+def _response(symbol: Floats, shape: Shape, edges: Edges) -> Floats:
+    """Displacement under unit pressure on the first pixel; to the middle of a periodic map."""
+    ny, nx = shape
+    if not edges:  # the transform of an even map is a cosine transform of a quarter of it
+        made = scipy.fft.idctn(symbol[: ny + 1], type=1)[:ny, :nx]
+    else:
+        size = symbol.shape[0], symbol_width(nx, edges)
+        part = (ny // 2 + 1, nx // 2 + 1) if edges is True else shape
+        made = scipy.fft.irfft2(symbol, size)[: part[0], : part[1]]
+    return np.ascontiguousarray(made)
 
 
 class _Room:
@@ -240,7 +244,7 @@ def _grid(
     transforms = Transforms(threads, fast, loops.scale_spectrum)
     lender = None if finest is None else finest.exact
     exact = Convolution(shape, symbol, symbols.periodic, transforms, lender=lender)
-    response = _response(exact, periodic)
+    response = _response(symbol, shape, symbols.periodic)
     pixel = symbols.pixel(shape)
     decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
     stiffening = _stiffening(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ROUNDED", "Optimality", "free_approach", "height_scale", "optimality"]
+__all__ = ["ROUNDED", "Optimality", "free_approach", "height_scale", "optimality", "scale_of"]
 
 Floats = NDArray[np.float64]
 ROUNDED = 4.0 * float(np.finfo(np.float64).eps)  # rms over largest height: nothing but round-off
@@ -61,7 +61,19 @@ def height_scale(heights: Floats, displacement: Floats, flat: float = 0.0) -> fl
     """
     rms = float(np.std(heights))
     largest = float(max(displacement.max(), -displacement.min()))
-    if rms <= ROUNDED * float(np.abs(heights).max(initial=0.0)):
+    is_flat = rms <= ROUNDED * float(np.abs(heights).max(initial=0.0))
+    return scale_of(0.0 if is_flat else rms, largest, flat)
+
+
+def scale_of(rms: float, largest: float, flat: float) -> float:
+    """`height_scale` of an rms height, zero if flat, and the largest displacement [m].
+
+    Examples
+    --------
+    >>> scale_of(1.0, 5.0, 0.0), scale_of(0.0, 5.0, 0.0)
+    (1.0, 5.0)
+    """
+    if rms <= 0.0:
         return max(largest, flat)
     return max(min(rms, largest), 1e-4 * rms, FINEST * max(largest, flat))
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .nested_grids import Grid
-from .optimality import free_approach, height_scale
+from .optimality import free_approach, scale_of
 from .problem import Problem, project
 
 __all__ = ["State"]
@@ -45,8 +45,7 @@ class State:
         self.missing = self.load - float(self.p.sum()) if self.load_fixed else 0.0
         self.stopped, self.added, self.scale, self.largest = 0, 0, 1.0, 0.0
         self.approach, self.certificate, self.exact = 0.0, 0.0, False
-        rms = float(np.std(self.h))
-        self.same_rms = np.array([rms, -rms])  # two heights of the same rms, for the scale
+        self.rms = float(np.std(self.h))
         self.relative, self.precise = np.inf, False
 
     def evaluate(self) -> float:
@@ -56,9 +55,8 @@ class State:
             SINGLE, SINGLE_NOISE * self.largest / self.scale
         )
         self.grid.displace(self.exact)
-        self.scale = height_scale(self.same_rms, self.g, self.problem.flat)
-        self.largest = float(max(self.g.max(), -self.g.min()))
-        loops.reduce_gap(self.g, self.h)
+        self.largest = float(loops.reduce_gap(self.g, self.h))
+        self.scale = scale_of(self.rms, self.largest, self.problem.flat)
         return self.grade()
 
     def grade(self) -> float:

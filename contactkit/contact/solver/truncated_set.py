@@ -91,7 +91,7 @@ class TruncatedSet(State):
 
         A pixel that stops at its bound changes the gap around it, which is not penetration.
         """
-        self.g += self.grid.change
+        self.grid.loops.add_change(self.g, self.grid.change)
         if self.load_fixed:
             self.approach = float(self.g[self.at].mean())
         self.g[self.at] = self.approach

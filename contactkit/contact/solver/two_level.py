@@ -83,14 +83,16 @@ def inverse_stencil(symbol: Floats, width: int) -> Stencil:
     0.5
     """
     ny = symbol.shape[0]
+    symbol = symbol[: ny // 2 + 1]  # even: the other half is the same
     floor = 1e-3 * float(np.median(symbol))
     k = 1.0 / np.maximum(symbol, floor)
     k[0, 0] = 0.0 if symbol[0, 0] <= floor else k[0, 0]
+    k[1 : (ny + 1) // 2] *= 2.0
     k[:, 1:] *= 2.0
     if width % 2 == 0:
         k[:, -1] *= 0.5
     k /= ny * width
-    a = np.cos(2.0 * np.pi * np.arange(ny) / ny)
+    a = np.cos(2.0 * np.pi * np.arange(symbol.shape[0]) / ny)
     b = np.cos(2.0 * np.pi * np.arange(symbol.shape[1]) / width)
     by_row, by_column = k.sum(axis=1), k.sum(axis=0)
     full = Stencil(float(by_row.sum()), float(a @ by_row), float(b @ by_column), float(a @ k @ b))
