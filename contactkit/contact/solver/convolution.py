@@ -40,7 +40,7 @@ __all__ = [
 
 Floats = NDArray[np.float64]
 Shape = tuple[int, int]
-WORTH = 0.6  # fraction of the map up to which a patch is faster, with one final whole map
+WORTH = 0.75  # fraction of the map up to which a patch is faster, with one final whole map
 LEAST = 8  # pixels along the sides of a patch
 ROOMY = 1.3  # pixels over those required, up to which the previous patch is kept
 SymbolMaker = Callable[[tuple[int, int], tuple[float, float]], Floats]
@@ -291,7 +291,7 @@ class Patch:
     >>> patch = Patch(1.0 / (1.0 + np.hypot(*np.indices((16, 16)))))
     >>> patch.take(np.array([5, 22])).shape, patch.at
     ((8, 8), array([0, 9]))
-    >>> patch.take(np.array([5, 255])) is None
+    >>> patch.take(np.array([0, 255])) is None
     True
     """
 
@@ -339,7 +339,7 @@ class Patch:
 
     def _size(self, wanted: Shape) -> Shape:
         """Pixels of a patch with some room to grow, good for transforms."""
-        good = [scipy.fft.next_fast_len(max(n + n // 16, LEAST)) for n in wanted]
+        good = [scipy.fft.next_fast_len(max(n + n // 40, LEAST)) for n in wanted]
         return min(good[0], self.shape[0]), min(good[1], self.shape[1])
 
     def _fits(self, shape: Shape, wanted: Shape) -> bool:

@@ -11,9 +11,9 @@ import os
 import sys
 import tempfile
 from contextlib import contextmanager
+from functools import partial
 
 import numpy as np
-from cases import symbol_maker
 
 
 def plain(given, threads):
@@ -27,10 +27,13 @@ def fast(given, threads):
 
 
 def _contactkit(given, threads, fast):
+    """With the compliance that `contactkit.press` takes, of unit modulus."""
     from contactkit.contact.solver.contact_solver import ContactSolver
+    from contactkit.elasticity import influence, layered
 
     n = given.heights.shape[0]
-    maker = symbol_maker(given.periodic)
+    make = layered.normal_symbol if given.periodic else influence.symbol
+    maker = partial(make, young_modulus=(1.0,), poisson_ratio=(0.0,), thickness=())
     press = ContactSolver(
         (n, n), (1.0 / n, 1.0 / n), maker, given.periodic, threads=threads, fast=fast
     )
