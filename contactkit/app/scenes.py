@@ -15,6 +15,7 @@ from ..files.scenes import (
     read_tables,
     scene_kind,
     structure,
+    telling_lines,
 )
 from ..models.end_stop.faces import beside
 from ..models.injector.scene import InjectorScene
@@ -82,6 +83,12 @@ def open_scene(name: str) -> OpenedScene:
     if not path.suffix and not path.exists():
         path = bundled_scene(name)
     tables = read_tables(path)
+    with telling_lines(path):
+        return _opened(tables, path)
+
+
+def _opened(tables: dict[str, Any], path: Path) -> OpenedScene:
+    """Open the tables of a file."""
     device = tables.pop("device", None)
     if device is not None:
         return _open_device(device, beside(tables, path.parent), path.name)

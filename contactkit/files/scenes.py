@@ -17,9 +17,11 @@ from ..scene.loading import ContactLoading, Sliding
 from ..scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
 from .structure import (
     FileError,
+    Problem,
     load_liquid,
     load_material,
     structure,
+    telling_lines,
     unstructure,
 )
 from .unstructure import LOADING_KINDS
@@ -34,6 +36,7 @@ __all__ = [
     "save_scene",
     "scene_kind",
     "structure",
+    "telling_lines",
     "unstructure",
     "write_whole",
 ]
@@ -84,7 +87,7 @@ def read_tables(path: str | Path) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         comma = re.search(r"= *-?\d+,\d+ *(?=[,}#]|$)", _line_of(path, str(error)))
         cure = "; a decimal comma? write a point" if comma else ""
-        raise FileError(path.name, f"not TOML: {error}{cure}") from None
+        raise FileError(path.name, [Problem(f"not TOML: {error}{cure}")]) from None
     except OSError as error:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
 
@@ -134,7 +137,8 @@ def load_scene(path: str | Path, kind: type[Scene] = Scene) -> Scene:
         Listing every mistake in the file and where it is.
     """
     tables = read_tables(path)
-    scene: Scene = structure(tables, scene_kind(tables), Path(path).name)
+    with telling_lines(Path(path)):
+        scene: Scene = structure(tables, scene_kind(tables), Path(path).name)
     if not isinstance(scene, kind):
         raise DescriptionError(
             "file", str(path), f"hold a {kind.__name__}", hint=f"it is a {type(scene).__name__}"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib import resources
-from typing import Any, Literal, TypeVar, get_args, get_origin
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
 import attrs
 import cattrs
@@ -30,6 +32,7 @@ from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
 from .face_tables import DAMPING_KINDS, FACE_TABLES, FaceTable
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
+from .toml_lines import line_of, lines_of_keys
 from .unstructure import (
     ARRAY_FIELDS,
     ATTRACTION_KINDS,
@@ -43,11 +46,13 @@ from .unstructure import (
 
 __all__ = [
     "FileError",
+    "Problem",
     "field_value",
     "load_liquid",
     "load_material",
     "renamed",
     "structure",
+    "telling_lines",
     "unstructure",
     "with_arrays",
 ]
@@ -160,7 +165,7 @@ def field_value(kind: type, name: str, value: Any) -> Any:
         try:
             return _CONVERTER.structure(value, attribute.type)  # type: ignore[arg-type]
         except cattrs.ClassValidationError as error:
-            raise FileError(f"{kind.__name__}.{name}", _reasons(error)) from None
+            raise FileError(f"{kind.__name__}.{name}", _problems(error)) from None
     return value
 
 
@@ -362,22 +367,50 @@ def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
     except DescriptionError as error:
         raise DescriptionError(origin, kind.__name__, f"describe a scene; {error}") from None
     except cattrs.ClassValidationError as error:
-        raise FileError(origin, _reasons(error)) from None
+        raise FileError(origin, _problems(error)) from None
 
 
-def _reasons(error: cattrs.ClassValidationError) -> str:
-    found = cattrs.transform_error(error, format_exception=_say)
-    return "\n  ".join(
-        reason.replace(" @ $", "  at ", 1).replace("at .", "at ") for reason in found
-    )
+def _problems(error: cattrs.ClassValidationError) -> list[Problem]:
+    """Mistakes of a description, and the paths of what they belong to."""
+    found = [one.partition(" @ $") for one in cattrs.transform_error(error, format_exception=_say)]
+    return [Problem(text, place.lstrip(".")) for text, _, place in found]
+
+
+class Problem(NamedTuple):
+    """A mistake in a file, and the path of the table or key that it belongs to."""
+
+    text: str
+    place: str = ""
+
+    def told(self, lines: dict[str, int]) -> str:
+        """Mistake and place, with the line where that is known."""
+        if not self.place:
+            return self.text
+        key = self.text.partition(" ")[0].rpartition(".")[2]
+        inside = f"{self.place}.{key}"
+        number = line_of(lines, inside if inside in lines else self.place)
+        return f"{self.text}  at {self.place}" + (f", line {number}" if number else "")
 
 
 class FileError(DescriptionError):
     """A file with errors, all of which the message lists."""
 
-    def __init__(self, origin: str, reasons: str) -> None:
+    def __init__(self, origin: str, problems: Sequence[Problem], text: str = "") -> None:
         super().__init__(origin, "", "be right")
-        self.args = (f"{origin} cannot be used:\n  {reasons}",)
+        self.problems = tuple(problems)
+        lines = lines_of_keys(text)
+        told = "\n  ".join(problem.told(lines) for problem in problems)
+        self.args = (f"{origin} cannot be used:\n  {told}",)
+
+
+@contextmanager
+def telling_lines(path: Path) -> Iterator[None]:
+    """Add the lines of a file to the mistakes that are found in it."""
+    try:
+        yield
+    except FileError as error:
+        text = path.read_text(encoding="utf-8", errors="replace")
+        raise FileError(error.field, error.problems, text) from None
 
 
 def _say(error: BaseException, _: type | None) -> str:
