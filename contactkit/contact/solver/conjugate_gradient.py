@@ -11,6 +11,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from .loops_numpy import dot
+
 __all__ = ["LinearSystem", "conjugate_gradient"]
 
 Vector = NDArray[np.float32]
@@ -55,7 +57,7 @@ def conjugate_gradient(
         Maximum number of iterations.
     """
     d, q = np.zeros_like(r), np.zeros_like(r)
-    stop = reduction**2 * float(np.dot(r, r))
+    stop = reduction**2 * dot(r, r)
     length, rz = 0.0, 0.0
     for _ in range(max_iterations if stop > 0.0 else 0):
         z = system.precondition(r)

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from ...numerics.fft import Edges
 from .conjugate_gradient import conjugate_gradient
 from .convolution import Convolution, Transforms, self_influence, symbol_width
+from .loops_numpy import dot
 
 __all__ = ["CoarseBlocks", "Stencil", "TwoLevel", "inverse_stencil", "least_eigenvalue"]
 
@@ -169,7 +170,7 @@ class CoarseBlocks:
 
     def _without_mean(self, x: Singles) -> Singles:
         if self._unit is not None:
-            x -= self._unit * np.vdot(self._unit, x)
+            x -= self._unit * np.float32(dot(self._unit, x))
         return x
 
     def apply(self, d: Singles, q: Singles) -> None:
