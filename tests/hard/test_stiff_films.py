@@ -81,6 +81,20 @@ def test_a_hardness_on_a_stiff_film(periodic):
     assert s.pressure.mean() == pytest.approx(30.0 * BASE_LOAD, rel=1e-11)
 
 
+@pytest.mark.parametrize("cap", [None, 0.15])
+def test_a_film_that_is_all_but_rigid_and_rough_to_the_pixel(cap):
+    """Round-off of single precision, and pressures scaled to the load, would end the descent."""
+    s = solve(64, 1e6, 0.003, 1e5, is_resolved=False)
+    if cap is not None:
+        bound = max(cap * s.pressure.max(), 1.1e5 * BASE_LOAD)
+        s = solve(64, 1e6, 0.003, 1e5, is_resolved=False, bound=bound)
+        assert s.pressure.max() == pytest.approx(bound, rel=1e-12)
+    assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 200
+    assert s.pressure.mean() == pytest.approx(1e5 * BASE_LOAD, rel=1e-11)
+
+
 def test_load_and_approach_are_two_ways_to_one_contact():
     by_load = solve(64, 1e3, 0.01, 30.0)
     maker, shape, pixel = film(1e3, 0.01), (64, 64), (1.0 / 64, 1.0 / 64)

@@ -11,7 +11,7 @@ import scipy.sparse
 
 from contactkit.contact.solver import loops_numpy
 from contactkit.contact.solver.cell_inverse import CellInverse, cell_levels, cell_sizes
-from contactkit.contact.solver.projection import project_in_metric
+from contactkit.contact.solver.projection import Projection
 from contactkit.contact.solver.reduced_system import influence_matrix
 
 NUMBA = importlib.util.find_spec("numba") is not None
@@ -40,7 +40,7 @@ def test_projection_is_the_bounded_minimum_in_its_metric(load_fixed, most):
         x -= x.mean()
     low, high = np.full(n, -0.4, np.float32), np.full(n, most, np.float32)
     factor = scipy.sparse.csr_array(L.astype(np.float32))
-    found = project_in_metric(x, low, high, factor, load_fixed)
+    found = Projection(factor, low, high, load_fixed, tolerance=1e-4)(x)
     M = np.linalg.inv(L.T @ L)
     best = scipy.optimize.minimize(
         lambda y: ((y - x) @ M @ (y - x), 2.0 * M @ (y - x)),
@@ -52,14 +52,14 @@ def test_projection_is_the_bounded_minimum_in_its_metric(load_fixed, most):
         options={"ftol": 1e-14, "maxiter": 500},
     )
     assert best.success
-    np.testing.assert_allclose(found.change, best.x, atol=0.02)
+    np.testing.assert_allclose(found.change, best.x, atol=1e-3)
     np.testing.assert_array_equal(found.change[found.side < 0], np.float32(-0.4))
 
 
 def test_what_is_within_the_bounds_stays():
     x = np.array([0.5, 1.0], np.float32)
     factor = scipy.sparse.eye_array(2, dtype=np.float32, format="csr")
-    found = project_in_metric(x, np.zeros_like(x), np.ones_like(x), factor, True)
+    found = Projection(factor, np.zeros_like(x), np.ones_like(x), True)(x)
     np.testing.assert_array_equal(found.change, x)
     assert not found.side.any()
 
@@ -74,7 +74,7 @@ def test_projected_residual_goes_downhill(periodic):
     for _ in range(5):
         r = ANY.normal(size=at.size).astype(np.float32)
         low = -ANY.random(at.size).astype(np.float32) * (ANY.random(at.size) < 0.5)
-        d = project_in_metric(inverse(r), low, np.full_like(r, np.inf), inverse.factor, False)
+        d = Projection(inverse.factor, low, np.full_like(r, np.inf), False)(inverse(r))
         w = np.linalg.solve(inverse.factor.toarray().astype(float).T, d.change)
         dMd = float(np.sum(np.linalg.solve(inverse.factor.toarray().astype(float), w) * d.change))
         assert float(r @ d.change) > 0.9 * dMd > 0.0
@@ -112,7 +112,6 @@ def test_rows_that_are_kept_are_those_made_anew(periodic):
         there ^= ANY.random(shape) < 0.03
         at = np.flatnonzero(there)
         new = inverse_of(K, shape, periodic)
-        new.table = kept.table
         kept.prepare(at)
         new.prepare(at)
         np.testing.assert_array_equal(kept.factor.toarray(), new.factor.toarray())

@@ -31,9 +31,11 @@ from .sparse_inverse import lattice_strides
 __all__ = ["CellInverse", "cell_levels", "cell_sizes"]
 
 Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 Shape = tuple[int, int]
-ROUND_OFF = 1e-7  # added to the diagonal, in parts of it: condition of the small matrices
+ROUND_OFF = {  # added to the diagonal, in parts of it: condition of the small matrices
+    np.dtype(np.float32): 1e-7,
+    np.dtype(np.float64): 1e-13,
+}
 
 
 def cell_sizes(shape: Shape, pixel_size: tuple[float, float]) -> NDArray[np.int32]:
@@ -50,12 +52,7 @@ def cell_sizes(shape: Shape, pixel_size: tuple[float, float]) -> NDArray[np.int3
     return np.array(sizes, np.int32)
 
 
-def cell_levels(
-    at: NDArray[np.intp],
-    shape: Shape,
-    sizes: NDArray[np.int32],
-    before: NDArray[np.int32] | None = None,
-) -> Cells:
+def cell_levels(at: NDArray[np.intp], shape: Shape, sizes: NDArray[np.int32]) -> Cells:
     """Pixel that represents each cell of each level, and the level of each pixel.
 
     Parameters
@@ -66,8 +63,6 @@ def cell_levels(
         Pixels of the map.
     sizes : ndarray (n, 2)
         Sides of the cells, of pixels first.
-    before : ndarray, optional
-        Table of an earlier set of pixels; its representatives are kept where they are free.
 
     Examples
     --------
@@ -89,8 +84,6 @@ def cell_levels(
         cell = (y // sy) * width + x // sx
         # twice the distance of the middles, an integer; the pixel breaks a tie
         off = np.abs(2 * (y % sy) + 1 - sy) + np.abs(2 * (x % sx) + 1 - sx)
-        if before is not None:
-            off[before[first[n] + cell] == at[here]] = -1
         key = off * np.int64(at.size) + here
         nearest = np.full(counts[n].prod(), np.iinfo(np.int64).max)
         np.minimum.at(nearest, cell, key)
@@ -117,6 +110,8 @@ class CellInverse:
         Loops over the pixels.
     reach : int
         Cells in each direction within which a pixel has predecessors, on its level and on the next.
+    kind : dtype
+        Precision of the rows. That of single numbers is too little under the stiffest films.
 
     Examples
     --------
@@ -136,27 +131,26 @@ class CellInverse:
         periodic: bool,
         loops: Any,
         reach: int = 1,
+        kind: Any = np.float32,
     ) -> None:
         self.shape, self.periodic, self.loops = shape, periodic, loops
-        self.reach = reach
+        self.reach, self.kind = reach, np.dtype(kind)
         self.response, self._lifted = response, np.zeros((0, 0))
         self.sizes = cell_sizes(shape, pixel_size)
         self.at = np.zeros(0, np.intp)
-        self.table: NDArray[np.int32] | None = None
         width = 2 * (2 * reach + 1) ** 2
         self.neighbours = np.zeros((0, width), np.int32)
-        self.values = np.zeros((0, width), np.float32)
+        self.values = np.zeros((0, width), self.kind)
 
     @property
     def nbytes(self) -> int:
         """Memory held between the solves, the factor of the last set of pixels among it."""
         held = self._lifted.nbytes + self.neighbours.nbytes + self.values.nbytes
-        return int(held + self.at.nbytes + (0 if self.table is None else self.table.nbytes))
+        return int(held + self.at.nbytes)
 
     def prepare(self, at: NDArray[np.intp], load_fixed: bool = False) -> None:
         """Take a set of pixels, by sorted flat indices; a prescribed sum changes nothing here."""
-        cells = cell_levels(at, self.shape, self.sizes, self.table)
-        self.table = cells.table
+        cells = cell_levels(at, self.shape, self.sizes)
         neighbours = self.loops.cell_neighbours(at, cells, self.reach, self.shape, self.periodic)
         self.values = self._rows(at, neighbours)
         self.at, self.neighbours = at, neighbours
@@ -170,9 +164,9 @@ class CellInverse:
         self.factor = scipy.sparse.csr_array((self.values[there], columns, first), shape=size)
         self.transposed = self.factor.T
 
-    def _rows(self, at: NDArray[np.intp], neighbours: NDArray[np.int32]) -> Singles:
+    def _rows(self, at: NDArray[np.intp], neighbours: NDArray[np.int32]) -> NDArray[Any]:
         """Rows of the factor; those whose neighbours are the same as before are kept."""
-        values = np.empty(neighbours.shape, np.float32)
+        values = np.empty(neighbours.shape, self.kind)
         new = np.ones(at.size, bool)
         if self.at.size:
             before = np.minimum(np.searchsorted(self.at, at), self.at.size - 1)
@@ -183,17 +177,14 @@ class CellInverse:
         if not self._lifted.size:  # a periodic response has zero mean: this makes it positive
             self._lifted = self.response - min(0.0, float(self.response.min()))
         values[new] = self.loops.cell_rows(
-            neighbours[new], self._lifted, self.shape, self.periodic, ROUND_OFF
+            neighbours[new], self._lifted, self.shape, self.periodic, ROUND_OFF[self.kind]
         )
         return values
 
-    def __call__(self, r: Singles) -> Singles:
-        """Pressures that would displace the pixels by about `r`."""
-        return np.asarray(self.transposed @ (self.factor @ r))
-
-    def reset(self) -> None:
-        """Forget the representatives, so that a solve does not depend on those before it."""
-        self.table = None
+    def __call__(self, r: NDArray[Any]) -> NDArray[Any]:
+        """Pressures that would displace the pixels by about `r`, in its precision."""
+        x = self.transposed @ (self.factor @ r.astype(self.kind, copy=False))
+        return np.asarray(x).astype(r.dtype, copy=False)
 
     def clean(self) -> None:
         """Nothing: the rows are kept for the next set of pixels."""

@@ -387,7 +387,7 @@ def cell_rows(
     """Rows of the factor: last columns of the inverse Cholesky factors between the neighbours."""
     ny, nx = shape
     own, width = K[0, 0], neighbours.shape[1]
-    values = np.zeros(neighbours.shape, np.float32)
+    values = np.zeros(neighbours.shape)
     for a in prange(neighbours.shape[0]):
         G, w = np.empty((width, width)), np.empty(width)
         y, x = np.empty(width, np.int32), np.empty(width, np.int32)

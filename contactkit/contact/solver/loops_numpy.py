@@ -424,12 +424,12 @@ def cell_neighbours(
 
 def cell_rows(
     neighbours: Array, K: Array, shape: tuple[int, int], periodic: bool, round_off: float
-) -> NDArray[np.float32]:
+) -> NDArray[np.float64]:
     """Rows of the factor: last columns of the inverse Cholesky factors between the neighbours.
 
     A matrix that is not positive definite to round-off leaves the pixel alone.
     """
-    values = np.zeros(neighbours.shape, np.float32)
+    values = np.zeros(neighbours.shape)
     count = np.count_nonzero(neighbours >= 0, axis=1)
     for k in np.unique(count):
         some = np.flatnonzero(count == k)

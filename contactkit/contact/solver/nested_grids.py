@@ -38,7 +38,7 @@ LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are tr
 STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
 PLATE = 8.0  # decay from which stencil and blocks fail, as under a stiff plate
 STIFF = 6.0  # stiffening from which the active set is projected, not truncated
-STIFFEST = 2000.0  # stiffening from which more neighbours are worth their cost
+STIFFEST = 2000.0  # stiffening from which more neighbours in double precision are worth their cost
 PIXEL_DECAY = 0.84  # decay of a half-space under uniform pressure on each pixel: not periodic
 FEW = 4000  # free pixels up to which the better preconditioner is also the cheaper one
 FEW_STEEP = 0.15  # the same as a fraction of all pixels if the symbol is steep: the other is poor
@@ -106,7 +106,6 @@ class Grid(NamedTuple):
         self.quick.count = 0
         if self.exact is None:
             self.quick.source[...] = 0.0
-        self.metric.reset()
         if self.patch is not None:
             self.patch.count = 0
         if self.exact is not None:
@@ -248,8 +247,8 @@ def _grid(
     pixel = symbols.pixel(shape)
     decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
     stiffening = _stiffening(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
-    reach = 2 if stiffening > STIFFEST else 1
-    metric = CellInverse(response, shape, pixel, periodic, loops, reach)
+    reach, kind = (2, np.float64) if stiffening > STIFFEST else (1, np.float32)
+    metric = CellInverse(response, shape, pixel, periodic, loops, reach, kind)
     is_stiff = stiffening > STIFF
     two_level = None
     if decay <= PLATE and not is_stiff:

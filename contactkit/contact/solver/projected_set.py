@@ -8,7 +8,12 @@ in contact or penetrating, projected onto the bounds in the metric of K. For the
 
 so that the energy falls along it, and by a fixed part of what is left if K is near the inverse.
 Both ends are feasible and their gaps are convolved anyway: the minimum between them is free. Once
-few pixels come or go, conjugate gradients solve for the free pixels, and are projected likewise.
+few pixels come or go, conjugate gradients solve for the free pixels, and are projected likewise; if
+bounds cut their answer short, they run once more, on the pixels that the other step leaves free.
+
+What a projection leaves of the load is made up along ``K 1``, which costs the least energy. To
+scale pressures to the load, or to lose the metric in the round-off of single precision, would end
+the descent under the stiffest films.
 
 Sign convention: pressure, heights and displacement positive into the solid; symbols as in
 `loops_numpy`.
@@ -22,8 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .nested_grids import Grid
-from .problem import Problem, fit
-from .projection import project_in_metric
+from .problem import Problem, clip_to_load, fit
+from .projection import TOLERANCE, Projection
 from .reduced_system import ReducedSystem
 from .state import State
 
@@ -34,10 +39,13 @@ Indices = NDArray[np.intp]
 UNSETTLED = 0.05  # fraction of pixels that come or go above which the metric alone is used
 SHORT = 0.7  # step of the line search below which the trial is not taken whole
 FARTHEST = 2.0  # pressures that a trial may move before it is projected, over the load
+FARTHER = 30.0  # how much more it may after a step that could have gone on
 MAX_APPLICATIONS = 1500  # of the operator
 MOST_SHORT = 3  # such steps in a row, after which conjugate gradients are tried
 STUCK = 0.02  # step of the line search that leads nowhere
-FLOOR = 3e-3  # reduction that single precision still gives under a stiff film
+LEAST = 0.1  # fraction of a step in the metric that is tried after short ones
+FINEST = 1e-6  # tolerance of the projection after steps that led nowhere
+FLOOR = 1e-2  # reduction that single precision still gives under a stiff film
 REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
     (0.01, 0.1),
     (3e-4, 0.03),
@@ -58,6 +66,11 @@ class ProjectedSet(State):
         self.before: tuple[Indices, Floats, Floats] | None = None
         self.n_short = 0  # steps in a row that went less than their length
         self.changed = 1.0  # fraction of pixels that came or went in the last step
+        self.fraction = 1.0  # fraction of a step in the metric that is tried
+        self.farthest = FARTHEST
+        self.stride = 1.0  # of a gradient step, over the least that must go downhill
+        self.is_cut = False  # whether bounds cut the last solution by conjugate gradients short
+        self.source = ""  # of the last trial
 
     def stagnates(self, step: int) -> bool:
         """Whether the solve has become too long; the energy falls at every step."""
@@ -77,6 +90,12 @@ class ProjectedSet(State):
         slope, curvature = float((self.approach - g[at]) @ d), float(d @ turn)
         length = slope / curvature if curvature > 0.0 else 1.0
         self.n_short = self.n_short + 1 if length < SHORT else 0
+        if self.source == "metric":
+            self.fraction = min(max(self.fraction * length, LEAST), 1.0)
+            self.farthest = max(self.farthest * min(length, FARTHER), FARTHEST)
+        elif self.source == "gradient":
+            self.stride = max(self.stride * length, 1.0)
+        self.is_cut = self.source == "solved" and length < SHORT
         if length >= SHORT:
             return self.relative
         if length < STUCK and not self.exact:  # round-off of single precision decides
@@ -100,27 +119,49 @@ class ProjectedSet(State):
         r = self.approach - g[at]
         if self.load_fixed:
             r -= r.mean()
-        y = self._trial(at, p, r, free.added)
-        self.before = at, p, g
         bound = np.broadcast_to(self.upper, self.p.shape)[at]
+        y = self._trial(at, p, r, bound, free.added)
+        self.before = at, p, g
         stopped = np.count_nonzero(((y <= 0.0) & (p > 0.0)) | ((y >= bound) & (p < bound)))
         self.changed = (stopped + free.added) / at.size
         self.p[at] = y
         self._restore_load(at)
 
-    def _trial(self, at: Indices, p: Floats, r: Floats, added: int) -> Floats:
+    def _trial(self, at: Indices, p: Floats, r: Floats, bound: Floats, added: int) -> Floats:
         """Feasible pressures of the free pixels that go downhill."""
-        bound = np.broadcast_to(self.upper, self.p.shape)[at]
-        if self.n_short >= MOST_SHORT or max(self.changed, added / at.size) <= UNSETTLED:
+        is_settled = max(self.changed, added / at.size) <= UNSETTLED
+        if (self.n_short >= MOST_SHORT or is_settled) and not self.is_cut:
             self.n_short = 0
-            x = self._solved(at, r)
-            y = self._projected(at, p, x, bound)
+            self.source = "solved"
+            y = self._projected(at, p, self._solved(at, r), bound)
             if float(r @ (y - p)) > 0.0:
                 return y
+        self.source = "metric"
         self._prepare(at)
-        x = self._preconditioned(r.astype(np.float32))
+        x = self.fraction * self._preconditioned(r)
         y = self._projected(at, p, x, bound)
-        return y if float(r @ (y - p)) > 0.0 else _downhill(p, x, r, bound)
+        if not float(r @ (y - p)) > 0.0:
+            return self._downhill(p, r, bound)
+        return self._on_face(at, p, y, r, bound) if self.is_cut else y
+
+    def _on_face(self, at: Indices, p: Floats, y: Floats, r: Floats, bound: Floats) -> Floats:
+        """From a feasible trial, conjugate gradients on the pixels that it leaves free."""
+        self.source, self.is_cut = "face", False
+        free = (y > 0.0) & (y < bound)
+        inside = at[free]
+        if inside.size < 2:
+            return y
+        quick, loops = self.grid.quick, self.grid.loops
+        loops.scatter(quick.source.ravel(), at, (y - p).astype(np.float32))
+        moved = quick.run().ravel()[inside].astype(np.float64)
+        quick.source.ravel()[at] = 0.0
+        rest = r[free] - moved
+        if self.load_fixed:
+            rest -= rest.mean()
+        better = y.copy()
+        x = self._solved(inside, rest)
+        better[free] = self._projected(inside, y[free], x, bound[free])
+        return better if float(r @ (better - p)) > 0.0 else y
 
     def _solved(self, at: Indices, r: Floats) -> NDArray[Any]:
         system = ReducedSystem(self.grid, at, self.load_fixed, displaces=False)
@@ -130,12 +171,12 @@ class ProjectedSet(State):
         if not np.array_equal(self.metric.at, at):
             self.metric.prepare(at, self.load_fixed)
 
-    def _preconditioned(self, r: NDArray[np.float32]) -> NDArray[np.float32]:
+    def _preconditioned(self, r: Floats) -> Floats:
         """Pressures that the sparse inverse gives for a residual, of zero sum if the load is."""
         x = self.metric(r)
         if self.load_fixed:
             k = self.metric(np.ones_like(r))
-            x -= k * np.float32(x.sum(dtype=np.float64) / k.sum(dtype=np.float64))
+            x -= k * (x.sum() / k.sum())
         return x
 
     def _projected(self, at: Indices, p: Floats, x: NDArray[Any], bound: Floats) -> Floats:
@@ -145,18 +186,32 @@ class ProjectedSet(State):
         if np.all((y >= 0.0) & (y <= bound)):
             return y
         self._prepare(at)  # few pixels are solved for without it
-        low, high = (-p).astype(np.float32), (bound - p).astype(np.float32)
-        found = project_in_metric(
-            x.astype(np.float32), low, high, self.metric.factor, self.load_fixed
-        )
-        y = np.clip(p + found.change, 0.0, bound)
-        y[found.side < 0] = 0.0
-        return np.asarray(np.where(found.side > 0, bound, y))
+        kind = self.metric.kind
+        low, high = (-p).astype(kind), (bound - p).astype(kind)
+        tolerance = max(TOLERANCE * 0.1**self.n_short, FINEST)
+        projection = Projection(self.metric.factor, low, high, self.load_fixed, tolerance)
+        found = projection(x.astype(kind))
+        change = found.change.astype(np.float64)
+        if self.load_fixed:
+            projection.restore(change, 0.0)
+            change = _balanced(change)
+        y = np.clip(p + change, 0.0, bound)
+        y[change <= low] = 0.0
+        return np.asarray(np.where(change >= high, bound, y))
+
+    def _downhill(self, p: Floats, r: Floats, bound: Floats) -> Floats:
+        """The safeguard: a projected gradient step, short but certain to go downhill."""
+        self.source = "gradient"
+        trial = p + r * (self.stride / self.grid.steepest)
+        if self.load_fixed:
+            return clip_to_load(trial, bound, float(p.sum()))
+        return np.clip(trial, 0.0, bound)
 
     def _shortened(self, x: NDArray[Any]) -> float:
         """Factor of a change that would move many times the load, which bounds cut off anyway."""
         moved = 0.5 * float(np.abs(x).sum())
-        return min(1.0, FARTHEST * self.load / moved) if self.load_fixed and moved > 0.0 else 1.0
+        most = self.farthest * self.load
+        return most / moved if self.load_fixed and moved > most else 1.0
 
     def _restore_load(self, at: Indices) -> None:
         """Scale the free pixels so that the pressures sum to the load."""
@@ -174,11 +229,11 @@ class ProjectedSet(State):
         return min(0.03, max(0.4 * self.rtol / max(self.relative, 1e-5 * self.rtol), FLOOR))
 
 
-def _downhill(p: Floats, x: NDArray[Any], r: Floats, bound: Floats) -> Floats:
-    """The safeguard: cut off at the bounds, but so short a step that it still goes downhill."""
-    length, gain = 1.0, float(r @ x)
-    while True:
-        y: Floats = np.clip(p + length * x, 0.0, bound)
-        if float(r @ (y - p)) >= 0.1 * length * gain or length < 1e-4:
-            return y
-        length *= 0.5
+def _balanced(change: Floats) -> Floats:
+    """Changes that sum to zero but for round-off: the larger of gain and loss is cut back."""
+    gain, loss = float(change[change > 0.0].sum()), -float(change[change < 0.0].sum())
+    if abs(gain - loss) <= 1e-9 * (gain + loss):
+        return change  # pixels held at a bound stay there
+    if gain > loss:
+        return np.where(change > 0.0, change * (loss / gain), change)
+    return np.where(change < 0.0, change * (gain / loss), change)

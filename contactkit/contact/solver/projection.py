@@ -16,7 +16,7 @@ symbol  meaning
 ======  ====================================================================
 K       ``L' L``, about the inverse of the operator between the free pixels
 w       displacement that holds pixels at their bounds
-k       ``K 1``, pressures under an equal displacement; keeps a sum
+k       ``K 1``, pressures under an equal displacement; keep a sum
 ======  ====================================================================
 """
 
@@ -27,101 +27,76 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Projected", "project_in_metric"]
+__all__ = ["Projected", "Projection"]
 
-Singles = NDArray[np.float32]
-MAX_SETS = 20  # sets of held pixels tried
+Vector = NDArray[Any]
+TOLERANCE = 0.03  # of the residual on each set of held pixels, unless asked for less
+MAX_SETS = 20  # of held pixels tried
 MAX_STEPS = 40  # of conjugate gradients on each
-REDUCTION = 0.03  # of the residual on each
+MOST_STEPS = 400  # in all: beyond, another gap is worth more than a better projection
 MAX_SHIFTS = 30  # of the displacement that gives the changes their sum
-UNBALANCED = 0.01  # of the sum of changes, over that of their magnitudes: scaling makes up for it
+UNBALANCED = 0.01  # of the sum of changes, over that of their magnitudes: `restore` makes up for it
 SETTLED = 0.02  # changes of side over held pixels that may remain: the next free pixels differ more
 
 
 class Projected(NamedTuple):
     """Changes within the bounds, and on which side each pixel is held: -1, 0 or 1."""
 
-    change: Singles
+    change: Vector
     side: NDArray[np.int8]
 
 
-class _Metric:
-    """The sparse inverse K, that of a kept sum if the load is fixed."""
-
-    def __init__(self, factor: Any, load_fixed: bool) -> None:
-        self.transposed = factor.T.tocsr()
-        ones = np.ones(factor.shape[0], np.float32)
-        self.k = np.asarray(self.transposed @ (factor @ ones)) if load_fixed else None
-        self.total = 1.0 if self.k is None else float(self.k.sum(dtype=np.float64))
-
-
 class _HeldSystem:
-    """K between the pixels that are held at a bound."""
+    """K between the pixels that are held at a bound; vectors are zero on the others."""
 
-    def __init__(self, metric: _Metric, held: NDArray[np.intp]) -> None:
-        self.metric = metric
-        self.rows = metric.transposed[held]
-        self.columns = self.rows.T
-        self.k = None if metric.k is None else metric.k[held]
-        self.diagonal = np.asarray(self.rows.power(2).sum(axis=1)).ravel()
+    def __init__(self, projection: Projection, held: NDArray[np.bool_], keeps_sum: bool) -> None:
+        self.all, self.held, self.keeps_sum = projection, held, keeps_sum
 
-    def __call__(self, w: Singles) -> Singles:
-        """Change of the held pixels under a displacement of them."""
-        out = np.asarray(self.rows @ (self.columns @ w))
-        if self.k is not None:
-            out -= self.k * np.float32(np.dot(self.k, w) / self.metric.total)
-        return out
-
-    def spread(self, w: Singles) -> Singles:
+    def spread(self, w: Vector) -> Vector:
         """Change of all free pixels under the displacement of those that are held."""
-        out = np.asarray(self.metric.transposed @ (self.columns @ w))
-        if self.metric.k is not None and self.k is not None:
-            out -= self.metric.k * np.float32(np.dot(self.k, w) / self.metric.total)
+        out = self.all.product(w)
+        if self.keeps_sum:
+            out -= self.all.k * w.dtype.type(np.dot(self.all.k, w) / self.all.stiffness)
         return out
 
-    def solve(self, goal: Singles, w: Singles) -> Singles:
-        """Improve w so that ``K w`` comes near the goal, by a few preconditioned steps."""
-        w = w.copy()
-        r = goal - self(w)
-        z = r / self.diagonal
+    def solve(self, goal: Vector, w: Vector, tolerance: float, most: int) -> int:
+        """Improve w in place so that ``K w`` comes near the goal; number of steps taken."""
+        single, divisor = w.dtype.type, self.all.diagonal
+        r = np.where(self.held, goal - self.spread(w), single(0.0))
+        z = r / divisor
         d, rz = z.copy(), float(np.dot(r, z))
-        stop = REDUCTION**2 * rz
-        for _ in range(MAX_STEPS if rz > 0.0 else 0):
-            q = self(d)
+        stop = tolerance**2 * rz
+        for step in range(most):
+            if rz <= stop:
+                return step
+            q = self.spread(d)
+            q *= self.held
             dq = float(np.dot(d, q))
             if not dq > 0.0:
-                break
-            length = np.float32(rz / dq)
+                return step
+            length = single(rz / dq)
             w += length * d
             r -= length * q
-            z = r / self.diagonal
+            z = r / divisor
             before, rz = rz, float(np.dot(r, z))
-            if rz <= stop:
-                break
-            d = z + np.float32(rz / before) * d
-        return w
+            d *= single(rz / before)
+            d += z
+        return most
 
 
-def project_in_metric(
-    x: Singles, low: Singles, high: Singles, factor: Any, load_fixed: bool
-) -> Projected:
-    """Nearest change of pressures within bounds, in the metric of a sparse inverse.
+class Projection:
+    """Nearest changes of pressures within bounds, in the metric of a sparse inverse.
 
     Parameters
     ----------
-    x : ndarray (m,)
-        Change that leaves the bounds.
-    low, high : ndarray (m,)
-        Its bounds; ``high`` may be infinite.
     factor : sparse array (m, m)
         L, ``L' L`` about the inverse of the operator between the pixels.
+    low, high : ndarray (m,)
+        Bounds of the changes; `high` may be infinite.
     load_fixed : bool
         Whether the changes keep their sum.
-
-    Returns
-    -------
-    Projected
-        Only about the nearest: the sets of held pixels need not have settled.
+    tolerance : float
+        Reduction of the residual of each set of held pixels [-].
 
     Examples
     --------
@@ -131,73 +106,106 @@ def project_in_metric(
     >>> L = scipy.sparse.csr_array(np.array([[1, 0, 0], [-1, 1, 0], [0, -1, 1]], np.float32))
     >>> low, high = np.zeros(3, np.float32), np.full(3, np.inf, np.float32)
     >>> x = np.array([1.0, 1.0, -0.5], np.float32)
-    >>> project_in_metric(x, low, high, L, False).change
+    >>> Projection(L, low, high, False)(x).change
     array([1. , 0.5, 0. ], dtype=float32)
     """
-    metric = _Metric(factor, load_fixed)
-    side = (x > high).astype(np.int8) - (x < low).astype(np.int8)
-    found = _bounded(metric, x, low, high, side)
-    if not load_fixed or not _misses(found, float(x.sum(dtype=np.float64))):
+
+    def __init__(
+        self,
+        factor: Any,
+        low: Vector,
+        high: Vector,
+        load_fixed: bool,
+        tolerance: float = TOLERANCE,
+    ) -> None:
+        self.factor, self.transposed = factor, factor.T
+        self.low, self.high, self.load_fixed = low, high, load_fixed
+        self.tolerance = tolerance
+        n, kind = factor.shape[0], factor.dtype
+        self.k = self.product(np.ones(n, kind))
+        self.stiffness = float(self.k.sum(dtype=np.float64))
+        self.diagonal = np.bincount(factor.indices, factor.data**2, n).astype(kind)
+        self.w = np.zeros(n, kind)
+        self.steps = 0
+
+    def product(self, w: Vector) -> Vector:
+        """Changes of pressure K w under a displacement."""
+        return np.asarray(self.transposed @ (self.factor @ w))
+
+    def __call__(self, x: Vector) -> Projected:
+        """About the nearest changes to x: the sets of held pixels need not have settled."""
+        side = (x > self.high).astype(np.int8) - (x < self.low).astype(np.int8)
+        found = self._bounded(x, side, self.load_fixed)
+        total = float(x.sum(dtype=np.float64))
+        if self.load_fixed and self._misses(found, total):
+            found = self._with_sum(x, total, found)
         return found
-    return _with_sum(factor, x, low, high, found)
 
+    def _misses(self, found: Projected, total: float) -> bool:
+        """Whether changes do not sum up as they should: where nearly all pixels are held."""
+        missing = abs(float(found.change.sum(dtype=np.float64)) - total)
+        return missing > UNBALANCED * float(np.abs(found.change).sum(dtype=np.float64))
 
-def _misses(found: Projected, total: float) -> bool:
-    """Whether changes do not sum up as they should: where nearly all pixels are held."""
-    missing = abs(float(found.change.sum(dtype=np.float64)) - total)
-    return missing > UNBALANCED * float(np.abs(found.change).sum(dtype=np.float64))
+    def _bounded(self, x: Vector, side: NDArray[np.int8], keeps_sum: bool) -> Projected:
+        """Projection by sets of held pixels, from a first guess of them and of w."""
+        moved = x
+        for _ in range(MAX_SETS):
+            held = side != 0
+            bound = np.where(side > 0, self.high, self.low)
+            system = _HeldSystem(self, held, keeps_sum)
+            w = np.where(held, self.w, x.dtype.type(0.0))
+            goal = np.where(held, bound - x, x.dtype.type(0.0))
+            most = min(MAX_STEPS, MOST_STEPS - self.steps)
+            self.steps += system.solve(goal, w, self.tolerance, most)
+            self.w = w
+            moved = x + system.spread(w)
+            now = (moved > self.high).astype(np.int8) - (moved < self.low).astype(np.int8)
+            # A held pixel is freed where its bound pulls instead of pushes.
+            now = np.where(held, np.where(side * w <= 0.0, side, 0), now).astype(np.int8)
+            changed = int(np.count_nonzero(now != side))
+            side = now
+            few = SETTLED * min(1.0, self.tolerance / TOLERANCE) * np.count_nonzero(held)
+            if changed <= few or self.steps >= MOST_STEPS:
+                break
+        change = np.clip(moved, self.low, self.high)
+        change[side < 0], change[side > 0] = self.low[side < 0], self.high[side > 0]
+        return Projected(change, side)
 
+    def _with_sum(self, x: Vector, total: float, first: Projected) -> Projected:
+        """Projection with a given sum, by the equal displacement that makes it.
 
-def _bounded(
-    metric: _Metric, x: Singles, low: Singles, high: Singles, side: NDArray[np.int8]
-) -> Projected:
-    """Projection by sets of held pixels, from a first guess of them."""
-    w = np.zeros_like(x)
-    moved = x
-    for _ in range(MAX_SETS):
-        held = np.flatnonzero(side)
-        bound = np.where(side[held] > 0, high[held], low[held])
-        system = _HeldSystem(metric, held)
-        w_held = system.solve(bound - x[held], w[held])
-        w[...] = 0.0
-        w[held] = w_held
-        moved = x + system.spread(w_held)
-        now = (moved > high).astype(np.int8) - (moved < low).astype(np.int8)
-        # A held pixel is freed where its bound pulls instead of pushes.
-        now[held] = np.where(side[held] * w_held <= 0.0, side[held], 0)
-        changed = int(np.count_nonzero(now != side))
-        side = now
-        if changed <= SETTLED * held.size:
-            break
-    change = np.clip(moved, low, high)
-    change[side < 0], change[side > 0] = low[side < 0], high[side > 0]
-    return Projected(change, side)
+        The sum falls with that displacement: regula falsi (Illinois) inside a bracket.
+        """
 
+        def excess(shift: float, side: NDArray[np.int8]) -> tuple[float, Projected]:
+            found = self._bounded(x - x.dtype.type(shift) * self.k, side, False)
+            return float(found.change.sum(dtype=np.float64)) - total, found
 
-def _with_sum(factor: Any, x: Singles, low: Singles, high: Singles, first: Projected) -> Projected:
-    """Projection whose changes sum to those of x, by the equal displacement that makes them.
+        here, found = excess(0.0, first.side)
+        a, b, at_a, at_b = 0.0, 0.0, here, here
+        step = here / self.stiffness
+        for _ in range(MAX_SHIFTS):
+            if not self._misses(found, total) or self.steps >= MOST_STEPS:
+                break
+            shift = b + step if at_a * at_b > 0.0 else (a * at_b - b * at_a) / (at_b - at_a)
+            here, found = excess(shift, found.side)
+            if here * at_b > 0.0 and at_a * at_b <= 0.0:
+                at_a *= 0.5
+            else:
+                a, at_a = b, at_b
+            b, at_b, step = shift, here, 2.0 * step
+        return found
 
-    The sum falls with that displacement: regula falsi (Illinois) inside a bracket.
-    """
-    metric = _Metric(factor, False)
-    k = metric.transposed @ (factor @ np.ones_like(x))
-    total, stiffness = float(x.sum(dtype=np.float64)), float(k.sum(dtype=np.float64))
+    def restore(self, change: NDArray[np.float64], total: float) -> None:
+        """Give changes a sum by a displacement equal over the pixels off their bounds, in place.
 
-    def excess(shift: float, side: NDArray[np.int8]) -> tuple[float, Projected]:
-        found = _bounded(metric, x - np.float32(shift) * k, low, high, side)
-        return float(found.change.sum(dtype=np.float64)) - total, found
-
-    here, found = excess(0.0, first.side)
-    a, b, at_a, at_b = 0.0, 0.0, here, here
-    step = here / stiffness
-    for _ in range(MAX_SHIFTS):
-        if not _misses(found, total):
-            break
-        shift = b + step if at_a * at_b > 0.0 else (a * at_b - b * at_a) / (at_b - at_a)
-        here, found = excess(shift, found.side)
-        if here * at_b > 0.0 and at_a * at_b <= 0.0:
-            at_a *= 0.5
-        else:
-            a, at_a = b, at_b
-        b, at_b, step = shift, here, 2.0 * step
-    return found
+        This costs the least energy, scaling of the pressures far more.
+        """
+        for _ in range(MAX_SHIFTS):
+            missing = total - float(change.sum())
+            free = np.flatnonzero((change > self.low) & (change < self.high) & (self.k > 0.0))
+            room = float(self.k[free].sum(dtype=np.float64))
+            if not room > 0.0 or abs(missing) <= 1e-13 * float(np.abs(change).sum()):
+                break
+            moved = change[free] + (missing / room) * self.k[free]
+            change[free] = np.clip(moved, self.low[free], self.high[free])
