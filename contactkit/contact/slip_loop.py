@@ -198,8 +198,8 @@ def _sub_step(
         target = target._replace(start=pressure)
     problem = (
         f"pressure and tractions still change each other by {change:.2g} of the displacement after "
-        f"{_MOST_PASSES} iterations, tolerance {outer:g}; lower PartialSlip.coefficient, use a "
-        "larger Accuracy.rtol, or leave coupled out"
+        f"{_MOST_PASSES} iterations, tolerance {outer:g}; use more PartialSlip.pressing_steps, a "
+        "smaller coefficient, a larger Accuracy.rtol, or leave coupled out"
     )
     assert taken is not None
     return _State(solved, taken, caused, problem)

@@ -106,8 +106,9 @@ class PartialSlip(Observer[PartialSlipPart]):
     -----
     Coupled, the path begins where pressing ends: displacement counts from there, and the dissipated
     work of the first state is that of pressing. `stiffness` is that at the pressure as it is.
-    A minimum belongs to each step of the tractions, not to both loads together; for very large
-    coefficients on sharp edges there may be no state, which ends in a `ConvergenceError`.
+    A minimum belongs to each step of the tractions, not to both loads together. Pressed in a single
+    step, a sphere has been found for coefficients up to 3 (nu = 0), in four steps for 1000, which
+    sticks everywhere; a step without a state ends in a `ConvergenceError`.
 
     Examples
     --------

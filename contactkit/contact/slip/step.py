@@ -96,10 +96,14 @@ class _Step:
         self.given = across @ control.displacement
         self.caused = control.caused if control.caused is not None else np.zeros((len(before), 1))
         largest = float(bound.max(initial=0.0))
-        self.floor = _ROUND_OFF * largest * operator.largest
         # Of a displacement beyond full sliding the tractions take no notice.
         imposed = float(np.abs(self.given).max()) + float(np.abs(self.caused).max(initial=0.0))
         self.least = min(imposed, 2.0 * largest * operator.own)
+
+    def floor(self, q: Array) -> float:
+        """Round-off of the displacement between two tractions [m]."""
+        largest = max(float(lengths(one).max(initial=0.0)) for one in (q, self.before))
+        return _ROUND_OFF * largest * self.operator.largest
 
     def state(self, q: Array, slips: NDArray[np.bool_]) -> _State:
         x = q - self.before
@@ -195,9 +199,13 @@ def solve_step(
         free, g = step.directions(state)
         scale = max(float(np.abs(state.u).max()), step.least)
         found = step.violation(state.q, g)
-        allowed = max(rtol * scale, step.floor)
+        floor = step.floor(state.q)
+        allowed = max(rtol * scale, floor)
         if found < best:
-            best, end = found, (state, free, g, found / max(scale, step.floor / rtol))
+            best, end = (
+                found,
+                (state, free, g, found / max(scale, floor / rtol, np.finfo(float).tiny)),
+            )
         if found <= allowed:
             break
         reduction = 0.1 if changed > 0.05 else max(min(0.05, 0.3 * allowed / found), 1e-10)

@@ -10,8 +10,10 @@ from scipy.special import ellipk
 
 import contactkit as ck
 from contactkit.contact import slip_loop
+from contactkit.contact.effects.elasticity import bodies_of
 from contactkit.contact.slip.coupling import coupling_of
-from contactkit.units import GPa, mm, nm, um
+from contactkit.contact.slip.operator import tangential_operator
+from contactkit.units import GPa, MPa, mm, nm, um
 
 RADIUS = 1 * mm
 REST = (ck.TangentialStep(force=0.0),)
@@ -74,6 +76,90 @@ def test_without_tractions_in_the_gap_the_stick_circle_is_that_of_spence(monkeyp
     assert math.sqrt(part.stick_fraction[0]) == pytest.approx(spence(0.2 / beta), rel=0.03)
 
 
+def punch(nu, coefficient, path=REST, grid=32, **choices):
+    """A flat-ended rigid punch of 0.8 of the window across, pressed in one step."""
+    x = (np.arange(grid) + 0.5) / grid - 0.5
+    on = np.hypot(x[:, None], x) < 0.4
+    heights = ck.Heights(heights=np.where(on, 0.0, -1.0) * um, pixel_size=100 * um / grid)
+    effects = [ck.HalfSpace()]
+    if coefficient:
+        choices = {"components": 2, "coupled": True, "pressing_steps": 1} | choices
+        effects.append(ck.PartialSlip(coefficient=coefficient, path=path, **choices))
+    solid = ck.Material(young_modulus=1 * GPa, poisson_ratio=nu)
+    scene = ck.ContactScene(
+        interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Body(surface=heights)),
+        window=ck.Window(periodic=False),
+        loading=ck.Pressing(pressure=0.1 * MPa),
+        effects=tuple(effects),
+    )
+    return ck.solve(ck.plan(scene))
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0])
+def test_a_flat_punch_sticks_as_far_as_a_sphere(monkeypatch, ratio):
+    """Spence: all punches of a power law have one stick radius; pressing this one is one step."""
+    monkeypatch.setattr(
+        slip_loop._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
+    )
+    beta = (1.0 - 2.0 * 0.2) / (2.0 * (1.0 - 0.2))
+    part = punch(0.2, ratio * beta, grid=96).of(ck.PartialSlip)
+    assert math.sqrt(part.stick_fraction[0]) == pytest.approx(spence(ratio), rel=0.01)
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.2, 0.45])
+def test_a_bonded_punch_is_as_stiff_as_mossakovskii_has_it(nu):
+    """P = 4 G a d ln(3 - 4 nu)/(1 - 2 nu), over 4 G a d/(1 - nu) without friction."""
+    bonded, free = punch(nu, 1e3), punch(nu, 0.0)
+    exact = (1.0 - nu) * math.log(3.0 - 4.0 * nu) / (1.0 - 2.0 * nu)
+    assert bonded.of(ck.PartialSlip).stick_fraction[0] == 1.0
+    assert free.approach / bonded.approach == pytest.approx(exact, rel=1e-3)
+
+
+def elastic_energy(result, traction):
+    """Elastic energy of half-space and tractions (2, ny, nx), by the compliances C, B and H."""
+    plan, pressure = result.plan, result.pressure
+    bodies = bodies_of(plan.scene.interface)
+    coupling = coupling_of(plan.grid, *bodies)
+    touching = pressure > 0.0
+    q = traction[:, touching]
+    tangential = tangential_operator(plan.grid, touching, (bodies[0],), 0.0, 2)
+    normal = plan.prepared.solver.displacement(pressure)
+    work = float((pressure * normal).sum()) + float((q * tangential(q)).sum())
+    return 0.5 * plan.grid.pixel_area * (work + 2.0 * float((pressure * coupling(*traction)).sum()))
+
+
+def test_pressing_a_punch_balances_work_elastic_energy_and_friction():
+    """All grows with the load, so that its work is half of load times approach."""
+    result = punch(0.1, 0.35)
+    part = result.of(ck.PartialSlip)
+    assert 0.2 < part.stick_fraction[0] < 0.8
+    traction = np.array([part.traction_x[0], part.traction_y[0]])
+    work = 0.5 * result.load * result.approach
+    lost = part.dissipated_work[0]
+    assert lost > 1e-3 * work
+    assert elastic_energy(result, traction) + lost == pytest.approx(work, rel=1e-6)
+
+
+def test_a_tangential_path_balances_work_elastic_energy_and_friction():
+    """Incompressible, so that the pressure stays: the work is the integral of force over path."""
+    steps = (ck.TangentialStep(ratio=0.8, steps=24), ck.TangentialStep(ratio=-0.5, steps=40))
+    result, part = pressed(nu=0.5, path=steps, coupled=False)
+    traction = np.array([part.traction_x[-1], part.traction_y[-1]])
+    work = float(np.trapezoid(part.force, part.displacement))
+    pressed_in = elastic_energy(result, 0.0 * traction)
+    stored = elastic_energy(result, traction) - pressed_in
+    assert part.dissipated_work[-1] > 0.1 * work > 0.0
+    assert stored + part.dissipated_work[-1] == pytest.approx(work, rel=2e-3)
+
+
+def test_very_large_coefficients_stick_if_pressed_in_steps():
+    _, part = pressed(coefficient=1e3, nu=0.0)
+    assert part.stick_fraction[0] == 1.0
+    _, weaker = pressed(coefficient=10.0, nu=0.0)
+    assert 0.9 < weaker.stick_fraction[0] < 1.0
+    assert weaker.coupling.pressure_change < part.coupling.pressure_change
+
+
 def test_friction_makes_the_contact_smaller_and_its_pressure_higher():
     _, part = pressed(coefficient=1.0, nu=0.0)
     assert part.coupling.area_change < 0.0
@@ -116,8 +202,6 @@ def test_coupling_is_reciprocal(periodic, is_layered):
         effects=(ck.LayeredHalfSpace() if is_layered else ck.HalfSpace(),),
     )
     plan = ck.plan(scene, ck.Accuracy(grid=24))
-    from contactkit.contact.effects.elasticity import bodies_of
-
     coupling = coupling_of(plan.grid, *bodies_of(scene.interface))
     p, qx, qy = np.random.default_rng(3).normal(size=(3, 24, 24))
     x, y = coupling.of_pressure(p)
@@ -138,7 +222,7 @@ def test_coupling_is_reciprocal(periodic, is_layered):
 
 
 def test_a_pair_of_tractions_that_is_not_found_states_it():
-    with pytest.raises(ck.errors.ConvergenceError, match=r"lower PartialSlip\.coefficient"):
+    with pytest.raises(ck.errors.ConvergenceError, match=r"use more PartialSlip\.pressing_steps"):
         pressed(coefficient=1e3, nu=0.0, pressing_steps=1)
 
 

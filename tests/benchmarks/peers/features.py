@@ -411,12 +411,12 @@ def serve(name, given):
             continue
         prepare = here if name == "contactkit" else there
         prepare(128)(1e-4)  # loads libraries and compiled code
-        spent = 0.0
+        expected = 0.0
         for n in given.sizes:
-            if spent > given.budget:
+            if expected > given.budget:
                 break
             row = measured(prepare(n), given.budget)
-            spent = 4.0 * row[1]
+            expected = 4.0 * row[1]
             print(json.dumps([what, n, *row]), flush=True)
 
 
