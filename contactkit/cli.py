@@ -1,4 +1,4 @@
-"""The command line: ``contactkit run | plan | cost | gallery | fmu build``."""
+"""The command line: ``contactkit run | study | plan | cost | gallery | fmu build``."""
 
 from __future__ import annotations
 
@@ -87,6 +87,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     for name, command, text in (
         ("run", _run, "run a scene, print its numbers, write its curves and figures"),
+        ("study", _study, "run the study of a scene file, write its columns and a figure"),
         ("plan", _plan, "print the effects of a scene, on and off, and their sources"),
         ("cost", _cost, "measure error against computing time for a scene"),
     ):
@@ -96,6 +97,8 @@ def _parser() -> argparse.ArgumentParser:
         if name != "plan":
             one.add_argument("--out", type=Path, help="folder to write curves and figures to")
             one.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
+        if name == "study":
+            _add_study_options(one)
         if name == "cost":
             one.add_argument(
                 "--error",
@@ -110,6 +113,17 @@ def _parser() -> argparse.ArgumentParser:
     _add_build(fmu)
     _add_system(fmu)
     return parser
+
+
+def _add_study_options(study: argparse.ArgumentParser) -> None:
+    """Options of a study."""
+    study.add_argument("--workers", type=int, default=1, help="processes to run points in")
+    study.add_argument("--store", type=Path, help="folder of finished points, to continue from")
+    study.add_argument(
+        "--dimensionless",
+        action="store_true",
+        help="in units of the reference scales, such as E* A, in place of SI units",
+    )
 
 
 def _add_gallery(commands: Any) -> None:
@@ -237,6 +251,17 @@ def _run(parsed: argparse.Namespace) -> None:
     device = _load(parsed.scene)
     with _progress(f"run {device.name}") as progress:
         report = device.run(parsed.out, progress)
+    _show(report, parsed.json)
+
+
+def _study(parsed: argparse.Namespace) -> None:
+    from .app.run.study import StudyOptions
+
+    _check_folder(parsed.out)
+    options = StudyOptions(parsed.workers, parsed.store, parsed.dimensionless)
+    device = _load(parsed.scene)
+    with _progress(f"study of {device.name}") as progress:
+        report = device.study(parsed.out, progress, options)
     _show(report, parsed.json)
 
 

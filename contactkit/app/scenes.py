@@ -11,7 +11,7 @@ from attrs import field, frozen
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, PlanError, nearest
 from ..files.scenes import (
-    read_contact,
+    read_scene,
     read_tables,
     scene_kind,
     structure,
@@ -24,6 +24,7 @@ from ..models.liquid_bridges.scene import Bridges
 from ..models.micromirror.scene import MicromirrorScene
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .report import Report
+from .run.study import StudyOptions, study_lines
 
 __all__ = [
     "FmuStart",
@@ -64,6 +65,9 @@ class OpenedScene(Protocol):
     def run(self, out: Path | None, progress: Progress) -> Report:
         """Simulate, and write curves and figures to a folder."""
 
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """Run the study of the file, and write its columns and figure to a folder."""
+
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """Show what accuracy costs in time."""
 
@@ -94,10 +98,10 @@ def _opened(tables: dict[str, Any], path: Path) -> OpenedScene:
         return _open_device(device, beside(tables, path.parent), path.name)
     kind = scene_kind(tables)
     if kind is ContactScene:
-        return OpenedContact(*read_contact(tables, path.name))
+        return OpenedContact(*read_scene(tables, ContactScene, path.name))
     if kind is SlidingScene:
-        return OpenedSliding(structure(tables, SlidingScene, path.name))
-    return OpenedSeparation(structure(tables, SeparationScene, path.name))
+        return OpenedSliding(*read_scene(tables, SlidingScene, path.name))
+    return OpenedSeparation(*read_scene(tables, SeparationScene, path.name))
 
 
 def _open_device(device: object, tables: Mapping[str, Any], origin: str) -> OpenedScene:
@@ -112,6 +116,14 @@ def _open_device(device: object, tables: Mapping[str, Any], origin: str) -> Open
     raise DescriptionError(f"{origin}, device", device, "be a known device", hint=hint)
 
 
+def _studied_by_run(name: str) -> PlanError:
+    """Refusal of a study of a device."""
+    return PlanError(
+        f"{name} is a device: contactkit run includes what its file varies; contactkit study takes "
+        "a contact, a separation or a sliding"
+    )
+
+
 def _with_sources(made: Any) -> str:
     """Text of a plan, and its sources."""
     return f"{made}\nsources:\n" + "\n".join(f"  {line}" for line in made.cite().splitlines())
@@ -119,9 +131,11 @@ def _with_sources(made: Any) -> str:
 
 @frozen
 class OpenedSeparation:
-    """A separation scene on the command line."""
+    """A separation scene on the command line, with accuracy and study as in `OpenedContact`."""
 
     scene: SeparationScene
+    accuracy: Accuracy = field(factory=Accuracy)
+    vary: Mapping[str, list[Any]] = field(factory=dict)
 
     @property
     def name(self) -> str:
@@ -132,13 +146,20 @@ class OpenedSeparation:
         """See `OpenedScene.plan_text`."""
         from ..separation.plan import plan
 
-        return _with_sources(plan(self.scene))
+        text = _with_sources(plan(self.scene, self.accuracy))
+        return "\n".join([text, *study_lines(self.scene, self.accuracy, self.vary)])
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `OpenedScene.run`."""
         from .run.separation import run_separation
 
-        return run_separation(self.scene, out, progress)
+        return run_separation(self.scene, self.accuracy, self.vary, out, progress)
+
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """See `OpenedScene.study`."""
+        from .run.study import run_study
+
+        return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `OpenedScene.cost`."""
@@ -175,25 +196,19 @@ class OpenedContact:
         from ..planning import plan
 
         text = _with_sources(plan(self.scene, self.accuracy))
-        return "\n".join([text, *self._study_text()])
-
-    def _study_text(self) -> list[str]:
-        """Check the study of the file, and say what it varies."""
-        from ..studies.study import check_study
-        from .run.contact import study_variants
-
-        if not self.vary:
-            return []
-        for variant in study_variants(self.scene):
-            varied = check_study(variant.scene, self.vary, self.accuracy)
-        n = [f"  {', '.join(axis.paths)}: {len(axis.values)} values" for axis in varied]
-        return ["study, the last path fastest:", *n]
+        return "\n".join([text, *study_lines(self.scene, self.accuracy, self.vary)])
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `OpenedScene.run`."""
         from .run.contact import run_contact
 
         return run_contact(self.scene, self.accuracy, self.vary, out, progress)
+
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """See `OpenedScene.study`."""
+        from .run.study import run_study
+
+        return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `OpenedScene.cost`."""
@@ -217,9 +232,11 @@ class OpenedContact:
 
 @frozen
 class OpenedSliding:
-    """A sliding scene on the command line."""
+    """A sliding scene on the command line, with accuracy and study as in `OpenedContact`."""
 
     scene: SlidingScene
+    accuracy: Accuracy = field(factory=Accuracy)
+    vary: Mapping[str, list[Any]] = field(factory=dict)
 
     @property
     def name(self) -> str:
@@ -230,13 +247,20 @@ class OpenedSliding:
         """See `OpenedScene.plan_text`."""
         from ..separation.sliding.plan import plan_sliding
 
-        return _with_sources(plan_sliding(self.scene))
+        text = _with_sources(plan_sliding(self.scene, self.accuracy))
+        return "\n".join([text, *study_lines(self.scene, self.accuracy, self.vary)])
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `OpenedScene.run`."""
         from .run.sliding import run_sliding
 
-        return run_sliding(self.scene, out, progress)
+        return run_sliding(self.scene, self.accuracy, self.vary, out, progress)
+
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """See `OpenedScene.study`."""
+        from .run.study import run_study
+
+        return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `OpenedScene.cost`."""
@@ -271,6 +295,10 @@ class OpenedBridges:
 
         return run_bridges(self.scene, out, progress)
 
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """See `OpenedScene.study`."""
+        raise _studied_by_run(self.name)
+
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `OpenedScene.cost`."""
         from .cost.bridges import bridge_cost
@@ -304,6 +332,10 @@ class OpenedInjector:
         from .run.injector.report import run_injector
 
         return run_injector(self.scene, out, progress)
+
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """See `OpenedScene.study`."""
+        raise _studied_by_run(self.name)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `OpenedScene.cost`."""
@@ -341,6 +373,10 @@ class OpenedMicromirror:
         from .run.micromirror.report import run_micromirror
 
         return run_micromirror(self.scene, out, progress)
+
+    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
+        """See `OpenedScene.study`."""
+        raise _studied_by_run(self.name)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `OpenedScene.cost`."""

@@ -45,7 +45,7 @@ def contact_scales(scene: ContactScene, heights: NDArray[np.float64], area: floa
     curvature = sum(_curvature(body.surface) for body in scene.interface.bodies)
     if curvature > 0.0:
         length, area = Scale(1.0 / curvature, "R", "relative radius of the bodies"), curvature**-2.0
-        square, text = "R^2", "its square"
+        square, text = "R^2", "square of the relative radius"
     else:
         holes = holes_of(scene)
         rms = float((heights if holes is None else heights[~holes]).std())
@@ -56,8 +56,12 @@ def contact_scales(scene: ContactScene, heights: NDArray[np.float64], area: floa
             "Pa": Scale(modulus, "E*", "reduced modulus of the substrates"),
             "m": length,
             "m2": Scale(area, square, text),
-            "N": Scale(force, f"E* {square}", "of both"),
-            "J": Scale(force * length.value, f"E* {square} {length.name}", "of these"),
+            "N": Scale(force, f"E* {square}", f"reduced modulus times {text}"),
+            "J": Scale(
+                force * length.value,
+                f"E* {square} {length.name}",
+                f"reduced modulus times {text} times {length.definition}",
+            ),
         }
     )
 

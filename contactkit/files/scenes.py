@@ -9,7 +9,7 @@ import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar, overload
+from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
@@ -30,8 +30,8 @@ __all__ = [
     "load_liquid",
     "load_material",
     "load_scene",
-    "ContactFile",
-    "read_contact",
+    "SceneFile",
+    "read_scene",
     "read_tables",
     "save_scene",
     "scene_kind",
@@ -45,16 +45,16 @@ __all__ = [
 S = TypeVar("S", bound=Scene)
 
 
-class ContactFile(NamedTuple):
-    """Content of a contact scene file: the scene, its accuracy, and the values of a study."""
+class SceneFile(NamedTuple, Generic[S]):
+    """Content of a scene file: the scene, its accuracy, and the values of a study."""
 
-    scene: ContactScene
+    scene: S
     accuracy: Accuracy
     vary: Mapping[str, list[Any]]
 
 
-def read_contact(tables: Mapping[str, Any], origin: str) -> ContactFile:
-    """Read a contact scene with its tables ``accuracy`` and ``study``, if it has them.
+def read_scene(tables: Mapping[str, Any], kind: type[S], origin: str) -> SceneFile[S]:
+    """Read a scene with the tables ``accuracy`` and ``study`` of its file, if it has them.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def read_contact(tables: Mapping[str, Any], origin: str) -> ContactFile:
         raise DescriptionError(
             f"{origin}, study", study, "be a table of lists", hint='"loading.pressure" = [...]'
         )
-    return ContactFile(structure(rest, ContactScene, origin), accuracy, study)
+    return SceneFile(structure(rest, kind, origin), accuracy, study)
 
 
 def read_tables(path: str | Path) -> dict[str, Any]:
@@ -126,7 +126,8 @@ def load_scene(path: str | Path, kind: type[Scene] = Scene) -> Scene:
     ----------
     path : str or Path
         The file; its tables are the fields of the scene that the kind of its ``loading`` belongs
-        to. Quantities may carry a unit.
+        to. Quantities may carry a unit. The tables ``accuracy`` and ``study`` are checked and
+        left out.
     kind : type, optional
         Kind of scene that is wanted, such as `ContactScene`; others are refused, and a type
         checker knows what is returned.
@@ -138,7 +139,7 @@ def load_scene(path: str | Path, kind: type[Scene] = Scene) -> Scene:
     """
     tables = read_tables(path)
     with telling_lines(Path(path)):
-        scene: Scene = structure(tables, scene_kind(tables), Path(path).name)
+        scene: Scene = read_scene(tables, scene_kind(tables), Path(path).name).scene
     if not isinstance(scene, kind):
         raise DescriptionError(
             "file", str(path), f"hold a {kind.__name__}", hint=f"it is a {type(scene).__name__}"

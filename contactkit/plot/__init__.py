@@ -3,6 +3,7 @@
 separation  Figures of separations and costs; axes, legends and colours of all figures.
 axis_units  Units of axes: those in which a quantity of some size reads best.
 contact     Figures of contacts.
+study       Figures of studies: numbers over a parameter, bands over seeds.
 plastic_history Figures of loading histories: force over approach, residual depth.
 stress      Figures of stress below a contact: sections to scale, with the maximum marked.
 roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +13,8 @@ from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
 from ..scene.materials import Stack
 from .axis_units import axis_unit
-from .separation import Axes, ListedColormap, Patch, Rectangle, figure, legend
+from .separation import Axes, ListedColormap, Patch, Rectangle, figure, legend, plain_log
+from .study import Panel, draw_line
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -213,7 +213,6 @@ def load_curve(
     curves: Sequence[tuple[str, Mapping[str, Any]]],
     axes: Sequence[Axes],
     panels: Sequence[Panel] | None = None,
-    over: tuple[str, str] | None = None,
 ) -> Sequence[Axes]:
     """Draw load curves, one panel for each quantity: over the approach where a contact is pulled.
 
@@ -226,42 +225,19 @@ def load_curve(
         One for each panel.
     panels : sequence of (column, label, factor), optional
         Quantities to draw; those of `LOAD_PANELS` that the columns have if not given.
-    over : (column, label), optional
-        Parameter to draw them over in place of the load.
     """
     is_pulled = any(np.any(np.asarray(c["mean_pressure"]) < 0.0) for _, c in curves)
     drawn = panels_of(curves) if panels is None else panels
     for ax, (name, label, factor) in zip(axes, drawn, strict=False):
-        for (title, columns), style in zip(curves, itertools.cycle(_STYLES), strict=False):
+        for i, (title, columns) in enumerate(curves):
             if name in columns:
-                x = _over(columns, is_pulled) if over is None else _parameter(columns[over[0]], ax)
-                ax.plot(x, np.asarray(columns[name]) / factor, style, ms=3.5, label=title)
+                draw_line(ax, _over(columns, is_pulled), columns, (name, label, factor), i, title)
         ax.set_ylabel(label)
-        if over is not None:
-            ax.set_xlabel(over[1])
-            continue
         ax.set_xlabel("approach [nm]" if is_pulled else "mean pressure [MPa]")
         ax.set_xscale("linear" if is_pulled else "log")
+        if not is_pulled and ax.get_xlim()[1] < 1e3 * ax.get_xlim()[0]:
+            plain_log(ax.xaxis)
     return axes
-
-
-def _parameter(values: Any, ax: Axes) -> NDArray[np.float64]:
-    """Values of a parameter; places on the axis for those that are no numbers, with their names."""
-    given = np.asarray(values)
-    if given.dtype != object:
-        return given
-    places = np.arange(float(len(given)))
-    ax.set_xticks(places, [_named(one) for one in given])
-    return places
-
-
-def _named(value: Any) -> str:
-    """A value of a parameter as text: numbers short, objects by their names."""
-    if isinstance(value, tuple):
-        return ", ".join(map(_named, value))
-    if isinstance(value, float):
-        return f"{value:g}"
-    return str(getattr(value, "name", None) or getattr(value, "label", None) or value)
 
 
 def _over(columns: Mapping[str, Any], is_pulled: bool) -> NDArray[np.float64]:
@@ -271,8 +247,6 @@ def _over(columns: Mapping[str, Any], is_pulled: bool) -> NDArray[np.float64]:
     return np.asarray(columns.get("loading.pressure", columns["mean_pressure"])) / 1e6
 
 
-_STYLES = ("o-", "s--", "^:", "v-.")
-Panel = tuple[str, str, float]
 LOAD_PANELS: tuple[Panel, ...] = (
     ("max_pressure", "maximum pressure [GPa]", 1e9),
     ("contact_fraction", "contact area [% of the window]", 0.01),

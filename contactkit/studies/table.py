@@ -174,11 +174,19 @@ class Study(Tabular, Generic[R_co]):
         columns = {name: self.column(name) for name in self.units}
         return tuple(
             StudyLine(
-                ", ".join(_text(self.points[line[0]].values[p]) for p in others),
+                ", ".join(self._named(p, self.points[line[0]].values[p]) for p in others),
                 {name: column[line] for name, column in columns.items()},
             )
             for line in places.reshape(-1, self.shape[axis])
         )
+
+    def _named(self, path: str, value: Any) -> str:
+        """A parameter in a legend: numbers with their name and unit, others as they are."""
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return _text(value)
+        unit = self.units[path]
+        end = "" if unit == "-" else f" {unit}"
+        return f"{_ends(path)[0].replace('_', ' ')} {_text(value)}{end}"
 
     def bands(self, over: str | None = None) -> Study[R_co]:
         """Return the study over its other parameters, with a band over the seeds at each point.
@@ -247,7 +255,8 @@ class Study(Tabular, Generic[R_co]):
 
         Parameters and numbers are divided by the scale of their unit, `Result.scales`, and have
         the name of the scale as unit: a load in newtons becomes one in units of ``E* A``. What
-        has no scale stays in SI units; a point without a solution has no scales, and only nan.
+        has no scale stays in SI units, and so does a parameter that is its own scale, such as a
+        varied initial gap. A point without a solution has no scales, and only nan.
 
         Raises
         ------
@@ -273,6 +282,7 @@ class Study(Tabular, Generic[R_co]):
                 )
         first = scaled[0]
         names = {n for n in self.units if n != "seconds" and self.units[n] in common}
+        names -= {path for path in self._varied if path in names and self._is_own_scale(path)}
         return evolve(
             self,
             points=tuple(_over_scales(point, self.units, names) for point in self.points),
@@ -283,6 +293,16 @@ class Study(Tabular, Generic[R_co]):
     def scales(self) -> Mapping[str, Scale]:
         """Scales of the first point that has any, by unit; their definitions hold for all."""
         return next((point.scales for point in self.points if point.scales), {})
+
+    def _is_own_scale(self, path: str) -> bool:
+        """Whether a parameter is its scale at every point."""
+        unit = self.units[path]
+        known = [p for p in self.points if unit in p.scales]
+        values = [p.values[path] for p in known]
+        if not all(isinstance(v, int | float) for v in values):
+            return False
+        pairs = zip(values, known, strict=True)
+        return all(math.isclose(v, p.scales[unit].value, rel_tol=1e-12) for v, p in pairs)
 
     @property
     def _varied(self) -> list[str]:

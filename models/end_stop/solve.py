@@ -10,7 +10,7 @@ from pathlib import Path
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...analyses.load_displacement.solve import load_displacement
 from ...errors import DescriptionError
-from ...files.scenes import read_contact, read_tables, scene_kind
+from ...files.scenes import read_scene, read_tables, scene_kind
 from ...scene.scenes import ContactScene
 from ..library import bundled_scene
 from .faces import StopFaces
@@ -59,5 +59,5 @@ def curve_of_scene(given: str) -> LoadDisplacementCurve:
             "name a contact scene, with a window and a pressing",
             hint="contact-stop and tip-landing are two of contactkit",
         )
-    scene, accuracy, _ = read_contact(tables, origin)
+    scene, accuracy, _ = read_scene(tables, ContactScene, origin)
     return load_displacement(scene, accuracy=accuracy)

@@ -216,10 +216,12 @@ HISTORY = (
 def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
     tmp_path, capsys, monkeypatch, effects, study, figure, names
 ):
-    plot = pytest.importorskip("contactkit.plot.contact")
+    plot = pytest.importorskip("contactkit.plot.study")
     drawn = []
-    draw = plot.load_curve
-    monkeypatch.setattr(plot, "load_curve", lambda *args, **more: drawn.append(draw(*args, **more)))
+    draw = plot.study_curves
+    monkeypatch.setattr(
+        plot, "study_curves", lambda *args, **more: drawn.append(draw(*args, **more))
+    )
     path = tmp_path / "touch.toml"
     path.write_text(TOUCH.format(effects=effects, study=study))
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0

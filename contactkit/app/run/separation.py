@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...accuracy import Accuracy
 from ...errors import ValidityWarning
 from ...scene.scenes import SeparationScene
 from ...separation.plan import Plan, plan
 from ..report import Report
+from .study import Studies, draw_studies, run_studies, study_lines, study_text, write_studies
 
 if TYPE_CHECKING:
     from ...separation.results import SeparationResult
@@ -20,20 +22,30 @@ __all__ = ["run_separation"]
 
 
 def run_separation(
-    scene: SeparationScene, out: Path | None, progress: Callable[[float], None]
+    scene: SeparationScene,
+    accuracy: Accuracy,
+    vary: Mapping[str, list[Any]],
+    out: Path | None,
+    progress: Callable[[float], None],
 ) -> Report:
-    """Simulate a separation, and write its curves and figures to a folder if one is given."""
+    """Simulate a separation and the study of its file; write curves and figures to a folder."""
     from ...separation.simulate import simulate
 
-    made = plan(scene)
+    study_lines(scene, accuracy, vary)  # refused before the run
+    made = plan(scene, accuracy)
+    fraction = 0.5 if vary else 1.0
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
-        result = simulate(made, progress=progress)
+        result = simulate(made, progress=lambda done: progress(fraction * done))
+    studies = run_studies(
+        scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
+    )
     scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
-    text = _text(made, result)
+    text = "\n".join([_text(made, result), *study_text(studies)])
     if out is None:
         return Report(scalars, text)
-    return Report(scalars, text, _write(result, out), partial(_draw, result, out))
+    files = (*_write(result, out), *write_studies(studies, out))
+    return Report(scalars, text, files, partial(_draw, result, studies, out))
 
 
 def _text(made: Plan, result: SeparationResult) -> str:
@@ -59,7 +71,7 @@ def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
     )
 
 
-def _draw(result: SeparationResult, out: Path) -> tuple[Path, ...]:
+def _draw(result: SeparationResult, studies: Studies, out: Path) -> tuple[Path, ...]:
     from ...plot import separation as plot
 
     files = []
@@ -78,4 +90,6 @@ def _draw(result: SeparationResult, out: Path) -> tuple[Path, ...]:
         plot.motion(result, ax)
         plot.title(ax, result.plan.scene.name)
         files.append(plot.save(made, out / "motion"))
+    if studies:
+        files.append(draw_studies(studies, result.plan.scene.name, out))
     return tuple(files)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...accuracy import Accuracy
 from ...errors import ValidityWarning
 from ...scene.scenes import SlidingScene
 from ...separation.sliding.plan import plan_sliding
 from ..report import Report
+from .study import Studies, draw_studies, run_studies, study_lines, study_text, write_studies
 
 if TYPE_CHECKING:
     from ...separation.sliding.result import SlidingResult
@@ -21,17 +23,30 @@ __all__ = ["run_sliding"]
 Progress = Callable[[float], None]
 
 
-def run_sliding(scene: SlidingScene, out: Path | None, progress: Progress) -> Report:
-    """Simulate a sliding, and write its curves and figure to a folder if one is given."""
+def run_sliding(
+    scene: SlidingScene,
+    accuracy: Accuracy,
+    vary: Mapping[str, list[Any]],
+    out: Path | None,
+    progress: Progress,
+) -> Report:
+    """Simulate a sliding and the study of its file; write curves and figures to a folder."""
     from ...separation.simulate import simulate
 
+    study_lines(scene, accuracy, vary)  # refused before the run
+    fraction = 0.5 if vary else 1.0
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
-        result = simulate(plan_sliding(scene), progress=progress)
+        result = simulate(plan_sliding(scene, accuracy))
+    studies = run_studies(
+        scene, accuracy, vary, lambda done: progress(fraction + (1.0 - fraction) * done)
+    )
     scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
+    text = "\n".join([_text(result), *study_text(studies)])
     if out is None:
-        return Report(scalars, _text(result))
-    return Report(scalars, _text(result), _write(result, out), partial(_draw, result, out))
+        return Report(scalars, text)
+    files = (*_write(result, out), *write_studies(studies, out))
+    return Report(scalars, text, files, partial(_draw, result, studies, out))
 
 
 def _text(result: SlidingResult) -> str:
@@ -57,10 +72,11 @@ def _write(result: SlidingResult, out: Path) -> tuple[Path, ...]:
     )
 
 
-def _draw(result: SlidingResult, out: Path) -> tuple[Path, ...]:
+def _draw(result: SlidingResult, studies: Studies, out: Path) -> tuple[Path, ...]:
     from ...plot import separation as plot
 
     made, ax = plot.figure()
     plot.slide(result, ax)
     plot.title(ax, result.plan.scene.name)
-    return (plot.save(made, out / "forces"),)
+    drawn = (draw_studies(studies, result.plan.scene.name, out),) if studies else ()
+    return (plot.save(made, out / "forces"), *drawn)

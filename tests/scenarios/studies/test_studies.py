@@ -567,7 +567,7 @@ def test_a_load_curve_is_a_line_for_each_combination(tmp_path):
     study = ck.study(contact(), vary, ACCURACY)
     lines = study.lines("loading")
     assert [line.label for line in lines] == [
-        f"{stack.label}, {seed}" for stack in (named, plain) for seed in (1, 2)
+        f"{stack.label}, seed {seed}" for stack in (named, plain) for seed in (1, 2)
     ]
     for line in lines:
         assert line.columns["loading.pressure"].tolist() == PRESSURES[:3]

@@ -156,6 +156,14 @@ def test_separations_collapse_over_their_scales(film_scene):
     assert scaled.unit("loading.speed") == "h0/t0"
 
 
+def test_a_parameter_that_is_its_own_scale_stays_in_si(film_scene):
+    scene = film_scene(ck.MeniscusForce(), film={"volume": 1e-12})
+    made = ck.study(scene, {"loading.initial_gap": [1e-6, 2e-6]}, ck.Accuracy.draft).dimensionless()
+    assert made.unit("loading.initial_gap") == "m"
+    assert made.column("loading.initial_gap").tolist() == [1e-6, 2e-6]
+    assert made.unit("peak_force") == "F0"
+
+
 def test_files_have_all_columns(tmp_path, seeded):
     for made, name in ((seeded, "all"), (seeded.dimensionless().bands(), "bands")):
         made.save_csv(tmp_path / name)

@@ -1,0 +1,118 @@
+"""Figures of studies: numbers over a parameter, with a band where they are of several seeds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .axis_units import axis_unit
+from .gallery import series
+from .separation import Axes, plain_log
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Panel", "draw_line", "over_parameter", "readable", "study_curves"]
+
+Panel = tuple[str, str, float]
+"""Name of a column, label of its axis, and what its values are divided by."""
+
+_SI = ("N", "Pa", "m", "m2", "s", "J", "N.s", "Pa.s", "m/s", "N/m", "rad")  # not the scales
+_WIDE = 20.0  # ratio of the ends of an axis from which it is logarithmic
+_DECADES = 1e3  # ratio from which powers of ten are enough to label it
+
+
+def readable(unit: str, values: Any) -> tuple[float, str]:
+    """Factor and name of the unit in which values in an SI unit, or in that of a scale, read best.
+
+    Examples
+    --------
+    >>> readable("N", [2e-9, 3e-8]), readable("m2", [4e-12]), readable("E* A", [1e-6])
+    ((1e-09, 'nN'), (1e-12, 'µm2'), (1.0, 'E* A'))
+    """
+    known = np.abs(np.asarray(values, dtype=float))
+    top = float(known[np.isfinite(known)].max(initial=0.0))
+    return axis_unit(top, unit) if unit in _SI else (1.0, unit)
+
+
+def over_parameter(values: Any, ax: Axes) -> NDArray[np.float64]:
+    """Values of a parameter; places on the axis for those that are no numbers, with their names."""
+    given = np.asarray(values)
+    if given.dtype != object:
+        return given
+    places = np.arange(float(len(given)))
+    ax.set_xticks(places, [_named(one) for one in given])
+    return places
+
+
+def _named(value: Any) -> str:
+    """A value of a parameter as text: numbers short, objects by their names."""
+    if isinstance(value, tuple):
+        return ", ".join(map(_named, value))
+    if isinstance(value, float):
+        return f"{value:g}"
+    return str(getattr(value, "name", None) or getattr(value, "label", None) or value)
+
+
+def draw_line(
+    ax: Axes, x: Any, columns: Mapping[str, Any], panel: Panel, i: int, label: str
+) -> None:
+    """Draw a column as series `i`, with its band from ``_low`` to ``_high`` if there is one."""
+    name, _, factor = panel
+    style = series(i)
+    if f"{name}_low" in columns:
+        low, high = (np.asarray(columns[name + end], float) / factor for end in ("_low", "_high"))
+        ax.fill_between(x, low, high, color=style["color"], alpha=0.16, lw=0.0)
+    ax.plot(x, np.asarray(columns[name], float) / factor, label=label, **style)
+
+
+def study_curves(
+    curves: Sequence[tuple[str, Mapping[str, Any]]],
+    axes: Sequence[Axes],
+    panels: Sequence[Panel],
+    over: Panel,
+) -> Sequence[Axes]:
+    """Draw numbers of a study over one of its parameters, a panel for each.
+
+    Parameters
+    ----------
+    curves : sequence of (label, columns)
+        One for each line, such as `StudyLine` of ``study.bands().lines()``.
+    axes : sequence of Axes
+        One for each panel.
+    panels : sequence of (column, label, factor)
+        Quantities to draw, divided by their factors.
+    over : (column, label, factor)
+        The parameter. Axes are logarithmic where values are positive and far apart.
+    """
+    name, label, factor = over
+    for ax, panel in zip(axes, panels, strict=False):
+        for i, (title, columns) in enumerate(curves):
+            if panel[0] not in columns:
+                continue
+            x = over_parameter(columns[name], ax)
+            x = x / factor if x.dtype.kind == "f" and factor != 1.0 else x
+            draw_line(ax, x, columns, panel, i, title)
+        ax.set(xlabel=label, ylabel=panel[1])
+        for column, scale, axis in (
+            (name, ax.set_xscale, ax.xaxis),
+            (panel[0], ax.set_yscale, ax.yaxis),
+        ):
+            ratio = _ratio([columns[column] for _, columns in curves if column in columns])
+            if ratio >= _WIDE:
+                scale("log")
+                if ratio < _DECADES:
+                    plain_log(axis)
+    return axes
+
+
+def _ratio(given: Sequence[Any]) -> float:
+    """Greatest over least of positive numbers; 1 where others are among them."""
+    columns = [np.asarray(one) for one in given]
+    if any(one.dtype.kind != "f" for one in columns):
+        return 1.0
+    values = np.concatenate(columns)
+    known = values[np.isfinite(values)]
+    return float(known.max() / known.min()) if known.size and known.min() > 0.0 else 1.0
