@@ -32,7 +32,7 @@ _SUDDEN = 0.1  # energy lost over change of load times change of approach, at a 
 _LEAST = 1e-3  # energy lost over the adhesive energy, at a jump
 _PASSING = "pixels across a contact spot"  # which begins and ends in a point on every branch
 _MOST_LEFT = 0.999
-_SAME = 1e-3  # change of load and energy between two ways to one state
+_SAME = 1e-3  # change of load and energy between two paths to one state
 _LONGEST = 0.25  # step over the range of the law, where states are not ordered
 _CLOSED = 1e-6  # change of energy over the adhesive energy, of a loop that is closed
 _COLUMNS = (
@@ -116,7 +116,7 @@ class PullOffCurve(Tabular):
     validity: tuple[ValidityNumber, ...] = field(repr=False)
 
     def contents(self) -> Contents:
-        """Return both branches, one after the other: ``separating`` tells which."""
+        """Return both branches, one after the other: ``separating`` marks the second."""
         both, axis = (self.approaching, self.separating), ("state",)
         columns = {
             name: Quantity(axis, np.concatenate([getattr(b, name) for b in both]), unit)
@@ -244,8 +244,8 @@ def pull_off_curve(
     -----
     Branches do not depend on the steps. In a periodic window on half-spaces, where states are not
     ordered (see `Adhesion`), that takes two to three times the work: a step is halved until it is a
-    quarter of the range of the law or less, and the way by its middle leads to the same state, to a
-    thousandth of load and energy. Under load control, as with a soft spring or a
+    quarter of the range of the law or less, and the path by its middle leads to the same state,
+    to a thousandth of load and energy. Under load control, as with a soft spring or a
     negative `Pressing`, the bodies pull off at `PullOffCurve.pull_off_force` and snap in before the
     jump of the approach.
     The extremes are those of the states: let the approaches be dense around them.
@@ -423,8 +423,8 @@ def _refined(
 
     `loss` is that of the step of twice the length [J]: halving a step leaves the loss of a jump
     as it is, and a quarter or less of the error of the trapezoidal rule. `longest` is None where
-    states are ordered. Elsewhere a step is halved until it is at most that long [m] and the way by
-    its middle leads to the same state; the state at its end is that of the way.
+    states are ordered. Elsewhere a step is halved until it is at most that long [m] and the path by
+    its middle leads to the same state; the state at its end is that of the path.
     """
     if depth <= 0:
         is_jump = _has_loss(a, b) and _loss(a, b) > 0.5 * loss

@@ -95,7 +95,7 @@ class _ContactMap:
         return load is None or load >= 0.0 or load + float(tension.mean()) > 0.0
 
     def is_reached(self, tension: Map, start: Map) -> bool:
-        """Whether the state is that of the plain iterates, from wherever momentum carried them.
+        """Whether the state is that of the plain iterates, wherever momentum carried them.
 
         Where a mean plane is held, more tension here opens gaps there: after a jump, which changes
         the tension somewhere by more than a smooth step does, momentum may end in another state.

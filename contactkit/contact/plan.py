@@ -248,7 +248,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     accuracy = accuracy or Accuracy.standard
     grid = grid_of(scene, accuracy)
     _check_window(grid)
-    if scene.window.periodic is None and not grid.edges:  # a measured surface states so
+    if scene.window.periodic is None and not grid.edges:  # a measured surface knows its edges
         scene = evolve(scene, window=evolve(scene.window, periodic=False))
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)

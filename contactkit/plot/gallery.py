@@ -81,7 +81,7 @@ def band(ax: Axes, x: ArrayLike, runs: ArrayLike, i: int, label: str, **more: An
 def log_above_zero(ax: Axes, values: ArrayLike) -> None:
     """Make the ordinate logarithmic, four decades at most below the largest of some values.
 
-    Zeros are cut off; a panel of zeros states it.
+    Zeros are cut off; a panel of zeros alone reads "none".
     """
     known = np.asarray(values, float)
     top = float(np.nanmax(known))

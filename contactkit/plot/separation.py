@@ -46,6 +46,7 @@ __all__ = [
     "legend",
     "motion",
     "mpl",
+    "over_scales",
     "plain_log",
     "save",
     "shared_legend",
@@ -226,6 +227,46 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     if top > bottom:  # otherwise there is no force
         ax.set_ylim(1.1 * bottom, 1.15 * top)
     plain_log(ax.xaxis)
+    legend(ax)
+    return ax
+
+
+def over_scales(
+    result: SeparationResult | SlidingResult,
+    names: Sequence[str],
+    ax: Axes | None = None,
+    over: str = "gap",
+) -> Axes:
+    """Draw curves over another one, each in units of its reference scale.
+
+    Parameters
+    ----------
+    result : SeparationResult or SlidingResult
+        What was run.
+    names : sequence of str
+        Curves to draw.
+    ax : Axes, optional
+        Where to draw.
+    over : str
+        Curve to draw them over, such as ``gap``, ``time`` or ``travel``.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such curve.
+    """
+    along, unit = result.scaled(over)
+    ax = ax if ax is not None else figure()[1]
+    known = result.plan.columns
+    units = []
+    for name in names:
+        curve, of = result.scaled(name)
+        ax.plot(along, curve, known[name].style, color=known[name].color, label=known[name].label)
+        units.append(of)
+    ax.set(xlabel=f"{known[over].label} [{unit}]", ylabel=f"[{', '.join(dict.fromkeys(units))}]")
+    if along.size and along.min() > 0.0 and along.max() > 10.0 * along.min():
+        ax.set_xscale("log")
+        plain_log(ax.xaxis)
     legend(ax)
     return ax
 

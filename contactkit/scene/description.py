@@ -10,7 +10,7 @@ from ..units import quantity_text
 
 __all__ = ["Line", "described"]
 
-_NAMED = ("Material", "Liquid")  # parts that are told by their names
+_NAMED = ("Material", "Liquid")  # parts that have names of their own
 _PLAIN = ("Interface", "Body", "Layer", "Meniscus", "Window")  # whose field says what they are
 
 
@@ -54,7 +54,7 @@ def described(part: Any, name: str = "") -> Line:
 
 
 def _add(one: Attribute[Any], value: Any, said: list[str], parts: list[Line]) -> None:
-    """Add a field to what is said of a part in a line, or to its own parts."""
+    """Add a field to the line of a part, or to its own parts."""
     name = one.name.replace("_", " ")
     if has(type(value)):
         parts.append(described(value, name))

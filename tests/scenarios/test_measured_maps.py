@@ -281,7 +281,7 @@ def test_the_binary_form_needs_the_extra(sdf, monkeypatch):
 # Tilt ---------------------------------------------------------------------------------------
 
 
-def test_press_leaves_the_tilt_and_states_it():
+def test_press_leaves_the_tilt_and_reports_it():
     level = height_maps.detrended(HEIGHTS)
     tilted = level + 1e-10 * X
     rise = 1e-10 * (X.max() - X.min())

@@ -48,7 +48,7 @@ WET = (10.0, 30.0, 50.0, 70.0, 85.0)
 DRY = (95.0, 110.0, 130.0, 150.0, 170.0)
 ROWS = ("fixed", "up", "down")  # of the height
 COLUMNS = ("= up", "= down", "up, down", "down, up", "up, up", "down, down")  # of both angles
-SOURCE = {  # arrows of Table 3.1 by the rows and columns above; n/a where it states it
+SOURCE = {  # arrows of Table 3.1 by the rows and columns above; n/a where the source has n/a
     "attraction": ("du--du", "d---d-", "-u---u"),
     "repulsion": ("ud--ud", "-d---d", "u---u-"),
     "viscous": ("nnnnnn", "dddddd", "uuuuuu"),

@@ -126,6 +126,21 @@ def test_asperities_give_the_length():
     assert result.scaled("gap").value[0] == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize(("over", "label"), [("gap", "gap [h0]"), ("time", "time [t0]")])
+def test_curves_are_drawn_over_their_scales(film_scene, over, label):
+    plot = pytest.importorskip("contactkit.plot.separation")
+    result = separated(film_scene)
+    ax = plot.over_scales(result, ["meniscus_force", "viscous_force", "gap"], over=over)
+    assert ax.get_xlabel() == label
+    assert ax.get_ylabel() == "[F0, h0]"
+    assert [line.get_label() for line in ax.lines] == ["meniscus force", "viscous force", "gap"]
+    np.testing.assert_array_equal(ax.lines[1].get_xdata(), result.scaled(over).value)
+    np.testing.assert_array_equal(ax.lines[1].get_ydata(), result.scaled("viscous_force").value)
+    assert ax.get_xscale() == ("log" if over == "gap" else "linear")
+    with pytest.raises(ck.DescriptionError, match="column must be one of"):
+        plot.over_scales(result, ["force"])
+
+
 # Contacts and slidings ------------------------------------------------------------------------
 
 
