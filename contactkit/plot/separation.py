@@ -263,7 +263,9 @@ def over_scales(
         curve, of = result.scaled(name)
         ax.plot(along, curve, known[name].style, color=known[name].color, label=known[name].label)
         units.append(of)
-    ax.set(xlabel=f"{known[over].label} [{unit}]", ylabel=f"[{', '.join(dict.fromkeys(units))}]")
+    made = {one.name: f" = {one.definition}" for one in result.scales.values()}
+    parts = [f"{name}{made.get(name, '')}" for name in dict.fromkeys(units)]
+    ax.set(xlabel=f"{known[over].label} [{unit}]", ylabel=f"in units of {', '.join(parts)}")
     if along.size and along.min() > 0.0 and along.max() > 10.0 * along.min():
         ax.set_xscale("log")
         plain_log(ax.xaxis)

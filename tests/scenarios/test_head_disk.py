@@ -124,7 +124,9 @@ def test_a_scene_runs_into_numbers_files_and_figures(scene_file, tmp_path, capsy
         "load-curve.png",
         "result.npz",
         "load-curve-wet-film-reported-only.csv",
+        "load-curve-wet-film-reported-only.npz",
         "load-curve-wet-film-pulls-too.csv",
+        "load-curve-wet-film-pulls-too.npz",
     }
     loaded = ck.load_result(out / "result.npz")
     assert f"{loaded.max_pressure:.6g} Pa" in shown

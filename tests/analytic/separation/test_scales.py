@@ -132,7 +132,7 @@ def test_curves_are_drawn_over_their_scales(film_scene, over, label):
     result = separated(film_scene)
     ax = plot.over_scales(result, ["meniscus_force", "viscous_force", "gap"], over=over)
     assert ax.get_xlabel() == label
-    assert ax.get_ylabel() == "[F0, h0]"
+    assert ax.get_ylabel() == "in units of F0 = pi x^2 gamma |cos + cos|/h0, h0 = initial gap"
     assert [line.get_label() for line in ax.lines] == ["meniscus force", "viscous force", "gap"]
     np.testing.assert_array_equal(ax.lines[1].get_xdata(), result.scaled(over).value)
     np.testing.assert_array_equal(ax.lines[1].get_ydata(), result.scaled("viscous_force").value)
