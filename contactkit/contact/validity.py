@@ -17,7 +17,7 @@ from .pixel_edges import pixel_edges
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..scene.window import Axis, Edges
+    from ..scene.window import Edges
 
     Map = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
     """Diameter of discs with the same ratio of area to length of edge, or width, in pixels."""
     touching = contact.touching
     area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.edges)
-    diameter = _width(touching, contact.grid.along) or (
+    diameter = _width(touching, contact.grid.edges) or (
         16.0 / math.pi * area / edges.total if edges.total else math.inf
     )
     return ValidityNumber(
@@ -96,22 +96,34 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
     )
 
 
-def _width(touching: NDArray[np.bool_], along: Axis | None) -> float | None:
-    """Mean width [pixels] across the axis that repeats of what runs through the window along it.
+def _width(touching: NDArray[np.bool_], edges: Edges) -> float | None:
+    """Mean width [pixels] of what runs through the window along an axis that repeats, as a nip.
 
-    None where nothing does: spots that end inside the window are about as wide as they are long.
+    None where nothing does, or along both axes: spots that end inside the window are about as wide
+    as they are long, and so are the holes of what leaves nothing but holes.
     """
-    if along is None or not touching.any(axis=0 if along == "x" else 1).all():
-        return None
-    from ..capillary.film_islands import islands
+    widths = [
+        width
+        for axis in ("x", "y")
+        if edges in (True, axis) and (width := _through(touching, axis, edges)) is not None
+    ]
+    return widths[0] if len(widths) == 1 else None
 
-    lines = touching.T if along == "x" else touching  # along the axis, from first to last
-    names, _ = islands(lines, False)
+
+def _through(touching: NDArray[np.bool_], axis: str, edges: Edges) -> float | None:
+    """Mean width [pixels] of what runs through the window along an axis, if anything does."""
+    lines = touching.T if axis == "x" else touching  # along the axis, from first to last
+    if not lines.any(axis=1).all():
+        return None
+    from scipy import ndimage
+
+    names, _ = ndimage.label(lines)
     through = np.unique(names[0][(names[0] == names[-1]) & (names[0] > 0)])
     if not through.size:
         return None
     strip = np.isin(names, through)
-    return 2.0 * int(strip.sum()) / pixel_edges(strip, "y").along_x
+    crossed = pixel_edges(strip, True if edges is True else "y").along_x
+    return 2.0 * int(strip.sum()) / crossed if crossed else None
 
 
 def _peak_pressure(contact: Contact) -> ValidityNumber:

@@ -364,3 +364,44 @@ def test_an_odd_number_of_pixels_has_no_companion():
     result, _ = solved(GOOD, grid=63)
     with pytest.raises(ck.DescriptionError, match=r"Accuracy.grid .*multiples of 2"):
         ck.discretisation_error(result)
+
+
+@pytest.mark.parametrize("axis", ["x", "y"])
+@pytest.mark.parametrize("periodic", [True, False], ids=["both axes", "one axis"])
+def test_a_nip_is_as_wide_as_its_pixels_across(axis, periodic):
+    heights = np.zeros((24, 32))
+    heights[:, 10:17] = 1e-9
+    if axis == "x":
+        heights = heights.T
+    given = scene(
+        ck.Heights(heights=heights, pixel_size=1e-8),
+        pressure=1e5,
+        width=None,
+        periodic=periodic or axis,
+    )
+    result = ck.solve(ck.plan(given))
+    assert np.array_equal(result.pressure > 0.0, heights > 0.0)
+    value = next(v.value for v in result.validity if v.name == "pixels across a contact spot")
+    assert value == 7.0
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+def test_the_estimate_stays_on_the_branch_of_a_pulled_contact():
+    law = ck.ExponentialAttraction(work_of_adhesion=0.05, range=0.4e-9)
+    soft = ck.Material(young_modulus=1e9, poisson_ratio=0.0)
+    given = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=soft), upper=ck.Body(surface=ck.Paraboloid(radius=1e-6))
+        ),
+        window=ck.Window(width=0.36e-6, periodic=False),
+        loading=ck.Approach(approach=0.0),
+        effects=(ck.HalfSpace(), ck.Adhesion(law=law)),
+    )
+    plan = ck.plan(given, ck.Accuracy(grid=64))
+    states = ck.load_curve(plan, approaches=[8e-9, 0.0, -1.6e-9], keep_maps=True).results
+    last = states[-1]
+    assert last.contact_area > 0.0
+    assert ck.solve(last.plan).contact_area == 0.0  # of an approach
+    found = ck.discretisation_error(last)
+    assert found.coarse.contact_area == pytest.approx(last.contact_area, rel=0.1)
+    assert found.errors["load"] < 0.1
