@@ -1,4 +1,4 @@
-"""The command line: ``contactkit run | study | plan | cost | gallery | fmu build``."""
+"""The command line: ``contactkit run | study | plan | cost | gallery | fmu`` and helpers."""
 
 from __future__ import annotations
 
@@ -106,6 +106,7 @@ def _parser() -> argparse.ArgumentParser:
                 default=1e-6,
                 help="relative error to recommend a setting for",
             )
+    _add_help(commands)
     _add_gallery(commands)
     fmu = commands.add_parser("fmu", help="build FMUs").add_subparsers(
         metavar="COMMAND", required=True
@@ -124,6 +125,22 @@ def _add_study_options(study: argparse.ArgumentParser) -> None:
         action="store_true",
         help="in units of the reference scales, such as E* A, in place of SI units",
     )
+
+
+def _add_help(commands: Any) -> None:
+    """Commands that help to write a scene file."""
+    text = "list what scene files may name"
+    known = commands.add_parser("list", help=text, description=text)
+    known.add_argument("what", help="scenes, liquids, materials or effects")
+    _set_command(known, _list)
+    text = "print a commented scene file to begin with: contactkit new separation > my.toml"
+    new = commands.add_parser("new", help=text, description=text)
+    new.add_argument("kind", help="contact, separation or sliding")
+    _set_command(new, _new)
+    text = "report all mistakes of a scene file, with their lines, without running it"
+    check = commands.add_parser("check", help=text, description=text)
+    check.add_argument("scene", help="a scene file")
+    _set_command(check, _check)
 
 
 def _add_gallery(commands: Any) -> None:
@@ -267,6 +284,28 @@ def _study(parsed: argparse.Namespace) -> None:
 
 def _plan(parsed: argparse.Namespace) -> None:
     print(_load(parsed.scene).plan_text())
+
+
+def _list(parsed: argparse.Namespace) -> None:
+    from .app.listing import listing
+
+    print(listing(parsed.what))
+
+
+def _new(parsed: argparse.Namespace) -> None:
+    from .app.templates import template
+
+    print(template(parsed.kind), end="")
+
+
+def _check(parsed: argparse.Namespace) -> None:
+    device = _load(parsed.scene)
+    with warnings.catch_warnings(record=True) as remarks:
+        warnings.simplefilter("always")
+        title = device.plan_text().splitlines()[0]
+    for one in remarks:
+        _show_warning(one.message)
+    print(f"{parsed.scene}: no mistakes; {title}")
 
 
 def _cost(parsed: argparse.Namespace) -> None:

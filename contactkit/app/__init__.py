@@ -1,6 +1,8 @@
 """Runs of the command line: a scene opened, simulated and measured, with files and figures.
 
 scenes      Opening a scene by file or by name, and what the command line does with each kind.
+listing     Lists of scenes, liquids, materials and effects.
+templates   Commented scene files to begin with.
 report      Report of a run.
 run         Running a scene from the command line: its numbers, files and figures.
 gallery     Every figure and table of the source, computed again and judged.

@@ -48,6 +48,7 @@ __all__ = [
     "FileError",
     "Problem",
     "field_value",
+    "library_names",
     "load_liquid",
     "load_material",
     "renamed",
@@ -451,9 +452,17 @@ def load_material(name: str) -> Material:
     return _of_library(name, Material, "materials.toml")
 
 
+def library_names(file: str) -> tuple[str, ...]:
+    """Names of the liquids or materials in a file of the library."""
+    return tuple(_library(file))
+
+
+def _library(file: str) -> dict[str, Any]:
+    return tomllib.loads(resources.files(data).joinpath(file).read_text("utf-8"))
+
+
 def _of_library(name: str, kind: type[_T], file: str) -> _T:
-    text = resources.files(data).joinpath(file).read_text("utf-8")
-    tables, what = tomllib.loads(text), kind.__name__.lower()
+    tables, what = _library(file), kind.__name__.lower()
     if name not in tables:
         raise DescriptionError(
             what, name, f"be a {what} of the library", hint=nearest(name, sorted(tables))
