@@ -383,7 +383,7 @@ class Problem(NamedTuple):
     text: str
     place: str = ""
 
-    def told(self, lines: dict[str, int]) -> str:
+    def text_with_line(self, lines: dict[str, int]) -> str:
         """Mistake and place, with the line where that is known."""
         if not self.place:
             return self.text
@@ -400,8 +400,8 @@ class FileError(DescriptionError):
         super().__init__(origin, "", "be right")
         self.problems = tuple(problems)
         lines = lines_of_keys(text)
-        told = "\n  ".join(problem.told(lines) for problem in problems)
-        self.args = (f"{origin} cannot be used:\n  {told}",)
+        listed = "\n  ".join(problem.text_with_line(lines) for problem in problems)
+        self.args = (f"{origin} cannot be used:\n  {listed}",)
 
 
 @contextmanager

@@ -42,10 +42,10 @@ def test_every_mistake_has_its_line(read, tmp_path):
     path.write_text(WRONG)
     with pytest.raises(ck.DescriptionError) as caught:
         read(str(path))
-    _, *told = str(caught.value).splitlines()
-    assert len(told) == len(LINES)
+    _, *listed = str(caught.value).splitlines()
+    assert len(listed) == len(LINES)
     for wrong, line in LINES.items():
-        (one,) = (text for text in told if wrong in text)
+        (one,) = (text for text in listed if wrong in text)
         assert one.endswith(f", line {line}"), one
 
 
