@@ -86,10 +86,11 @@ def main():
     before, begun, found, failed = conditions(), time.monotonic(), [], []
     for name in given.only:
         print(f"\n=== {name}", flush=True)
+        path = given.out / f"{WRITTEN.get(name, name)}.json"
+        path.unlink(missing_ok=True)  # that of an earlier run
         where = ["--peers", str(given.peers), "--out", str(given.out)]
         code = subprocess.call([sys.executable, str(HERE / f"{name}.py"), *RUNS[name], *where])
         failed += [name] if code else []
-        path = given.out / f"{WRITTEN.get(name, name)}.json"
         if path.exists():
             kept = json.loads(path.read_text(encoding="utf-8"))
             found += contacts(kept) if name == "compare" else kept
