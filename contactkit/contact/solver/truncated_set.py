@@ -27,6 +27,7 @@ REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear res
     (0.01, 0.1),
     (3e-4, 0.03),
 )
+SAFETY = 0.5  # of the last reduction: the violation is a maximum, the linear residual a norm
 PATIENCE = 15  # iterations within which the residual must have halved
 
 
@@ -69,14 +70,15 @@ class TruncatedSet(State):
             self._predict_free()
 
     def _reduction(self) -> float:
-        """How far to reduce the linear residual: little as long as the active set changes."""
+        """How far to reduce the linear residual: little as the active set changes, not in vain."""
         if self.stuck:
             return 0.03
+        enough = SAFETY * self.rtol / max(self.relative, 1e-5 * self.rtol)
         changed = (self.stopped + self.added) / self.at.size
         for fraction, reduction in REDUCTIONS:
             if changed > fraction:
-                return reduction
-        return min(0.03, max(0.4 * self.rtol / max(self.relative, 1e-5 * self.rtol), 1e-5))
+                return max(reduction, min(enough, 0.5))
+        return min(max(enough, 1e-5), 0.5)
 
     def _balance(self) -> None:
         """Restore the load by scaling; where a bound prevents that, by the next correction."""
