@@ -27,7 +27,7 @@ REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear res
     (0.01, 0.1),
     (3e-4, 0.03),
 )
-SAFETY = 0.5  # of the last reduction: the violation is a maximum, the linear residual a norm
+SAFETY = 0.3  # of the last reduction: the violation is a maximum, the linear residual a norm
 PATIENCE = 15  # iterations within which the residual must have halved
 
 
