@@ -10,6 +10,7 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..export.contents import Contents
+from ..numerics.roots import bracketed_root
 from ..scene.tabular import Tabular, curve_contents
 from ..units import si
 from ..validators import Described, fraction, non_negative, optional, positive, refuse
@@ -45,6 +46,13 @@ class SpringSlider(Described):
     contact_stiffness : float, optional
         Tangential stiffness of the contact [N/m], in series with the spring, such as
         ``result.of(PartialSlip).stiffness[0]``; None: rigid.
+    meniscus_force : float
+        Attraction of menisci on the block at rest [N], which adds to the load.
+    moving_meniscus_force : float, optional
+        The same in motion [N], at most that at rest; None: as at rest.
+    damping : float
+        Viscous drag on the moving block over its speed [N.s/m], such as the force of
+        `CouetteForce` at a speed of 1 m/s.
 
     Examples
     --------
@@ -64,6 +72,11 @@ class SpringSlider(Described):
     contact_stiffness: float | None = field(
         default=None, validator=optional(positive), metadata=si("N/m")
     )
+    meniscus_force: float = field(default=0.0, validator=non_negative, metadata=si("N"))
+    moving_meniscus_force: float | None = field(
+        default=None, validator=optional(non_negative), metadata=si("N")
+    )
+    damping: float = field(default=0.0, validator=non_negative, metadata=si("N.s/m"))
 
     @kinetic_coefficient.validator
     def _at_most_static(self, attribute: Attribute[float], value: float) -> None:
@@ -76,15 +89,29 @@ class SpringSlider(Described):
                 "a block whose friction grows as it moves does not slip, it creeps",
             )
 
+    @moving_meniscus_force.validator
+    def _at_most_at_rest(self, attribute: Attribute[float | None], value: float | None) -> None:
+        if value is not None and value > self.meniscus_force:
+            raise refuse(
+                self,
+                attribute,
+                value,
+                f"be at most meniscus_force = {self.meniscus_force:g} N",
+                "menisci grow at rest and not in motion",
+            )
+
     @property
     def static_friction(self) -> float:
         """Force at which the block begins to slip [N]."""
-        return self.static_coefficient * self.load
+        return self.static_coefficient * (self.load + self.meniscus_force)
 
     @property
     def kinetic_friction(self) -> float:
-        """Friction of the moving block [N]."""
-        return self.kinetic_coefficient * self.load
+        """Friction of the moving block [N], without the viscous drag."""
+        moving = self.moving_meniscus_force
+        return self.kinetic_coefficient * (
+            self.load + (self.meniscus_force if moving is None else moving)
+        )
 
     @property
     def force_drop(self) -> float:
@@ -161,8 +188,19 @@ class StickSlip(Tabular):
 
     @property
     def dissipated_work(self) -> float:
-        """Energy [J] that a slip dissipates: kinetic friction times its length."""
-        return self.slider.kinetic_friction * (self.events[0].length if self.events else 0.0)
+        """Energy [J] that a slip dissipates: kinetic friction times its length, and viscous drag.
+
+        With drag it is what the spring's end and the spring give during the slip.
+        """
+        if not self.events:
+            return 0.0
+        one, block = self.events[0], self.slider
+        friction = block.kinetic_friction * one.length
+        if block.damping == 0.0:
+            return friction
+        pulled = block.kinetic_friction * self.slip_time + block.damping * one.length
+        stored = (one.force_before**2 - one.force_after**2) / (2.0 * block.total_stiffness)
+        return block.speed * pulled + stored
 
 
 class _Cycle(NamedTuple):
@@ -188,7 +226,14 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
               \Delta x = V t_{slip} + 2 d
 
     Without inertia (m = 0, strong damping) the force falls to F_k at once: a jump of d in a period
-    of d/V, half of the one with inertia.
+    of d/V, half of the one with inertia. Menisci add to the load, F_s = mu_s (P + F_m), and the
+    film adds a drag c v in motion: with b = c/(2 m)
+
+    .. math:: v = V + e^{-bt} \left[ -V \cos w' t + \frac{(F_s - F_k)/m - bV}{w'} \sin w' t
+              \right], \quad w'^2 = w^2 - b^2, \quad F = F_k + c v + m \dot v
+
+    until v = 0. Above a speed or a damping at which v stays positive the block slides on steadily,
+    under F_k + c V.
 
     Parameters
     ----------
@@ -210,9 +255,9 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     Notes
     -----
     Exact for Coulomb friction with two coefficients, which carry no memory: no creep, no ageing at
-    rest, no dependence on the speed. With equal coefficients there is no stick-slip: without
-    inertia the block slides steadily; with inertia it swings about kinetic friction for ever, as
-    nothing damps it, and rests for an instant in every swing. A contact stiffness adds to the
+    rest, no dependence on the speed but of the drag. Equal coefficients leave no stick-slip:
+    without inertia the block slides steadily; with inertia and no drag it swings about kinetic
+    friction for ever, and rests for an instant in every swing. A contact stiffness adds to the
     compliance of the spring; the inertia of the block against that of the contact alone is left
     out. (Rabinowicz, Friction and Wear of Materials, 1965.)
 
@@ -235,9 +280,9 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
         raise DescriptionError("stick_slip(slips)", slips, "be a whole number of at least 1")
     k, speed = slider.total_stiffness, slider.speed
     begin = slider.static_friction
-    if slider.mass == 0.0 and slider.force_drop == 0.0:
+    cycle = _cycle(slider)
+    if cycle is None:
         return _steady(slider, slips)
-    cycle = _without_inertia(slider) if slider.mass == 0.0 else _with_inertia(slider)
     times, forces, moved = [np.zeros(1)], [np.zeros(1)], [np.zeros(1)]
     events, now, force, place = [], 0.0, 0.0, 0.0
     for _ in range(slips):
@@ -261,6 +306,15 @@ def _check_slider(given: object) -> None:
     if not isinstance(given, SpringSlider):
         cure = "describe it: SpringSlider(load=..., ...)"
         raise DescriptionError("stick_slip(slider)", given, "be a SpringSlider", hint=cure)
+
+
+def _cycle(slider: SpringSlider) -> _Cycle | None:
+    """Return one slip, or None if the block does not come to rest again."""
+    if slider.damping > 0.0:
+        return _with_drag(slider)
+    if slider.mass > 0.0:
+        return _with_inertia(slider)
+    return _without_inertia(slider) if slider.force_drop > 0.0 else None
 
 
 def _without_inertia(slider: SpringSlider) -> _Cycle:
@@ -287,14 +341,73 @@ def _with_inertia(slider: SpringSlider) -> _Cycle:
     )
 
 
+def _speed_and_rate(slider: SpringSlider, time: Curve) -> tuple[Curve, Curve]:
+    """Speed and acceleration of a block with a mass and a drag, from the start of its slip."""
+    m, v = slider.mass, slider.speed
+    b, square = 0.5 * slider.damping / m, slider.total_stiffness / m
+    root = math.sqrt(abs(square - b * b))
+    if square > b * b:
+        fade = np.exp(-b * time)
+        even, odd = fade * np.cos(root * time), fade * np.sin(root * time)
+    else:  # both exponentials fall
+        slow, fast = np.exp((root - b) * time), np.exp(-(root + b) * time)
+        even, odd = 0.5 * (slow + fast), 0.5 * (slow - fast)
+    odd = odd / root if root > 1e-7 * b else time * np.exp(-b * time)
+    start = slider.force_drop / m
+    speed = v - v * even + (start - b * v) * odd
+    return speed, start * even + (square * v - b * start) * odd
+
+
+def _with_drag(slider: SpringSlider) -> _Cycle | None:
+    """Slip of a block with a viscous drag, or None if it does not come to rest."""
+    m, k, c, v = slider.mass, slider.total_stiffness, slider.damping, slider.speed
+    if m == 0.0 or 0.25 * c * c >= k * m:
+        return None
+    b = 0.5 * c / m
+    w, start = math.sqrt(k / m - b * b), slider.force_drop / m
+    phase = math.atan2(k / m * v - b * start, start * w)
+    fastest, slowest = (phase + 0.5 * math.pi) / w, (phase + 1.5 * math.pi) / w
+    if float(_speed_and_rate(slider, np.array(slowest))[0]) >= 0.0:
+        return None
+    duration = bracketed_root(
+        lambda t: float(_speed_and_rate(slider, np.array(t))[0]), fastest, slowest
+    )
+    time = np.linspace(0.0, duration, _SAMPLES)
+    speed, rate = _speed_and_rate(slider, time)
+    force = slider.kinetic_friction + c * speed + m * rate
+    slip = v * time - (force - slider.static_friction) / k
+    even = np.array(math.atan2(v * w, start - b * v) / w)  # as fast as the end of the spring
+    peak = slider.kinetic_friction + c * v + m * float(_speed_and_rate(slider, even)[1])
+    top_speed = float(_speed_and_rate(slider, np.array(fastest))[0])
+    return _Cycle(time, force, slip, float(force[-1]), peak, top_speed)
+
+
+def _settling(slider: SpringSlider) -> tuple[Curve, Curve]:
+    """Times and forces of a slip that ends in steady sliding."""
+    high, low, v = slider.static_friction, slider.kinetic_friction, slider.speed
+    m, k, c = slider.mass, slider.total_stiffness, slider.damping
+    if c == 0.0:
+        return np.zeros(1), np.full(1, high)
+    if m == 0.0:
+        time = np.linspace(0.0, 12.0 * c / k, _SAMPLES)
+        return time, low + c * v + (high - low - c * v) * np.exp(-k / c * time)
+    b = 0.5 * c / m
+    slowest = b - math.sqrt(max(b * b - k / m, 0.0))
+    time = np.linspace(0.0, 12.0 / slowest, 16 * _SAMPLES)
+    speed, rate = _speed_and_rate(slider, time)
+    return time, low + c * speed + m * rate
+
+
 def _steady(slider: SpringSlider, slips: int) -> StickSlip:
     """Motion of a block that sticks once and then slides steadily."""
-    high = slider.static_friction
-    first = high / (slider.total_stiffness * slider.speed)
-    later = first * (slips if first else 1) + (0.0 if first else 1.0)
-    time = np.array([0.0, first, first + later])
-    force = np.array([0.0, high, high])
-    slip = np.array([0.0, 0.0, slider.speed * later])
+    high, k, v = slider.static_friction, slider.total_stiffness, slider.speed
+    first = high / (k * v)
+    later, settling = _settling(slider)
+    last = first * (slips if first else 1) + (0.0 if first else 1.0)
+    time = np.concatenate([[0.0], first + later, [first + later[-1] + last]])
+    force = np.concatenate([[0.0], settling, settling[-1:]])
+    slip = v * (time - first) - (force - high) / k
+    slip[0] = 0.0
     for column in (time, force, slip):
         column.flags.writeable = False
-    return StickSlip(slider, time, force, slip, (), 0.0, 0.0, high)
+    return StickSlip(slider, time, force, slip, (), 0.0, 0.0, float(settling.max()))

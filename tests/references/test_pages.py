@@ -11,6 +11,8 @@ QUICK = (
     "contact_ball",
     "contact_square",
     "sphere_bridges",
+    "hertz_mindlin",
+    "sphere_adhesion",
     "rupture_work",
     "film_forces",
     "cold_oil",

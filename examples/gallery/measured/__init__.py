@@ -7,6 +7,8 @@ contact_ball      Ball on a plane on 19 x 19 elements: CONTACT.
 contact_square    Stress under a loaded, sheared square: CONTACT.
 rough_area        Real area of rough surfaces: the law quoted from Pastewka and Robbins.
 sphere_bridges    Bridges between spheres: Willett, Lian, Mikami.
+hertz_mindlin     A sphere pressed and sheared: Hertz, Cattaneo, Mindlin, Deresiewicz.
+sphere_adhesion   Adhesion of a sphere: JKR, DMT, Maugis, and the fits of Carpick.
 rupture_work      Work of rupture with and without evaporation: de Boer.
 measured_bridges  Bridges measured by Pitois, which are not met, and why.
 film_forces       Films: Stefan, Reynolds, Brenner, Goldman.

@@ -84,9 +84,91 @@ def test_equal_coefficients_do_not_stick():
     assert not smooth.force.any()
 
 
+def integrated(block, start, until):
+    """Time, place and speed of a slip by another integrator, until rest or a time."""
+    k, m, c = block.total_stiffness, block.mass, block.damping
+
+    def rate(time, y):
+        pull = start + k * (block.speed * time - y[0])
+        return y[1], (pull - block.kinetic_friction - c * y[1]) / m
+
+    def at_rest(time, y):
+        return y[1] if time > 1e-3 * until else 1.0
+
+    at_rest.terminal = True
+    found = solve_ivp(
+        rate, (0.0, until), (0.0, 0.0), rtol=1e-10, atol=1e-14, events=at_rest, method="Radau"
+    )
+    return found.t, found.y
+
+
+@pytest.mark.parametrize("speed", [1e-3, 2e-2])
+@pytest.mark.parametrize("damping", [1e-9, 0.1, 1.0, 2.0])
+def test_a_slip_with_drag_is_that_of_the_equation_of_motion(damping, speed):
+    wet = {"meniscus_force": 0.4, "moving_meniscus_force": 0.1, "damping": damping}
+    block = SpringSlider(**{**BLOCK, "speed": speed}, mass=0.01, **wet)
+    assert block.static_friction == pytest.approx(0.7)
+    assert block.kinetic_friction == pytest.approx(0.33)
+    event = stick_slip(block, slips=2).events[1]
+    assert event.force_before == pytest.approx(0.7, rel=1e-12)
+    time, (place, along) = integrated(block, 0.7, 0.1)
+    assert time[-1] == pytest.approx(event.end - event.start, rel=1e-6)
+    assert place[-1] == pytest.approx(event.length, rel=1e-6)
+    assert along.max() <= event.top_speed * (1.0 + 1e-6)
+    after = 0.7 + 1e3 * (speed * time[-1] - place[-1])
+    assert event.force_after == pytest.approx(after, rel=1e-5, abs=1e-6)
+
+
+def test_a_little_drag_is_almost_none():
+    dry, wet = (stick_slip(SpringSlider(**BLOCK, mass=0.01, damping=c)) for c in (0.0, 1e-10))
+    assert wet.period == pytest.approx(dry.period, rel=1e-6)
+    assert wet.dissipated_work == pytest.approx(dry.dissipated_work, rel=1e-6)
+    assert wet.largest_force == pytest.approx(dry.largest_force, rel=1e-6)
+
+
+def test_friction_and_drag_dissipate_what_the_spring_gives():
+    block = SpringSlider(**BLOCK, mass=0.01, damping=1.0)
+    motion = stick_slip(block, slips=1)
+    _, (place, along) = integrated(block, 0.5, 0.1)
+    work = 0.3 * place[-1] + np.trapezoid(along, place)
+    assert motion.dissipated_work == pytest.approx(work, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("mass", "damping"), [(0.0, 2.0), (0.01, 2.0 * math.sqrt(10.0)), (0.01, 50.0)]
+)
+def test_much_drag_ends_in_steady_sliding(mass, damping):
+    """Without inertia, at critical and above critical damping."""
+    block = SpringSlider(**BLOCK, mass=mass, damping=damping)
+    motion = stick_slip(block)
+    steady = 0.3 + damping * 1e-3
+    assert motion.events == ()
+    assert motion.force[-1] == pytest.approx(steady, rel=1e-4)
+    assert np.diff(motion.displacement).min() > -1e-12
+    assert motion.largest_force == pytest.approx(0.5, rel=1e-4)
+    assert motion.dissipated_work == 0.0
+    between = (motion.time > motion.time[1]) & (motion.time < motion.time[-2])
+    if mass:
+        time, (place, _) = integrated(block, 0.5, float(motion.time[-2] - motion.time[1]))
+        found = np.interp(motion.time[between] - motion.time[1], time, place)
+        assert np.abs(found - motion.displacement[between]).max() < 1e-2 * place[-1]
+
+
+def test_a_fast_spring_end_with_drag_slides_steadily():
+    slow, fast = (
+        stick_slip(SpringSlider(**{**BLOCK, "speed": v}, mass=0.01, damping=1.0))
+        for v in (0.01, 1.0)
+    )
+    assert slow.events
+    assert not fast.events
+    assert fast.force[-1] == pytest.approx(1.3, rel=1e-4)
+
+
 def test_impossible_sliders_are_refused():
     with pytest.raises(ck.DescriptionError, match="be at most static_coefficient"):
         SpringSlider(**{**BLOCK, "kinetic_coefficient": 0.6})
+    with pytest.raises(ck.DescriptionError, match=r"at most meniscus_force = 0.1 N"):
+        SpringSlider(**BLOCK, meniscus_force=0.1, moving_meniscus_force=0.2)
     with pytest.raises(ck.DescriptionError, match=r"stick_slip\(slips\) must be a whole number"):
         stick_slip(SpringSlider(**BLOCK), slips=0)
 
