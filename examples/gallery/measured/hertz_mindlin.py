@@ -85,7 +85,8 @@ def _solved(n: int) -> Any:
 
 def _closed(forces: Any) -> Any:
     """Displacement [m] over a path of forces over mu P: up to 0.8, down to -0.8 and up again."""
-    full, found = SPHERE.friction, []
+    full = SPHERE.friction
+    found: list[float] = []
     last, turn, at_turn = 0.0, 0.0, 0.0  # force before, force and displacement at the last turn
     for force in forces:
         rises = force > last
