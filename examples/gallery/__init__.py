@@ -1,6 +1,7 @@
 """Every figure and table of the source, one script each: ``contactkit gallery``.
 
-chapter_2  Contact of rough layered surfaces, dry and wet.
-chapter_3  Separation of wetted surfaces.
-measured   Against programs and measurements of others.
+chapter_2    Contact of rough layered surfaces, dry and wet.
+chapter_3    Separation of wetted surfaces.
+measured     Against programs and measurements of others.
+future_work  Future work of the source, as far as contactkit has it.
 """
