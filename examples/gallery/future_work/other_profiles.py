@@ -99,7 +99,7 @@ def _errors(data: Data, degrees: int) -> Any:
 
 
 def check(data: Data) -> list[Check]:
-    """Which profile is how far off, and the kinds of the exact one."""
+    """Errors of the profiles, and the kinds of the exact one."""
     low = {d: _errors(data, d)[:, 0] for d in ANGLES}
     late = {d: _errors(data, d)[:, -1] for d in ANGLES}
     kinds = {d: [KINDS[k] for k in data[f"kind_{d}"]] for d in ANGLES}

@@ -124,7 +124,7 @@ def draw(data: Data) -> plot.Figure:
 
 
 def check(data: Data) -> list[Check]:
-    """How the random surface lets go, against equal summits and populations."""
+    """Detachment of the random surface, against equal summits and populations."""
     islands_, equal = data["islands"], data["equal"]
     start = islands_[:, 0]
     ratio = equal[:, 0] / start

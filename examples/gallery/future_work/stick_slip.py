@@ -160,7 +160,7 @@ def draw(data: Data) -> plot.Figure:
 
 
 def check(data: Data) -> list[Check]:
-    """What menisci and drag do to the slips, and where stick-slip ends."""
+    """Effect of menisci and drag on the slips, and the end of stick-slip."""
     force, drag = (float(v) for v in data["film"])
     slips = [data[f"slip_{i}"] for i in range(4)]
     dry, held, damped, torn = (float(s[1] - s[2]) for s in slips)

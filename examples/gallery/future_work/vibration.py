@@ -173,7 +173,7 @@ def draw(data: Data) -> plot.Figure:
 
 
 def check(data: Data) -> list[Check]:
-    """What vibration leaves alone, what it rectifies, what it raises and ends."""
+    """Impulse of a whole film, rectified force, mean force and end of the meniscus."""
     whole, torn, small = data["whole"], data["torn"], data["small"]
     off = float(np.abs(whole / whole[0] - 1.0).max())
     rise = data["rise"]
