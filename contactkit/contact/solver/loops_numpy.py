@@ -384,22 +384,25 @@ def _window(middle: Array, reach: int, count: int, periodic: bool) -> tuple[Arra
 
 
 def _representatives(
-    at: Index, cells: Cells, n: int, reach: int, shape: tuple[int, int], periodic: bool
+    at: Index, cells: Cells, n: int, reach: int, shape: tuple[int, int], repeats: tuple[bool, bool]
 ) -> Array:
     """Pixels that represent the cells of a level around some pixels; -1 where there is none."""
     row, column = np.divmod(at, shape[1])
     (ny, nx), (sy, sx) = cells.counts[n], cells.sizes[n]
-    y, in_y = _window(row // sy, reach, int(ny), periodic)
-    x, in_x = _window(column // sx, reach, int(nx), periodic)
+    y, in_y = _window(row // sy, reach, int(ny), repeats[0])
+    x, in_x = _window(column // sx, reach, int(nx), repeats[1])
     found = cells.table[cells.first[n] + y[:, :, None] * nx + x[:, None, :]]
     found = np.where(in_y[:, :, None] & in_x[:, None, :], found, -1)
     return np.asarray(found.reshape(at.size, -1))
 
 
 def cell_neighbours(
-    at: Index, cells: Cells, reach: int, shape: tuple[int, int], periodic: bool
+    at: Index, cells: Cells, reach: int, shape: tuple[int, int], repeats: tuple[bool, bool]
 ) -> NDArray[np.int32]:
-    """Flat indices of the predecessors of each free pixel, then itself, then -1."""
+    """Flat indices of the predecessors of each free pixel, then itself, then -1.
+
+    `repeats` states along which of y and x the map repeats.
+    """
     own_level = np.full(shape[0] * shape[1], -1, np.int8)
     own_level[at] = cells.level
     width = 2 * (2 * reach + 1) ** 2
@@ -408,11 +411,11 @@ def cell_neighbours(
         some = np.flatnonzero(cells.level == n)
         for part in np.array_split(some, 1 + some.size // PART):
             here = at[part]
-            same = _representatives(here, cells, n, reach, shape, periodic)
+            same = _representatives(here, cells, n, reach, shape, repeats)
             before = (same >= 0) & (same < here[:, None]) & (own_level[same] == n)
             found = [np.where(before, same, -1)]
             if n + 1 < len(cells.counts):
-                found.append(_representatives(here, cells, n + 1, reach, shape, periodic))
+                found.append(_representatives(here, cells, n + 1, reach, shape, repeats))
             found.append(here[:, None])
             all_of = np.hstack(found)
             there = all_of >= 0

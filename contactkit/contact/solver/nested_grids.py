@@ -38,6 +38,7 @@ LEAST_BLOCKED = 128  # pixels along the longer side from which long waves are tr
 STEEP = 1.4  # decay of the symbol, over that of a half-space, that asks for smaller blocks
 PLATE = 8.0  # decay from which stencil and blocks fail, as under a stiff plate
 STIFF = 6.0  # stiffening from which the active set is projected, not truncated
+LAYERED = 1.5  # stiffening from which only the metric, which knows the seam, suits a strip
 STIFFEST = 2000.0  # stiffening from which more neighbours in double precision are worth their cost
 PIXEL_DECAY = 0.84  # decay of a half-space under uniform pressure on each pixel: not periodic
 FEW = 4000  # free pixels up to which the better preconditioner is also the cheaper one
@@ -76,6 +77,7 @@ class Grid(NamedTuple):
     inverse : sparse approximate inverse of the operator between the free pixels
     metric : the inverse in whose metric pressures are projected onto their bounds
     is_stiff : whether they are from the start, under a stiff film; `inverse` is `metric` then
+        and in strips of layers
     two_level : cheaper one for more than `few` of them; none where it is poor, under stiff plates
     steepest : largest eigenvalue of the operator
     uniform : displacement of a periodic map under uniform unit pressure
@@ -237,7 +239,7 @@ class _Room:
 def _grid(
     symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: Grid | None
 ) -> Grid:
-    # A window that repeats along one axis is preconditioned as an isolated one.
+    # A window that repeats along one axis is isolated to all preconditioners but the metric.
     symbol, periodic = symbols(shape), symbols.periodic is True
     threads = threads if min(shape) >= LEAST_THREADED else 1
     transforms = Transforms(threads, fast, loops.scale_spectrum)
@@ -248,7 +250,7 @@ def _grid(
     decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
     stiffening = _stiffening(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
     reach, kind = (2, np.float64) if stiffening > STIFFEST else (1, np.float32)
-    metric = CellInverse(response, shape, pixel, periodic, loops, reach, kind)
+    metric = CellInverse(response, shape, pixel, symbols.periodic, loops, reach, kind)
     is_stiff = stiffening > STIFF
     two_level = None
     if decay <= PLATE and not is_stiff:
@@ -270,7 +272,7 @@ def _grid(
         response=response,
         change=np.zeros(shape[0] * shape[1], np.float32) if change is None else change,
         inverse=metric
-        if is_stiff
+        if is_stiff or (isinstance(symbols.periodic, str) and stiffening > LAYERED)
         else SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
         metric=metric,
         is_stiff=is_stiff,
@@ -326,6 +328,6 @@ def bytes_of(grids: list[Grid]) -> int:
         total += sum(one.nbytes for one in (*maps, grid.change) if one.base is None)
         total += 0 if grid.patch is None else grid.patch.nbytes
         total += grid.response.nbytes + grid.inverse.nbytes
-        total += 0 if grid.is_stiff else grid.metric.nbytes
+        total += 0 if grid.inverse is grid.metric else grid.metric.nbytes
         total += 0 if grid.two_level is None else grid.two_level.nbytes
     return total
