@@ -57,7 +57,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 
 
 def draw(data: Data) -> plot.Figure:
-    """Relative force of thick and thin layers, force, and both treatments of treating it."""
+    """Relative force of thick and thin layers, force, and with the film added to the load."""
     figure, axes = plot.figure(2, 2, size=(8.2, 6.2))
     labels = labelled(rough.MEANING)
     name = "relative_meniscus_force"
@@ -69,7 +69,12 @@ def draw(data: Data) -> plot.Figure:
     plot.band(ax, LOADS, data[f"consistent_{name}"][0], 2, "I, adds to the load")
     plot.log_above_zero(ax, [data[name][0, 0], data[f"consistent_{name}"][0]])
     ax.legend(fontsize=8)
-    titles = ("$h = 10\\,\\sigma$", "$h = \\sigma$", "$h = 10\\,\\sigma$", "both treatments, I")
+    titles = (
+        "$h = 10\\,\\sigma$",
+        "$h = \\sigma$",
+        "$h = 10\\,\\sigma$",
+        "structure I, film reported or added",
+    )
     plot.letters(axes.ravel(), titles)
     plot.shared(figure, axes[0, 0])
     return figure

@@ -18,6 +18,7 @@ ROWS = (
     "tension,\nits plane",
     r"$|\sigma_{xz}|$," + "\nits plane",
 )
+LABEL = {"fontsize": 7, "va": "top", "bbox": {"fc": "#00204d", "ec": "none", "pad": 1.0}}
 NAMES: tuple[MeasureName, ...] = ("von_mises", "tension", "sigma_xz")
 
 
@@ -79,7 +80,7 @@ def map_figure(data: Data, titles: Sequence[str], width: float) -> plot.Figure:
             text = f"{best:.0f}"
             if row >= 2:
                 text += f"; {data['depths'][column, row - 2] * 1e9:.0f} nm"
-            ax.text(0.04, 0.94, text, transform=ax.transAxes, color="w", fontsize=7, va="top")
+            ax.text(0.04, 0.94, text, transform=ax.transAxes, color="w", **LABEL)
         axes[row, 0].set_ylabel(name, fontsize=8)
         figure.colorbar(image, ax=axes[row], shrink=0.85, aspect=12).set_label("MPa", fontsize=8)
     for ax, title in zip(axes[0], titles, strict=True):
