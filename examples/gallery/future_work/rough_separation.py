@@ -23,7 +23,7 @@ PAGE = Page(
     title="Random rough surfaces drawn apart",
     claim="Rough surfaces of chapter 3 are equal spheres of one height; future work of section "
     "3.5: random rough surfaces.",
-    verdict="Summits of a random surface let go one after the other. At first touch some per cent "
+    verdict="Summits of a random surface detach one after the other. At first touch some per cent "
     "of them hold a meniscus, so that as many equal asperities of one height have a hundred times "
     "the force. Summits of normal heights (Greenwood and Williamson) have the force of the map "
     "within a factor of two, in the median: the highest summit of a map is a random number. "
