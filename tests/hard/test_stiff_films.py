@@ -7,6 +7,8 @@ import importlib.util
 import numpy as np
 import pytest
 
+from contactkit.contact.solver import contact_solver
+from contactkit.contact.solver.active_set import Outcome, improve
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.optimality import height_scale, optimality
 from contactkit.elasticity import influence, layered, one_axis
@@ -183,3 +185,21 @@ def test_both_paths_take_the_same_steps_under_films(periodic):
     assert abs(a.n_outer - b.n_outer) <= 2
     assert abs(a.n_applications - b.n_applications) <= 8
     np.testing.assert_allclose(b.pressure, a.pressure, atol=1e-6 * a.pressure.max())
+
+
+@pytest.mark.parametrize(("contrast", "load"), [(1.0, 1.0), (1e2, 3.0), (1e3, 30.0)])
+def test_the_fallback_converges_and_needs_less_than_plain_gradients(contrast, load, monkeypatch):
+    """No film is known that needs it: here the active set gives up on the finest grid."""
+    answer = solve(64, contrast, 0.003, load)
+
+    def give_up(grid, problem, rtol):
+        is_finest = grid.pressure.shape == (64, 64)
+        return Outcome(0.0, np.inf, 0.0, 0, ()) if is_finest else improve(grid, problem, rtol)
+
+    monkeypatch.setattr(contact_solver, "improve", give_up)
+    s = solve(64, contrast, 0.003, load)
+    plain = solve(64, contrast, 0.003, load, method="conjugate-gradient")
+    assert s.fallback
+    assert s.converged
+    assert s.pressure == pytest.approx(answer.pressure, abs=1e-5 * answer.pressure.max())
+    assert s.n_applications <= 0.8 * plain.n_applications

@@ -13,6 +13,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -233,9 +234,10 @@ class ContactSolver:
             if fallback:
                 max_iterations = min(max_iterations, MOST_STEPS)
             if fallback or method != "active-set":
-                outcome = self._by_reference(
-                    REFERENCE[method], problem, outcome, rtol, max_iterations
-                )
+                solver = REFERENCE[method]
+                if fallback:
+                    solver = partial(solver, near_inverse=self._near_inverse(problem))
+                outcome = self._by_reference(solver, problem, outcome, rtol, max_iterations)
             return self._solution(problem, outcome, rtol, fallback, begun)
 
     def _refuse_closed_gap(self, problem: Problem) -> None:
@@ -293,6 +295,17 @@ class ContactSolver:
             if coarse is not problem:
                 improve(grid, coarse, COARSE_RTOL)
                 p = grid.pressure
+
+    def _near_inverse(self, problem: Problem) -> Callable[[NDArray[np.intp], Floats], Floats]:
+        """The sparse inverse of the finest grid, made anew when the free pixels change."""
+        metric = self.grids[0].metric
+
+        def apply(at: NDArray[np.intp], r: Floats) -> Floats:
+            if not np.array_equal(metric.at, at):
+                metric.prepare(at, problem.load is not None)
+            return np.asarray(metric(r), np.float64)
+
+        return apply
 
     def _by_reference(
         self,

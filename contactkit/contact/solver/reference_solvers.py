@@ -28,7 +28,9 @@ __all__ = ["Iterate", "conjugate_gradient", "quasi_newton"]
 
 Floats = NDArray[np.float64]
 Progress = Callable[[int, float], None] | None
+NearInverse = Callable[[NDArray[np.intp], Floats], Floats] | None
 GRADIENT_EVERY = 25  # a projected gradient step this often makes the convergence a theorem
+PLAIN_STEPS = 8  # without the preconditioner, after a step by it that would raise the energy
 MAX_SWEEPS = 100  # multipliers of the load
 PATIENCE = 6  # sweeps within which the residual must have halved
 
@@ -79,6 +81,7 @@ def conjugate_gradient(
     rtol: float = 1e-8,
     max_iterations: int = 5000,
     progress: Progress = None,
+    near_inverse: NearInverse = None,
 ) -> Iterate:
     """Projected conjugate gradients with guaranteed convergence.
 
@@ -103,6 +106,9 @@ def conjugate_gradient(
         Steps at most.
     progress : callable, optional
         Called with the step and its relative residual.
+    near_inverse : callable, optional
+        Preconditioner: changes of the pressures of some pixels, by their indices, that nearly give
+        them a displacement; symmetric and positive definite on any set of pixels.
 
     Returns
     -------
@@ -119,9 +125,9 @@ def conjugate_gradient(
     p = fit(start, problem)
     u = apply(p)
     best = _graded(p, u, problem)
-    d, strength, before = np.zeros_like(p), 0.0, np.zeros(p.size, bool)
+    d, r, strength, before = np.zeros_like(p), np.zeros_like(p), 0.0, np.zeros(p.size, bool)
     history: list[tuple[int, float]] = []
-    is_stalled = False
+    is_stalled, resume = False, 0  # the step from which on the preconditioner is used
 
     def rise(q: Floats, v: Floats) -> float:
         """Energy of q minus that of p, from their difference: each has a larger round-off."""
@@ -137,13 +143,15 @@ def conjugate_gradient(
             break
         g, approach = u - h, found.optimality.approach
         free = _free(p, g, approach, upper)
-        r = np.where(free, approach - g, 0.0)
+        last, r = r, np.where(free, approach - g, 0.0)
         if problem.load is not None:
             r[free] -= r[free].mean()
-        rr = float(r @ r)
+        near = near_inverse if step >= resume else None
+        z = _preconditioned(near, free, r, problem.load is not None)
         same = np.array_equal(free, before) and strength > 0.0
-        d = r + (rr / strength) * d if same else r
-        before, strength = free, rr
+        # As r.z over that before, but for what projections and single precision have changed.
+        d = z + max(float((r - last) @ z) / strength, 0.0) * d if same else z
+        before, strength = free, float(r @ z)
         curvature = float(d @ apply(d))
         trial = fit(p + (float(r @ d) / curvature) * d, problem) if curvature > 0.0 else p
         moved = apply(trial)
@@ -151,9 +159,23 @@ def conjugate_gradient(
             trial = project(p - (g - (problem.approach or 0.0)) / steepest, problem)
             moved = apply(trial)
             is_stalled = not rise(trial, moved) < 0.0
-            strength = 0.0
+            strength, resume = 0.0, step + PLAIN_STEPS
         p, u = trial, moved
     return best._replace(history=tuple(history), is_stalled=is_stalled)
+
+
+def _preconditioned(
+    near_inverse: NearInverse, free: NDArray[np.bool_], r: Floats, load_fixed: bool
+) -> Floats:
+    """Changes of the free pixels that nearly take up the residual, of zero sum if the load is."""
+    if near_inverse is None:
+        return r
+    at, z = np.flatnonzero(free), np.zeros_like(r)
+    z[at] = near_inverse(at, r[at])
+    if load_fixed:
+        k = near_inverse(at, np.ones(at.size))
+        z[at] -= k * (z[at].sum() / k.sum())
+    return z
 
 
 def _minimised(
