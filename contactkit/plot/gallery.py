@@ -100,12 +100,19 @@ def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:
         ax.set_title(f"({chr(97 + i)}) {text}", loc="left", fontsize=10)
 
 
-def save_all(made: Figure, path: Path) -> list[Path]:
-    """Write a figure as PNG, PDF and SVG, each whole or not at all, the same bytes every time."""
-    undated = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+def save_all(made: Figure, path: Path, *, for_print: bool = True) -> list[Path]:
+    """Write a figure as PNG, each file whole or not at all, the same bytes every time.
+
+    Also as PDF and SVG, for print.
+    """
+    undated: dict[str, dict[str, None]] = {
+        "png": {"Software": None},
+        "pdf": {"CreationDate": None},
+        "svg": {"Date": None},
+    }
     written = []
-    for kind, metadata in undated.items():
-        file = path.with_suffix(f".{kind}")
+    for kind in undated if for_print else ("png",):
+        metadata, file = undated[kind], path.with_suffix(f".{kind}")
         with (
             write_whole(file) as temporary,
             mpl.rc_context({**STYLE, "svg.hashsalt": "contactkit", "savefig.dpi": 120}),

@@ -650,9 +650,8 @@ def test_the_plastic_area_of_an_elastic_contact_is_not_zero_but_refused():
 
 
 def test_a_solve_that_gives_up_says_how_far_it_came_and_hands_it_over():
-    plan = ck.plan(
-        scene(), ck.Accuracy(grid=64, rtol=1e-11, max_iterations=1, method="conjugate-gradient")
-    )
+    accuracy = ck.Accuracy(grid=64, rtol=1e-11, max_iterations=1, method="conjugate-gradient")
+    plan = ck.plan(scene(loading=ck.Pressing(pressure=1e8)), accuracy)
     said = ("contact conditions are violated by", "1e-11", "raise Accuracy.max_iterations or rtol")
     with pytest.raises(ck.ConvergenceError, match=says(*said)) as caught:
         ck.solve(plan)

@@ -44,7 +44,7 @@ def test_heights_are_those_of_a_plan():
     )
     np.testing.assert_array_equal(found.heights, ck.plan(scene, ck.Accuracy(grid=64)).heights)
     ax = height_map(found)
-    assert ax.get_xlabel() == "x [um]"
+    assert ax.get_xlabel() == "x [µm]"
 
 
 @pytest.mark.parametrize("coefficient", [0.0, 0.3])

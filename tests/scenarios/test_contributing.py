@@ -4,6 +4,7 @@ import importlib.util
 import math
 import re
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import attrs
@@ -141,7 +142,8 @@ def test_a_result_lists_what_it_offers(result):
     offered = set(dir(result))
     assert {"columns", "gap", "impulses", "of", "scalars", "cite", "save"} <= offered
     for name in offered:
-        getattr(result, name)
+        with suppress(ck.NotSimulatedError):  # of another scene
+            getattr(result, name)
     assert not hasattr(result, "electrostatic_force")  # a column is an item, not an attribute
 
 
@@ -263,7 +265,7 @@ def test_an_observer_of_a_contact_has_its_number_everywhere(folder, tables, tmp_
             loading=ck.Pressing(pressure=1e7),
             effects=(ck.HalfSpace(), module.MeanGap()),
         )
-        result = ck.solve(ck.plan(made, ck.Accuracy(grid=32)))
+        result = ck.solve(ck.plan(made, ck.Accuracy(grid=64)))
         mean = result.of(module.MeanGap)
         assert mean == result.gap.mean()
         assert result.scalars()["mean_gap"] == (mean, "m")

@@ -40,7 +40,7 @@ def write_page(script: Script, made: Made, out: Path) -> list[Check]:
     figures = list(drawn) if isinstance(drawn, Sequence) else [drawn]
     names = [slug if i == 0 else f"{slug}-{i + 1}" for i in range(len(figures))]
     for name, figure in zip(names, figures, strict=True):
-        save_all(figure, out / name)
+        save_all(figure, out / name, for_print=not made.draft)
     table: Table | None = module.table(made.data) if hasattr(module, "table") else None
     if table is not None:
         with write_whole(out / f"{slug}.csv") as path, path.open("w", newline="") as file:

@@ -107,8 +107,9 @@ class PartialSlip(Observer[PartialSlipPart]):
     Coupled, the path begins where pressing ends: displacement counts from there, and the dissipated
     work of the first state is that of pressing. `stiffness` is that at the pressure as it is.
     A minimum belongs to each step of the tractions, not to both loads together. Pressed in a single
-    step, a sphere has been found for coefficients up to 3 (nu = 0), in four steps for 1000, which
-    sticks everywhere; a step without a state ends in a `ConvergenceError`.
+    step, a sphere has been found for coefficients up to 3 (nu = 0), in two or more for 10; for 100
+    and more only with some numbers of steps, as its outermost pixels come and go by turns. A step
+    without a state ends in a `ConvergenceError`.
 
     Examples
     --------
