@@ -72,7 +72,11 @@ COMMANDS = {
     "run film.toml --out film": ("release_time", {"result.npz", "result.csv"}, PLOT),
     "run film.toml --json --out json": ('"release_time"', {"result.npz", "result.csv"}, PLOT),
     "run slide.toml --out slide": ("couette_impulse", {"result.npz", "result.csv"}, PLOT),
-    "run touch.toml --out touch": ("load curve", {"result.npz", "load-curve.csv"}, PLOT),
+    "run touch.toml --out touch": (
+        "load curve",
+        {"load-curve.csv", "load-curve.npz", "result.npz"},
+        PLOT,
+    ),
     "run film.toml": ("release_time", set(), ""),
     "cost film.toml --out cost": ("known to", {"cost.csv"}, PLOT),
     "cost touch.toml --out costs": ("effects up to", {"cost.csv"}, PLOT),
