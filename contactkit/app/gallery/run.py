@@ -1,4 +1,4 @@
-"""Running pages on all cores: one process for each, with one thread; finished data are kept."""
+"""Running pages on all cores, in processes of one thread each; finished data are kept."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def _outcomes(
         yield from (_made(path, out, draft) for path in paths)
         return
     context = get_context("spawn")
-    with ProcessPoolExecutor(n, context, _begin, max_tasks_per_child=1) as pool:
+    with ProcessPoolExecutor(n, context, _begin) as pool:
         try:
             with one_thread():
                 futures = [pool.submit(_made, path, out, draft) for path in paths]
