@@ -18,7 +18,7 @@ DOCS = Path(__file__).parents[1]
 def write_blocks(found: Mapping[str, str]) -> list[str]:
     """Put what was measured into the pages; names of the blocks that no page has."""
     left = set(found)
-    for page in sorted(DOCS.glob("*.md")):
+    for page in sorted(DOCS.rglob("*.md")):
         old = new = page.read_text(encoding="utf-8")
         for name, text in found.items():
             mark = rf"(<!-- measured: {re.escape(name)} -->\n).*?(<!-- end of measured -->)"

@@ -253,11 +253,11 @@ def updated(text: str) -> str:
 def stale(*, write: bool = False) -> list[str]:
     """Pages whose tables are not those of the code; with `write` they are brought up to date."""
     found = []
-    for page in sorted(DOCS.glob("*.md")):
+    for page in sorted(DOCS.rglob("*.md")):
         old = page.read_text(encoding="utf-8")
         new = updated(old)
         if new != old:
-            found.append(page.name)
+            found.append(page.relative_to(DOCS).as_posix())
             if write:
                 page.write_text(new, encoding="utf-8")
     return found

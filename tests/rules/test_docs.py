@@ -18,8 +18,7 @@ DOCS = ROOT / "docs"
 SCRIPTS = DOCS / "scripts"
 PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")),
-    *sorted(DOCS.glob("*.md")),
-    *sorted(DOCS.glob("gallery/*.md")),
+    *sorted(DOCS.rglob("*.md")),
 ]
 
 
@@ -47,7 +46,7 @@ def test_tables_are_up_to_date(tables):
 
 def test_every_table_is_shown(tables):
     shown = {
-        name for page in DOCS.glob("*.md") for _, name, *_ in tables.MARK.findall(page.read_text())
+        name for page in DOCS.rglob("*.md") for _, name, *_ in tables.MARK.findall(page.read_text())
     }
     assert shown == set(tables.TABLES)
 
@@ -55,7 +54,7 @@ def test_every_table_is_shown(tables):
 def test_every_measured_block_is_there_once_and_filled():
     """What it says is not checked: seconds differ between machines."""
     pattern = r"<!-- measured: ([\w, -]+) -->\n(.*?)<!-- end of measured -->"
-    pages = [page.read_text() for page in DOCS.glob("*.md")]
+    pages = [page.read_text() for page in DOCS.rglob("*.md")]
     found = [block for page in pages for block in re.findall(pattern, page, re.S)]
     names = [name for name, _ in found]
     assert len(names) == len(set(names)) == sum(page.count("<!-- measured:") for page in pages)

@@ -11,7 +11,10 @@ import contactkit as ck
 from contactkit.app.scenes import open_scene
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
+]
 
 
 def blocks(page, language):
@@ -25,7 +28,9 @@ def with_blocks(language):
     """Pages with blocks of a language; what takes long is on the pages about FMUs."""
     slow = {page for page in PAGES if "fmu" in page.name or page.name == "hosts.md"}
     return [
-        pytest.param(p, id=p.name, marks=[pytest.mark.slow] if p in slow else [])
+        pytest.param(
+            p, id=p.relative_to(ROOT).as_posix(), marks=[pytest.mark.slow] if p in slow else []
+        )
         for p in PAGES
         if blocks(p, language)
     ]
