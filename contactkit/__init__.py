@@ -119,6 +119,9 @@ if TYPE_CHECKING:
     from .separation.sliding.effects import ContactAngleHysteresis, CouetteForce
     from .separation.sliding.plan import SlidingPlan, divide_sliding
     from .separation.sliding.result import SlidingResult
+    from .shortcuts.contact_area import contact_area
+    from .shortcuts.menisci import bridge_force, capillary_force
+    from .shortcuts.squeeze import squeeze_time
     from .studies.study import study
 
 __version__ = "0.1.0"
@@ -203,6 +206,9 @@ _HOMES = {
     "Window": "scene.window",
     "adhesion_curve": "analyses.adhesion_curve",
     "advance": "separation.motion.advance",
+    "bridge_force": "shortcuts.menisci",
+    "capillary_force": "shortcuts.menisci",
+    "contact_area": "shortcuts.contact_area",
     "critical_meniscus": "analyses.division",
     "divide_meniscus": "analyses.division",
     "divide_sliding": "separation.sliding.plan",
@@ -221,6 +227,7 @@ _HOMES = {
     "save_scene": "files.scenes",
     "simulate": "separation.simulate",
     "solve": "contact.solve",
+    "squeeze_time": "shortcuts.squeeze",
     "stick_slip": "analyses.stick_slip",
     "load_displacement": "analyses.load_displacement.solve",
     "study": "studies.study",
@@ -305,6 +312,9 @@ __all__ = [
     "Window",
     "adhesion_curve",
     "advance",
+    "bridge_force",
+    "capillary_force",
+    "contact_area",
     "critical_meniscus",
     "discretisation_error",
     "divide_meniscus",
@@ -324,6 +334,7 @@ __all__ = [
     "save_scene",
     "simulate",
     "solve",
+    "squeeze_time",
     "stick_slip",
     "study",
 ]

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import field, frozen
 
 from ..accuracy import Accuracy
-from ..errors import InfeasibleError, PlanError
+from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..liquids.liquid import LiquidState
 from ..scene.column import Column
 from ..scene.effect import EffectRegistry, check_listed
@@ -28,6 +28,9 @@ from .effects.prepared import PreparedScene, prepare_scene, with_fraction
 from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .effects.viscous import ViscousForce
 from .film import Film
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 _CONTINUUM = 2.0 * nm  # gap below which a liquid is no continuum any more
 
@@ -81,6 +84,80 @@ class Plan(ScenePlan):
     ) -> Film | None:
         """Return what acts in a state: all, or what a broken film and detached solids leave."""
         return self._left[FilmState(volume_fraction, broken, detached)]
+
+    def acting_film(self, gap: float) -> Film | None:
+        """Return what acts at a gap [m] on bodies that are opened once: None if nothing does."""
+        film = self.film
+        return self.remaining_film(1.0, broken=gap > film.end, detached=gap > film.release)
+
+    def force(self, gap: ArrayLike, speed: ArrayLike = 0.0) -> Any:
+        """Sum of the listed forces [N] at a gap and an opening speed; positive resists opening.
+
+        The film has the liquid of the scene, and the limits of the liquid that have no memory.
+        Beyond the gap at which it breaks only the forces of the solids are left.
+
+        Parameters
+        ----------
+        gap : float or array_like
+            Distance of the bodies [m]; 0 only where a sphere touches and no viscous force acts.
+        speed : float or array_like
+            Opening speed [m/s]; negative while the bodies approach.
+
+        Returns
+        -------
+        float or ndarray
+            Force [N], of the broadcast shape.
+
+        Raises
+        ------
+        DescriptionError
+            If a gap is negative, or zero where the force is infinite, or a number is not finite.
+        PlanError
+            If the force depends on the motion before: a film that tears and remembers it.
+
+        Examples
+        --------
+        >>> import contactkit as ck
+        >>> oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
+        >>> face = ck.Flat(radius=1e-3)
+        >>> film = ck.Meniscus(liquid=oil, volume=1e-11)
+        >>> scene = ck.SeparationScene(
+        ...     interface=ck.Interface(lower=face, upper=face, meniscus=film),
+        ...     loading=ck.ImposedSpeed(speed=1e-3, initial_gap=4e-6, final_gap=1e-5),
+        ...     effects=(ck.MeniscusForce(), ck.ViscousForce()),
+        ... )
+        >>> ck.plan(scene).force([4e-6, 8e-6], 1e-3).round(4).tolist()
+        [4.7003, 0.1551]
+        """
+        import numpy as np
+
+        if self.film.cavity is not None:
+            raise PlanError(
+                "plan.force(gap, speed) is not known for a film that tears: it depends on the "
+                "motion before; take ck.simulate(plan), or "
+                'TensionLimit(strength=..., cavity="truncated")'
+            )
+        try:
+            gaps, speeds = np.broadcast_arrays(
+                np.asarray(gap, dtype=np.float64), np.asarray(speed, dtype=np.float64)
+            )
+        except (TypeError, ValueError):
+            raise DescriptionError(
+                "Plan.force(gap, speed)", (gap, speed), "be numbers or arrays that broadcast"
+            ) from None
+        least = 0.0 if not (self.scene.interface.is_flat or self.film.has_viscous) else None
+        for value in gaps.ravel().tolist():
+            if not (math.isfinite(value) and (value > 0.0 or value == least)):
+                expected = "be positive and finite" if least is None else "be zero or positive"
+                raise DescriptionError("Plan.force(gap)", value, expected, unit="m")
+        if not np.isfinite(speeds).all():
+            raise DescriptionError("Plan.force(speed)", speed, "be finite", unit="m/s")
+        found = [self._force(*point) for point in zip(gaps.flat, speeds.flat, strict=True)]
+        return found[0] if gaps.ndim == 0 else np.reshape(found, gaps.shape)
+
+    def _force(self, gap: float, speed: float) -> float:
+        film = self.acting_film(float(gap))
+        return 0.0 if film is None else film.force(float(gap), float(speed))
 
     @property
     def forces(self) -> tuple[Column, ...]:

@@ -15,7 +15,6 @@ from ..units import quantity_text
 from .curve_result import Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
-from .film import Film
 from .plan import Plan
 from .results import SeparationResult, with_late_curves
 from .torn_path import TornPoint, torn_points
@@ -64,12 +63,6 @@ def broke(plan: Plan) -> str:
         if end < plan.scene.loading.final_gap
         else ""
     )
-
-
-def acting(plan: Plan, gap: float) -> Film | None:
-    """Forces that act at a gap [m] of a plan that is opened once."""
-    film = plan.film
-    return plan.remaining_film(1.0, broken=gap > film.end, detached=gap > film.release)
 
 
 def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResult:
@@ -150,7 +143,7 @@ def simulated(plan: Plan) -> list[str]:
 
 
 def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
-    film, broken = acting(plan, gap), gap > plan.film.end
+    film, broken = plan.acting_film(gap), gap > plan.film.end
     row = {column.name: 0.0 for column in plan.film.static_columns}
     newtonian, viscous, limit = 0.0, 0.0, LimitKind.NONE
     if film is not None:

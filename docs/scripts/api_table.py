@@ -7,7 +7,17 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 ROOMS = (
-    *("scene", "contact", "separation", "analyses", "studies", "files", "plot", "liquids"),
+    *(
+        "scene",
+        "contact",
+        "separation",
+        "shortcuts",
+        "analyses",
+        "studies",
+        "files",
+        "plot",
+        "liquids",
+    ),
     *("elasticity", "capillary", "lubrication", "adhesion", "roughness", "as_published"),
     *("numerics", "reference"),
 )

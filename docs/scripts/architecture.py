@@ -16,7 +16,14 @@ LEFT_OUT = {"_lazy", "__main__", "errors", "units", "validators", "accuracy", "w
 # Place along the row, 0 to 1, where arrows would otherwise pass behind a room.
 ACROSS = {
     **{"cli": 0.5, "app": 0.5, "fmu": 0.5, "models": 0.6, "studies": 0.12, "plot": 0.97},
-    **{"analyses": 0.68, "files": 0.42, "effects": 0.53, "planning": 0.85, "contact": 0.33},
+    **{
+        "analyses": 0.68,
+        "shortcuts": 0.02,
+        "files": 0.42,
+        "effects": 0.53,
+        "planning": 0.85,
+        "contact": 0.33,
+    },
     **{"separation": 0.77, "scene": 0.55, "liquids": 0.65, "data": 0.38, "as_published": 0.73},
     **{"elasticity": 0.22, "roughness": 0.37, "capillary": 0.57, "lubrication": 0.79},
     **{"adhesion": 0.98, "numerics": 0.68, "reference": 0.02},

@@ -29,7 +29,7 @@ FLOORS = [
     ["contact", "separation"],
     ["effects", "planning"],
     ["files"],
-    ["analyses"],
+    ["analyses", "shortcuts"],
     ["studies", "plot"],
     ["models"],
     ["fmu"],
