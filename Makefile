@@ -20,7 +20,7 @@ $(VENV)/.%: $(VENV)/.made pyproject.toml
 	touch $@
 
 demo: $(VENV)/.all
-	$(BIN)/contactkit run fuel-injector --out out/fuel-injector
+	$(BIN)/contactkit run fuel-injector --out out/fuel-injector --overwrite
 
 # The same every time and on every machine; what takes long, or explores at random, comes after.
 test: $(VENV)/.test

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -94,9 +93,15 @@ def _parser() -> argparse.ArgumentParser:
         one = commands.add_parser(name, help=text, description=text)
         one.add_argument("scene", help="a scene file, or the name of a scene of contactkit")
         _set_command(one, command)
+        _add_settings(one)
         if name != "plan":
             one.add_argument("--out", type=Path, help="folder to write curves and figures to")
+            text = "replace files in the folder that this scene did not write"
+            one.add_argument("--overwrite", action="store_true", help=text)
             one.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
+        if name == "run":
+            text = "write report.html, one page about the result, to the folder"
+            one.add_argument("--report", action="store_true", help=text)
         if name == "study":
             _add_study_options(one)
         if name == "cost":
@@ -114,6 +119,18 @@ def _parser() -> argparse.ArgumentParser:
     _add_build(fmu)
     _add_system(fmu)
     return parser
+
+
+def _add_settings(parser: argparse.ArgumentParser) -> None:
+    """Options that change a scene."""
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        dest="settings",
+        metavar="PATH=VALUE",
+        help="set a value of the scene: loading.force='60 N'; may be given again",
+    )
 
 
 def _add_study_options(study: argparse.ArgumentParser) -> None:
@@ -140,7 +157,14 @@ def _add_help(commands: Any) -> None:
     text = "report all mistakes of a scene file, with their lines, without running it"
     check = commands.add_parser("check", help=text, description=text)
     check.add_argument("scene", help="a scene file")
+    _add_settings(check)
     _set_command(check, _check)
+    text = "write one page of HTML about a result: figures, numbers, validity, plan, sources"
+    page = commands.add_parser("report", help=text, description=text)
+    page.add_argument("result", type=Path, help="a result file, or a folder written by run")
+    page.add_argument("--out", type=Path, help="file to write, FILE.html; else beside the result")
+    page.add_argument("--overwrite", action="store_true", help="replace a file of others")
+    _set_command(page, _report_page)
 
 
 def _add_gallery(commands: Any) -> None:
@@ -242,48 +266,79 @@ def _progress(text: str) -> Iterator[Progress]:
         yield show
 
 
-def _load(name: str) -> Any:
+def _load(name: str, settings: Sequence[str] = ()) -> Any:
     """Open a scene; its modules are imported here, so that --help is fast."""
     from .app.scenes import open_scene
+    from .app.settings import with_settings
 
-    return open_scene(name)
+    return with_settings(open_scene(name), settings)
 
 
 def _check_folder(folder: Path | None) -> None:
     """Refuse a folder that cannot be written to before the work, not after it."""
-    if folder is None:
+    from .app.output import check_folder
+
+    if folder is not None:
+        check_folder(folder)
+
+
+@contextmanager
+def _output(parsed: argparse.Namespace, command: str) -> Iterator[Any]:
+    """Folder that a command writes to, if one is given."""
+    from .app.output import Command, written_to
+
+    if parsed.out is None:
+        yield None
         return
-    nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())
-    if not nearest.is_dir():
-        hint = f"{nearest} is a file"
-    elif not os.access(nearest, os.W_OK):
-        hint = f"{nearest} is not writable"
-    else:
-        return
-    raise DescriptionError("--out", str(folder), "be a folder that can be written to", hint=hint)
+    who = Command(command, parsed.scene, tuple(parsed.settings))
+    with written_to(parsed.out, who, overwrite=parsed.overwrite) as folder:
+        yield folder
 
 
 def _run(parsed: argparse.Namespace) -> None:
-    _check_folder(parsed.out)
-    device = _load(parsed.scene)
-    with _progress(f"run {device.name}") as progress:
-        report = device.run(parsed.out, progress)
-    _show(report, parsed.json)
+    from .app.report_page import PAGE, folder_page, write_page
+
+    if parsed.report and parsed.out is None:
+        raise DescriptionError("--report", "", "come with --out, the folder to write to")
+    with _output(parsed, "run") as folder:
+        device = _load(parsed.scene, parsed.settings)
+        with _progress(f"run {device.name}") as progress:
+            report = device.run(parsed.out, progress)
+        _show(report, parsed.json)
+        if folder is not None:
+            folder.keep(device.name, report.text, report.scalars)
+        if parsed.report:
+            path = write_page(folder_page(parsed.out, folder.record), parsed.out / PAGE)
+            if not parsed.json:
+                _print_files("written", [path])
 
 
 def _study(parsed: argparse.Namespace) -> None:
     from .app.run.study import StudyOptions
 
-    _check_folder(parsed.out)
     options = StudyOptions(parsed.workers, parsed.store, parsed.dimensionless)
-    device = _load(parsed.scene)
-    with _progress(f"study of {device.name}") as progress:
-        report = device.study(parsed.out, progress, options)
-    _show(report, parsed.json)
+    with _output(parsed, "study") as folder:
+        device = _load(parsed.scene, parsed.settings)
+        with _progress(f"study of {device.name}") as progress:
+            report = device.study(parsed.out, progress, options)
+        _show(report, parsed.json)
+        if folder is not None:
+            folder.keep(device.name, report.text, report.scalars)
 
 
 def _plan(parsed: argparse.Namespace) -> None:
-    print(_load(parsed.scene).plan_text())
+    print(_load(parsed.scene, parsed.settings).plan_text())
+
+
+def _report_page(parsed: argparse.Namespace) -> None:
+    from .app.output import enter
+    from .app.report_page import PAGE, check_page, report_page, write_page
+
+    source = parsed.result
+    path = parsed.out or (source / PAGE if source.is_dir() else source.with_suffix(".html"))
+    check_page(path, overwrite=parsed.overwrite)
+    print(write_page(report_page(source), path))
+    enter(path, "report")
 
 
 def _list(parsed: argparse.Namespace) -> None:
@@ -299,7 +354,7 @@ def _new(parsed: argparse.Namespace) -> None:
 
 
 def _check(parsed: argparse.Namespace) -> None:
-    device = _load(parsed.scene)
+    device = _load(parsed.scene, parsed.settings)
     with warnings.catch_warnings(record=True) as remarks:
         warnings.simplefilter("always")
         title = device.plan_text().splitlines()[0]
@@ -309,11 +364,13 @@ def _check(parsed: argparse.Namespace) -> None:
 
 
 def _cost(parsed: argparse.Namespace) -> None:
-    _check_folder(parsed.out)
-    device = _load(parsed.scene)
-    with _progress(f"cost of {device.name}") as progress:
-        report = device.cost(parsed.out, progress, parsed.error)
-    _show(report, parsed.json)
+    with _output(parsed, "cost") as folder:
+        device = _load(parsed.scene, parsed.settings)
+        with _progress(f"cost of {device.name}") as progress:
+            report = device.cost(parsed.out, progress, parsed.error)
+        _show(report, parsed.json)
+        if folder is not None:
+            folder.keep(device.name, report.text, report.scalars)
 
 
 def _gallery(parsed: argparse.Namespace) -> int:

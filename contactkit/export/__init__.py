@@ -3,5 +3,6 @@
 contents  Quantities over named axes, with units and labels.
 datasets  Datasets of xarray.
 frames    Data frames of pandas.
-html      Tables and lists in notebooks.
+html      Tables and lists as HTML.
+pages     Pages of HTML that hold all they show.
 """

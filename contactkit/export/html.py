@@ -1,4 +1,4 @@
-"""Tables and lists as HTML, for notebooks."""
+"""Tables and lists as HTML, for notebooks and pages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..units import quantity_text
 if TYPE_CHECKING:
     from ..scene.description import Line
 
-__all__ = ["effects_table", "nested_list", "numbers_table"]
+__all__ = ["effects_table", "nested_list", "numbers_table", "table"]
 
 
 def numbers_table(title: str, numbers: Mapping[str, tuple[float, str]]) -> str:
@@ -23,7 +23,7 @@ def numbers_table(title: str, numbers: Mapping[str, tuple[float, str]]) -> str:
     '<p>released</p><table><tr><td>peak force</td><td>16.2 N</td></tr></table>'
     """
     rows = [(name.replace("_", " "), quantity_text(v, unit)) for name, (v, unit) in numbers.items()]
-    return f"<p>{escape(title)}</p>{_table(rows)}"
+    return f"<p>{escape(title)}</p>{table(rows)}"
 
 
 def effects_table(
@@ -32,7 +32,7 @@ def effects_table(
     """Effects of a plan, those that are off in grey, with its notes."""
     remarks = "".join(f"<p>{escape(note)}</p>" for note in notes)
     left = f'<p style="color:gray">off: {escape(", ".join(off))}</p>' if off else ""
-    return f"<p>{escape(title)}</p>{_table(on)}{left}{remarks}"
+    return f"<p>{escape(title)}</p>{table(on)}{left}{remarks}"
 
 
 def nested_list(line: Line) -> str:
@@ -42,6 +42,13 @@ def nested_list(line: Line) -> str:
     return f"<b>{escape(line.name)}</b>{text}" + (f"<ul>{parts}</ul>" if parts else "")
 
 
-def _table(rows: Sequence[tuple[str, str]]) -> str:
-    cells = "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in rows)
-    return f"<table>{cells}</table>"
+def table(rows: Sequence[Sequence[str]]) -> str:
+    """Rows of texts as a table.
+
+    Examples
+    --------
+    >>> table([("gap", "< 5 nm")])
+    '<table><tr><td>gap</td><td>&lt; 5 nm</td></tr></table>'
+    """
+    lines = ("".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows)
+    return f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"

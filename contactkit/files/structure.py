@@ -161,8 +161,10 @@ def field_value(kind: type, name: str, value: Any) -> Any:
         return value
     if "unit" in attribute.metadata:
         return _quantity(kind, attribute)(value, attribute.type)
+    if attribute.type in (bool, str):
+        return _CONVERTER.structure(value, attribute.type)
     is_object = any(attrs.has(one) for one in get_args(attribute.type) or (attribute.type,))
-    if is_object and isinstance(value, str | Mapping):
+    if is_object and isinstance(value, str | Mapping | list):
         try:
             return _CONVERTER.structure(value, attribute.type)  # type: ignore[arg-type]
         except cattrs.ClassValidationError as error:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import attrs
@@ -15,7 +15,18 @@ from ..files.structure import field_value, renamed
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..separation.effects.registry import Effect
 
-__all__ = ["Axis", "Changed", "Scene", "Vary", "axes", "changed", "combinations"]
+__all__ = [
+    "Axis",
+    "Changed",
+    "Scene",
+    "Vary",
+    "axes",
+    "changed",
+    "check_apart",
+    "combinations",
+    "paths_of",
+    "read_value",
+]
 
 Scene = SeparationScene | SlidingScene | ContactScene
 Tree = dict[str, Any]
@@ -81,14 +92,57 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
     if not isinstance(vary, Mapping) or not vary:
         raise DescriptionError("vary", vary, "name at least one field and its values")
     found = tuple(_axis(scene, accuracy, key, values) for key, values in vary.items())
-    paths = [path for axis in found for path in axis.paths]
+    check_apart([path for axis in found for path in axis.paths], "vary")
+    return found
+
+
+def check_apart(paths: Sequence[str], origin: str) -> None:
+    """Refuse a path that is given twice, or lies inside another.
+
+    Raises
+    ------
+    DescriptionError
+        Of the field `origin`.
+    """
     for path in paths:
         if paths.count(path) > 1:
-            raise DescriptionError("vary", path, "be given once")
+            raise DescriptionError(origin, path, "be given once")
         for other in paths:
             if other.startswith(f"{path}."):
-                raise DescriptionError("vary", other, f"not lie inside {path!r}")
-    return found
+                raise DescriptionError(origin, other, f"not lie inside {path!r}")
+
+
+def read_value(scene: Any, accuracy: Accuracy | None, path: str, value: Any, origin: str) -> Any:
+    """Read a value for a path as a scene file does: a quantity with its unit, a name, a table.
+
+    Parameters
+    ----------
+    scene : object
+        The scene, or the description of a device, that the path refers to.
+    accuracy : Accuracy or None
+        The settings that paths beginning with ``accuracy.`` refer to, if there are any.
+    path : str
+        A dotted path, see `axes`.
+    value : object
+        The value to read.
+    origin : str
+        What gives the path, for messages.
+
+    Raises
+    ------
+    DescriptionError
+        If the path does not exist, or the value cannot be read.
+    """
+    return _value(_owner(scene, accuracy, path, origin), value)
+
+
+def paths_of(owner: Any) -> Iterator[str]:
+    """Paths of all fields of a scene, of its accuracy or of a part of them."""
+    for name, value in _choices(owner).items():
+        below = list(paths_of(value))
+        yield from (f"{name}.{path}" for path in below)
+        if not isinstance(owner, tuple):
+            yield name
 
 
 def combinations(varied: tuple[Axis, ...]) -> list[dict[str, Any]]:
@@ -101,12 +155,14 @@ def combinations(varied: tuple[Axis, ...]) -> list[dict[str, Any]]:
 class Changed(NamedTuple):
     """Scene and accuracy of a point of a study."""
 
-    scene: Scene
-    accuracy: Accuracy
+    scene: Any
+    accuracy: Any
 
 
-def changed(scene: Scene, accuracy: Accuracy, values: Mapping[str, Any]) -> Changed:
-    """Apply values by path; each object is rebuilt once, so that coupled fields change together.
+def changed(scene: Any, accuracy: Any, values: Mapping[str, Any]) -> Changed:
+    """Apply values by path to a scene or a device, and to its accuracy.
+
+    Each object is rebuilt once, so that coupled fields change together.
 
     Raises
     ------
@@ -142,7 +198,7 @@ def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
 
 def _axis(scene: Scene, accuracy: Accuracy, key: str, values: Iterable[Any]) -> Axis:
     paths = tuple(path.strip() for path in key.split(","))
-    owners = [_owner(scene, accuracy, path) for path in paths]
+    owners = [_owner(scene, accuracy, path, "vary") for path in paths]
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
         raise DescriptionError(f"vary[{key!r}]", values, "be a sequence of values")
     given = list(values)
@@ -175,31 +231,42 @@ def _unit(owner: _Owner) -> str:
     return unit
 
 
-def _owner(scene: Scene, accuracy: Accuracy, path: str) -> _Owner:
-    at: Any = {"accuracy": accuracy} | {name: getattr(scene, name) for name in _fields(scene)}
+def _owner(scene: Any, accuracy: Accuracy | None, path: str, origin: str) -> _Owner:
+    settings = {} if accuracy is None else {"accuracy": accuracy}
+    at: Any = settings | {name: getattr(scene, name) for name in _fields(scene)}
     kind, name, walked = None, "", ""
     for segment in path.split("."):
         choices = at if isinstance(at, dict) else _choices(at)
         if segment not in choices:
-            raise _lost(path, segment, walked, at, list(choices))
+            raise _lost(_Step(path, segment, walked, at), list(choices), origin)
         kind = type(scene) if isinstance(at, dict) else None if isinstance(at, tuple) else type(at)
         name, at = segment, choices[segment]
         walked = f"{walked}.{segment}" if walked else segment
     if walked == "accuracy":
-        raise DescriptionError("vary", path, "lead to a field of it, such as 'accuracy.rtol'")
+        raise DescriptionError(origin, path, "lead to a field of it, such as 'accuracy.rtol'")
     return _Owner(kind, name)
 
 
-def _lost(path: str, segment: str, walked: str, at: Any, choices: list[str]) -> DescriptionError:
+class _Step(NamedTuple):
+    """A segment of a path, what was walked before it, and where that leads."""
+
+    path: str
+    segment: str
+    walked: str
+    at: Any
+
+
+def _lost(step: _Step, choices: list[str], origin: str) -> DescriptionError:
+    path, segment, walked, at = step
     if not choices:
-        return DescriptionError("vary", path, f"end at {walked!r}", hint=f"that is {at!r}")
+        return DescriptionError(origin, path, f"end at {walked!r}", hint=f"that is {at!r}")
     close = difflib.get_close_matches(segment, choices, n=1, cutoff=0.5)
     old = renamed(segment)
     guess = f"did you mean {'.'.join(filter(None, [walked, *close]))!r}? " if close else ""
     what = "has the items" if isinstance(at, tuple) else f"is a {type(at).__name__}, with"
     where = f"{walked!r} {what}" if walked else "there are"
     return DescriptionError(
-        "vary",
+        origin,
         path,
         "lead to a field of the scene, or of accuracy",
         hint=f"{f'{old}; ' if old else guess}{where} {', '.join(choices)}",

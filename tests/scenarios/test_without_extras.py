@@ -159,7 +159,9 @@ def test_pictures_without_matplotlib_name_the_extra(monkeypatch):
 
 
 def test_an_import_that_fails_for_another_reason_is_a_defect(monkeypatch, capsys):
-    monkeypatch.setattr("contactkit.cli._load", lambda name: __import__("contactkit.nowhere"))
+    monkeypatch.setattr(
+        "contactkit.app.scenes.open_scene", lambda name: __import__("contactkit.nowhere")
+    )
     assert main(["plan", "head-disk"]) == 70
     assert "a defect of contactkit, ModuleNotFoundError" in capsys.readouterr().err
 
@@ -175,7 +177,7 @@ def test_a_defect_is_one_line_and_its_traceback_a_switch_away(monkeypatch, capsy
     def broken(name):
         raise ZeroDivisionError("float division by zero")
 
-    monkeypatch.setattr("contactkit.cli._load", broken)
+    monkeypatch.setattr("contactkit.app.scenes.open_scene", broken)
     assert main(["plan", "head-disk"]) == 70
     error = capsys.readouterr().err
     assert error.startswith("contactkit: a defect of contactkit, ZeroDivisionError")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ...contact.plan import ContactPlan
     from ...contact.result import ContactResult
 
-__all__ = ["run_contact"]
+__all__ = ["draw_contact", "run_contact"]
 
 Progress = Callable[[float], None]
 
@@ -48,7 +48,7 @@ def run_contact(
     if out is None:
         return Report(scalars, text)
     files = _write(result, studies, out)
-    return Report(scalars, text, files, partial(_figures, result, studies, out))
+    return Report(scalars, text, files, partial(draw_contact, result, studies, out))
 
 
 def _text(result: ContactResult, studies: Studies) -> str:
@@ -73,7 +73,8 @@ def _write(result: ContactResult, studies: Studies, out: Path) -> tuple[Path, ..
     return (save_result(result, out / "result"), *write_studies(studies, out))
 
 
-def _figures(result: ContactResult, studies: Studies, out: Path) -> list[Path]:
+def draw_contact(result: ContactResult, studies: Studies, out: Path) -> list[Path]:
+    """Draw the figures of a result, and of studies, to a folder."""
     from ...plot import contact as contact_plot
     from ...plot import separation as plot
 

@@ -18,7 +18,7 @@ from .study import Studies, draw_studies, run_studies, study_lines, study_text, 
 if TYPE_CHECKING:
     from ...separation.results import SeparationResult
 
-__all__ = ["run_separation"]
+__all__ = ["draw_separation", "run_separation"]
 
 
 def run_separation(
@@ -45,7 +45,7 @@ def run_separation(
     if out is None:
         return Report(scalars, text)
     files = (*_write(result, out), *write_studies(studies, out))
-    return Report(scalars, text, files, partial(_draw, result, studies, out))
+    return Report(scalars, text, files, partial(draw_separation, result, studies, out))
 
 
 def _text(made: Plan, result: SeparationResult) -> str:
@@ -71,7 +71,8 @@ def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
     )
 
 
-def _draw(result: SeparationResult, studies: Studies, out: Path) -> tuple[Path, ...]:
+def draw_separation(result: SeparationResult, studies: Studies, out: Path) -> tuple[Path, ...]:
+    """Draw the figures of a result, and of studies, to a folder."""
     from ...plot import separation as plot
 
     files = []

@@ -18,7 +18,7 @@ from .study import Studies, draw_studies, run_studies, study_lines, study_text, 
 if TYPE_CHECKING:
     from ...separation.sliding.result import SlidingResult
 
-__all__ = ["run_sliding"]
+__all__ = ["draw_sliding", "run_sliding"]
 
 Progress = Callable[[float], None]
 
@@ -46,7 +46,7 @@ def run_sliding(
     if out is None:
         return Report(scalars, text)
     files = (*_write(result, out), *write_studies(studies, out))
-    return Report(scalars, text, files, partial(_draw, result, studies, out))
+    return Report(scalars, text, files, partial(draw_sliding, result, studies, out))
 
 
 def _text(result: SlidingResult) -> str:
@@ -72,7 +72,8 @@ def _write(result: SlidingResult, out: Path) -> tuple[Path, ...]:
     )
 
 
-def _draw(result: SlidingResult, studies: Studies, out: Path) -> tuple[Path, ...]:
+def draw_sliding(result: SlidingResult, studies: Studies, out: Path) -> tuple[Path, ...]:
+    """Draw the figures of a result, and of studies, to a folder."""
     from ...plot import separation as plot
 
     made, ax = plot.figure()

@@ -69,6 +69,7 @@ def test_run_writes_curves_and_figures(scene, tmp_path, capsys):
         "result.csv",
         "forces.png",
         "motion.png",
+        "contactkit.json",
     }
     assert "written" in capsys.readouterr().out
 

@@ -1,0 +1,298 @@
+"""Output folders: what contactkit wrote there, for which scene; files of others are left alone.
+
+The record of a folder, ``contactkit.json``, lists each file with its SHA-256, and what each command
+printed. A file may be replaced if the record of the same scene has it and it is unchanged.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from attrs import asdict, define, field, frozen
+
+from ..errors import DescriptionError
+from ..files.scenes import write_whole
+from ..units import quantity_text
+
+__all__ = [
+    "RECORD",
+    "Command",
+    "FileEntry",
+    "Folder",
+    "Printed",
+    "Record",
+    "check_folder",
+    "enter",
+    "is_entered",
+    "read_record",
+    "written_to",
+]
+
+RECORD = "contactkit.json"
+"""Name of the record in an output folder."""
+
+Stamps = dict[str, tuple[int, int, int]]
+"""Time, size and inode of files by name, which tell whether one was written again."""
+
+_SUFFIXES = (".csv", ".fmu", ".html", ".npz", ".png")  # of all files that commands write
+_LARGEST = 50_000_000  # bytes of a record
+
+
+@frozen
+class FileEntry:
+    """A file that a command wrote, and the SHA-256 of its content."""
+
+    command: str
+    sha256: str
+
+
+@frozen
+class Printed:
+    """Text and numbers that a command printed, with the title of its scene and the values set."""
+
+    title: str
+    settings: tuple[str, ...]
+    text: str
+    numbers: Mapping[str, str]
+
+
+@frozen
+class Command:
+    """A command and the scene it runs, as typed, with the values that ``--set`` gives."""
+
+    name: str
+    scene: str
+    settings: tuple[str, ...] = ()
+
+
+@define
+class Record:
+    """Record of a folder: its scene, files by name, and what each command printed."""
+
+    scene: str
+    files: dict[str, FileEntry] = field(factory=dict)
+    printed: dict[str, Printed] = field(factory=dict)
+
+
+@define
+class Folder:
+    """An output folder in use by a command."""
+
+    path: Path
+    command: Command
+    record: Record
+    _stamps: Stamps
+
+    def keep(self, title: str, text: str, numbers: Mapping[str, tuple[Any, str]]) -> None:
+        """Keep what the command printed, for the record; columns are in files already."""
+        shown = {
+            name: value if isinstance(value, str) else quantity_text(float(value), unit)
+            for name, (value, unit) in numbers.items()
+            if isinstance(value, str | int | float)
+        }
+        settings = self.command.settings
+        self.record.printed[self.command.name] = Printed(title, settings, text, shown)
+        self.enter()
+
+    def enter(self) -> None:
+        """Enter the files that are new or changed, drop those that are gone, write the record."""
+        files, after = self.record.files, _stamps(self.path)
+        for name, stamp in after.items():
+            if self._stamps.get(name) != stamp:
+                files[name] = FileEntry(self.command.name, _sha256(self.path / name))
+        for name in files.keys() - after.keys():
+            del files[name]
+        self._stamps = after
+        if files:
+            _write_record(self.path, self.record)
+
+
+@contextmanager
+def written_to(path: Path, command: Command, *, overwrite: bool = False) -> Iterator[Folder]:
+    """Let a command write to a folder; at the end, also of a failure, record what it wrote.
+
+    Parameters
+    ----------
+    path : Path
+        The folder, made when the first file is written.
+    command : Command
+        Who writes.
+    overwrite : bool
+        Whether files of others may be replaced.
+
+    Raises
+    ------
+    DescriptionError
+        If the folder cannot be written to; without `overwrite` also if it holds files that
+        contactkit did not write for this scene, or that were changed since.
+    """
+    check_folder(path)
+    scene = _identity(command.scene, path)
+    known = _known(path, overwrite)
+    if not overwrite:
+        _check_files(path, scene, known)
+    record = known if known is not None and known.scene == scene else Record(scene)
+    folder = Folder(path, command, record, _stamps(path))
+    try:
+        yield folder
+    finally:
+        folder.enter()
+
+
+def enter(path: Path, command: str) -> None:
+    """Enter a file in the record of its folder, if it has one."""
+    record = read_record(path.parent)
+    if record is not None:
+        record.files[path.name] = FileEntry(command, _sha256(path))
+        _write_record(path.parent, record)
+
+
+def is_entered(path: Path) -> bool:
+    """Whether the record of its folder has a file, unchanged."""
+    record = read_record(path.parent)
+    entry = record.files.get(path.name) if record is not None else None
+    return entry is not None and not _is_changed(path, entry)
+
+
+def check_folder(folder: Path) -> None:
+    """Refuse a folder that cannot be written to before the work, not after it.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the file or folder that is in the way.
+    """
+    nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())
+    if not nearest.is_dir():
+        hint = f"{nearest} is a file"
+    elif not os.access(nearest, os.W_OK):
+        hint = f"{nearest} is not writable"
+    else:
+        return
+    raise DescriptionError("--out", str(folder), "be a folder that can be written to", hint=hint)
+
+
+def _identity(scene: str, folder: Path) -> str:
+    """The name of a scene of contactkit, or the path of a file from the folder."""
+    if not Path(scene).exists():
+        return scene
+    try:
+        return Path(os.path.relpath(scene, folder)).as_posix()
+    except ValueError:  # another drive
+        return Path(scene).absolute().as_posix()
+
+
+def _known(path: Path, overwrite: bool) -> Record | None:
+    """Record of a folder, if it has one; one that cannot be read only counts if it must."""
+    try:
+        return read_record(path)
+    except DescriptionError:
+        if overwrite:
+            return None
+        raise
+
+
+def _check_files(path: Path, scene: str, known: Record | None) -> None:
+    """Refuse files that the record does not have as written for this scene."""
+    present = list(_outputs(path))
+    cure = "give another folder, or --overwrite"
+    if known is not None and known.scene != scene and any(p.name in known.files for p in present):
+        expected = "be a folder of this scene, or a new one"
+        hint = f"its files are those of {known.scene}; {cure}"
+        raise DescriptionError("--out", str(path), expected, hint=hint)
+    files = known.files if known is not None else {}
+    foreign = sorted(p.name for p in present if p.name not in files)
+    changed = sorted(p.name for p in present if p.name in files and _is_changed(p, files[p.name]))
+    found = [
+        *([f"{_listed(foreign)}, which this scene did not write"] if foreign else []),
+        *([f"{_listed(changed)}, changed since contactkit wrote it"] if changed else []),
+    ]
+    if found:
+        expected = "hold nothing that might be overwritten"
+        raise DescriptionError(
+            "--out", str(path), expected, hint=f"it has {' and '.join(found)}; {cure}"
+        )
+
+
+def _listed(names: list[str]) -> str:
+    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    return ", ".join(names[:3]) + more
+
+
+def _outputs(path: Path) -> Iterator[Path]:
+    """Files of a folder of the kinds that commands write."""
+    if path.is_dir():
+        yield from (p for p in path.iterdir() if p.suffix in _SUFFIXES and p.is_file())
+
+
+def _stamps(path: Path) -> Stamps:
+    return {p.name: ((s := p.stat()).st_mtime_ns, s.st_size, s.st_ino) for p in _outputs(path)}
+
+
+def _is_changed(path: Path, entry: FileEntry) -> bool:
+    return _sha256(path) != entry.sha256
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def read_record(path: Path) -> Record | None:
+    """Read the record of a folder; None if it has none.
+
+    Raises
+    ------
+    DescriptionError
+        If the file is no such record.
+    """
+    file = path / RECORD
+    try:
+        if file.stat().st_size > _LARGEST:
+            raise ValueError(f"more than {_LARGEST} bytes")
+        table = json.loads(file.read_text(encoding="utf-8"))
+        return Record(
+            _text(table["scene"]),
+            {_text(n): FileEntry(*map(_text, one)) for n, one in table["files"].items()},
+            {_text(name): _printed(one) for name, one in table["printed"].items()},
+        )
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise DescriptionError(
+            "file", str(file), "be a record of contactkit", hint=f"{type(error).__name__}: {error}"
+        ) from None
+
+
+def _printed(table: Any) -> Printed:
+    return Printed(
+        _text(table["title"]),
+        tuple(map(_text, table["settings"])),
+        _text(table["text"]),
+        {_text(name): _text(value) for name, value in table["numbers"].items()},
+    )
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"a text is needed, got {value!r:.80}")
+    return value
+
+
+def _write_record(path: Path, record: Record) -> None:
+    from .. import __version__
+
+    table = {
+        "contactkit": __version__,
+        "scene": record.scene,
+        "files": {name: [one.command, one.sha256] for name, one in sorted(record.files.items())},
+        "printed": {name: asdict(one) for name, one in record.printed.items()},
+    }
+    with write_whole(path / RECORD) as temporary:
+        temporary.write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")

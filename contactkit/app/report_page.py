@@ -1,0 +1,197 @@
+"""One page of HTML about a result: figures, numbers, validity, plan, scene, sources."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import DescriptionError
+from ..export.html import numbers_table, table
+from ..export.pages import bullets, figure, listing, page, section
+from ..extras import missing_extra
+from ..files.results import AnyResult, load_result
+from ..files.scenes import write_whole
+from .output import RECORD, Printed, Record, check_folder, is_entered, read_record
+
+if TYPE_CHECKING:
+    from ..scene.validity import ValidityNumber
+
+__all__ = ["PAGE", "check_page", "folder_page", "report_page", "result_page", "write_page"]
+
+PAGE = "report.html"
+"""Name of the page in an output folder."""
+
+_RESULT = "result.npz"
+_PNG = b"\x89PNG\r\n\x1a\n"
+_LARGEST = 20_000_000  # bytes of a picture
+
+
+def report_page(source: Path) -> str:
+    """Return the page of a saved result, or of an output folder of run, study or cost.
+
+    Raises
+    ------
+    DescriptionError
+        If it is neither.
+    """
+    if not source.is_dir():
+        return result_page(source)
+    record = read_record(source)
+    if record is not None:
+        return folder_page(source, record)
+    if (source / _RESULT).is_file():
+        return result_page(source / _RESULT)
+    raise DescriptionError(
+        "result",
+        str(source),
+        "be a result file, or a folder that contactkit run or study wrote to",
+        hint=f"it has neither {RECORD} nor {_RESULT}",
+    )
+
+
+def check_page(path: Path, *, overwrite: bool = False) -> None:
+    """Refuse to replace a file that contactkit did not write, or that was changed since.
+
+    Raises
+    ------
+    DescriptionError
+        Unless `overwrite` is given; also if the file is none of HTML.
+    """
+    if path.suffix != ".html":
+        raise DescriptionError("--out", str(path), "end in .html")
+    check_folder(path.parent)
+    if path.exists() and not (overwrite or is_entered(path) or _is_ours(path)):
+        hint = "contactkit did not write it; give another file, or --overwrite"
+        raise DescriptionError("--out", str(path), "be a new file", hint=hint)
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a page names contactkit as its generator."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return '<meta name="generator" content="contactkit' in file.read(1000)
+
+
+def write_page(text: str, path: Path) -> Path:
+    """Write a page, whole or not at all."""
+    with write_whole(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    return path
+
+
+def result_page(path: Path) -> str:
+    """Return the page of a saved result; its figures are drawn for the page."""
+    result = load_result(path)
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        try:
+            shown = [
+                figure(one.read_bytes(), _caption(one)) for one in _drawn(result, Path(folder))
+            ]
+        except ImportError as error:
+            missing = missing_extra(error, "drawing the figures")
+            if missing is None:
+                raise
+            shown = [bullets([str(missing)])]
+    return _page(_title(result), [section("Figures", *shown), *_result_sections(result)], str(path))
+
+
+def folder_page(folder: Path, record: Record) -> str:
+    """Return the page of an output folder: what each command printed, with its pictures."""
+    saved = folder / _RESULT
+    result = load_result(saved) if _RESULT in record.files and saved.is_file() else None
+    sections, titles = [], []
+    for command, printed in record.printed.items():
+        titles.append(printed.title)
+        if command == "run" and result is not None:
+            parts = [
+                section("Figures", *_pictures(folder, record, command)),
+                *_result_sections(result),
+                section("Printed", listing(printed.text)),
+            ]
+        else:
+            parts = _printed_sections(folder, record, command, printed)
+        sections += [section("Values set", bullets(printed.settings)), *parts]
+    return _page(titles[0] if titles else "contactkit", sections, record.scene)
+
+
+def _page(title: str, sections: Sequence[str], source: str) -> str:
+    from .. import __version__
+
+    made_by = f"contactkit {__version__}"
+    return page(title, sections, generator=made_by, foot=f"{made_by}; {source}")
+
+
+def _printed_sections(folder: Path, record: Record, command: str, printed: Printed) -> list[str]:
+    """Sections of what a command printed: a study, a cost, or the run of a device."""
+    numbers = [(name.replace("_", " "), text) for name, text in printed.numbers.items()]
+    return [
+        section(f"Figures of {command}", *_pictures(folder, record, command)),
+        section(f"Printed by {command}", listing(printed.text)),
+        section(f"Numbers of {command}", table(numbers) if numbers else ""),
+    ]
+
+
+def _pictures(folder: Path, record: Record, command: str) -> Iterator[str]:
+    """Pictures that a command wrote and that are still there."""
+    for name, entry in record.files.items():
+        path = folder / name
+        if entry.command != command or path.suffix != ".png" or not path.is_file():
+            continue
+        inside = path.resolve().parent == folder.resolve()  # of a record that is not ours, say
+        if inside and path.stat().st_size <= _LARGEST:
+            data = path.read_bytes()
+            if data.startswith(_PNG):
+                yield figure(data, _caption(path))
+
+
+def _caption(path: Path) -> str:
+    return path.stem.replace("-", " ").replace("_", " ")
+
+
+def _drawn(result: AnyResult, folder: Path) -> Sequence[Path]:
+    """Draw the figures of a result to a folder."""
+    from ..contact.result import ContactResult
+    from ..separation.sliding.result import SlidingResult
+
+    if isinstance(result, ContactResult):
+        from .run.contact import draw_contact
+
+        return draw_contact(result, (), folder)
+    if isinstance(result, SlidingResult):
+        from .run.sliding import draw_sliding
+
+        return draw_sliding(result, (), folder)
+    from .run.separation import draw_separation
+
+    return draw_separation(result, (), folder)
+
+
+def _title(result: AnyResult) -> str:
+    return result.plan.scene.name or result.plan.title
+
+
+def _result_sections(result: AnyResult) -> list[str]:
+    """Numbers, validity, plan, scene, sources and cost of a result."""
+    work = result.work._asdict()
+    counts = [(n.replace("_", " ").removeprefix("n "), str(v)) for n, v in _counts(work)]
+    errata = [str(one) for one in getattr(result, "errata", ())]
+    return [
+        section("Result", numbers_table(f"{result.status}: {result.message}", result.scalars())),
+        section("Validity", table([_validity_row(one) for one in result.validity])),
+        section("Errata of what is taken as printed", bullets(errata)),
+        section("Plan", result.plan._repr_html_()),
+        section("Scene", result.plan.scene._repr_html_()),
+        section("Sources", bullets(result.cite().splitlines())),
+        section("Cost", table([*counts, ("wall time", f"{work['seconds']:.3g} s")])),
+    ]
+
+
+def _counts(work: dict[str, Any]) -> list[tuple[str, int]]:
+    return [(name, v) for name, v in work.items() if name.startswith("n_")]
+
+
+def _validity_row(number: ValidityNumber) -> tuple[str, ...]:
+    name, _, rest = str(number).partition(" = " if number.value is not None else ": ")
+    said, _, detail = rest.partition("; ")
+    return (name, said, detail)
