@@ -45,7 +45,7 @@ def meniscus_area(
     film_thickness: float,
     meniscus_height: float,
     contact: Mask,
-    periodic: bool,
+    periodic: bool | Literal["x", "y"],
     connectivity: Literal[4, 8] = 8,
 ) -> FilmIslands:
     """Pixels wetted by menisci.
@@ -61,8 +61,8 @@ def meniscus_area(
         the film.
     contact : ndarray of bool (ny, nx)
         Pixels in contact.
-    periodic : bool
-        Whether islands continue across the edges.
+    periodic : bool, "x" or "y"
+        Whether islands continue across the edges: all of them, or along one axis alone.
     connectivity : {4, 8}
         8: pixels with a common corner belong to one island; 4: only those with a common edge.
 

@@ -119,7 +119,10 @@ def curvature_of_area(islands: Islands, height: float) -> Array:
 
 
 def summit_curvature(
-    heights: Array, summit: NDArray[np.int64], pixel_size: tuple[float, float], periodic: bool
+    heights: Array,
+    summit: NDArray[np.int64],
+    pixel_size: tuple[float, float],
+    repeats: tuple[bool, bool],
 ) -> Array:
     """Mean curvature [1/m] at pixels of a height map, from the four neighbours of each.
 
@@ -131,9 +134,9 @@ def summit_curvature(
         Pixels (y, x).
     pixel_size : (float, float)
         Size (dy, dx) of a pixel [m].
-    periodic : bool
-        Whether the map is periodic; otherwise pixels at an edge take the curvature of their inner
-        neighbours.
+    repeats : (bool, bool)
+        Whether the map repeats along y, and along x; otherwise pixels at an edge take the curvature
+        of their inner neighbours.
 
     Notes
     -----
@@ -142,13 +145,14 @@ def summit_curvature(
     Examples
     --------
     >>> y, x = np.mgrid[-2:3, -2:3]
-    >>> summit_curvature(-(x**2 + y**2) / 8.0, np.array([[2, 2]]), (1.0, 1.0), False).tolist()
+    >>> ball = -(x**2 + y**2) / 8.0
+    >>> summit_curvature(ball, np.array([[2, 2]]), (1.0, 1.0), (False, False)).tolist()
     [0.25]
     """
     shape, (dy, dx) = heights.shape, pixel_size
     y, x = summit[:, 0], summit[:, 1]
-    if not periodic:
-        y, x = np.clip(y, 1, shape[0] - 2), np.clip(x, 1, shape[1] - 2)
+    y = y if repeats[0] else np.clip(y, 1, shape[0] - 2)
+    x = x if repeats[1] else np.clip(x, 1, shape[1] - 2)
     here = heights[y, x]
     along_y = heights[(y - 1) % shape[0], x] + heights[(y + 1) % shape[0], x] - 2.0 * here
     along_x = heights[y, (x - 1) % shape[1]] + heights[y, (x + 1) % shape[1]] - 2.0 * here
@@ -156,7 +160,7 @@ def summit_curvature(
 
 
 def overlapping(
-    points: Array, radii: Array, period: tuple[float, float] | None
+    points: Array, radii: Array, period: tuple[float, float] = (math.inf, math.inf)
 ) -> NDArray[np.bool_]:
     """Whether each circle overlaps another one.
 
@@ -166,27 +170,28 @@ def overlapping(
         Centres (y, x) [m].
     radii : ndarray (n,)
         Radii [m].
-    period : (float, float) or None
-        Size (y, x) of a periodic window [m].
+    period : (float, float)
+        Size (y, x) of the window [m]; infinite along an axis along which it does not repeat.
 
     Examples
     --------
-    >>> overlapping(np.array([[0.0, 0.0], [0.0, 1.5], [0.0, 9.0]]), np.ones(3), None).tolist()
+    >>> overlapping(np.array([[0.0, 0.0], [0.0, 1.5], [0.0, 9.0]]), np.ones(3)).tolist()
     [True, True, False]
     >>> overlapping(np.array([[0.0, 0.5], [0.0, 9.0]]), np.ones(2), (10.0, 10.0)).tolist()
     [True, True]
     """
     found = np.zeros(len(radii), dtype=bool)
-    if len(radii) < 2:
+    if len(radii) < 2 or not radii.any():
         return found
-    tree = cKDTree(np.mod(points, period) if period else points, boxsize=period)  # type: ignore[arg-type]
+    away = np.ptp(points, axis=0) + 4.0 * radii.max()  # where no circle is near its image
+    box = np.where(np.isfinite(period), period, away)
+    tree = cKDTree(np.mod(points, box), boxsize=box)
     order = np.argsort(-radii)
     # Each circle looks for smaller ones, whose centres are within twice its radius.
     for i in order:
         near = np.asarray(tree.query_ball_point(tree.data[i], 2.0 * radii[i]))
         apart = np.abs(tree.data[near] - tree.data[i])
-        if period:
-            apart = np.minimum(apart, np.asarray(period) - apart)
+        apart = np.minimum(apart, box - apart)
         hits = near[np.hypot(apart[:, 0], apart[:, 1]) < radii[near] + radii[i]]
         if len(hits) > 1:
             found[hits] = True

@@ -253,7 +253,6 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
     _check_holes(scene)
-    _check_edges(scene, grid)
     _check_free_sheets(scene, grid)
     _check_attraction(made)
     for one in (*_before(made), made):
@@ -337,19 +336,6 @@ def _check_holes(scene: ContactScene) -> None:
         "them, or leave it out"
         for effect in scene.effects
         if not effect.takes_holes
-    ]
-    if problems:
-        raise PlanError("; ".join(problems))
-
-
-def _check_edges(scene: ContactScene, grid: Grid) -> None:
-    """Refuse an effect that knows no window which repeats along one axis alone."""
-    problems = [
-        f"{type(effect).__name__} needs Window(periodic=True) or False, got {grid.along!r}: along "
-        "one axis alone it is not available; take a window that repeats along both and is wide "
-        "across, or leave it out"
-        for effect in scene.effects
-        if grid.along and not effect.takes_one_axis
     ]
     if problems:
         raise PlanError("; ".join(problems))

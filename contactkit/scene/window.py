@@ -59,6 +59,11 @@ class Grid(NamedTuple):
         return self.along or self.periodic
 
     @property
+    def repeats(self) -> tuple[bool, bool]:
+        """Whether it repeats along y, and along x."""
+        return self.edges in (True, "y"), self.edges in (True, "x")
+
+    @property
     def area(self) -> float:
         """Area of the window [m2]."""
         return self.shape[0] * self.pixel_size[0] * self.shape[1] * self.pixel_size[1]

@@ -181,10 +181,7 @@ def cases():
         kinds = {type(level) for level in case.values()}
         is_complete = ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds
         is_complete &= ck.PlasticHistory not in kinds or suits_a_history(kinds)
-        knows_edges = case["edges"] != "along x" or all(
-            effect.takes_one_axis for effect in case.values() if isinstance(effect, ContactEffect)
-        )
-        if is_complete and knows_edges and not is_refused(case.values()):
+        if is_complete and not is_refused(case.values()):
             found.append(case)
     wanted = pairwise(found)
     for case in found:

@@ -158,7 +158,6 @@ class Adhesion(Attraction[AdhesionPart]):
         near = attracted.touching | (contact.gap < law.reach)
         elastic = 0.5 * float(np.einsum("ij,ij->", contact.pressure, contact.displacement))
         tension = attracted.tension
-        border = max(float(edge.max()) for edge in (*tension[[0, -1]], *tension.T[[0, -1]]))
         curvature, step = self._shape(contact, near)
         return AdhesionPart(
             tension=tension,
@@ -170,7 +169,7 @@ class Adhesion(Attraction[AdhesionPart]):
             tabor_parameter=self._tabor(contact, curvature),
             trapping_number=law.steepest * attracted.self_influence,
             step_over_range=step,
-            edge_tension=0.0 if contact.grid.periodic else border / law.strength,
+            edge_tension=_largest_at_edges(tension, contact.grid.repeats) / law.strength,
             self_influence=attracted.self_influence,
             n_contacts=attracted.n_contacts,
         )
@@ -238,6 +237,13 @@ class Adhesion(Attraction[AdhesionPart]):
                 )
             )
         return tuple(found)
+
+
+def _largest_at_edges(tension: Map, repeats: tuple[bool, bool]) -> float:
+    """Largest tension [Pa] at the edges beyond which nothing repeats."""
+    lines = zip((tension, tension.T), repeats, strict=True)
+    edges = [across[[0, -1]] for across, does_repeat in lines if not does_repeat]
+    return max((float(edge.max()) for edge in edges), default=0.0)
 
 
 def _around(near: NDArray[np.bool_]) -> tuple[slice, slice]:

@@ -212,9 +212,8 @@ class ContactEffect(Effect, Generic[Part]):
 
     takes_holes: ClassVar[bool] = False
     """Whether it is right with pixels that carry no load and whose gap is not known."""
-    takes_one_axis: ClassVar[bool] = False
-    takes_free_sheets: ClassVar[bool] = True  # isolated, on a base along which they slide
-    """Whether it is right in a window that repeats along one axis alone."""
+    takes_free_sheets: ClassVar[bool] = True
+    """Whether it is right on an isolated sheet that slides on its base."""
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""

@@ -38,7 +38,6 @@ class HalfSpace(Compliance):
     """
 
     takes_holes: ClassVar[bool] = True
-    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "half-space"
     summary: ClassVar[str] = "homogeneous elastic half-spaces"
 
@@ -72,7 +71,6 @@ class LayeredHalfSpace(Compliance):
     """
 
     takes_holes: ClassVar[bool] = True
-    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "layered-half-space"
     summary: ClassVar[str] = "bonded elastic layers on half-spaces or rigid bases"
 

@@ -184,7 +184,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
             self.film_thickness,
             self._height,
             contact.pressure > 0.0,
-            contact.grid.periodic,
+            contact.grid.edges,
             self.connectivity,
         )
         area = found.n_meniscus * contact.grid.pixel_area

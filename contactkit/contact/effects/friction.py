@@ -73,7 +73,6 @@ class FrictionTraction(Observer[FrictionPart]):
         Direction in which the upper body slides, from the x axis towards y [rad].
     """
 
-    takes_one_axis: ClassVar[bool] = True
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-traction"
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"

@@ -205,13 +205,13 @@ def bridges_of(
     """Find the islands, put a bridge on each, and add up their forces."""
     wetting = _wetting(effect, contact, pressure)
     wet = _wet(contact, wetting, effect.connectivity)
-    names, n = islands(wet, contact.grid.periodic, effect.connectivity)
+    names, n = islands(wet, contact.grid.edges, effect.connectivity)
     touching, grid = contact.pressure > 0.0, contact.grid
     heights = contact.displacement - contact.gap  # undeformed, but for a constant
     found = kernel.measure_islands(names, n, contact.gap, touching, heights, grid.pixel_area)
     curvature = kernel.curvature_of_area(found, wetting.height)
     if effect.curvature == "summit":
-        own = kernel.summit_curvature(heights, found.summit, grid.pixel_size, grid.periodic)
+        own = kernel.summit_curvature(heights, found.summit, grid.pixel_size, grid.repeats)
         # A pixel that is no summit, such as the edge of a ridge, has none of its own.
         curvature = np.where((own > 0.0) & np.isfinite(curvature), own, curvature)
     state = _bridges(found.gap, found.area * wetting.film_thickness, curvature, wetting)
@@ -244,7 +244,7 @@ def _wet(contact: Contact, wetting: _Wetting, connectivity: Literal[4, 8]) -> Ma
         wetting.film_thickness,
         wetting.height,
         no_contact,
-        contact.grid.periodic,
+        contact.grid.edges,
         connectivity,
     ).meniscus
 
@@ -291,10 +291,10 @@ def _part(
     state: _Bridges,
 ) -> IslandPart:
     grid, exists, tension = contact.grid, state.exists, wetting.tension
-    (ny, nx), (dy, dx) = grid.shape, grid.pixel_size
-    point: Floats = np.multiply(found.summit[exists] + 0.5, [dy, dx], dtype=np.float64)
-    period = (ny * dy, nx * dx) if grid.periodic else None
-    overlap = kernel.overlapping(point, state.radius[exists], period)
+    point: Floats = np.multiply(found.summit[exists] + 0.5, grid.pixel_size, dtype=np.float64)
+    size = np.multiply(grid.shape, grid.pixel_size)
+    height, width = np.where(grid.repeats, size, math.inf).tolist()
+    overlap = kernel.overlapping(point, state.radius[exists], (height, width))
     force = tension * float(state.force.sum())
     load = float(contact.pressure.sum()) * grid.pixel_area
     pressure = wetting.pressure

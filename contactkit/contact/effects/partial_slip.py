@@ -148,7 +148,6 @@ class PartialSlip(Observer[PartialSlipPart]):
     summary: ClassVar[str] = "stick and slip under a tangential load path"
     takes_tension: ClassVar[bool] = False
     takes_holes: ClassVar[bool] = True
-    takes_one_axis: ClassVar[bool] = True
     takes_free_sheets: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (PartialSlipPart, SlipCoupling)
     arrays: ClassVar[tuple[Array, ...]] = (

@@ -144,7 +144,6 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
     """
 
     takes_holes: ClassVar[bool] = True
-    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "plastic-history"
     summary: ClassVar[str] = "loads before, whose plastic deformation stays"
     records: ClassVar[tuple[type, ...]] = (PlasticHistoryPart,)

@@ -133,7 +133,6 @@ class HardnessLimit(PressureBound[PlasticPart]):
         displacements count from the mean of the surface; else from far away.
     """
 
-    takes_one_axis: ClassVar[bool] = True
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "hardness-limit"
     summary: ClassVar[str] = "perfectly plastic where the pressure reaches the hardness"

@@ -148,7 +148,6 @@ class SubsurfaceStress(Observer[StressPart]):
     """
 
     takes_holes: ClassVar[bool] = True
-    takes_one_axis: ClassVar[bool] = True
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
     records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)

@@ -123,7 +123,7 @@ def coupling_of(
             )
             responses[0] += sign * coupling(unit, None)
             responses[1] += sign * coupling(None, unit)
-    padded = ny if grid.edges in (True, "y") else 2 * ny, symbol_width(nx, grid.edges)
+    padded = ny if grid.repeats[0] else 2 * ny, symbol_width(nx, grid.edges)
     if padded[0] > ny:
         responses = [_mirrored(responses[0], 1.0), _mirrored(responses[1], -1.0)]
     if padded[1] > nx:

@@ -55,7 +55,7 @@ def _surface(seed: int) -> dict[str, Any]:
     heights = surface_heights(rough, ck.Window(width=WIDTH), ck.Accuracy(grid=512)).heights
     pixel, area = WIDTH / heights.shape[0], WIDTH**2
     places = np.argwhere(heights == maximum_filter(heights, 3, mode="wrap"))
-    curvature = summit_curvature(heights, places, (pixel, pixel), True)
+    curvature = summit_curvature(heights, places, (pixel, pixel), (True, True))
     tops = heights[places[:, 0], places[:, 1]]
     curve = force_curve(PRESSURE, (ANGLE, ANGLE), float(curvature.mean()), 1e-6)
     first, density = float(heights.max()), len(places) / area

@@ -198,10 +198,9 @@ def test_islands_are_measured_pixel_by_pixel():
 def test_overlap_agrees_with_looking_at_every_pair():
     rng = np.random.default_rng(5)
     points, radii = rng.uniform(0.0, 1.0, (300, 2)), rng.uniform(0.0, 0.04, 300)
-    for period in (None, (1.0, 1.0)):
+    for period in ((math.inf, math.inf), (1.0, 1.0), (math.inf, 1.0), (1.0, math.inf)):
         apart = np.abs(points[:, None] - points[None])
-        if period:
-            apart = np.minimum(apart, 1.0 - apart)
+        apart = np.minimum(apart, np.array(period) - apart)
         touch = np.hypot(apart[..., 0], apart[..., 1]) < radii[:, None] + radii[None]
         np.fill_diagonal(touch, False)
         assert np.array_equal(kernel.overlapping(points, radii, period), touch.any(axis=1))
@@ -210,12 +209,12 @@ def test_overlap_agrees_with_looking_at_every_pair():
 def test_an_island_all_in_contact_has_no_room():
     one = kernel.Islands(np.zeros((1, 2), int), np.zeros(1), np.ones(1), np.ones(1))
     assert kernel.curvature_of_area(one, 1.0).tolist() == [math.inf]
-    assert kernel.overlapping(np.zeros((1, 2)), np.ones(1), None).tolist() == [False]
+    assert kernel.overlapping(np.zeros((1, 2)), np.ones(1)).tolist() == [False]
 
 
 def test_curvature_at_the_edge_is_that_of_the_inner_neighbour():
     y, x = np.mgrid[0:5, 0:6].astype(float)
     heights = -0.5 * (x**2 / 3.0 + y**2 / 5.0)
     summit = np.array([[0, 0], [4, 5], [2, 3]])
-    found = kernel.summit_curvature(heights, summit, (1.0, 1.0), False)
+    found = kernel.summit_curvature(heights, summit, (1.0, 1.0), (False, False))
     assert found == pytest.approx(0.5 * (1.0 / 3.0 + 1.0 / 5.0), rel=1e-12)

@@ -1,4 +1,4 @@
-"""Windows that repeat along one axis: line contact, both axes alike, what they cannot do."""
+"""Windows that repeat along one axis: line contact, both axes alike, every effect."""
 
 from __future__ import annotations
 
@@ -208,17 +208,6 @@ def test_files_keep_the_axis(tmp_path):
     [
         (lambda: ck.Window(periodic="z"), 'True, False, "x" or "y"'),
         (lambda: ck.Window(periodic=1.0), 'True, False, "x" or "y"'),
-        (
-            lambda: ck.plan(
-                scene(
-                    cylinder(16),
-                    "x",
-                    ck.Pressing(pressure=1e5),
-                    effects=(ck.FrictionTraction(coefficient=0.1), ck.FrictionCoupling()),
-                )
-            ),
-            "FrictionCoupling needs Window",
-        ),
         (
             lambda: solved(
                 cylinder(16), "x", ck.Pressing(pressure=1e5), lower=rubber(0.003 * WIDTH / 16)
