@@ -82,7 +82,7 @@ TERMS = {
 }
 # Where one of them is the right word: pattern of the path, phrase, reason.
 DELIBERATE: list[tuple[str, str, str]] = [
-    ("docs/usage.md", '= "clipped"`', "former spelling of a key"),
+    ("docs/reference/scene-files.md", '= "clipped"`', "former spelling of a key"),
     ("tests/benchmarks/*", "rounds", "argument of pytest-benchmark"),
 ]
 # First lines that are a riddle: what the thing is must come first.
