@@ -16,7 +16,7 @@ import numpy as np
 import contactkit as ck
 from contactkit.analyses.area_over_load import area_over_load
 from contactkit.plot import roughness as roughness_plot
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.roughness.random_surfaces import SelfAffineSpectrum, self_affine
 from contactkit.units import GPa, nm
 

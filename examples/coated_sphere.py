@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import contactkit as ck
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.reference import hertz
 from contactkit.units import GPa, mm, um
 

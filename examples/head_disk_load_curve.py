@@ -16,7 +16,7 @@ from attrs import evolve
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import MPa, um
 
 

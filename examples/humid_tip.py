@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import contactkit as ck
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import nm
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import contactkit as ck
 from contactkit.plot import plastic_history as history_plot
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import GPa, mm
 
 RADIUS, FORCE = 1 * mm, 1.0  # [m], [N]

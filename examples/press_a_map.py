@@ -14,7 +14,7 @@ import numpy as np
 
 import contactkit as ck
 from contactkit.plot import contact as contact_plot
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import GPa, nm, um
 
 PIXELS, PIXEL = 128, 20 * nm

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import MPa, mm
 
 RADIUS, LINE_LOAD = 50 * mm, 2e3  # [m], [N/m]

@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.plot import separation as plot
 from contactkit.plot import slip as slip_plot
+from contactkit.plot import style as plot
 from contactkit.reference import partial_slip
 from contactkit.units import GPa, mm
 

@@ -13,7 +13,7 @@ import warnings
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import deg, nm, us
 
 RADIUS, GAP = 100 * nm, 1 * nm

@@ -18,7 +18,7 @@ import contactkit as ck
 from contactkit.adhesion import maugis_dugdale
 from contactkit.adhesion.parameters import AdhesionScales, scales
 from contactkit.plot import adhesion as curves
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import um
 
 RADIUS, WORK, MODULUS = 100.0 * um, 0.05, 1e6  # [m], [J/m2], E* [Pa]

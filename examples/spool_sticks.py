@@ -12,7 +12,7 @@ import warnings
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import celsius, um
 
 PULL = 40.0  # [N]

@@ -19,7 +19,9 @@ from fmpy.fmi2 import FMU2Slave
 import contactkit as ck
 from contactkit.fmu.python.build import build
 from contactkit.fmu.slaves.stiction_mass import mass_values
-from contactkit.plot import separation as plot
+from contactkit.plot import separation as separation_plot
+from contactkit.plot import style as plot
+from contactkit.plot.axis_units import readable
 
 STOP, STEPS, RISE, PULL = 1.2e-3, 600, 0.2e-3, 40.0  # [s], [-], [s], [N]
 
@@ -70,9 +72,10 @@ def main(out: Path) -> float:
         warnings.simplefilter("ignore", ck.ValidityWarning)  # the rim breaks up into fingers
         result = ck.simulate(ck.plan(scene()))
     figure, ax = plot.figure()
-    plot.motion(result, ax)
-    ax.plot([t * 1e3 for t, _ in rows[::10]], [h * 1e6 for _, h in rows[::10]], "o", ms=3)
-    plot.title(ax, "line: contactkit.simulate; dots: the FMU, every tenth step of 2 us")
+    separation_plot.motion(result, ax)
+    seconds, metres = readable("s", result.time)[0], readable("m", result.gap)[0]
+    ax.plot([t / seconds for t, _ in rows[::10]], [h / metres for _, h in rows[::10]], "o", ms=3)
+    plot.title(ax, "line: contactkit.simulate; dots: the FMU, every tenth step of 2 µs")
     plot.save(figure, out / "step_the_fmu")
     return abs(released / result.state.release_time - 1.0)
 

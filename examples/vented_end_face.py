@@ -20,7 +20,7 @@ from contactkit.lubrication import reynolds
 from contactkit.models.injector.monolithic import simulate
 from contactkit.models.injector.scene import InjectorScene
 from contactkit.plot import film as film_plot
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import celsius, mm, um
 
 RADIUS, GAP = 3.175 * mm, 5 * um  # [m]

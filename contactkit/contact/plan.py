@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ..plot.accessors.contact import ContactPlanFigures
+
     Map = NDArray[np.float64]
 
 __all__ = ["ContactPlan", "plan_contact", "unprepared_plan"]
@@ -133,6 +135,19 @@ class ContactPlan(ScenePlan):
     def heights(self) -> Map:
         """Heights of both bodies together [m], (ny, nx), read-only."""
         return self.prepared.heights
+
+    @property
+    def plot(self) -> ContactPlanFigures:
+        """Figures of heights and layers as methods: ``plan.plot.heights()``.
+
+        Raises
+        ------
+        MissingExtraError
+            If matplotlib is not installed: ``pip install contactkit[plot]``.
+        """
+        from ..plot.accessors.contact import ContactPlanFigures
+
+        return ContactPlanFigures(self)
 
     @property
     def notes(self) -> tuple[str, ...]:

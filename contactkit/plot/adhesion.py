@@ -9,7 +9,7 @@ import numpy as np
 
 from ..analyses.pull_off import AdhesiveBranch, PullOffCurve
 from .axis_units import axis_unit
-from .separation import Axes, figure
+from .style import Axes, figure
 
 __all__ = ["contact_area", "pull_off_curve"]
 

@@ -1,10 +1,34 @@
-"""Units of axes: those in which a quantity of some size reads best."""
+"""Units of axes: those in which a quantity of some size reads best, and labels with them."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
 from ..units import readable_unit
 
-__all__ = ["axis_unit"]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["axis_label", "axis_unit", "in_print", "readable", "scaled"]
+
+_SI = ("N", "Pa", "m", "m2", "m3", "s", "J", "N.s", "Pa.s", "m/s", "N/m", "rad")  # not the scales
+_PRINT = str.maketrans({"2": "²", "3": "³", "4": "⁴", ".": "·"})
+
+
+def in_print(unit: str) -> str:
+    """Name of a unit in the letters of print.
+
+    Examples
+    --------
+    >>> in_print("um2"), in_print("N.s"), in_print("deg"), in_print("degC"), in_print("us")
+    ('µm²', 'N·s', '°', '°C', 'µs')
+    """
+    if unit.startswith("deg"):
+        return "°" + unit.removeprefix("deg")
+    known = unit.translate(_PRINT)
+    return "µ" + known[1:] if known.startswith("u") else known
 
 
 def axis_unit(size: float, unit: str) -> tuple[float, str]:
@@ -18,6 +42,40 @@ def axis_unit(size: float, unit: str) -> tuple[float, str]:
     ((1e-06, 'µm'), (0.017453292519943295, '°'))
     """
     factor, name = readable_unit(size, unit)
-    if name == "deg":
-        return factor, "°"
-    return factor, "µ" + name[1:] if name.startswith("u") else name
+    return factor, in_print(name)
+
+
+def readable(unit: str, values: Any) -> tuple[float, str]:
+    """Factor and name of the unit in which values in an SI unit, or in that of a scale, read best.
+
+    Examples
+    --------
+    >>> readable("N", [2e-9, 3e-8]), readable("m2", [4e-12]), readable("E* A", [1e-6])
+    ((1e-09, 'nN'), (1e-12, 'µm²'), (1.0, 'E* A'))
+    """
+    known = np.abs(np.asarray(values, dtype=float))
+    top = float(known[np.isfinite(known)].max(initial=0.0))
+    return axis_unit(top, unit) if unit in _SI else (1.0, unit)
+
+
+def scaled(values: ArrayLike, unit: str) -> tuple[NDArray[np.float64], str]:
+    """Values in the unit in which the largest of them reads best, and the name of that unit.
+
+    Examples
+    --------
+    >>> scaled([0.0, 2e-8], "N")
+    (array([ 0., 20.]), 'nN')
+    """
+    factor, name = readable(unit, values)
+    return np.asarray(values, dtype=float) / factor, name
+
+
+def axis_label(label: str, unit: str) -> str:
+    """Label of an axis with the name of its unit, none for a pure number.
+
+    Examples
+    --------
+    >>> axis_label("gap", "µm"), axis_label("number of menisci", "-")
+    ('gap [µm]', 'number of menisci')
+    """
+    return label if unit in ("-", "") else f"{label} [{unit}]"

@@ -9,12 +9,13 @@ import numpy as np
 
 from ..contact.effects.film import FilmMeniscus
 from ..contact.effects.plasticity import HardnessLimit
-from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
+from ..errors import DescriptionError
 from ..scene.materials import Stack
 from .axis_units import axis_unit
-from .separation import Axes, ListedColormap, Patch, Rectangle, figure, legend, plain_log
+from .maps import extent, hide_holes, place
 from .study import Panel, draw_line
+from .style import Axes, ListedColormap, Patch, Rectangle, figure, legend, plain_log
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,11 +24,9 @@ __all__ = [
     "contact_spots",
     "load_curve",
     "pressure",
+    "section",
     "stack_section",
-    "von_mises_section",
 ]
-
-_HOLES = "#b5b5ae"
 
 SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plastic": "#c1440e"}
 """Colours of the states of a pixel."""
@@ -35,41 +34,16 @@ SPOTS = {"open": "#f4f4f2", "meniscus": "#8ecae6", "elastic": "#1f4e79", "plasti
 _LAYER_COLOURS = ("#264653", "#2a9d8f", "#8ab17d", "#e9c46a", "#f4a261", "#e76f51")
 
 
-def _extent(result: ContactResult) -> tuple[tuple[float, float, float, float], str]:
-    (ny, nx), (dy, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
-    factor, unit = axis_unit(max(nx * dx, ny * dy), "m")
-    return (0.0, nx * dx / factor, 0.0, ny * dy / factor), unit
-
-
-def _hide_holes(ax: Axes, result: ContactResult) -> None:
-    """Draw the pixels without a height in grey."""
-    if result.holes is None:
-        return
-    holes = np.ma.masked_where(~result.holes, np.zeros(result.holes.shape))
-    ax.imshow(
-        holes,
-        origin="lower",
-        extent=_extent(result)[0],
-        interpolation="nearest",
-        cmap=ListedColormap([_HOLES]),
-    )
-
-
-def _place(ax: Axes, unit: str) -> None:
-    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
-    ax.grid(visible=False)
-
-
 def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
     """Draw the pressure map; white where there is neither contact nor attraction, holes grey."""
     ax = ax if ax is not None else figure()[1]
-    extent, unit = _extent(result)
+    around, unit = extent(result)
     factor, name = axis_unit(float(np.abs(result.pressure).max()), "Pa")
     acting = result.contact | (result.pressure != 0.0)
     shown = np.ma.masked_where(~acting, result.pressure / factor)
-    image = ax.imshow(shown, origin="lower", extent=extent, cmap="viridis", interpolation="nearest")
-    _hide_holes(ax, result)
-    _place(ax, unit)
+    image = ax.imshow(shown, origin="lower", extent=around, cmap="viridis", interpolation="nearest")
+    hide_holes(ax, result)
+    place(ax, unit)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
     bar.set_label(f"pressure [{name}]")
     return ax
@@ -78,7 +52,7 @@ def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
 def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
     """Draw the contact, plastic and wetted areas; holes grey."""
     ax = ax if ax is not None else figure()[1]
-    extent, unit = _extent(result)
+    around, unit = extent(result)
     kinds = np.zeros(result.pressure.shape, dtype=int)
     if result.plan.has(FilmMeniscus):
         wet = result.of(FilmMeniscus).is_meniscus
@@ -89,19 +63,19 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
     ax.imshow(
         kinds,
         origin="lower",
-        extent=extent,
+        extent=around,
         interpolation="nearest",
         vmin=0,
         vmax=3,
         cmap=ListedColormap(list(SPOTS.values())),
     )
-    _hide_holes(ax, result)
-    _place(ax, unit)
+    hide_holes(ax, result)
+    place(ax, unit)
     if 0 < (kinds == 3).sum() < 2e-3 * kinds.size:  # too few to be seen as pixels
         found = np.argwhere(kinds == 3)
         rows, columns = found[:, 0], found[:, 1]
         ny, nx = result.plan.grid.shape
-        x, y = (columns + 0.5) * extent[1] / nx, (rows + 0.5) * extent[3] / ny
+        x, y = (columns + 0.5) * around[1] / nx, (rows + 0.5) * around[3] / ny
         ax.plot(x, y, "o", ms=4, mfc="none", mec=SPOTS["plastic"], mew=1.0)
     n = kinds.size
     names = {1: "meniscus", 2: "elastic", 3: "plastic"}
@@ -117,58 +91,51 @@ def contact_spots(result: ContactResult, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def von_mises_section(result: ContactResult, ax: Axes | None = None) -> Axes:
-    """Draw the von Mises stress under the row of maximum pressure, depth on a stretched scale."""
-    from ..elasticity.stress.measures import von_mises
+def section(
+    result: ContactResult, ax: Axes | None = None, *, row: int | None = None, deformed: bool = True
+) -> Axes:
+    """Draw a section through the interface along x, heights stretched, contact thick.
 
+    The upper surface is drawn flat: below it lies the gap, deformed by the pressure and, dotted,
+    without it.
+
+    Parameters
+    ----------
+    result : ContactResult
+        The contact.
+    ax : Axes, optional
+        Where to draw.
+    row : int, optional
+        Row of pixels; that of the maximum pressure if not given.
+    deformed : bool
+        Whether to draw the deformed surface too.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no such row.
+    """
+    ny, nx = result.pressure.shape
+    if row is None:
+        row = int(np.unravel_index(int(np.argmax(result.pressure)), (ny, nx))[0])
+    if not -ny <= row < ny:
+        raise DescriptionError("section.row", row, f"be a row of the map, 0 to {ny - 1}")
     ax = ax if ax is not None else figure()[1]
-    part: StressPart = result.of(SubsurfaceStress)
-    stack = result.plan.scene.interface.lower.elastic_stack
-    dx, nx = result.plan.grid.pixel_size[1], result.plan.grid.shape[1]
-    values = von_mises(part.section) / 1e9
-    centre = int(np.argmax(result.pressure[part.row]))
-    half = min(nx // 2, max(16, round(float(part.depth[-1]) / dx)))
-    columns = np.arange(centre - half, centre + half) % nx
-    factor, unit = axis_unit(half * dx, "m")
-    x = np.arange(-half, half + 1) * dx / factor
-    edges = _faces(part)
-    image = ax.pcolormesh(x, np.arange(len(edges)), values[:, columns], cmap="inferno")
-    _depth_axis(ax, part, edges, stack)
-    ax.set(xlabel=f"x from the maximum pressure [{unit}]", ylabel="depth")
-    ax.grid(visible=False)
-    bar = ax.figure.colorbar(image, ax=ax)
-    bar.set_label("von Mises stress [GPa]")
+    (_, right, _, _), unit = extent(result)
+    x = (np.arange(nx) + 0.5) * right / nx
+    undeformed, gap = result.heights[row] + result.rigid_approach, -result.gap[row]
+    if result.holes is not None:
+        undeformed, gap = (np.where(result.holes[row], np.nan, one) for one in (undeformed, gap))
+    factor, name = axis_unit(float(np.nanmax(np.abs(np.stack([undeformed, gap])))), "m")
+    ax.axhline(0.0, color="0.5", lw=1.0, label="upper surface, drawn flat")
+    ax.plot(x, undeformed / factor, ":", color=SPOTS["plastic"], label="lower, undeformed")
+    if deformed:
+        ax.plot(x, gap / factor, color=SPOTS["elastic"], label="lower, deformed")
+        touching = np.where(result.contact[row], 0.0, np.nan)
+        ax.plot(x, touching, color=SPOTS["elastic"], lw=4.0, label="contact")
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"height [{name}]")
+    legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
     return ax
-
-
-def _faces(part: StressPart) -> NDArray[np.float64]:
-    """Edges between planes: one row of the picture for each plane, in order of depth."""
-    return np.arange(len(part.depth) + 1, dtype=float)
-
-
-def _depth_axis(ax: Axes, part: StressPart, edges: NDArray[np.float64], stack: Stack) -> None:
-    """Label the rows by their depths, draw interfaces, and name the layers."""
-    labels, places = [], []
-    for i, depth in enumerate(part.depth):
-        factor, unit = axis_unit(float(depth), "m")
-        labels.append(f"{depth / factor:.3g} {unit}")
-        places.append(i + 0.5)
-    ax.set_yticks(places, labels, fontsize=7)
-    ax.invert_yaxis()
-    for i in range(1, len(part.depth)):
-        if part.layer[i] != part.layer[i - 1]:
-            ax.axhline(edges[i], color="w", lw=1.0)
-    for number in sorted(set(part.layer.tolist())):
-        rows = np.flatnonzero(part.layer == number)
-        ax.text(
-            0.01,
-            1.0 - (rows[0] + 0.75) / len(part.depth),
-            stack.materials[number].name,
-            transform=ax.transAxes,
-            color="w",
-            fontsize=8,
-            va="center",
-        )
 
 
 def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes:

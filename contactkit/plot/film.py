@@ -12,7 +12,7 @@ from ..errors import DescriptionError
 from ..lubrication.reynolds.film import FilmState
 from ..lubrication.reynolds.motion import PullState
 from .axis_units import axis_unit
-from .separation import COLORS, Axes, figure, legend
+from .style import COLORS, Axes, figure, legend
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

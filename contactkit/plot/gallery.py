@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..files.scenes import write_whole
-from .separation import STYLE, Axes, Figure, figure, mpl, plain_log
+from .style import SERIES, Axes, Figure, figure, letters, mpl, plain_log, save, series
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -28,30 +27,6 @@ __all__ = [
     "series",
     "shared",
 ]
-
-SERIES: tuple[tuple[str, Any, str], ...] = (
-    ("#000000", "-", "o"),
-    ("#0072b2", "--", "s"),
-    ("#d55e00", "-.", "^"),
-    ("#009e73", ":", "D"),
-    ("#cc79a7", (0, (5, 1, 1, 1, 1, 1)), "v"),
-    ("#e69f00", (0, (8, 3)), "P"),
-    ("#56b4e9", (0, (1, 1)), "X"),
-)
-"""Colour, line and marker of each series: the colours of Okabe and Ito, told apart by all readers,
-and in grey by line and marker."""
-
-
-def series(i: int, **more: Any) -> dict[str, Any]:
-    """Style of series `i`, as arguments of ``plot``.
-
-    Examples
-    --------
-    >>> series(1, lw=1.0)
-    {'color': '#0072b2', 'ls': '--', 'marker': 's', 'ms': 3.5, 'lw': 1.0}
-    """
-    colour, line, marker = SERIES[i % len(SERIES)]
-    return {"color": colour, "ls": line, "marker": marker, "ms": 3.5} | more
 
 
 def band(ax: Axes, x: ArrayLike, runs: ArrayLike, i: int, label: str, **more: Any) -> None:
@@ -94,32 +69,13 @@ def log_above_zero(ax: Axes, values: ArrayLike) -> None:
     ax.set_ylim(0.7 * max(least, 1e-4 * top), 1.5 * top)
 
 
-def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:
-    """Number panels (a), (b) ... and name them."""
-    for i, (ax, text) in enumerate(zip(axes, titles, strict=True)):
-        ax.set_title(f"({chr(97 + i)}) {text}", loc="left", fontsize=10)
-
-
 def save_all(made: Figure, path: Path, *, for_print: bool = True) -> list[Path]:
     """Write a figure as PNG, each file whole or not at all, the same bytes every time.
 
     Also as PDF and SVG, for print.
     """
-    undated: dict[str, dict[str, None]] = {
-        "png": {"Software": None},
-        "pdf": {"CreationDate": None},
-        "svg": {"Date": None},
-    }
-    written = []
-    for kind in undated if for_print else ("png",):
-        metadata, file = undated[kind], path.with_suffix(f".{kind}")
-        with (
-            write_whole(file) as temporary,
-            mpl.rc_context({**STYLE, "svg.hashsalt": "contactkit", "savefig.dpi": 120}),
-        ):
-            made.savefig(temporary, format=kind, metadata=metadata, bbox_inches="tight")
-        written.append(file)
-    return written
+    kinds = ("png", "pdf", "svg") if for_print else ("png",)
+    return [save(made, path.with_suffix(f".{k}"), dpi=120, bbox_inches="tight") for k in kinds]
 
 
 def colour_bar(made: Figure, axes: Any, levels: Sequence[float], label: str, **more: Any) -> None:

@@ -14,12 +14,19 @@ from ..roughness.contact_theories import RANGES
 from ..roughness.spectra import Spectrum
 from ..roughness.statistics import BearingCurve
 from .axis_units import axis_unit
-from .separation import Axes, figure, legend, title
+from .style import Axes, figure, legend, title
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["area_and_theories", "bearing", "height_map", "patch_sizes", "power_spectrum"]
+__all__ = [
+    "area_and_theories",
+    "bearing",
+    "height_map",
+    "heights_map",
+    "patch_sizes",
+    "power_spectrum",
+]
 
 _THEORIES = {  # the later ones lie on top
     "fit of slope 2": "#2a9d8f",
@@ -108,10 +115,20 @@ def height_map(found: SurfaceHeights, ax: Axes | None = None, limit: float | Non
         Height [m] of the ends of the colour bar, above and below the mean; the largest deviation
         if not given.
     """
+    return heights_map(found.heights, found.pixel_size, ax, limit)
+
+
+def heights_map(
+    heights: NDArray[np.float64],
+    pixel_size: tuple[float, float],
+    ax: Axes | None = None,
+    limit: float | None = None,
+) -> Axes:
+    """Draw heights (ny, nx) [m] on pixels (dy, dx) [m]; see `height_map`."""
     ax = ax if ax is not None else figure()[1]
-    (ny, nx), (dy, dx) = found.heights.shape, found.pixel_size
+    (ny, nx), (dy, dx) = heights.shape, pixel_size
     length, unit = axis_unit(max(nx * dx, ny * dy), "m")
-    deviation = found.heights - found.heights.mean()
+    deviation = heights - heights.mean()
     limit = limit if limit is not None else float(np.abs(deviation).max())
     factor, name = axis_unit(limit, "m")
     image = ax.imshow(

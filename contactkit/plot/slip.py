@@ -8,9 +8,9 @@ from ..analyses.stick_slip import StickSlip
 from ..contact.effects.partial_slip import PartialSlip
 from ..contact.result import ContactResult
 from ..contact.slip.states import Zone
-from .axis_units import axis_unit
-from .contact import _extent, _hide_holes, _place
-from .separation import Axes, ListedColormap, Patch, figure, legend
+from .axis_units import axis_unit, scaled
+from .maps import extent, hide_holes, place
+from .style import Axes, ListedColormap, Patch, figure, legend, note
 
 __all__ = ["hysteresis", "slip_zones", "stick_slip_force", "traction_profile"]
 
@@ -26,19 +26,19 @@ ZONES = {
 def slip_zones(result: ContactResult, ax: Axes | None = None, step: int = -1) -> Axes:
     """Draw where the contact sticks and slips at the end of a step of its load path."""
     ax = ax if ax is not None else figure()[1]
-    extent, unit = _extent(result)
+    around, unit = extent(result)
     zones = result.of(PartialSlip).zones[step]
     ax.imshow(
         zones,
         origin="lower",
-        extent=extent,
+        extent=around,
         interpolation="nearest",
         vmin=0,
         vmax=len(Zone) - 1,
         cmap=ListedColormap([colour for colour, _ in ZONES.values()]),
     )
-    _hide_holes(ax, result)
-    _place(ax, unit)
+    hide_holes(ax, result)
+    place(ax, unit)
     n = max(int((zones > Zone.OPEN).sum()), 1)
     shown = [zone for zone in Zone if zone is not Zone.OPEN and (zones == zone).any()]
     handles = [
@@ -68,19 +68,22 @@ def traction_profile(result: ContactResult, ax: Axes | None = None, row: int | N
     part, effect = result.of(PartialSlip), result.plan.scene.demand(PartialSlip)
     if row is None:
         row = int(np.unravel_index(int(np.argmax(result.pressure)), result.pressure.shape)[0])
-    extent, unit = _extent(result)
-    x = (np.arange(result.pressure.shape[1]) + 0.5) * extent[1] / result.pressure.shape[1]
-    bound = effect.coefficient * result.pressure[row] / 1e6
-    ax.fill_between(x, -bound, bound, fc="#e8e8e4", ec="#a0a09a", label="within mu p")
+    around, unit = extent(result)
+    x = (np.arange(result.pressure.shape[1]) + 0.5) * around[1] / result.pressure.shape[1]
+    bound = effect.coefficient * result.pressure[row]
+    stress, name = axis_unit(float(bound.max()), "Pa")
+    newton, force_name = axis_unit(float(np.abs(part.force).max()), "N")
+    bound = bound / stress
+    ax.fill_between(x, -bound, bound, fc="#e8e8e4", ec="#a0a09a", label="within µ p")
     c, s = np.cos(effect.direction), np.sin(effect.direction)
     for number in range(len(part.traction_x)):
-        q = (c * part.traction_x[number, row] + s * part.traction_y[number, row]) / 1e6
-        force = part.force[part.end_of(number)]
+        q = (c * part.traction_x[number, row] + s * part.traction_y[number, row]) / stress
+        force = part.force[part.end_of(number)] / newton
         # A cycle ends where it began: dashes show the curve below.
         dash = ("-", "--", ":")[number % 3]
-        ax.plot(x, q, dash, lw=1.4, label=f"step {number}, {force:.3g} N")
-    ax.set(xlabel=f"x [{unit}]", ylabel="traction [MPa]")
-    legend(ax, fontsize=7)
+        ax.plot(x, q, dash, lw=1.4, label=f"step {number}, {force:.3g} {force_name}")
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"traction [{name}]")
+    legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
     return ax
 
 
@@ -89,23 +92,26 @@ def hysteresis(result: ContactResult, ax: Axes | None = None) -> Axes:
     ax = ax if ax is not None else figure()[1]
     part = result.of(PartialSlip)
     factor, unit = axis_unit(float(np.abs(part.displacement).max()), "m")
+    newton, name = axis_unit(float(np.abs(part.force).max()), "N")
     ends = [part.end_of(number) for number in range(len(part.zones))]
-    x = part.displacement / factor
-    ax.plot(x, part.force, ".-", ms=3.0, color="#1f4e79")
-    ax.plot(x[ends], part.force[ends], "o", ms=5.0, mfc="none", color="#c1440e")
-    ax.set(xlabel=f"tangential displacement [{unit}]", ylabel="tangential force [N]")
+    x, y = part.displacement / factor, part.force / newton
+    ax.plot(x, y, ".-", ms=3.0, color="#1f4e79")
+    ax.plot(x[ends], y[ends], "o", ms=5.0, mfc="none", color="#c1440e")
+    ax.set(xlabel=f"tangential displacement [{unit}]", ylabel=f"tangential force [{name}]")
     return ax
 
 
 def stick_slip_force(motion: StickSlip, ax: Axes | None = None) -> Axes:
     """Draw the force of the spring over time, with the levels of friction."""
     ax = ax if ax is not None else figure()[1]
-    ax.plot(motion.time, motion.force, color="#1f4e79")
-    for name, level in (
-        ("static", motion.slider.static_friction),
-        ("kinetic", motion.slider.kinetic_friction),
+    (time, seconds), (newton, name) = scaled(motion.time, "s"), axis_unit(motion.largest_force, "N")
+    ax.plot(time, motion.force / newton, color="#1f4e79")
+    for label, level, below in (
+        ("static friction", motion.slider.static_friction, False),
+        ("kinetic friction", motion.slider.kinetic_friction, True),
     ):
-        ax.axhline(level, ls=":", lw=1.0, color="#555555")
-        ax.annotate(f"{name} friction", (0.0, level), va="bottom", fontsize=8)
-    ax.set(xlabel="time [s]", ylabel="force of the spring [N]")
+        ax.axhline(level / newton, ls=":", lw=1.0, color="#555555")
+        note(ax, label, level / newton, below=below)
+    ax.set(xlabel=f"time [{seconds}]", ylabel=f"force of the spring [{name}]")
+    ax.margins(y=0.15)
     return ax

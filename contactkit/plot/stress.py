@@ -8,15 +8,31 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..analyses.subsurface import MEASURES, MeasureName
-from ..contact.effects.stress import StressPart
-from .separation import Axes, figure
+from ..contact.effects.stress import StressPart, SubsurfaceStress
+from ..contact.result import ContactResult
+from ..errors import DescriptionError
+from .axis_units import axis_unit
+from .style import Axes, figure, mpl
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..scene.materials import Stack
+
     Map = NDArray[np.float64]
 
-__all__ = ["Scale", "draw_section", "stress_section"]
+__all__ = ["Scale", "below", "draw_section", "stress_section"]
+
+_FAINT = 0.1  # of the maximum: as deep as the stress is larger, a figure reaches
+_NAMED = 0.07  # of the depth shown: a layer of that thickness bears its name
+LABELS = {
+    "von_mises": "von Mises stress",
+    "sqrt_j2": "square root of J2",
+    "tension": "largest principal stress",
+    "tresca": "maximum shear stress",
+    "sigma_xz": "shear stress |xz|",
+}
+"""Label of each measure."""
 
 
 class Scale(NamedTuple):
@@ -26,6 +42,94 @@ class Scale(NamedTuple):
     stress: float
     length_name: str
     stress_name: str
+
+
+def below(
+    result: ContactResult,
+    measure: MeasureName = "von_mises",
+    ax: Axes | None = None,
+    *,
+    depth: float | None = None,
+) -> Axes:
+    """Draw contours of the stress under the row of maximum pressure, to scale, with its maximum.
+
+    Stress jumps at interfaces (dashed); each layer is drawn on its own.
+
+    Parameters
+    ----------
+    result : ContactResult
+        With `SubsurfaceStress`.
+    measure : str
+        What to draw: ``von_mises``, ``sqrt_j2``, ``tension``, ``tresca`` or ``sigma_xz``.
+    ax : Axes, optional
+        Where to draw.
+    depth : float, optional
+        Depth shown [m]; as deep as the stress is a tenth of its maximum if not given.
+
+    Raises
+    ------
+    NotSimulatedError
+        If the scene does not list `SubsurfaceStress`.
+    DescriptionError
+        If there is no such measure, or nothing lies above the depth.
+    """
+    part = result.of(SubsurfaceStress)
+    if measure not in MEASURES:
+        raise DescriptionError("stress.measure", measure, f"be one of {', '.join(MEASURES)}")
+    values = np.asarray(MEASURES[measure](part.section))
+    values, x = _around_maximum(result, part, values)
+    shown = _depth_shown(part, values) if depth is None else depth
+    if not part.depth[0] < shown:
+        expected = f"lie below the first plane, at {part.depth[0]:g} m"
+        raise DescriptionError("stress.depth", shown, expected, unit="m")
+    inside = np.abs(x) <= 1.6 * shown
+    length, length_name = axis_unit(shown, "m")
+    stress, stress_name = axis_unit(float(values.max()), "Pa")
+    planes, picked = part.depth / length, values[:, inside] / stress
+    ax = draw_section(x[inside] / length, planes, part.layer, picked, ax, _levels(picked))
+    ax.set_ylim(shown / length, 0.0)
+    ax.set_xlabel(f"x from the maximum pressure [{length_name}]")
+    ax.set_ylabel(f"depth [{length_name}]")
+    _name_layers(ax, result.plan.scene.interface.lower.elastic_stack, shown / length, length)
+    bar = ax.figure.colorbar(ax.collections[0], ax=ax, shrink=0.85)
+    bar.set_label(f"{LABELS[measure]} [{stress_name}]")
+    return ax
+
+
+def _around_maximum(result: ContactResult, part: StressPart, values: Map) -> tuple[Map, Map]:
+    """Columns of the section with the maximum pressure in the middle, and their places [m].
+
+    A window that repeats is rolled.
+    """
+    (_, nx), (_, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
+    centre = int(np.argmax(result.pressure[part.row]))
+    if result.plan.grid.periodic:
+        values, centre = np.roll(values, nx // 2 - centre, axis=-1), nx // 2
+    return values, np.asarray((np.arange(nx) - centre) * dx, dtype=np.float64)
+
+
+def _depth_shown(part: StressPart, values: Map) -> float:
+    """Depth [m] down to which the stress is more than a small fraction of its maximum."""
+    largest = values.max(axis=1)
+    last = int(np.flatnonzero(largest > _FAINT * largest.max())[-1])
+    return float(part.depth[min(last + 1, len(part.depth) - 1)])
+
+
+def _levels(values: Map) -> list[float]:
+    """Round levels of contours from zero to the maximum."""
+    ticks = mpl.ticker.MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, values.max())
+    return [float(one) for one in ticks]
+
+
+def _name_layers(ax: Axes, stack: Stack, shown: float, length: float) -> None:
+    """Write the names of the layers that are thick enough in a figure to bear them."""
+    faces = [0.0, *(z / length for z in stack.depths), shown]
+    for material, top, bottom in zip(stack.materials, faces, faces[1:], strict=False):
+        bottom = min(bottom, shown)
+        if bottom - top > _NAMED * shown and material.name:
+            middle = 0.5 * (top + bottom) if bottom < shown else bottom - 0.07 * shown
+            at = (0.02, middle)
+            ax.text(*at, material.name, transform=ax.get_yaxis_transform(), color="w", fontsize=8)
 
 
 def stress_section(
@@ -87,22 +191,25 @@ def draw_section(
         Whether lines carry their values.
     """
     ax = ax if ax is not None else figure()[1]
-    steps = levels
     if isinstance(levels, int):
-        steps = np.linspace(0.0, float(values.max()), levels + 1).tolist()
+        levels = np.linspace(0.0, float(values.max()), levels + 1).tolist()
+    steps = list(levels)
     for number in sorted(set(layer.tolist())):
         rows = np.flatnonzero(layer == number)
         if len(rows) < 2:
             continue
         at = (x, z[rows], values[rows])
-        ax.contourf(*at, levels=steps, cmap="cividis", extend="max")
+        over = "max" if values.max() > steps[-1] else "neither"
+        ax.contourf(*at, levels=steps, cmap="cividis", extend=over)
         lines = ax.contour(*at, levels=steps, colors="w", linewidths=0.5)
         if labelled:
             ax.clabel(lines, fontsize=7)
         if rows[0] > 0:
             ax.axhline(z[rows[0]], color="k", lw=0.9, ls="--")
     row, column = np.unravel_index(int(np.argmax(values)), values.shape)
-    ax.plot(x[column], z[row], "o", ms=6, mfc="none", mec="#d55e00", mew=1.6, clip_on=False)
+    ax.plot(
+        x[column], z[row], "o", ms=6, mfc="none", mec="#d55e00", mew=1.6, clip_on=False, zorder=5
+    )
     ax.set(aspect="equal", ylim=(float(z.max()), float(z.min())))
     ax.grid(visible=False)
     return ax

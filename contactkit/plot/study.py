@@ -7,34 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .axis_units import axis_unit
-from .gallery import series
-from .separation import Axes, plain_log
+from .style import Axes, plain_log, series
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Panel", "draw_line", "over_parameter", "readable", "study_curves"]
+__all__ = ["Panel", "draw_line", "over_parameter", "study_curves"]
 
 Panel = tuple[str, str, float]
 """Name of a column, label of its axis, and what its values are divided by."""
 
-_SI = ("N", "Pa", "m", "m2", "s", "J", "N.s", "Pa.s", "m/s", "N/m", "rad")  # not the scales
 _WIDE = 20.0  # ratio of the ends of an axis from which it is logarithmic
 _DECADES = 1e3  # ratio from which powers of ten are enough to label it
-
-
-def readable(unit: str, values: Any) -> tuple[float, str]:
-    """Factor and name of the unit in which values in an SI unit, or in that of a scale, read best.
-
-    Examples
-    --------
-    >>> readable("N", [2e-9, 3e-8]), readable("m2", [4e-12]), readable("E* A", [1e-6])
-    ((1e-09, 'nN'), (1e-12, 'µm2'), (1.0, 'E* A'))
-    """
-    known = np.abs(np.asarray(values, dtype=float))
-    top = float(known[np.isfinite(known)].max(initial=0.0))
-    return axis_unit(top, unit) if unit in _SI else (1.0, unit)
 
 
 def over_parameter(values: Any, ax: Axes) -> NDArray[np.float64]:

@@ -21,6 +21,8 @@ class Effect(Described, abc.ABC):
 
     name: ClassVar[str]
     summary: ClassVar[str]
+    figures: ClassVar[tuple[str, ...]] = ()
+    """Figures of a result that this effect makes possible: methods of ``result.plot``."""
 
     @property
     @abc.abstractmethod

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
+    from ..plot.accessors.base import Figures
+
 __all__ = ["Contents", "Quantity", "Tabular", "curve_contents", "pixel_axes"]
 
 
@@ -20,6 +22,11 @@ class Tabular(abc.ABC):
     """A result that xarray, pandas and notebooks can show: `contents` states what it holds."""
 
     __slots__ = ()
+
+    @property
+    @abc.abstractmethod
+    def plot(self) -> Figures[Any]:
+        """Figures as methods, each of which takes ``ax=`` and returns the axes."""
 
     @abc.abstractmethod
     def contents(self) -> Contents:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..as_published.arguments import PublishedValue
+    from ..plot.accessors.separation import SeparationFigures
 
     Curve = NDArray[np.float64]
 
@@ -140,6 +141,19 @@ class SeparationResult(CurveResult):
     def errata(self) -> tuple[PublishedValue, ...]:
         """Printed equations this run took: value at the start, what is wrong, and the right one."""
         return tuple(one for e in self.plan.scene.effects for one in e.errata(self.plan))
+
+    @property
+    def plot(self) -> SeparationFigures:
+        """Figures of motion and forces as methods: ``result.plot.forces(ax=ax)``.
+
+        Raises
+        ------
+        MissingExtraError
+            If matplotlib is not installed: ``pip install contactkit[plot]``.
+        """
+        from ..plot.accessors.separation import SeparationFigures
+
+        return SeparationFigures(self)
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""

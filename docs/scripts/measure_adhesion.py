@@ -22,7 +22,7 @@ from contactkit.adhesion import maugis_dugdale
 from contactkit.adhesion.parameters import scales
 from contactkit.analyses.pull_off import PullOffCurve
 from contactkit.plot import adhesion as curves
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 
 IMG = Path(__file__).parents[1] / "img"
 RADIUS, WORK, MODULUS = 1e-6, 0.05, 1e9

@@ -21,7 +21,7 @@ from PIL import Image
 
 import contactkit as ck
 from contactkit.adhesion import maugis_dugdale
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.reference import hertz, partial_slip
 
 PICTURE = Path(__file__).parents[1] / "img" / "work-precision-contact.png"

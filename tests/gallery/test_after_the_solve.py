@@ -9,7 +9,7 @@ import contactkit as ck
 from contactkit.analyses.heights import surface_heights
 from contactkit.analyses.load_for import load_for_contact_fraction, load_of_first_yield
 from contactkit.analyses.subsurface import MEASURES, maximum_planes, stress_below
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.roughness import height_map
 from contactkit.plot.stress import Scale, stress_section
 

@@ -319,7 +319,7 @@ def test_a_reversible_loop_is_none_within_its_error():
 
 def test_a_study_that_pulls_is_drawn_over_its_approach():
     plot = pytest.importorskip("contactkit.plot.contact")
-    figures = pytest.importorskip("contactkit.plot.separation")
+    figures = pytest.importorskip("contactkit.plot.style")
     columns = {
         "mean_pressure": [0.0, -2e5, 1e5],
         "approach": [-2e-9, 0.0, 1e-9],

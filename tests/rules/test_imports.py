@@ -39,8 +39,27 @@ FLOORS = [
     ["__main__"],
 ]
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+# What has a `plot`, by the module of its figures.
+DRAWN = {
+    "contact": ("contact.plan", "contact.result"),
+    "separation": ("separation.results", "separation.sliding.result"),
+    "analyses": (
+        "analyses.adhesion_curve",
+        "analyses.division",
+        "analyses.humidity_curve",
+        "analyses.load_curve",
+        "analyses.load_displacement.curve",
+        "analyses.pull_off",
+        "analyses.stick_slip",
+    ),
+    "studies": ("studies.table",),
+}
 # A method for users that stands for a function of a room above, imported when it is called.
-CALLED_FROM_BELOW = {"contactkit.scene.result": {"contactkit.files.results"}}
+CALLED_FROM_BELOW = {"contactkit.scene.result": {"contactkit.files.results"}} | {
+    f"contactkit.{name}": {f"contactkit.plot.accessors.{figures}"}
+    for figures, names in DRAWN.items()
+    for name in names
+}
 ONE_IMPORTER = {"matplotlib": "plot", "mpl_toolkits": "plot"}
 
 

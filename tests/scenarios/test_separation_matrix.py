@@ -18,7 +18,7 @@ from selection import quick
 
 import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
-from contactkit.plot import separation as plot
+from contactkit.plot import separation as separation_plot
 from contactkit.separation.validity import is_whole
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -150,12 +150,12 @@ def draw(result):
     forces = {force.name for force in result.plan.forces} & result.columns.keys()
     ax = Figure().subplots()
     if forces:
-        plot.forces(result, ax)
+        separation_plot.forces(result, ax)
     else:
         with pytest.raises(ck.NotSimulatedError, match="no pull: with time imposed"):
-            plot.forces(result, ax)
+            separation_plot.forces(result, ax)
     if "mean_pull" in result.columns:
-        plot.cycles(result, ax)
+        separation_plot.cycles(result, ax)
 
 
 # What was found by it -------------------------------------------------------------------------
@@ -164,13 +164,13 @@ def draw(result):
 def test_a_figure_of_no_force_is_refused_and_one_of_a_zero_force_is_drawn():
     viscous = ck.simulate(ck.plan(scene((EFFECTS[3],), BALL, "volume", "time"), FEW))
     with pytest.raises(ck.NotSimulatedError, match="impose a speed or a force"):
-        plot.forces(viscous)
+        separation_plot.forces(viscous)
     far = attrs.evolve(EFFECTS[-1], meniscus_height=1e-9)
     with pytest.raises(ck.InfeasibleError, match=r"this liquid reaches 1e-09 m at most; give a sm"):
         ck.plan(scene((far,), FACE, "bath", "speed"))
     dry = attrs.evolve(EFFECTS[-2], meniscus_height=1e-12, profile="thin-film")
     drawn = ck.simulate(ck.plan(scene((dry,), FACE, "bath", "speed"), FEW))
-    ax = plot.forces(drawn)
+    ax = separation_plot.forces(drawn)
     assert "meniscus force at the asperities [N]" not in ax.get_ylabel()
     assert [line.get_label() for line in ax.get_lines()] == [
         "meniscus force at the asperities",

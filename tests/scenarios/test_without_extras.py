@@ -153,9 +153,9 @@ def test_a_package_that_is_missing_is_named_with_its_extra(monkeypatch):
 
 def test_pictures_without_matplotlib_name_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    monkeypatch.delitem(sys.modules, "contactkit.plot.separation", raising=False)
+    monkeypatch.delitem(sys.modules, "contactkit.plot.style", raising=False)
     with pytest.raises(MissingExtraError, match=r"needs matplotlib.*contactkit\[plot\]"):
-        importlib.import_module("contactkit.plot.separation")
+        importlib.import_module("contactkit.plot.style")
 
 
 def test_an_import_that_fails_for_another_reason_is_a_defect(monkeypatch, capsys):

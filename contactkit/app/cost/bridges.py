@@ -221,12 +221,13 @@ def _write(found: Sequence[WorkPrecision], out: Path) -> tuple[Path, ...]:
 
 
 def _draw(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Path, ...]:
-    from ...plot import separation as plot
+    from ...plot import cost as cost_plot
+    from ...plot import style as plot
 
     made, axes = plot.figure(1, 2, size=(10.5, 5.0))
     names = [case.label for case in scene.bridges]
     for one, ax in zip(found, axes, strict=True):
-        plot.closures(one, ax, names)
+        cost_plot.closures(one, ax, names)
     plot.title(axes[0], f"{scene.name}: force, up to {scene.reach:g} of the limit")
     plot.title(axes[1], "rupture distance")
     plot.shared_legend(made, axes[0])

@@ -269,13 +269,14 @@ def _draw(
     out: Path,
     name: str,
 ) -> tuple[Path, ...]:
-    from ...plot import separation as plot
+    from ...plot import cost as cost_plot
+    from ...plot import style as plot
 
     made, axes = plot.figure(1, 2 if grids is None else 3, size=(15.0 if grids else 10.0, 4.6))
-    plot.work_precision(solvers, axes[0], beside=False)
+    cost_plot.work_precision(solvers, axes[0], beside=False)
     plot.title(axes[0], f"{name}: tolerance, by solver")
     if grids is not None:
-        plot.work_precision(grids, axes[1], beside=False)
+        cost_plot.work_precision(grids, axes[1], beside=False)
         plot.title(axes[1], "grid")
     plot.bars(
         [e.name for e in effects], [e.seconds for e in effects], axes[-1], "seconds of the solve"

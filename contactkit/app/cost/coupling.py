@@ -18,7 +18,7 @@ from attrs import field, frozen
 
 from ...accuracy import Accuracy
 from ...errors import ContactkitError
-from ...plot import separation as plot
+from ...plot import style as plot
 from ...separation.motion.advance import internal_step
 from ...separation.motion.state import start
 from ...separation.plan import plan

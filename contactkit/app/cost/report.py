@@ -45,9 +45,10 @@ def _write(found: WorkPrecision, out: Path) -> tuple[Path, ...]:
 
 
 def _draw(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:
-    from ...plot import separation as plot
+    from ...plot import cost as cost_plot
+    from ...plot import style as plot
 
     made, ax = plot.figure(size=(9.6, 5.4))
-    plot.work_precision(found, ax, "osD^vP*X<>hdp")
+    cost_plot.work_precision(found, ax, "osD^vP*X<>hdp")
     plot.title(ax, f"{name}: what accuracy costs")
     return (plot.save(made, out / "cost"),)

@@ -76,7 +76,7 @@ def _write(result: ContactResult, studies: Studies, out: Path) -> tuple[Path, ..
 def draw_contact(result: ContactResult, studies: Studies, out: Path) -> list[Path]:
     """Draw the figures of a result, and of studies, to a folder."""
     from ...plot import contact as contact_plot
-    from ...plot import separation as plot
+    from ...plot import style as plot
 
     title = result.plan.scene.name
     made, axes = plot.figure(1, 2, size=(11.0, 5.2))
@@ -86,10 +86,7 @@ def draw_contact(result: ContactResult, studies: Studies, out: Path) -> list[Pat
     plot.title(axes[0], f"{title}, {mean}" if title else mean)
     files = [plot.save(made, out / "contact")]
     if result.plan.has(SubsurfaceStress):
-        made, ax = plot.figure(size=(8.0, 5.5))
-        contact_plot.von_mises_section(result, ax)
-        plot.title(ax, f"{title}: under the maximum pressure".removeprefix(": "))
-        files.append(plot.save(made, out / "stress"))
+        files.append(_stress(result, title, out))
     if PartialSlip in result.parts:
         files.append(_slip(result, title, out))
     if PlasticHistory in result.parts:
@@ -100,9 +97,24 @@ def draw_contact(result: ContactResult, studies: Studies, out: Path) -> list[Pat
     return files
 
 
+def _stress(result: ContactResult, title: str, out: Path) -> Path:
+    from ...plot import stress
+    from ...plot import style as plot
+
+    made, axes = plot.figure(1, 2, size=(12.0, 4.2))
+    stress.below(result, ax=axes[0])
+    maximum = result.of(SubsurfaceStress).maxima["von_mises"]
+    planes = result.of(SubsurfaceStress).depth
+    near = max(3.0 * maximum.z, float(planes[min(2, len(planes) - 1)]))
+    stress.below(result, ax=axes[1], depth=near)
+    whole = f"{title}: stress below the maximum pressure".removeprefix(": ")
+    plot.letters(axes, (whole, f"near its maximum, {quantity_text(maximum.value, 'Pa')}"))
+    return plot.save(made, out / "stress")
+
+
 def _slip(result: ContactResult, title: str, out: Path) -> Path:
-    from ...plot import separation as plot
     from ...plot import slip
+    from ...plot import style as plot
 
     made, axes = plot.figure(1, 3, size=(15.0, 4.8))
     slip.slip_zones(result, axes[0])
@@ -114,7 +126,7 @@ def _slip(result: ContactResult, title: str, out: Path) -> Path:
 
 def _history(result: ContactResult, title: str, out: Path) -> Path:
     from ...plot import plastic_history
-    from ...plot import separation as plot
+    from ...plot import style as plot
 
     made, axes = plot.figure(1, 2, size=(10.5, 4.6))
     plastic_history.force_approach(result, axes[0])
@@ -125,7 +137,7 @@ def _history(result: ContactResult, title: str, out: Path) -> Path:
 
 def _stacks(made_plan: ContactPlan, out: Path) -> Path:
     from ...plot import contact as contact_plot
-    from ...plot import separation as plot
+    from ...plot import style as plot
 
     interface = made_plan.scene.interface
     bodies = [("upper body", interface.upper.stack), ("lower body", interface.lower.stack)]

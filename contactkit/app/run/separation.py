@@ -73,22 +73,23 @@ def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
 
 def draw_separation(result: SeparationResult, studies: Studies, out: Path) -> tuple[Path, ...]:
     """Draw the figures of a result, and of studies, to a folder."""
-    from ...plot import separation as plot
+    from ...plot import separation as separation_plot
+    from ...plot import style as plot
 
     files = []
     if any(force.name in result.columns for force in result.plan.forces):
         made, ax = plot.figure()
-        plot.forces(result, ax)
+        separation_plot.forces(result, ax)
         plot.title(ax, result.plan.scene.name)
         files.append(plot.save(made, out / "forces"))
     if "mean_pull" in result.columns:
         made, ax = plot.figure()
-        plot.cycles(result, ax)
+        separation_plot.cycles(result, ax)
         plot.title(ax, result.plan.scene.name)
         files.append(plot.save(made, out / "cycles"))
     if result.state is not None:
         made, ax = plot.figure()
-        plot.motion(result, ax)
+        separation_plot.motion(result, ax)
         plot.title(ax, result.plan.scene.name)
         files.append(plot.save(made, out / "motion"))
     if studies:

@@ -74,10 +74,11 @@ def _write(result: SlidingResult, out: Path) -> tuple[Path, ...]:
 
 def draw_sliding(result: SlidingResult, studies: Studies, out: Path) -> tuple[Path, ...]:
     """Draw the figures of a result, and of studies, to a folder."""
-    from ...plot import separation as plot
+    from ...plot import separation as separation_plot
+    from ...plot import style as plot
 
     made, ax = plot.figure()
-    plot.slide(result, ax)
+    separation_plot.slide(result, ax)
     plot.title(ax, result.plan.scene.name)
     drawn = (draw_studies(studies, result.plan.scene.name, out),) if studies else ()
     return (plot.save(made, out / "forces"), *drawn)

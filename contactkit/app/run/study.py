@@ -271,8 +271,9 @@ def _drawn(studies: Studies, title: str, out: Path) -> list[Path]:
 
 def draw_studies(studies: Studies, title: str, out: Path) -> Path:
     """Draw the numbers that vary over a parameter, a line for each combination of the others."""
-    from ...plot import separation as plot
+    from ...plot import axis_units
     from ...plot import study as study_plot
+    from ...plot import style as plot
 
     first = _shown(studies[0].made)
     path = _parameter(first)
@@ -291,7 +292,7 @@ def draw_studies(studies: Studies, title: str, out: Path) -> Path:
 
         contact_plot.load_curve(curves, flat, panels)
     else:
-        factor, unit = study_plot.readable(first.unit(path), _numbers(curves, path))
+        factor, unit = axis_units.readable(first.unit(path), _numbers(curves, path))
         label = _short(path) + ("" if unit == "-" else f" [{unit}]")
         study_plot.study_curves(curves, flat, panels, (path, label, factor))
     for ax in flat[len(panels) :]:
@@ -312,8 +313,8 @@ def _panels(
     made: Study[Any], curves: Sequence[tuple[str, Mapping[str, Any]]], of_effects: Sequence[str]
 ) -> list[Any]:
     """Panels of the figure: of contacts their usual numbers, else all that change."""
+    from ...plot import axis_units
     from ...plot import contact as contact_plot
-    from ...plot import study as study_plot
 
     varied = [path for axis in made.paths for path in axis]
     ends = tuple(end for end in BAND if end)
@@ -334,7 +335,7 @@ def _panels(
     changing = _different(curves, [n for n in names if _changes(curves, n)]) or names
     panels = []
     for name in changing[:_MOST_PANELS]:
-        factor, unit = study_plot.readable(made.unit(name), _numbers(curves, name))
+        factor, unit = axis_units.readable(made.unit(name), _numbers(curves, name))
         panels.append((name, _spoken(name) + ("" if unit == "-" else f" [{unit}]"), factor))
     return panels
 

@@ -146,6 +146,7 @@ class PartialSlip(Observer[PartialSlipPart]):
 
     name: ClassVar[str] = "partial-slip"
     summary: ClassVar[str] = "stick and slip under a tangential load path"
+    figures: ClassVar[tuple[str, ...]] = ("slip_zones", "traction", "hysteresis")
     takes_tension: ClassVar[bool] = False
     takes_holes: ClassVar[bool] = True
     takes_free_sheets: ClassVar[bool] = False

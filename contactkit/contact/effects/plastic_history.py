@@ -146,6 +146,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "plastic-history"
     summary: ClassVar[str] = "loads before, whose plastic deformation stays"
+    figures: ClassVar[tuple[str, ...]] = ("force_approach", "residual_depth")
     records: ClassVar[tuple[type, ...]] = (PlasticHistoryPart,)
     arrays: ClassVar[tuple[Array, ...]] = (
         Array("residual_depth", "m", attrgetter("residual_depth")),

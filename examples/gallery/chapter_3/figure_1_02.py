@@ -10,7 +10,7 @@ import numpy as np
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Page
 from contactkit.app.gallery.run import run_page
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters, series
 from contactkit.units import celsius, mm, nm
 

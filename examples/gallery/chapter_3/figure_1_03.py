@@ -12,7 +12,7 @@ import contactkit as ck
 from contactkit.app.gallery.page import Check, Page
 from contactkit.app.gallery.run import run_page
 from contactkit.lubrication.squeeze_film import sphere_impulse_flooded
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters, series
 from contactkit.units import mm, um
 

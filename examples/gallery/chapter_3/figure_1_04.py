@@ -12,7 +12,7 @@ from contactkit.app.gallery.page import Check, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.capillary.exact.bridge import bridge_at_pressure
 from contactkit.capillary.kelvin import kelvin_radius
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters, series
 from contactkit.units import celsius, deg, nm
 

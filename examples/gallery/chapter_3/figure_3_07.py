@@ -17,7 +17,7 @@ from contactkit.capillary.arc.profile import arc_profile
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.profile import profile
 from contactkit.gallery.chapter_3.films import PAIRS, angles, break_gaps, key, volume
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
 

@@ -25,7 +25,7 @@ from contactkit.gallery.chapter_3.films import (
     separations,
     volume,
 )
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
 

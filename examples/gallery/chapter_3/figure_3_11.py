@@ -22,7 +22,7 @@ from contactkit.gallery.chapter_3.films import (
     sphere_volume,
 )
 from contactkit.lubrication.squeeze_film import sphere_impulse_conserved
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import SERIES, Figure, letters
 from contactkit.units import nm
 

@@ -26,7 +26,7 @@ from contactkit.gallery.chapter_3.films import (
     volume,
 )
 from contactkit.lubrication.squeeze_film import disc_impulse_conserved
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import deg, nm
 

@@ -26,7 +26,7 @@ from contactkit.gallery.chapter_3.films import (
     heights_legend,
     ratio_text,
 )
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
 

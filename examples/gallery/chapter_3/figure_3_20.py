@@ -18,7 +18,7 @@ from contactkit.gallery.chapter_3.films import (
     ratio_text,
 )
 from contactkit.lubrication.couette_sphere import sphere_impulse as one_impulse
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm, us
 

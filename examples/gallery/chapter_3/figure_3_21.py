@@ -16,7 +16,7 @@ from contactkit.as_published.printed.sliding import (
 from contactkit.gallery.chapter_3.films import SHADES, TIME, VISCOSITY, ratio_text
 from contactkit.lubrication.couette_flat import flat_impulse
 from contactkit.lubrication.couette_sphere import sphere_impulse as one_impulse
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm, um
 

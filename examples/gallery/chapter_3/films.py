@@ -22,7 +22,7 @@ from contactkit.capillary.arc import sphere as arc_sphere
 from contactkit.capillary.arc.bridge import arc_bridge
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.stability import stability_limit
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.units import deg, nm, us
 
 __all__ = [

@@ -23,7 +23,7 @@ from contactkit.gallery.chapter_3.films import (
     sphere_volume,
 )
 from contactkit.numerics.roots import bracketed_root
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
 

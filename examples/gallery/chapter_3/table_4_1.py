@@ -10,7 +10,7 @@ import numpy as np
 from contactkit.app.gallery.page import Check, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.as_published.lookup import PUBLISHED, TABLE_4_1, erratum, published
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure
 from contactkit.units import deg, nm
 

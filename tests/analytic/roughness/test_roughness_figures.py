@@ -10,7 +10,7 @@ from contactkit.analyses.area_over_load import area_over_load
 from contactkit.contact.patches import contact_patches, patch_density, patches_of
 from contactkit.plot import plastic_history as history_plot
 from contactkit.plot import roughness as roughness_plot
-from contactkit.plot import separation as plot
+from contactkit.plot import style as plot
 from contactkit.roughness import spectra
 from contactkit.roughness import statistics as stats
 from contactkit.roughness.contact_theories import RANGES

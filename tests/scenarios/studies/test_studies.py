@@ -581,7 +581,7 @@ def test_a_load_curve_is_a_line_for_each_combination(tmp_path):
 
 def test_every_line_is_drawn():
     plot = pytest.importorskip("contactkit.plot.contact")
-    drawing = pytest.importorskip("contactkit.plot.separation")
+    drawing = pytest.importorskip("contactkit.plot.style")
     columns = {"mean_pressure": np.array([1e6, 2e6]), "max_pressure": np.array([1e9, 2e9])}
     curves = [(str(i), columns) for i in range(7)]
     figure, ax = drawing.figure()

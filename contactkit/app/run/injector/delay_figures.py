@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....models.injector.scene import InjectorScene
-from ....plot import separation as plot
+from ....plot import style as plot
 from ....separation.effects.registry import TensionLimit
 from ....units import bar, celsius
 from .cosimulation import InjectorRun

@@ -9,7 +9,7 @@ from typing import Any
 
 from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
-from ....plot import separation as plot
+from ....plot import style as plot
 from ....separation.effects.base import LimitKind
 from ....units import bar
 from .cosimulation import InjectorRun

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....models.micromirror.mirror import root_height
 from ....models.micromirror.scene import MicromirrorScene
-from ....plot import separation as plot
+from ....plot import style as plot
 from ....separation.plan import Plan
 
 __all__ = ["sketch"]

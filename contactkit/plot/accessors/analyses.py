@@ -1,0 +1,97 @@
+"""Figures of curves and other answers that take many solves, ``curve.plot``."""
+
+from __future__ import annotations
+
+from ...analyses.adhesion_curve import AdhesionCurve
+from ...analyses.division import DivisionResult
+from ...analyses.humidity_curve import HumidityCurve
+from ...analyses.load_curve import LoadCurve
+from ...analyses.load_displacement.curve import LoadDisplacementCurve
+from ...analyses.pull_off import PullOffCurve
+from ...analyses.stick_slip import StickSlip
+from .. import adhesion, load_displacement, slip
+from ..style import Axes
+from .base import CurveFigures
+
+__all__ = [
+    "AdhesionFigures",
+    "DivisionFigures",
+    "HumidityFigures",
+    "LoadCurveFigures",
+    "LoadDisplacementFigures",
+    "PullOffFigures",
+    "StickSlipFigures",
+]
+
+
+class LoadCurveFigures(CurveFigures[LoadCurve]):
+    """Figures of a load curve."""
+
+    def area(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the real area of contact over the load."""
+        return self.curves("contact_area", ax=ax)
+
+    def pressure(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the maximum pressure over the load."""
+        return self.curves("max_pressure", ax=ax)
+
+    def load(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the load over the approach."""
+        return self.curves("load", over="approach", ax=ax)
+
+
+class HumidityFigures(CurveFigures[HumidityCurve]):
+    """Figures of a humidity curve."""
+
+    def force(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the force of all menisci over the relative humidity."""
+        return self.curves("force", ax=ax)
+
+
+class AdhesionFigures(CurveFigures[AdhesionCurve]):
+    """Figures of an adhesive contact of a sphere."""
+
+    def radii(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the radii of contact and cohesive zone over the load."""
+        return self.curves("contact_radius", "cohesive_radius", ax=ax)
+
+    def load(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the load over the approach."""
+        return self.curves("load", over="approach", ax=ax)
+
+
+class DivisionFigures(CurveFigures[DivisionResult]):
+    """Figures of a film divided into menisci."""
+
+    def forces(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the forces that the scene lists over the number of menisci."""
+        names = [n for n in self.curve_names if n.endswith("_force")]
+        return self.curves(*names, ax=ax)
+
+
+class LoadDisplacementFigures(CurveFigures[LoadDisplacementCurve]):
+    """Figures of a load-displacement curve."""
+
+    def force(self, *, ax: Axes | None = None) -> Axes:
+        """Draw first loading and the unloading curves."""
+        return load_displacement.force(self._owner, ax)
+
+
+class PullOffFigures(CurveFigures[PullOffCurve]):
+    """Figures of a contact under adhesion that is approached and separated."""
+
+    def load(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the load over the approach of both branches; jumps are dotted."""
+        return adhesion.pull_off_curve(self._owner, ax)
+
+    def area(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the contact area over the approach of both branches; jumps are dotted."""
+        return adhesion.contact_area(self._owner, ax)
+
+
+class StickSlipFigures(CurveFigures[StickSlip]):
+    """Figures of stick-slip."""
+
+    def force(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the force of the spring over time, with the levels of friction."""
+        return slip.stick_slip_force(self._owner, ax)

@@ -1,0 +1,107 @@
+"""Figures of a contact, ``result.plot``, and of its plan, ``plan.plot``."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from ...analyses.subsurface import MeasureName
+from ...contact.plan import ContactPlan
+from ...contact.result import ContactResult
+from ...errors import PlanError
+from .. import contact as of_contact
+from .. import maps, plastic_history, slip, stress
+from ..roughness import heights_map
+from ..style import Axes
+from .base import Figures, of_absent_effects
+
+__all__ = ["ContactFigures", "ContactPlanFigures"]
+
+
+class ContactFigures(Figures[ContactResult]):
+    """Figures of a contact; those of an effect are there where the scene lists it."""
+
+    def _hidden(self) -> frozenset[str]:
+        return of_absent_effects(self._owner.plan)
+
+    def pressure(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the map of the pressure; white where there is neither contact nor attraction."""
+        return of_contact.pressure(self._owner, ax)
+
+    def gap(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the map of the gap."""
+        return maps.value_map(self._owner, "gap", ax)
+
+    def displacement(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the map of the normal displacement of both surfaces."""
+        return maps.value_map(self._owner, "displacement", ax)
+
+    def heights(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the map of the heights of both bodies."""
+        return maps.value_map(self._owner, "heights", ax)
+
+    def map(self, name: str, *, ax: Axes | None = None, at: tuple[int, ...] = ()) -> Axes:
+        """Draw a map by its name, also one that an effect adds; see `plot.maps.value_map`."""
+        return maps.value_map(self._owner, name, ax, at)
+
+    def areas(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the areas in contact, at the hardness, and wetted."""
+        return of_contact.contact_spots(self._owner, ax)
+
+    def section(self, *, row: int | None = None, ax: Axes | None = None) -> Axes:
+        """Draw a section through the interface along a row; see `plot.contact.section`."""
+        return of_contact.section(self._owner, ax, row=row)
+
+    def stress(
+        self,
+        measure: MeasureName = "von_mises",
+        *,
+        depth: float | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:
+        """Draw contours of the stress below the maximum pressure; see `plot.stress.below`."""
+        return stress.below(self._owner, measure, ax, depth=depth)
+
+    def slip_zones(self, *, step: int = -1, ax: Axes | None = None) -> Axes:
+        """Draw where the contact sticks and slips at the end of a step."""
+        return slip.slip_zones(self._owner, ax, step)
+
+    def traction(self, *, row: int | None = None, ax: Axes | None = None) -> Axes:
+        """Draw the traction along a row at the end of each step."""
+        return slip.traction_profile(self._owner, ax, row)
+
+    def hysteresis(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the tangential force over the displacement."""
+        return slip.hysteresis(self._owner, ax)
+
+    def force_approach(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the load over the approach of a loading history."""
+        return plastic_history.force_approach(self._owner, ax)
+
+    def residual_depth(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the map of the residual depth."""
+        return plastic_history.residual_depth(self._owner, ax)
+
+
+class ContactPlanFigures(Figures[ContactPlan]):
+    """Figures of a contact before it is solved."""
+
+    def _hidden(self) -> frozenset[str]:
+        bodies = (self._owner.scene.interface.lower, self._owner.scene.interface.upper)
+        return frozenset() if any(one.stack for one in bodies) else frozenset({"stack"})
+
+    def heights(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the map of the heights of both bodies."""
+        return heights_map(self._owner.heights, self._owner.grid.pixel_size, ax)
+
+    def stack(self, body: Literal["lower", "upper"] = "lower", *, ax: Axes | None = None) -> Axes:
+        """Draw the layers of a body, not to scale.
+
+        Raises
+        ------
+        PlanError
+            If the body is rigid.
+        """
+        stack = getattr(self._owner.scene.interface, body).stack
+        if stack is None:
+            raise PlanError(f"the {body} body is rigid: give interface.{body}.solid, a Stack")
+        return of_contact.stack_section(stack, ax, f"{body} body (not to scale)")

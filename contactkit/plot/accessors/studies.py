@@ -1,0 +1,65 @@
+"""Figures of a study, ``study.plot``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ...errors import DescriptionError
+from ..axis_units import axis_label, readable
+from ..study import study_curves
+from ..style import Axes, figure, legend
+from .base import Figures
+
+if TYPE_CHECKING:
+    from ...studies.table import Study
+
+__all__ = ["StudyFigures"]
+
+
+class StudyFigures(Figures["Study[Any]"]):
+    """Figures of the numbers of a study over its parameters."""
+
+    def number(self, name: str, *, over: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draw a number over a parameter, a line for each combination of the others.
+
+        A study with bands is drawn with them.
+
+        Parameters
+        ----------
+        name : str
+            Name of a column, such as ``contact_area``.
+        over : str, optional
+            Path of the parameter, or its beginning; the last one if not given.
+        ax : Axes, optional
+            Where to draw; a new figure if not given.
+
+        Raises
+        ------
+        DescriptionError
+            If there is no such column or parameter.
+        """
+        study = self._owner
+        paths = [path for paths in study.paths for path in paths]
+        path = next((p for p in paths if p.startswith(over)), "") if over else study.paths[-1][0]
+        if not path:
+            raise DescriptionError("over", over, f"be one of {', '.join(paths)}")
+        unit = study.unit(name)
+        factor, shown = readable(unit, study.column(name))
+        along, place = _of_parameter(study, path)
+        ax = ax if ax is not None else figure()[1]
+        curves = [(line.label, line.columns) for line in study.lines(path)]
+        panel = (name, axis_label(_spoken(name), shown), factor)
+        study_curves(curves, [ax], [panel], (path, axis_label(_spoken(path), place), along))
+        if len(curves) > 1:
+            legend(ax)
+        return ax
+
+
+def _of_parameter(study: Study[Any], path: str) -> tuple[float, str]:
+    """Factor and name of the unit of a parameter; of one that is no number, none."""
+    values = study.column(path)
+    return readable(study.unit(path), values) if values.dtype.kind == "f" else (1.0, "-")
+
+
+def _spoken(path: str) -> str:
+    return path.rpartition(".")[2].replace("_", " ")
