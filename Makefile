@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # compile numpy again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo test test-all lint bench bench-own peers docs format clean
+.PHONY: demo test test-all lint bench bench-own peers demands docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -41,6 +41,11 @@ bench: $(VENV)/.test peers
 # What each part of ours costs, without others.
 bench-own: $(VENV)/.test
 	$(BIN)/python -m pytest tests/benchmarks --benchmark-only --benchmark-disable-gc --benchmark-columns=min,median,max,rounds
+
+# Pages of docs/demands: measured again, some minutes. Only drawn again from their data:
+# .venv/bin/python docs/scripts/demands --draw
+demands: $(VENV)/.test
+	$(BIN)/python docs/scripts/demands
 
 # Other contact solvers, each in an environment of its own; what does not install is named with the reason.
 peers: $(VENV)/.made

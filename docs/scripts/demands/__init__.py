@@ -1,0 +1,28 @@
+"""Pages for the customer's three demands, their data and pictures: ``python docs/scripts/demands``.
+
+page           What all pages share: data in JSON, tables in Markdown, pictures, and who measured.
+hard_case      A hard case: why it is hard, a naive method, our method, and the errors of both.
+hard_layers    Hard cases of layered solids: thick layers, incompressible and stiff films.
+hard_contacts  Hard cases of rough contacts: all pixels, hardness, offsets, edges, adhesion.
+hard_films     Hard cases of films in motion: stiff films, small openings, thin lenses.
+hard_bridges   Hard cases of liquid bridges: right angles, rupture, pinned contact lines.
+hard_cases     Page of the hard cases.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from types import ModuleType
+
+__all__ = ["PAGES"]
+
+
+def _module(name: str) -> Callable[[], ModuleType]:
+    return lambda: import_module(f"demands.{name}")
+
+
+PAGES: Mapping[str, Callable[[], ModuleType]] = {
+    "hard-cases": _module("hard_cases"),
+}
+"""Modules of the pages, with ``measure() -> data``, ``page(data) -> text``, ``draw(data)``."""
