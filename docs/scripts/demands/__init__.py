@@ -1,6 +1,6 @@
 """Pages for the customer's three demands, their data and pictures: ``python docs/scripts/demands``.
 
-page           What all pages share: data in JSON, tables in Markdown, pictures, and who measured.
+page           Parts shared by all pages: data in JSON, tables in Markdown, pictures, the machine.
 hard_case      A hard case: why it is hard, a naive method, our method, and the errors of both.
 hard_layers    Hard cases of layered solids: thick layers, incompressible and stiff films.
 hard_contacts  Hard cases of rough contacts: all pixels, hardness, offsets, edges, adhesion.

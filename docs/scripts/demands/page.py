@@ -1,4 +1,4 @@
-"""What all pages share: data in JSON, tables in Markdown, pictures, and who measured."""
+"""Parts shared by all pages: data in JSON, tables in Markdown, pictures, the machine."""
 
 from __future__ import annotations
 
