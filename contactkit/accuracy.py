@@ -6,6 +6,7 @@ from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
+from .reading.limits import check_limit
 from .units import si
 from .validators import Described, as_number, as_pair, as_whole, choice, count, refuse
 
@@ -30,6 +31,13 @@ def _grid(owner: object, attribute: Attribute[Any], value: Any) -> None:
             raise refuse(owner, attribute, value, "be a whole number of at least 2, or (ny, nx)")
     if isinstance(value, tuple) and len(value) != 2:
         raise refuse(owner, attribute, value, "be one number or a pair (ny, nx)")
+    n = value[0] * value[1] if isinstance(value, tuple) else value * value
+    check_limit("PIXELS", n, f"grid = {value}", "Accuracy.grid")
+
+
+def _points(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    count(owner, attribute, value)
+    check_limit("POINTS", value, f"points = {value}", "Accuracy.points")
 
 
 @frozen(kw_only=True)
@@ -68,7 +76,7 @@ class Accuracy(Described):
     time_rtol: float = field(
         default=1e-8, converter=as_number, validator=_tolerance, metadata=si("-")
     )
-    points: int = field(default=200, converter=as_whole, validator=count, metadata=si("-"))
+    points: int = field(default=200, converter=as_whole, validator=_points, metadata=si("-"))
     max_steps: int = field(default=100_000, converter=as_whole, validator=count, metadata=si("-"))
 
     grid: int | tuple[int, int] | None = field(

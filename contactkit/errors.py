@@ -37,6 +37,20 @@ class ContactkitError(Exception):
     """Base class of the exceptions of contactkit."""
 
 
+_LONGEST = 500
+
+
+def _shown(value: object) -> str:
+    """A value as text, the middle of a long one left out."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # an integer of thousands of digits; deep nesting
+        text = f"a {type(value).__name__} too large to print"
+    if len(text) <= _LONGEST:
+        return text
+    return f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 4 :]}"
+
+
 class DescriptionError(ContactkitError, ValueError):
     """An invalid number, name or file in a description.
 
@@ -66,7 +80,7 @@ class DescriptionError(ContactkitError, ValueError):
         bracket = f" [{unit}]" if unit else ""
         cure = f"; {hint}" if hint else ""
         self.expected = expected
-        super().__init__(f"{field} must {expected}{bracket}, got {value!r}{cure}")
+        super().__init__(f"{field} must {expected}{bracket}, got {_shown(value)}{cure}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the exception by its parts, for transfer between processes."""

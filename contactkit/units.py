@@ -194,6 +194,10 @@ def _spelt(text: str) -> str:
     return "for example 'um', 'mN/m', 'mPa.s', 'mm2/s', 'kg/m3', 'deg', 'degC'"
 
 
+_LARGEST_POWER = 12
+_LONGEST = 200  # letters of a unit or a quantity: a longer text is something else
+
+
 @lru_cache(maxsize=256)
 def parse_unit(text: str) -> Unit:
     """Read a unit such as ``mN/m``, ``Pa.s``, ``kg/m3`` or ``-`` (no unit).
@@ -212,10 +216,12 @@ def parse_unit(text: str) -> Unit:
     """
     if text in ("-", ""):
         return Unit(1.0, MappingProxyType({}))
+    if len(text) > _LONGEST:
+        raise DescriptionError("unit", text, f"have at most {_LONGEST} letters")
     factor, dimension = 1.0, dict[str, int]()
     first, *rest = re.split(r"([./*·⋅])", text.replace(" ", ""))
     for sign, part in [("", first), *zip(rest[::2], rest[1::2], strict=True)]:
-        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d+))?", part)
+        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part)
         found = _symbol(match[1]) if match else None
         if match is None or found is None:
             raise DescriptionError(
@@ -225,6 +231,10 @@ def parse_unit(text: str) -> Unit:
                 hint=_spelt(match[1] if match else part),
             )
         power = int(match[2] or 1) * (-1 if sign == "/" else 1)
+        if abs(power) > _LARGEST_POWER:
+            raise DescriptionError(
+                "unit", text, f"have powers of at most {_LARGEST_POWER} ({part!r} is higher)"
+            )
         factor *= found[0] ** power
         for base, exponent in found[1].items():
             dimension[base] = dimension.get(base, 0) + power * exponent
@@ -233,8 +243,8 @@ def parse_unit(text: str) -> Unit:
 
 def _scaled(number: str, factor: float) -> float:
     """Multiply by a factor, without rounding twice where it is a power of ten: 20 um is 2e-05."""
-    power = round(math.log10(factor))
-    if math.isclose(factor, 10.0**power, rel_tol=1e-14) and "inf" not in number:
+    power, size = round(math.log10(factor)), abs(float(number))
+    if math.isclose(factor, 10.0**power, rel_tol=1e-14) and 0.0 < size < math.inf:
         return float(Decimal(number).scaleb(power))
     return float(number) * factor
 
@@ -274,7 +284,7 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
-    text = value.strip() if isinstance(value, str) else ""
+    text = value.strip() if isinstance(value, str) and len(value) <= _LONGEST else ""
     match = re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?inf)\s*(.*)", text)
     example = (
         f"2.5 {unit}"

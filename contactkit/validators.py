@@ -13,6 +13,7 @@ from .errors import DescriptionError, nearest
 from .units import parse_quantity
 
 __all__ = [
+    "LARGEST",
     "Described",
     "angle",
     "as_pair",
@@ -81,14 +82,14 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-_LARGEST = 1e60  # its fourth power, times what multiplies it, still fits into a double
+LARGEST = 1e60  # its fourth power, times what multiplies it, still fits into a double
 
 
 def _within(owner: object, attribute: Attribute[Any], value: float) -> None:
     """Refuse a number whose powers would overflow."""
-    if abs(value) > _LARGEST:
+    if abs(value) > LARGEST:
         cure = "no quantity in SI units is as large; check its unit"
-        raise refuse(owner, attribute, value, f"be at most {_LARGEST:g} in size", cure)
+        raise refuse(owner, attribute, value, f"be at most {LARGEST:g} in size", cure)
 
 
 def finite(owner: object, attribute: Attribute[Any], value: Any) -> None:

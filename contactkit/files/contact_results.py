@@ -67,6 +67,9 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     grid, work = Grid((ny, nx), (dy, dx), *edges), header["work"]
     accuracy = Accuracy(**header["accuracy"])
     maps = {name: arrays[name] for name in _MAPS}
+    for key, one in maps.items():
+        if one.shape != grid.shape or one.dtype != np.float64:
+            raise ValueError(f"{key} is {one.shape} of {one.dtype}, not {grid.shape} of float64")
     parts = {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}
     contact = Contact(scene, grid, maps["pressure"], maps["displacement"], maps["gap"])
     attraction = scene.effect(Attraction)
@@ -124,4 +127,5 @@ def _decode(value: Any, arrays: Arrays) -> Any:
 
 def _record(name: str) -> Any:
     """Find the kind of a record by its name among those that the effects declare."""
-    return next(one for kind in CONTACT_EFFECTS for one in kind.records if one.__name__ == name)
+    records = {one.__name__: one for kind in CONTACT_EFFECTS for one in kind.records}
+    return records[name]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import io
 import json
-import zipfile
-import zlib
 from collections.abc import Mapping
+from numbers import Real
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeVar, overload
 
@@ -16,6 +15,9 @@ import numpy as np
 from ..accuracy import Accuracy
 from ..contact.result import ContactResult
 from ..errors import ContactkitError, DescriptionError
+from ..reading.archives import UNREADABLE
+from ..reading.arrays import read_arrays
+from ..reading.texts import from_json
 from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.curve_result import Work
@@ -46,19 +48,6 @@ __all__ = [
     "save_result",
     "to_bytes",
 ]
-
-# Errors of reading a file that is not a complete result.
-_UNREADABLE = (
-    OSError,
-    ValueError,
-    KeyError,
-    TypeError,
-    AttributeError,
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    NotImplementedError,
-)
 
 
 def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, Any]) -> Path:
@@ -115,7 +104,8 @@ def load_result(path: str | Path, kind: type[Result] = Result) -> Result:
     Raises
     ------
     DescriptionError
-        If the file is none of ours, is cut short, or holds another kind.
+        If the file is none of ours, is cut short, exceeds a limit of `contactkit.reading`, or
+        holds another kind.
     """
     result = _load(path)
     if not isinstance(result, kind):
@@ -130,7 +120,7 @@ def _load(path: str | Path) -> AnyResult:
         # Opened here, as numpy does not close a file that it cannot read.
         with Path(path).open("rb") as file:
             return _read(file, Path(path).name)
-    except _UNREADABLE as error:
+    except UNREADABLE as error:
         raise _no_result(str(path), error) from None
 
 
@@ -146,7 +136,7 @@ def from_bytes(data: bytes) -> AnyResult:
     """Read a result from the bytes of `to_bytes`."""
     try:
         return _read(io.BytesIO(data), "result")
-    except _UNREADABLE as error:
+    except UNREADABLE as error:
         raise _no_result("result", error) from None
 
 
@@ -173,16 +163,34 @@ def _no_result(where: str, error: Exception) -> ContactkitError:
 
 
 def _read(source: IO[bytes], name: str) -> AnyResult:
-    with np.load(source, allow_pickle=False) as file:
-        header = json.loads(str(file["header"]))
-        columns = {key: file[key] for key in file.files if key != "header"}
-    for column in columns.values():
-        column.flags.writeable = False
+    try:
+        columns = read_arrays(source, name)
+        header = from_json(str(columns.pop("header")), f"{name}, header")
+    except DescriptionError as error:
+        raise DescriptionError("file", name, "be a result of contactkit", hint=str(error)) from None
+    result = _unpacked(header, columns, name)
+    for key, (value, _) in result.scalars().items():
+        if not isinstance(value, Real):
+            raise TypeError(f"{key} is a {type(value).__name__} and no number")
+    return result
+
+
+def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> AnyResult:
+    """Result of the kind that its header names."""
     if header.get("kind") == "contact":
         return unpack_contact(header, columns, name)
     if header.get("kind") == "sliding":
         return _unpack_sliding(header, columns, name)
     return _unpack_separation(header, columns, name)
+
+
+def _check_columns(columns: Arrays, known: Mapping[str, Any]) -> None:
+    """Refuse columns that are no curves of the plan, of one length."""
+    lengths = {column.shape for column in columns.values()}
+    kinds = {column.dtype.kind for column in columns.values()}
+    unknown = sorted(columns.keys() - known.keys())
+    if unknown or len(lengths) != 1 or len(*lengths) != 1 or not kinds <= set("biuf"):
+        raise ValueError(f"its columns are no curves: {unknown or sorted(lengths)}")
 
 
 def _pack_separation(result: SeparationResult) -> dict[str, Any]:
@@ -203,6 +211,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
     scene = structure(header["scene"], SeparationScene, name)
     made = plan(scene, Accuracy(**header["accuracy"]))
     state = header["state"]
+    _check_columns(columns, made.columns)
     return SeparationResult(
         made,
         header["status"],
@@ -231,6 +240,7 @@ def _pack_sliding(result: SlidingResult) -> dict[str, Any]:
 def _unpack_sliding(header: dict[str, Any], columns: Arrays, name: str) -> SlidingResult:
     scene = structure(header["scene"], SlidingScene, name)
     made = plan_sliding(scene, Accuracy(**header["accuracy"]))
+    _check_columns(columns, made.columns)
     outcome = (header["status"], header["message"])
     work = Work(**header["work"])
     return SlidingResult(made, *outcome, columns, header["totals"], check_sliding(made), work)

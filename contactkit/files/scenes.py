@@ -13,6 +13,9 @@ from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
+from ..reading.limits import check_limit
+from ..reading.references import check_references
+from ..reading.texts import check_keys, check_plain, read_text
 from ..scene.loading import ContactLoading, Sliding
 from ..scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
 from .structure import (
@@ -77,25 +80,48 @@ def read_tables(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     DescriptionError
-        If the file does not exist or is not TOML.
+        If the file does not exist, is not TOML, exceeds a limit of `contactkit.reading`, or names
+        files elsewhere.
     """
     path = Path(path)
+    text = ""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        text = read_text(path, "SCENE_BYTES")
+        # A text of another system has other ends of lines, which open() would have replaced.
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+        tables = _parsed(text, path.name)
     except FileNotFoundError:
         raise DescriptionError("file", str(path), "exist") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        comma = re.search(r"= *-?\d+,\d+ *(?=[,}#]|$)", _line_of(path, str(error)))
+        comma = re.search(r"= *-?\d+,\d+ *(?=[,}#]|$)", _line_of(text, str(error)))
         cure = "; a decimal comma? write a point" if comma else ""
         raise FileError(path.name, [Problem(f"not TOML: {error}{cure}")]) from None
     except OSError as error:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
+    check_references(tables, path)
+    return tables
 
 
-def _line_of(path: Path, problem: str) -> str:
-    """Line of a file that a parser's message names; empty if it names none."""
+def _parsed(text: str, name: str) -> dict[str, Any]:
+    """Tables of a TOML text within the limits of what is read."""
+    check_keys(text, name)
+    try:
+        tables = tomllib.loads(text)
+    except RecursionError:
+        check_limit("DEPTH", text.count("[") + text.count("{"), name)
+        raise
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError as error:  # a number of thousands of digits
+        raise FileError(name, [Problem(f"not TOML: {str(error)[:200]}")]) from None
+    check_plain(tables, name)
+    return tables
+
+
+def _line_of(text: str, problem: str) -> str:
+    """Line of a text that a parser's message names; empty if it names none."""
     at = re.search(r"at line (\d+)", problem)
-    return path.read_text(encoding="utf-8").splitlines()[int(at[1]) - 1] if at else ""
+    return text.split("\n")[int(at[1]) - 1] if at else ""
 
 
 def scene_kind(

@@ -8,6 +8,7 @@ __all__ = ["line_of", "lines_of_keys"]
 
 _KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[\w-]+|"[^"]*"|'[^']*'))*)\s*=""")
 _TABLE = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
+_LONGEST = 1000  # of a line that is searched, with expressions that take time on long ones
 
 
 def lines_of_keys(text: str) -> dict[str, int]:
@@ -24,6 +25,8 @@ def lines_of_keys(text: str) -> dict[str, int]:
     found: dict[str, int] = {}
     table, counts = "", dict[str, int]()
     for number, line in enumerate(text.splitlines(), start=1):
+        if len(line) > _LONGEST:
+            continue
         if head := _TABLE.match(line):
             name = _plain(head[2])
             table = name

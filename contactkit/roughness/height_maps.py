@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import hashlib
 import math
-import struct
 import warnings
+import zipfile
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -17,8 +18,12 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import DescriptionError
+from ..errors import ContactkitError, DescriptionError
+from ..reading.archives import checked_archive
+from ..reading.arrays import read_array
+from ..reading.limits import check_limit, check_size
 from ..units import parse_unit
+from ..validators import LARGEST
 from .surface_data_file import is_surface_data_text, read_surface_data
 
 __all__ = [
@@ -38,6 +43,7 @@ Trend = Literal["none", "mean", "tilt", "curvature"]
 _MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")
 _UNMARKED = ("hgt", "nms")
 _RESIDUE = 8.0 * float(np.finfo(np.float64).eps)  # of the heights given, that detrending leaves
+_SPARSE = 16  # grid points for each that is there, above which a list of points is no map
 _ROUNDED = 0.02  # tolerance of coordinates over the step, for values rounded in a text
 
 
@@ -71,6 +77,13 @@ def read_points(file: Path) -> tuple[Array, tuple[float, float]]:
         )
     x, y, z = points.T
     (column, nx, dx), (row, ny, dy) = _steps(x, "x", file), _steps(y, "y", file)
+    if nx * ny > _SPARSE * len(points):
+        raise DescriptionError(
+            "HeightMap.heights",
+            f"{len(points)} points",
+            f"be one for each point of the {ny} x {nx} grid of {file.name}",
+            hint="the points are no regular grid: resample them onto one",
+        )
     times = np.bincount(row * nx + column, minlength=nx * ny)
     if not (times == 1).all():
         i, j = divmod(int(np.argmax(times != 1)), nx)
@@ -110,22 +123,23 @@ def _steps(values: Array, name: str, file: Path) -> tuple[NDArray[np.int64], int
     return number, n, step
 
 
-def _data_lines(file: Path) -> list[tuple[int, str]]:
-    """Data lines with their numbers, from 1."""
+def _data_lines(file: Path) -> Iterator[tuple[int, str]]:
+    """Data lines with their numbers, from 1, one after the other."""
     try:
-        text = file.read_text(encoding="utf-8-sig")
+        with file.open(encoding="utf-8-sig") as text:
+            for number, line in enumerate(text, start=1):
+                if data := line.split("#")[0].strip():
+                    yield number, data
     except UnicodeDecodeError as error:
         raise DescriptionError("HeightMap.path", str(file), "be a text of numbers") from error
-    lines = ((i, line.split("#")[0].strip()) for i, line in enumerate(text.splitlines(), start=1))
-    return [(i, line) for i, line in lines if line]
 
 
 def _delimiter(file: Path) -> str | None:
     """Delimiter of the columns, from the first data line; None for spaces and tabs."""
-    lines = _data_lines(file)
-    if not lines:
+    _, first = next(_data_lines(file), (0, ""))
+    if not first:
         raise DescriptionError("HeightMap.heights", "none", f"be in {file.name}")
-    return next((mark for mark in ";," if mark in lines[0][1]), None)
+    return next((mark for mark in ";," if mark in first), None)
 
 
 def _reason(file: Path, delimiter: str | None, message: str) -> DescriptionError:
@@ -297,6 +311,7 @@ def read_height_map(
     ([0.0, 1e-09, 2e-09], (1e-06, 1e-06), 'map.csv')
     """
     file = _existing(path)
+    check_size(file)
     found = _digest(file)
     if checksum is not None and checksum.lower().removeprefix("sha256:") != found:
         raise DescriptionError(
@@ -325,7 +340,12 @@ def read_height_map(
         heights, size = read_surface_data(file)
     else:
         heights, size, source, is_periodic = _read_instrument(file, size, unit, channel)
-    return HeightMap(_checked(heights, file), size, source, found, is_periodic)
+    checked = _checked(heights, file)
+    if not all(math.isfinite(d) and 0.0 < d <= LARGEST for d in size):
+        raise DescriptionError(
+            "HeightMap.pixel_size", size, f"be positive and finite in {file.name}", unit="m"
+        )
+    return HeightMap(checked, size, source, found, is_periodic)
 
 
 def _existing(path: str | PathLike[str]) -> Path:
@@ -375,15 +395,11 @@ def _double(field: str, value: object, file: Path) -> DescriptionError:
 
 
 def _load_npy(file: Path) -> Array:
-    try:
-        raw = np.load(file, allow_pickle=False)
-    except (ValueError, EOFError, OSError) as error:
-        raise DescriptionError(
-            "HeightMap.path", str(file), "be a numpy file of numbers", hint=str(error)
-        ) from error
-    if not isinstance(raw, np.ndarray) or raw.dtype.kind not in "fiu":
-        kind = raw.dtype if isinstance(raw, np.ndarray) else type(raw).__name__
-        raise DescriptionError("HeightMap.heights", str(kind), "be real numbers")
+    with file.open("rb") as content:
+        raw = read_array(content, check_size(file), str(file))
+    if raw.dtype.kind not in "fiu":
+        raise DescriptionError("HeightMap.heights", str(raw.dtype), "be real numbers")
+    check_limit("PIXELS", raw.size, str(file))
     return raw.astype(np.float64)
 
 
@@ -395,6 +411,7 @@ def _checked(heights: Array, file: Path) -> Array:
             f"be a map (ny, nx) of at least 2 x 2 pixels in {file.name}",
             hint="a profile along a line is not a surface",
         )
+    check_limit("PIXELS", heights.size, str(file))
     holes = ~np.isfinite(np.ma.filled(heights, np.nan))
     if holes.any():
         i, j = (int(k) for k in np.argwhere(holes)[0])
@@ -406,7 +423,17 @@ def _checked(heights: Array, file: Path) -> Array:
             hint="fill the holes in the instrument's software, or cut out a part without any; or "
             "press the array with them masked (numpy.ma): they then carry no load",
         )
-    return np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
+    made = np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
+    largest = max(made.max(), -made.min())
+    if largest > LARGEST:
+        raise DescriptionError(
+            "HeightMap.heights",
+            float(largest),
+            f"be at most {LARGEST:g} in size in {file.name}",
+            unit="m",
+            hint="no length is as large; check the unit",
+        )
+    return made
 
 
 class _Channel(NamedTuple):
@@ -423,7 +450,6 @@ def _read_instrument(
 ) -> _Channel:
     try:
         from SurfaceTopography import open_topography
-        from SurfaceTopography.Exceptions import ReadFileError
     except ImportError as error:
         raise DescriptionError(
             "HeightMap.path",
@@ -434,17 +460,26 @@ def _read_instrument(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of a reader, about properties checked below
+            _check_packed(file)
             with open_topography(str(file)) as reader:
                 return _read_channel(reader, file, size, unit, channel)
-    except DescriptionError:
+    except ContactkitError:
         raise
-    except (ReadFileError, LookupError, OSError, ValueError, struct.error) as error:
+    except Exception as error:  # some twenty readers, which raise what they like
         raise DescriptionError(
             "HeightMap.path",
             str(file),
             "be in a format that SurfaceTopography reads",
             hint="export it as text or npy from the instrument's software",
         ) from error
+
+
+def _check_packed(file: Path) -> None:
+    """Refuse a file that is an archive and unpacks to more than a limit."""
+    with file.open("rb") as content:
+        if zipfile.is_zipfile(content):
+            with checked_archive(content, str(file)):
+                pass
 
 
 def _read_channel(
@@ -474,6 +509,7 @@ def _read_channel(
         raise _double("unit", unit, file)
     if info.physical_sizes is not None and size is not None:
         raise _double("pixel_size", size, file)
+    check_limit("PIXELS", math.prod(info.nb_grid_pts), str(file))
     given: dict[str, Any] = {}
     factor = 1.0
     if info.unit is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import itertools
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -12,6 +13,7 @@ import attrs
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..files.structure import field_value, renamed
+from ..reading.limits import check_limit
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..separation.effects.registry import Effect
 
@@ -92,6 +94,7 @@ def axes(scene: Scene, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
     if not isinstance(vary, Mapping) or not vary:
         raise DescriptionError("vary", vary, "name at least one field and its values")
     found = tuple(_axis(scene, accuracy, key, values) for key, values in vary.items())
+    check_limit("POINTS", math.prod(len(axis.values) for axis in found), "the study", "vary")
     check_apart([path for axis in found for path in axis.paths], "vary")
     return found
 

@@ -18,6 +18,7 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..files.scenes import write_whole
 from ..files.unstructure import unstructure
+from ..reading.texts import from_json, read_text
 from ..scene.rough_surfaces import Measured
 from ..scene.scales import Scale
 
@@ -114,7 +115,7 @@ class Store:
         """
         path = self._point(key)
         try:
-            table = json.loads(path.read_text(encoding="utf-8"))
+            table = from_json(read_text(path, "TEXT_BYTES"), path.name)
             scalars = {n: (float(v), str(unit)) for n, (v, unit) in table["scalars"].items()}
             counts = {str(n): int(v) for n, v in table["counts"].items()}
             notes = tuple(map(str, table["notes"]))
@@ -125,7 +126,14 @@ class Store:
             said = (str(table["status"]), str(table["message"]), float(table["seconds"]))
         except FileNotFoundError:
             return None
-        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        except (
+            OSError,
+            ValueError,
+            LookupError,
+            TypeError,
+            AttributeError,
+            ArithmeticError,
+        ) as error:
             raise DescriptionError(
                 "file", path.name, "be a point of a study", hint=f"{type(error).__name__}: {error}"
             ) from None

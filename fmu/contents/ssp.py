@@ -8,12 +8,14 @@ leave out what a structure says about parameters, without a word.
 from __future__ import annotations
 
 import io
-import zipfile
 from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
-from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from attrs import field, frozen
+
+from ...reading.archives import checked_archive, member
+from ...reading.xml_elements import read_xml
 
 __all__ = ["Component", "Connection", "Connector", "Experiment", "structure_xml"]
 
@@ -74,8 +76,9 @@ class Component:
 
     def model(self) -> Element:
         """Root of its ``modelDescription.xml``."""
-        with zipfile.ZipFile(io.BytesIO(self.fmu)) as packed:
-            return fromstring(packed.read("modelDescription.xml"))
+        with checked_archive(io.BytesIO(self.fmu), self.source) as packed:
+            text = member(packed, "modelDescription.xml", "TEXT_BYTES", self.source)
+        return read_xml(text, f"{self.source}, modelDescription.xml")
 
 
 def structure_xml(

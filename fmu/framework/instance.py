@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import re
 import shutil
 import tempfile
 import zipfile
@@ -19,6 +20,8 @@ from pathlib import Path
 from typing import Any, ClassVar, Self
 
 from ...errors import ContactkitError, ConvergenceError, DescriptionError
+from ...reading.archives import checked_archive, member
+from ...reading.xml_elements import check_xml
 from ...units import parse_quantity
 
 __all__ = ["Instance"]
@@ -40,6 +43,7 @@ _KINDS: Mapping[str, Any] = {
     "Integer": ctypes.c_int,
     "Boolean": ctypes.c_int,
 }
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,200}")
 _WHOLE = 2**31  # whole numbers of FMI are below
 _WARNING = 1  # the status up to which a call was answered
 
@@ -287,6 +291,7 @@ def _described(path: Path) -> Any:
         raise DescriptionError("FMU", str(path), "be a file that is there")
     if not zipfile.is_zipfile(path):
         raise DescriptionError("FMU", str(path), "be an FMU, which is a zip archive")
+    _check_archive(path)
     try:
         with path.open("rb") as file:  # fmpy leaves one of its own open if the text is torn
             found = read_model_description(file)
@@ -299,4 +304,15 @@ def _described(path: Path) -> Any:
         raise DescriptionError("FMU", str(path), "be an FMU of FMI 2.0", hint=hint)
     if found.coSimulation is None:
         raise DescriptionError("FMU", str(path), "be an FMU for co-simulation")
+    name = found.coSimulation.modelIdentifier
+    if not _IDENTIFIER.fullmatch(name):  # part of the path of the library that is loaded
+        raise DescriptionError("FMU modelIdentifier", name, "be an identifier of C")
     return found
+
+
+def _check_archive(path: Path) -> None:
+    """Refuse an FMU that leaves its folder when unpacked, or whose description is no plain XML."""
+    where = str(path)
+    with path.open("rb") as file, checked_archive(file, where) as packed:
+        text = member(packed, "modelDescription.xml", "TEXT_BYTES", where)
+    check_xml(text, f"{where}, modelDescription.xml")

@@ -20,7 +20,7 @@ FOLDERS = {
 FLOORS = [
     ["reference", "errors", "frozen", "_lazy"],
     ["units", "extras"],
-    ["validators", "work_precision", "numerics", "export"],
+    ["validators", "work_precision", "numerics", "export", "reading"],
     ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],
     ["as_published"],
     ["data"],

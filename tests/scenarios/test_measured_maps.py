@@ -158,7 +158,13 @@ def test_a_file_that_states_whether_it_repeats_is_believed(tmp_path, monkeypatch
 def test_an_instrument_file_states_whether_it_repeats():
     """The flag of a channel is that of the map."""
     channel = SimpleNamespace(
-        dim=2, name="height", unit="m", physical_sizes=(3.0, 2.0), index=0, is_periodic=True
+        dim=2,
+        name="height",
+        unit="m",
+        physical_sizes=(3.0, 2.0),
+        nb_grid_pts=(3, 2),
+        index=0,
+        is_periodic=True,
     )
     made = SimpleNamespace(pixel_size=(1.0, 1.0), heights=lambda: np.zeros((3, 2)))
     made.to_unit = lambda unit: made

@@ -13,12 +13,13 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any, NamedTuple
-from zipfile import BadZipFile
 
 import numpy as np
 
 from ...errors import ContactkitError
 from ...files.scenes import write_whole
+from ...reading.arrays import read_arrays
+from ...reading.texts import from_json
 from ...studies.run import end_with_parent, one_thread
 from .report import Made, index, write_page
 from .scripts import Script, digest, load, scripts
@@ -179,10 +180,10 @@ def _read(script: Script, out: Path, draft: bool) -> Made | None:
     """Data of a page that are kept, if the same code made them."""
     path = out / f"{script.slug}.npz"
     try:
-        with path.open("rb") as file, np.load(file) as stored:
-            data: dict[str, Any] = {name: stored[name] for name in stored.files}
-        head = json.loads(str(data.pop(_HEAD)))
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        with path.open("rb") as file:
+            data: dict[str, Any] = read_arrays(file, path.name)
+        head = from_json(str(data.pop(_HEAD)), path.name)
+    except (OSError, ValueError, KeyError):
         return None
     if head["digest"] != digest(script, draft):
         return None

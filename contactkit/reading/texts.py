@@ -1,0 +1,125 @@
+"""Texts of limited size, and plain values of limited depth from TOML and JSON."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..errors import DescriptionError
+from .limits import check_limit, limit_of
+
+__all__ = ["check_keys", "check_plain", "from_json", "read_text"]
+
+# What is no key of TOML: strings, which end with their line unless they have three quotes, and
+# comments. Possessive, so that the time rises with the length of a text and not with its square.
+_NO_KEYS = re.compile(
+    r'"""(?:[^\\"]|\\.|"(?!""))*+(?:"{3,5}|\Z)'
+    r"|'''(?:[^']|'(?!''))*+(?:'{3,5}|\Z)"
+    r'|"(?:[^"\\\n]|\\[^\n])*+["\n]?'
+    r"|'[^'\n]*+['\n]?"
+    r"|#[^\n]*+",
+    re.DOTALL,
+)
+_BETWEEN_KEYS = re.compile(r"[=\[\]{},\n]")
+_INT64 = 2**63
+
+
+def read_text(path: Path, limit: str, encoding: str = "utf-8") -> str:
+    """Text of a file of limited size.
+
+    Raises
+    ------
+    DescriptionError
+        If it is no file, or larger than the limit of this name.
+    UnicodeDecodeError, OSError
+        If it cannot be read.
+    """
+    if path.exists() and not path.is_file():
+        raise DescriptionError("file", str(path), "be readable", hint="it is a folder or a device")
+    with path.open("rb") as file:
+        content = file.read(limit_of(limit) + 1)  # whatever its size is said to be
+    if len(content) > limit_of(limit):
+        check_limit(limit, max(path.stat().st_size, len(content)), str(path))
+    return content.decode(encoding)
+
+
+def check_keys(text: str, where: str) -> None:
+    """Refuse a dotted key of TOML of too many parts, which a parser reads in quadratic time.
+
+    Raises
+    ------
+    DescriptionError
+        If a key has more parts than tables may have levels.
+
+    Examples
+    --------
+    >>> check_keys("a.b.c = 1.5  # ...", "scene.toml")
+    """
+    plain = _NO_KEYS.sub(" ", text)
+    depth = max(word.count(".") for word in _BETWEEN_KEYS.split(plain)) + 1
+    check_limit("DEPTH", depth, where)
+
+
+def check_plain(value: Any, where: str) -> None:
+    """Refuse plain values that are nested too deeply, or integers of more than 64 bits.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the file and what was found.
+
+    Examples
+    --------
+    >>> check_plain({"a": [1, 2.0, "text"]}, "scene.toml")
+    """
+    level, depth = [value], 0
+    while level:
+        check_limit("DEPTH", depth, where)
+        for item in level:
+            if isinstance(item, int) and not -_INT64 <= item < _INT64:
+                found = f"one has {item.bit_length()}"
+                raise DescriptionError(
+                    "file", where, "hold integers of at most 64 bits", hint=found
+                )
+        level = [inner for item in level for inner in _inside(item)]
+        depth += 1
+
+
+def _inside(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return value.values()
+    return value if isinstance(value, list) else ()
+
+
+def from_json(text: str | bytes, where: str) -> Any:
+    """Plain values of a JSON text.
+
+    Raises
+    ------
+    DescriptionError
+        If the text is too long, is not JSON, or holds what `check_plain` refuses.
+
+    Examples
+    --------
+    >>> from_json('{"a": [1, 2]}', "header")
+    {'a': [1, 2]}
+    """
+    check_limit("TEXT_BYTES", len(text), where)
+    try:
+        found = json.loads(text)
+    except RecursionError:
+        check_limit("DEPTH", _depth(text), where)
+        raise DescriptionError("file", where, "be nested less deeply") from None
+    except ValueError as error:  # also of a number of too many digits, and of no UTF-8
+        raise DescriptionError("file", where, "hold JSON", hint=str(error)[:200]) from None
+    check_plain(found, where)
+    return found
+
+
+def _depth(text: str | bytes) -> int:
+    """Greatest depth that the brackets of a text may reach."""
+    plain = text.decode("utf-8", "replace") if isinstance(text, bytes) else text
+    return plain.count("[") + plain.count("{")
