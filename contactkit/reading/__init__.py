@@ -1,6 +1,6 @@
 """Files from elsewhere: read within limits, or refused before memory is taken.
 
-limits        How large a file and what it announces may be, and how a limit is raised.
+limits        Limits of the size of a file and of what it announces, and how they are raised.
 texts         Texts of limited size, and plain values of limited depth from TOML and JSON.
 archives      Zip archives: names, sizes and compression ratio checked before a member is read.
 arrays        Arrays of npy and npz files: no pickle, no more than the file holds.

@@ -1,4 +1,4 @@
-"""How large a file and what it announces may be, and how a limit is raised."""
+"""Limits of the size of a file and of what it announces, and the variables that raise them."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ and whatever takes longer than some seconds or leaves a file behind, is kept in 
 from __future__ import annotations
 
 import argparse
+import faulthandler
 import hashlib
 import random
 import resource
@@ -71,13 +72,18 @@ def one(name: str, reader: Reader, file: str, content: bytes) -> str | Finding:
     return outcome
 
 
-def cases(name: str, reader: Reader, seed: int, n: int) -> list[Finding]:
-    """Findings among `n` changed files of a reader; equal seeds give equal files."""
+def cases(name: str, reader: Reader, seed: int, n: int, keep: Path | None = None) -> list[Finding]:
+    """Findings among `n` changed files of a reader; equal seeds give equal files.
+
+    The file that is being read is kept in a folder, so that one that ends the process is there.
+    """
     found = []
     for i in range(n):
         dice = random.Random(f"{name} {seed} {i}")
         file = dice.choice(sorted(reader.seeds))
         content = changed(reader.seeds[file], list(reader.seeds.values()), dice)
+        if keep is not None:
+            (keep / f"last--{name}--{file}").write_bytes(content)
         outcome = one(name, reader, file, content)
         if isinstance(outcome, Finding):
             found.append(outcome)
@@ -109,6 +115,7 @@ def main() -> int:
         _say(outcome.what if isinstance(outcome, Finding) else outcome)
         return 0
     made = {name: known[name]() for name in given.only or known}
+    faulthandler.enable()
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     signal.signal(signal.SIGALRM, _too_long)
     _say(f"seed {given.seed}, readers {', '.join(made)}")
@@ -117,11 +124,12 @@ def main() -> int:
 
 def _searched(made: dict[str, Reader], seed: int, seconds: float, out: Path) -> Counter[str]:
     end, said, i = time.monotonic() + seconds, time.monotonic(), 0
+    out.mkdir(parents=True, exist_ok=True)
     counts, kept = Counter[str](), Counter[str]()
     while time.monotonic() < end:
         name = list(made)[i % len(made)]
         signal.alarm(120)  # of a busy machine; `one` judges by the time of the processor
-        found = cases(name, made[name], seed + i, 10)
+        found = cases(name, made[name], seed + i, 10, out)
         signal.alarm(0)
         counts[name] += 10
         i += 1
