@@ -62,12 +62,13 @@ if TYPE_CHECKING:
     from .contact.press import press
     from .contact.result import ContactResult
     from .contact.solve import solve
-    from .effects import EFFECTS
+    from .effects import EFFECTS, register_effect
     from .errors import (
         ContactkitError,
         ConvergenceError,
         DescriptionError,
         InfeasibleError,
+        InstalledEffectWarning,
         NotSimulatedError,
         PlanError,
         ValidityWarning,
@@ -161,6 +162,7 @@ _HOMES = {
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
     "InfeasibleError": "errors",
+    "InstalledEffectWarning": "errors",
     "Interface": "scene.interface",
     "IslandBridges": "contact.effects.island_bridges",
     "Layer": "scene.materials",
@@ -223,6 +225,7 @@ _HOMES = {
     "press": "contact.press",
     "pull_off_curve": "analyses.pull_off",
     "published": "as_published.lookup",
+    "register_effect": "effects",
     "save_result": "files.results",
     "save_scene": "files.scenes",
     "simulate": "separation.simulate",
@@ -267,6 +270,7 @@ __all__ = [
     "ImposedSpeed",
     "ImposedTime",
     "InfeasibleError",
+    "InstalledEffectWarning",
     "Interface",
     "IslandBridges",
     "Layer",
@@ -330,6 +334,7 @@ __all__ = [
     "press",
     "published",
     "pull_off_curve",
+    "register_effect",
     "save_result",
     "save_scene",
     "simulate",

@@ -10,6 +10,7 @@ __all__ = [
     "ConvergenceError",
     "DescriptionError",
     "InfeasibleError",
+    "InstalledEffectWarning",
     "MissingExtraError",
     "NotSimulatedError",
     "PlanError",
@@ -128,3 +129,7 @@ class MissingExtraError(ContactkitError, ImportError):
 
 class ValidityWarning(UserWarning):
     """A model was used outside the range it was derived for."""
+
+
+class InstalledEffectWarning(UserWarning):
+    """An effect that another package declares cannot be used; the message states why."""

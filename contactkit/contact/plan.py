@@ -303,8 +303,7 @@ def _check_bodies(scene: ContactScene) -> None:
 
 
 def _check_effects(scene: ContactScene) -> None:
-    known = ", ".join(kind.__name__ for kind in CONTACT_EFFECTS)
-    kinds = check_listed(scene.effects, ContactEffect, "contact", known)
+    kinds = check_listed(scene.effects, ContactEffect, "contact", CONTACT_EFFECTS)
     given = [k.__name__ for k in kinds if issubclass(k, Compliance)]
     if len(given) != 1:
         raise PlanError(

@@ -70,7 +70,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     for key, one in maps.items():
         if one.shape != grid.shape or one.dtype != np.float64:
             raise ValueError(f"{key} is {one.shape} of {one.dtype}, not {grid.shape} of float64")
-    parts = {CONTACT_EFFECTS.by_name[n]: _decode(p, arrays) for n, p in header["parts"].items()}
+    parts = {CONTACT_EFFECTS.find(n): _decode(p, arrays) for n, p in header["parts"].items()}
     contact = Contact(scene, grid, maps["pressure"], maps["displacement"], maps["gap"])
     attraction = scene.effect(Attraction)
     if attraction is not None and type(attraction) in parts:

@@ -99,12 +99,13 @@ def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callab
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
         name = rest.pop(tag, None)
-        known = kinds.by_name if isinstance(kinds, EffectRegistry) else kinds
-        if name not in known:
+        if isinstance(kinds, EffectRegistry):
+            return _CONVERTER.structure(rest, kinds.find(name, tag))
+        if name not in kinds:
             raise DescriptionError(
-                tag, name, "name a known kind", hint=nearest(name, sorted(known))
+                tag, name, "name a known kind", hint=nearest(name, sorted(kinds))
             )
-        return _CONVERTER.structure(rest, known[name])
+        return _CONVERTER.structure(rest, kinds[name])
 
     return hook
 

@@ -218,7 +218,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     InfeasibleError
         If the scene has no answer.
     """
-    kinds = check_listed(scene.effects, SeparationEffect, "separation", SEPARATION_EFFECTS.names)
+    kinds = check_listed(scene.effects, SeparationEffect, "separation", SEPARATION_EFFECTS)
     check_bodies(scene)
     liquid = scene.meniscus.liquid.at(scene.temperature)
     _check_effects(scene, kinds, liquid)

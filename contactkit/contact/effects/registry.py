@@ -30,4 +30,5 @@ CONTACT_EFFECTS: EffectRegistry[ContactEffect[Any]] = EffectRegistry(
     SubsurfaceStress,
     FilmMeniscus,
     IslandBridges,
+    acts_in="contact",
 )

@@ -33,4 +33,5 @@ SEPARATION_EFFECTS: EffectRegistry[SeparationEffect] = EffectRegistry(
     VanDerWaalsForce,
     AdhesiveContact,
     AsperityMenisci,
+    acts_in="separation",
 )

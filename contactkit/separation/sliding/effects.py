@@ -65,6 +65,7 @@ class SlidingForce(SeparationEffect):
     `column` names its curve and, by `Column.impulse`, its impulse.
     """
 
+    acts_in: ClassVar[str] = "sliding"
     column: ClassVar[Column]
 
     @classmethod
@@ -398,5 +399,7 @@ class ContactAngleHysteresis(SlidingForce):
         return HysteresisPart(result, self.column)
 
 
-SLIDING_EFFECTS: EffectRegistry[SlidingForce] = EffectRegistry(CouetteForce, ContactAngleHysteresis)
+SLIDING_EFFECTS: EffectRegistry[SlidingForce] = EffectRegistry(
+    CouetteForce, ContactAngleHysteresis, acts_in="sliding"
+)
 """The effects of a `SlidingScene`; a `ShearLimit` may stand beside them."""

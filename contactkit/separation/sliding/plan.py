@@ -129,15 +129,14 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
 
 
 def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
-    known = _KNOWN.names
-    kinds = check_listed(scene.effects, SeparationEffect, "sliding", known)
+    kinds = check_listed(scene.effects, SeparationEffect, "sliding", _KNOWN)
     if not any(isinstance(effect, SlidingForce) for effect in scene.effects):
         raise PlanError(
-            f"a sliding scene needs at least one force along the bodies; known: {known}"
+            f"a sliding scene needs at least one force along the bodies; known: {_KNOWN.names}"
         )
     problems = [
         f"{type(effect).__name__} needs a SeparationScene: it acts where the gap opens; known for "
-        f"sliding: {known}"
+        f"sliding: {_KNOWN.names}"
         for effect in scene.effects
         if type(effect) not in _KNOWN
     ]
