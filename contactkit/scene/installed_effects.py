@@ -16,7 +16,7 @@ GROUP = "contactkit.effects"
 
 
 class InstalledEffect(NamedTuple):
-    """What an entry point leads to, or why it leads nowhere.
+    """Effect of an entry point, or the problem with it.
 
     `name` and `target` are those of the entry point, `package` is the one that declares it;
     `problem` is empty if `kind` could be imported.
