@@ -5,37 +5,12 @@
    are continuous where the limit begins: moving that place changes nothing to first order. */
 
 #include "film.h"
+#include "root.h"
 
 #include <math.h>
 
+#define ROUND_OFF 4e-16
 #define CK_PI 3.14159265358979323846
-
-typedef double (*ck_curve)(double at, const double *given);
-
-/* Root of a continuous curve between two points of opposite sign: Illinois false position,
-   halved whenever it does not halve the bracket in three evaluations. */
-static double root_of(ck_curve curve, const double *given, double low, double high) {
-    double f_low = curve(low, given), f_high = curve(high, given), width = fabs(high - low);
-    int i, since = 0;
-    if (f_low == 0.0) return low;
-    if (f_high == 0.0) return high;
-    for (i = 0; i < 4000; i++) {
-        double bottom = low < high ? low : high, top = low < high ? high : low, x, f;
-        if (!(top - bottom > 4e-16 * (fabs(low) > fabs(high) ? fabs(low) : fabs(high)))) break;
-        x = high - f_high * (high - low) / (f_high - f_low);
-        if (++since > 2 || !(x > bottom && x < top)) {
-            x = 0.5 * (low + high);
-            if (x == low || x == high) break;
-        }
-        f = curve(x, given);
-        if (f == 0.0) return x;
-        if ((f > 0.0) == (f_high > 0.0)) f_low *= 0.5;
-        else low = high, f_low = f_high;
-        high = x, f_high = f;
-        if (fabs(high - low) <= 0.5 * width) width = fabs(high - low), since = 0;
-    }
-    return high;
-}
 
 static void untouched(double force, ck_left *left) {
     left->value = force, left->by_force = 1.0, left->by_gap = left->by_shape = 0.0;
@@ -51,7 +26,9 @@ void ck_disc_tension(double force, double area, double tension, ck_left *left) {
     left->by_shape = (1.0 - fraction) * tension;
 }
 
-static double stieber(double rho, const double *s) {
+/* given: twice the force over what the tension holds */
+static double stieber(double rho, const void *given) {
+    const double *s = given;
     return 1.0 - rho + rho * log(rho) - 1.0 / s[0];
 }
 
@@ -64,7 +41,7 @@ void ck_disc_tension_reynolds(double force, double area, double tension, ck_left
         g = 1.0 - x / 3.0 - x * x * x / 360.0;
         by_s = (1.0 / 3.0 + x * x / 120.0) * 0.5 * x / s;
     } else {
-        double rho = root_of(stieber, &s, 1e-300, 1.0);
+        double rho = ck_root_between(stieber, &s, 1e-300, 1.0, ROUND_OFF);
         double rest = 0.5 * (1.0 - rho) * (1.0 - rho) - rho * (1.0 - rho) - rho * rho * log(rho);
         g = rho + s * rest;
         by_s = rest + 1.0 / (s * s * log(rho));
@@ -108,14 +85,16 @@ void ck_sphere_tension(double force, double radius, double gap, double shape, do
 }
 
 /* given: k, radius, gap, strength */
-static double shear_excess(double r, const double *given) {
-    double height = given[2] + r * r / (2.0 * given[1]);
-    return given[0] * r - given[3] * height * height;
+static double shear_excess(double r, const void *given) {
+    const double *of = given;
+    double height = of[2] + r * r / (2.0 * of[1]);
+    return of[0] * r - of[3] * height * height;
 }
 
-static double shear_slope(double r, const double *given) {
-    double height = given[2] + r * r / (2.0 * given[1]);
-    return given[0] - 2.0 * given[3] * r * height / given[1];
+static double shear_slope(double r, const void *given) {
+    const double *of = given;
+    double height = of[2] + r * r / (2.0 * of[1]);
+    return of[0] - 2.0 * of[3] * r * height / of[1];
 }
 
 static double fraction_within(double r, double thin) { return r * r / (r * r + thin); }
@@ -153,11 +132,15 @@ static int yields(const double given[4], double rim, double *inner, double *oute
     double k = given[0], radius = given[1], far, peak;
     double reach = cbrt(k * radius * radius / given[3]) + k * radius / (2.0 * given[3] * given[2]);
     if (rim < reach) reach = rim;
-    peak = shear_slope(reach, given) >= 0.0 ? reach : root_of(shear_slope, given, 0.0, reach);
+    peak = shear_slope(reach, given) >= 0.0
+               ? reach
+               : ck_root_between(shear_slope, given, 0.0, reach, ROUND_OFF);
     if (!(shear_excess(peak, given) > 0.0)) return 0;
-    *inner = root_of(shear_excess, given, 0.0, peak);
+    *inner = ck_root_between(shear_excess, given, 0.0, peak, ROUND_OFF);
     for (far = peak; shear_excess(far, given) > 0.0 && far < rim;) far = 2.0 * far < rim ? 2.0 * far : rim;
-    *outer = shear_excess(far, given) >= 0.0 ? far : root_of(shear_excess, given, peak, far);
+    *outer = shear_excess(far, given) >= 0.0
+                 ? far
+                 : ck_root_between(shear_excess, given, peak, far, ROUND_OFF);
     return 1;
 }
 

@@ -1,6 +1,7 @@
 /* Impact of a spring tip on a site that deforms, and rest on it. As
    contactkit/models/micromirror/tip_impact.py, operation by operation. */
 
+#include "root.h"
 #include "tip.h"
 
 #include <math.h>
@@ -8,6 +9,7 @@
 #define MOST_STEPS 20000
 #define PARTS 30 /* halvings of an unloading curve, in which its work is summed */
 #define SAME 1e-12
+#define SAME_FRACTION 1e-13 /* of a step */
 
 /* Depth, speed, impulse of the spring, and work of the damping. */
 enum { DEPTH, SPEED, IMPULSE, DAMPED, UNKNOWNS };
@@ -120,33 +122,11 @@ typedef struct {
     int what;
 } crossing;
 
-static double over(const crossing *c, double fraction) {
+static double over(double fraction, const void *given) {
+    const crossing *c = given;
     double end[UNKNOWNS], error[UNKNOWNS];
     take(c->site, c->here, fraction * c->length, end, error);
     return end[c->what] - c->level;
-}
-
-/* Fraction of a step at which the level is crossed: false position, halved where it is slow. */
-static double crossed(const crossing *c) {
-    double low = 0.0, high = 1.0, f_low = over(c, low), f_high = over(c, high), width = 1.0;
-    int since = 0;
-    if (f_low == 0.0) return low;
-    if (f_high == 0.0) return high;
-    while (fabs(high - low) > 1e-13 * larger(fabs(low), fabs(high))) {
-        double x = high - f_high * (high - low) / (f_high - f_low), f;
-        since++;
-        if (since > 2 || !(smaller(low, high) < x && x < larger(low, high))) {
-            x = 0.5 * (low + high);
-            if (x == low || x == high) break;
-        }
-        f = over(c, x);
-        if (f == 0.0) return x;
-        if ((f > 0.0) == (f_high > 0.0)) f_low *= 0.5;
-        else low = high, f_low = f_high;
-        high = x, f_high = f;
-        if (fabs(high - low) <= 0.5 * width) width = fabs(high - low), since = 0;
-    }
-    return high;
 }
 
 /* End a step where the tip is deepest, or where the faces detach. */
@@ -158,7 +138,7 @@ static double shortened(const ck_site *site, const ck_impact *here, double lengt
         if (!(reached[SPEED] < 0.0 && reached[DEPTH] < out && out < here->depth)) return length;
         c.what = DEPTH, c.level = out;
     }
-    length *= crossed(&c);
+    length *= ck_root_between(over, &c, 0.0, 1.0, SAME_FRACTION);
     take(site, here, length, reached, error);
     reached[c.what] = c.level;
     return length;
