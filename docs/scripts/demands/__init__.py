@@ -7,6 +7,9 @@ hard_contacts  Hard cases of rough contacts: all pixels, hardness, offsets, edge
 hard_films     Hard cases of films in motion: stiff films, small openings, thin lenses.
 hard_bridges   Hard cases of liquid bridges: right angles, rupture, pinned contact lines.
 hard_cases     Page of the hard cases.
+cost           Cost of a scene: CPU seconds, peak memory and counts of plan and run.
+effect_scenes  A scene for each effect, with it and without it, and the formula of the effect.
+effects        Page of the effects: role, formula, source, validity, cost, scenes.
 """
 
 from __future__ import annotations
@@ -24,5 +27,6 @@ def _module(name: str) -> Callable[[], ModuleType]:
 
 PAGES: Mapping[str, Callable[[], ModuleType]] = {
     "hard-cases": _module("hard_cases"),
+    "effects": _module("effects"),
 }
 """Modules of the pages, with ``measure() -> data``, ``page(data) -> text``, ``draw(data)``."""

@@ -79,7 +79,7 @@ def _section(case: HardCase, found: Mapping[str, Any]) -> str:
 
 def draw(data: Mapping[str, Any]) -> None:
     """Errors of both methods, a line for each case."""
-    from contactkit.plot import separation as plot
+    from contactkit.plot import style as plot
 
     made, ax = plot.figure(size=(8.6, 6.2))
     rows = list(CASES.items())[::-1]

@@ -120,7 +120,7 @@ def picture(made: Any, name: str) -> None:
     """Save a figure as a small PNG beside the pages."""
     from PIL import Image
 
-    from contactkit.plot import separation as plot
+    from contactkit.plot import style as plot
 
     path = plot.save(made, SHOWN / name)
     with Image.open(path) as image:

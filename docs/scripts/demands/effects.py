@@ -1,0 +1,165 @@
+"""Page of the effects: role, formula, source, validity, cost, and the scenes that list each."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+from contactkit.separation.sliding.effects import SLIDING_EFFECTS
+
+from .cost import cost
+from .effect_scenes import ENTRIES
+from .page import conditions, machine, picture, slug, table
+
+__all__ = ["NAME", "draw", "lists", "measure", "page"]
+
+NAME = "effects"
+ROOT = Path(__file__).parents[3]
+KINDS = {"Separation": SEPARATION_EFFECTS, "Sliding": SLIDING_EFFECTS, "Contact": CONTACT_EFFECTS}
+_WHERE = ("models", "examples", "contactkit/data/templates")
+
+
+def measure() -> dict[str, Any]:
+    """Cost of each effect, its sources and numbers of validity, and the scenes that list it."""
+    return {"measured": machine(), "effects": {k.name: _measured(k) for k in ENTRIES}}
+
+
+def _measured(kind: type) -> dict[str, Any]:
+    entry = ENTRIES[kind]
+    with_it, result = cost(entry.scene, entry.accuracy)
+    found: dict[str, Any] = {"with": with_it._asdict(), "without": None}
+    shared: set[str] = set()
+    if entry.without is not None:
+        without, other = cost(entry.without, entry.accuracy)
+        found["without"] = without._asdict()
+        shared = {number.name for number in other.validity}
+    own = [one for one in result.validity if one.name not in shared]
+    effect = next(e for e in entry.scene.effects if isinstance(e, kind))
+    return found | {
+        "validity": [f"{one.name} ({_bounds(one)})" for one in own],
+        "sources": list(effect.cites(entry.scene)),
+        "scenes": _uses(kind),
+    }
+
+
+def _bounds(one: Any) -> str:
+    return f"at most {one.high:g}" if one.high < float("inf") else f"at least {one.low:g}"
+
+
+def lists(path: Path, kind: Any) -> bool:
+    """Whether a scene, an example or a page of the gallery lists an effect."""
+    text = path.read_text(encoding="utf-8")
+    return bool(re.search(rf'effect\s*=\s*"{kind.name}"|\b{kind.__name__}\(', text))
+
+
+def _uses(kind: Any) -> list[str]:
+    """Files that list an effect."""
+    paths = (p for folder in _WHERE for p in sorted((ROOT / folder).rglob("*")))
+    some = (p for p in paths if p.suffix in (".toml", ".py"))
+    return [p.relative_to(ROOT).as_posix() for p in some if lists(p, kind)]
+
+
+def page(data: Mapping[str, Any]) -> str:
+    """The page as Markdown."""
+    parts = [
+        "# Effects",
+        "A scene lists the effects it calls for; nothing else is prepared, computed, allocated or "
+        "imported. For each effect: its role, formula, source and range of validity, and what it "
+        "costs: a scene is run with the effect and without it, and the difference is what leaving "
+        "it out saves.",
+        "![Seconds and memory of a scene with and without each effect](effects.png)",
+        "*Convolutions* are applications of the elastic operator, *right-hand sides* evaluations "
+        "of the equation of motion. *Memory* is the peak of what Python and numpy allocate in plan "
+        "and run (`tracemalloc`). Seconds of plan and run. Where a saving is negative the run is "
+        "longer without the effect: a film that tears or breaks early needs fewer steps.",
+    ]
+    for title, registry in KINDS.items():
+        rows = [_row(kind, data["effects"][kind.name]) for kind in registry]
+        head = ("effect", "seconds with", "without", "saved", "memory saved", "counts saved")
+        parts += [f"## {title}", table(head, rows)]
+        parts += [_section(kind, data["effects"][kind.name]) for kind in registry]
+    parts += [
+        "## How it was made",
+        "`make demands` runs all scenes, which are in `docs/scripts/demands/effect_scenes.py`; "
+        "`python docs/scripts/demands effects --draw` makes the page from the data, "
+        "`docs/demands/effects.json`. A registered effect without an entry fails the tests.",
+        conditions(data["measured"]),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def _row(kind: Any, found: Mapping[str, Any]) -> tuple[str, ...]:
+    name = f"[{kind.name}](#{slug(kind.__name__)})"
+    with_it, without = found["with"], found["without"]
+    if without is None:
+        return name, _seconds(with_it["seconds"]), "-", "-", "-", "-"
+    saved = with_it["seconds"] - without["seconds"]
+    return (
+        name,
+        _seconds(with_it["seconds"]),
+        _seconds(without["seconds"]),
+        f"{100.0 * saved / with_it['seconds']:.0f} %",
+        _memory(with_it["memory"] - without["memory"]),
+        ", ".join(_saved_counts(with_it["counts"], without["counts"])) or "none",
+    )
+
+
+def _seconds(value: float) -> str:
+    return f"{value:.2g}" if value >= 1e-3 else f"{value:.1e}"
+
+
+def _memory(value: float) -> str:
+    """Memory [MiB], in the unit that suits it."""
+    return f"{value:.1f} MiB" if abs(value) >= 0.95 else f"{1024.0 * value:.0f} KiB"
+
+
+def _saved_counts(with_it: Mapping[str, int], without: Mapping[str, int]) -> list[str]:
+    return [f"{n - without[k]} {k}" for k, n in with_it.items() if n != without[k]]
+
+
+def _section(kind: Any, found: Mapping[str, Any]) -> str:
+    entry = ENTRIES[kind]
+    role = inspect.cleandoc(kind.__mro__[1].__doc__ or "").partition("\n")[0]
+    scenes = ", ".join(f"`{path}`" for path in found["scenes"])
+    counts = ", ".join(f"{n} {k}" for k, n in found["with"]["counts"].items() if n)
+    lines = [
+        f"### {kind.__name__}",
+        f"{kind.summary[0].upper()}{kind.summary[1:]}. Role: {role[0].lower()}{role[1:]}",
+        f"$$ {entry.formula} $$",
+        f"- Source: {'; '.join(found['sources'])}.",
+        f"- Validity: {'; '.join(found['validity']) or 'no number of its own'}.",
+        f"- Measured: {entry.what}: {_seconds(found['with']['seconds'])} s, "
+        f"{_memory(found['with']['memory'])}, {counts}; in its place: {entry.instead}.",
+        f"- Scenes that list it: {scenes or 'none of those shipped'}.",
+    ]
+    return "\n\n".join([*lines[:3], "\n".join(lines[3:])])
+
+
+def draw(data: Mapping[str, Any]) -> None:
+    """Seconds and memory of each scene with the effect and without it."""
+    from contactkit.plot import style as plot
+
+    kinds = [kind for registry in KINDS.values() for kind in registry][::-1]
+    made, axes = plot.figure(1, 2, size=(10.0, 6.6), sharey=True)
+    shown = {"seconds": "CPU time [s]", "memory": "peak memory [MiB]"}
+    for ax, (key, label) in zip(axes, shown.items(), strict=True):
+        for y, kind in enumerate(kinds):
+            found = data["effects"][kind.name]
+            high = found["with"][key]
+            if found["without"] is not None:
+                low = found["without"][key]
+                ax.plot([low, high], [y, y], color="0.75", lw=2.0, zorder=1)
+                ax.plot(low, y, "o", color="#2a9d8f", mfc="white", zorder=2)
+            ax.plot(high, y, "o", color="#1f4e79", ms=5, zorder=3)
+        ax.set(xscale="log", xlabel=label)
+        ax.grid(False, axis="y")
+    axes[0].plot([], [], "o", color="#1f4e79", ms=5, label="with the effect")
+    axes[0].plot([], [], "o", color="#2a9d8f", mfc="white", label="without it")
+    axes[0].set_yticks(range(len(kinds)), [kind.name for kind in kinds], fontsize=9)
+    plot.shared_legend(made, axes[0])
+    picture(made, NAME)
