@@ -48,7 +48,7 @@ def cpu_seconds(work: Callable[[], Any], repeats: int = REPEATS) -> float:
 
 
 def counts(result: Any) -> dict[str, int]:
-    """What a run counts: convolutions and transforms, or steps and evaluations."""
+    """Counts of a run: convolutions and transforms, or steps and evaluations."""
     work = getattr(result, "work", None)
     if hasattr(work, "n_ffts"):
         return {"convolutions": work.n_operator_applications, "FFTs": work.n_ffts}
