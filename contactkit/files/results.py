@@ -158,7 +158,7 @@ def _no_result(where: str, error: Exception) -> ContactkitError:
     if isinstance(error, ContactkitError):
         return error  # a result whose content this version refuses
     return DescriptionError(
-        "file", where, "be a result of contactkit", hint=f"{type(error).__name__}: {error}"
+        "file", where, "be a result of contactkit", hint=f"{type(error).__name__}: {error}"[:500]
     )
 
 
@@ -169,7 +169,8 @@ def _read(source: IO[bytes], name: str) -> AnyResult:
     except DescriptionError as error:
         raise DescriptionError("file", name, "be a result of contactkit", hint=str(error)) from None
     result = _unpacked(header, columns, name)
-    for key, (value, _) in result.scalars().items():
+    numbers: Mapping[str, tuple[Any, str]] = result.scalars()
+    for key, (value, _) in numbers.items():
         if not isinstance(value, Real):
             raise TypeError(f"{key} is a {type(value).__name__} and no number")
     return result

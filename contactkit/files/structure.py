@@ -396,14 +396,20 @@ class Problem(NamedTuple):
         return f"{self.text}  at {self.place}" + (f", line {number}" if number else "")
 
 
+_MOST_LISTED = 50
+
+
 class FileError(DescriptionError):
-    """A file with errors, all of which the message lists."""
+    """A file with errors, which the message lists."""
 
     def __init__(self, origin: str, problems: Sequence[Problem], text: str = "") -> None:
         super().__init__(origin, "", "be right")
         self.problems = tuple(problems)
         lines = lines_of_keys(text)
-        listed = "\n  ".join(problem.text_with_line(lines) for problem in problems)
+        shown = [problem.text_with_line(lines) for problem in problems[:_MOST_LISTED]]
+        if len(problems) > _MOST_LISTED:
+            shown.append(f"and {len(problems) - _MOST_LISTED} more")
+        listed = "\n  ".join(shown)
         self.args = (f"{origin} cannot be used:\n  {listed}",)
 
 

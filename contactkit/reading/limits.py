@@ -38,6 +38,7 @@ LIMITS = {
     "MEMBERS": Limit(10_000, "files", "archive"),
     "DEPTH": Limit(64, "levels", "tables, lists or elements inside each other"),
     "PIXELS": Limit(2**26, "pixels", "height map, or grid of a contact"),
+    "SECONDS": Limit(300, "s", "time to read a height map in a format of an instrument"),
     "POINTS": Limit(10**6, "points", "study, or curve over the gap"),
 }
 """Limits by name; the environment variable ``CONTACTKIT_MAX_`` and the name sets another."""

@@ -1,10 +1,13 @@
 """Rough surfaces: random and measured height maps, and their statistics.
 
-elementary         Heights of simple shapes: waves, spheres, paraboloids.
-random_surfaces    Random rough surfaces: exponential autocorrelation, self-affine.
-height_maps        Measured height maps: reading, validation, detrending.
-surface_data_file  Surface data files of ISO 25178-71 in their text form.
-spectra            Power spectral densities of maps and profiles; moments.
-statistics         Roughness parameters, summits, bearing curve, autocorrelation.
-contact_theories   Area over load after Persson, Bush, Gibson and Thomas, Greenwood and Williamson.
+elementary           Heights of simple shapes: waves, spheres, paraboloids.
+random_surfaces      Random rough surfaces: exponential autocorrelation, self-affine.
+height_maps          Measured height maps: reading, validation, detrending.
+map_fields           Sizes and units of a map, which its file states or the caller.
+surface_data_file    Surface data files of ISO 25178-71 in their text form.
+instrument_files     Formats of instruments, read by SurfaceTopography in a process of its own.
+instrument_channels  One channel of such a file: what the process does.
+spectra              Power spectral densities of maps and profiles; moments.
+statistics           Roughness parameters, summits, bearing curve, autocorrelation.
+contact_theories     Area over load: Persson; Bush, Gibson and Thomas; Greenwood and Williamson.
 """

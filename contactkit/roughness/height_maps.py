@@ -8,22 +8,20 @@ from __future__ import annotations
 
 import hashlib
 import math
-import warnings
-import zipfile
 from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ContactkitError, DescriptionError
-from ..reading.archives import checked_archive
+from ..errors import DescriptionError
 from ..reading.arrays import read_array
 from ..reading.limits import check_limit, check_size
-from ..units import parse_unit
 from ..validators import LARGEST
+from .instrument_files import MATRICES, read_instrument
+from .map_fields import given_twice, length_unit, needed
 from .surface_data_file import is_surface_data_text, read_surface_data
 
 __all__ = [
@@ -40,8 +38,6 @@ Array = NDArray[np.float64]
 Pair = tuple[float, float]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
-_MATRICES = (".csv", ".txt", ".dat", ".tsv", ".asc")
-_UNMARKED = ("hgt", "nms")
 _RESIDUE = 8.0 * float(np.finfo(np.float64).eps)  # of the heights given, that detrending leaves
 _SPARSE = 16  # grid points for each that is there, above which a list of points is no map
 _ROUNDED = 0.02  # tolerance of coordinates over the step, for values rounded in a text
@@ -323,23 +319,23 @@ def read_height_map(
     size = _checked_size(pixel_size)
     ending = file.suffix.lower()
     source, is_periodic = file.name, None
-    if ending == ".npy" or ending in _MATRICES:
-        size = _needed(size, "pixel_size", "1e-9 or (2e-9, 1e-9) [m]", file)
+    if ending == ".npy" or ending in MATRICES:
+        size = needed(size, "pixel_size", "1e-9 or (2e-9, 1e-9) [m]", file)
         raw = _load_npy(file) if ending == ".npy" else read_matrix(file)
-        heights = raw * _length_unit(unit, file)
+        heights = raw * length_unit(unit, file)
     elif ending == ".xyz":
         if size is not None:
-            raise _double("pixel_size", pixel_size, file)
-        factor = _length_unit(unit, file)
+            raise given_twice("pixel_size", pixel_size, file)
+        factor = length_unit(unit, file)
         raw, own = read_points(file)
         heights, size = raw * factor, (own[0] * factor, own[1] * factor)
     elif ending == ".sdf" and is_surface_data_text(file):
         for field, given in (("unit", unit), ("pixel_size", pixel_size)):
             if given is not None:
-                raise _double(field, given, file)
+                raise given_twice(field, given, file)
         heights, size = read_surface_data(file)
     else:
-        heights, size, source, is_periodic = _read_instrument(file, size, unit, channel)
+        heights, size, source, is_periodic = read_instrument(file, size, unit, channel)
     checked = _checked(heights, file)
     if not all(math.isfinite(d) and 0.0 < d <= LARGEST for d in size):
         raise DescriptionError(
@@ -350,7 +346,11 @@ def read_height_map(
 
 def _existing(path: str | PathLike[str]) -> Path:
     file = Path(path)
-    if not file.is_file():
+    try:
+        is_there = file.is_file()
+    except OSError:  # a name of too many letters
+        is_there = False
+    if not is_there:
         raise DescriptionError("HeightMap.path", str(path), "be a file that exists")
     return file
 
@@ -369,29 +369,6 @@ def _checked_size(given: float | Pair | None) -> Pair | None:
             "HeightMap.pixel_size", given, "be one or two positive, finite lengths", unit="m"
         )
     return pair
-
-
-def _needed(value: Any, field: str, example: str, file: Path) -> Any:
-    if value is None:
-        raise DescriptionError(
-            f"HeightMap.{field}",
-            None,
-            f"be given: {file.name} does not contain it",
-            hint=f"for example {field}={example}",
-        )
-    return value
-
-
-def _length_unit(unit: str | None, file: Path) -> float:
-    """Length of a unit [m]."""
-    found = parse_unit(_needed(unit, "unit", "'nm'", file))
-    if dict(found.dimension) != {"m": 1}:
-        raise DescriptionError("HeightMap.unit", unit, "be a unit of length", hint="such as 'nm'")
-    return found.factor
-
-
-def _double(field: str, value: object, file: Path) -> DescriptionError:
-    return DescriptionError(f"HeightMap.{field}", value, f"be left out: {file.name} contains it")
 
 
 def _load_npy(file: Path) -> Array:
@@ -434,94 +411,3 @@ def _checked(heights: Array, file: Path) -> Array:
             hint="no length is as large; check the unit",
         )
     return made
-
-
-class _Channel(NamedTuple):
-    """Heights [m], pixel size [m], source and periodicity of a channel of an instrument file."""
-
-    heights: Array
-    pixel_size: Pair
-    source: str
-    is_periodic: bool | None
-
-
-def _read_instrument(
-    file: Path, size: Pair | None, unit: str | None, channel: int | None
-) -> _Channel:
-    try:
-        from SurfaceTopography import open_topography
-    except ImportError as error:
-        raise DescriptionError(
-            "HeightMap.path",
-            str(file),
-            f"end in .npy, .xyz, {', '.join(_MATRICES)}, or be .sdf as text",
-            hint="files of instruments and binary .sdf need pip install contactkit[maps]",
-        ) from error
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a reader, about properties checked below
-            _check_packed(file)
-            with open_topography(str(file)) as reader:
-                return _read_channel(reader, file, size, unit, channel)
-    except ContactkitError:
-        raise
-    except Exception as error:  # some twenty readers, which raise what they like
-        raise DescriptionError(
-            "HeightMap.path",
-            str(file),
-            "be in a format that SurfaceTopography reads",
-            hint="export it as text or npy from the instrument's software",
-        ) from error
-
-
-def _check_packed(file: Path) -> None:
-    """Refuse a file that is an archive and unpacks to more than a limit."""
-    with file.open("rb") as content:
-        if zipfile.is_zipfile(content):
-            with checked_archive(content, str(file)):
-                pass
-
-
-def _read_channel(
-    reader: Any, file: Path, size: Pair | None, unit: str | None, channel: int | None
-) -> _Channel:
-    # These readers accept any file of some length, as the format has no signature.
-    if reader.format() in _UNMARKED and file.suffix.lower() != f".{reader.format()}":
-        raise DescriptionError(
-            "HeightMap.path",
-            str(file),
-            "be in a format that says what it is",
-            hint=f"it looks like {reader.format()!r}, but only by its length",
-        )
-    channels = reader.channels
-    if channel is not None and not 0 <= channel < len(channels):
-        names = ", ".join(f"{i}: {c.name}" for i, c in enumerate(channels))
-        raise DescriptionError("HeightMap.channel", channel, f"be one of {names}")
-    info = channels[channel] if channel is not None else reader.default_channel
-    if info.dim != 2 or not getattr(info, "is_height_channel", True):
-        raise DescriptionError(
-            "HeightMap.channel",
-            info.name,
-            f"be a map of heights in {file.name}",
-            hint="a profile along a line is not a surface; a phase or a voltage is not a height",
-        )
-    if info.unit is not None and unit is not None:
-        raise _double("unit", unit, file)
-    if info.physical_sizes is not None and size is not None:
-        raise _double("pixel_size", size, file)
-    check_limit("PIXELS", math.prod(info.nb_grid_pts), str(file))
-    given: dict[str, Any] = {}
-    factor = 1.0
-    if info.unit is None:
-        factor, given["unit"] = _length_unit(unit, file), "m"  # numbers are converted below
-    if info.physical_sizes is None:
-        dy, dx = _needed(size, "pixel_size", "1e-9 [m]", file)
-        nx, ny = info.nb_grid_pts
-        given["physical_sizes"] = (nx * dx, ny * dy)  # needed there, but not used here
-    found = reader.topography(channel_index=info.index, **given).to_unit("m")
-    if size is None:
-        size = (factor * float(found.pixel_size[1]), factor * float(found.pixel_size[0]))
-    heights = factor * np.ma.asarray(found.heights()).T  # there, arrays are [x, y]
-    name = f"{file.name}, {info.name}" if len(channels) > 1 else file.name
-    flag = getattr(info, "is_periodic", None)
-    return _Channel(heights, size, name, None if flag is None else bool(flag))

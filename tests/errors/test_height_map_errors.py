@@ -191,6 +191,89 @@ def test_files_of_instruments_need_an_extra(write, monkeypatch):
         read_height_map(write("a.sur", b"DIGITAL SURF"))
 
 
+# A package that reads files of instruments, in a process of its own ------------------------
+
+READERS = {
+    "a map": "Reader()",
+    "crash": "os.abort()",
+    "end": "os._exit(3)",
+    "loop": "list(iter(int, 1))",
+    "memory": "bytearray(2**46)",
+    "deep": "(lambda f: f(f))(lambda f: f(f))",
+    "pixels": "Reader(nx=10**6, ny=10**6)",
+}
+PACKAGE = """
+import os
+from types import SimpleNamespace
+import numpy as np
+
+class Reader:
+    def __init__(self, nx=3, ny=2):
+        info = dict(dim=2, name="height", unit="m", index=0, is_periodic=None)
+        sizes = dict(physical_sizes=(3.0, 2.0), nb_grid_pts=(nx, ny))
+        self.default_channel = SimpleNamespace(**info, **sizes)
+        self.channels = [self.default_channel]
+    def __enter__(self):
+        return self
+    def __exit__(self, *_):
+        pass
+    def format(self):
+        return "toy"
+    def topography(self, channel_index):
+        return self
+    def to_unit(self, unit):
+        return self
+    pixel_size = (1.0, 1.0)
+    def heights(self):
+        return np.ma.masked_invalid(np.arange(6.0).reshape(3, 2))
+
+def open_topography(file):
+    print("what a package says")
+    return CALL
+"""
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """Put a package in place of SurfaceTopography that does what a text says."""
+
+    def make(call):
+        folder = tmp_path / "packages" / "SurfaceTopography"
+        folder.mkdir(parents=True)
+        (folder / "__init__.py").write_text(PACKAGE.replace("CALL", call))
+        monkeypatch.syspath_prepend(folder.parent)
+
+    return make
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("crash", r"a format that SurfaceTopography reads.*its reader ended with status"),
+        ("end", r"ended with status 3"),
+        ("loop", r"be read within 1 s.*CONTACTKIT_MAX_SECONDS=10"),
+        ("memory", r"a format that SurfaceTopography reads.*MemoryError"),
+        ("deep", r"a format that SurfaceTopography reads.*RecursionError"),
+        ("pixels", r"at most 67,108,864 pixels.*has 1,000,000,000,000 pixels"),
+    ],
+)
+def test_a_reader_that_goes_wrong_ends_itself_only(write, package, monkeypatch, name, message):
+    package(READERS[name])
+    if name == "loop":
+        monkeypatch.setenv("CONTACTKIT_MAX_SECONDS", "1")
+    with pytest.raises(DescriptionError, match=message):
+        read_height_map(write("a.sur", b"DIGITAL SURF"))
+
+
+def test_a_map_comes_back_from_the_process(write, package):
+    package(READERS["a map"])
+    found = read_height_map(write("a.sur", b"DIGITAL SURF"))
+    assert found.heights.tolist() == [[0.0, 2.0, 4.0], [1.0, 3.0, 5.0]]
+    assert found.pixel_size == (1.0, 1.0)
+    with pytest.raises(DescriptionError, match=r"unit must be left out: a\.sur contains it"):
+        read_height_map(write("a.sur", b"DIGITAL SURF"), unit="nm")
+
+
 # Files of instruments -----------------------------------------------------------------------
 
 

@@ -386,6 +386,13 @@ def test_heights_beyond_any_length_are_refused(put):
     refuses(lambda: read_height_map(path, **SIZE), "be at most 1e+60 in size in a.csv [m]")
 
 
+def test_a_list_of_mistakes_has_an_end(put):
+    path = put("a.toml", "effects = [" + "1, " * 1000 + "]")
+    with pytest.raises(DescriptionError, match=r"and 9\d\d more") as caught:
+        ck.load_scene(path)
+    assert str(caught.value).count("\n") == 51
+
+
 # References ----------------------------------------------------------------------------------
 
 SCENE = """

@@ -12,6 +12,7 @@ from attrs import evolve
 import contactkit as ck
 from contactkit.errors import DescriptionError
 from contactkit.roughness import height_maps
+from contactkit.roughness.instrument_channels import read_channel
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -175,9 +176,9 @@ def test_an_instrument_file_states_whether_it_repeats():
         topography=lambda **named: made,
     )
     path = SimpleNamespace(name="a.toy", suffix=".toy")
-    assert height_maps._read_channel(reader, path, None, None, None).is_periodic is True
+    assert read_channel(reader, path, None, None, None).is_periodic is True
     channel.is_periodic = None
-    assert height_maps._read_channel(reader, path, None, None, None).is_periodic is None
+    assert read_channel(reader, path, None, None, None).is_periodic is None
 
 
 SDF = """aISO-1.0
