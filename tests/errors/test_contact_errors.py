@@ -362,7 +362,7 @@ def test_an_effect_of_something_else_is_refused_with_the_known_ones(effect):
         (
             (HALF_SPACE, ck.HardnessLimit(hardness=1e9)),
             {},
-            ("no hardness [Pa] with rule='continuous' (or rule='constant')",),
+            ("HardnessLimit.hardness left out with rule='continuous' (or rule='constant')",),
         ),
         (
             (LAYERED, ck.HardnessLimit(rule="literal")),

@@ -177,7 +177,9 @@ class HardnessLimit(PressureBound[PlasticPart]):
         if self.rule == "constant":
             return () if self.hardness is not None else ("HardnessLimit.hardness [Pa]",)
         if self.hardness is not None:
-            return (f"no hardness [Pa] with rule={self.rule!r} (or rule='constant')",)
+            return (
+                f"HardnessLimit.hardness left out with rule={self.rule!r} (or rule='constant')",
+            )
         missing = [
             f"hardness [Pa] of {material.name!r}"
             for stack in scene.interface.stacks
