@@ -1,4 +1,4 @@
-"""Hook of mkdocs: pages of folders in the navigation, pages made of the repository's files, search.
+"""Hook of mkdocs: pages of folders in the navigation, pages of repository files and API, search.
 
 An entry of ``nav`` that ends in ``/*.md`` stands for the pages of that folder: its ``index.md``,
 then those that this links to, in their order, then the others by name. An empty folder is left
@@ -13,6 +13,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from api_pages import TOPICS, pages
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -64,6 +65,8 @@ def expanded(entries: list[Any], docs: Path) -> list[Any]:
         elif entry.endswith("/*.md"):
             folder = entry.removesuffix("/*.md")
             found += [f"{folder}/{name}" for name in in_order(docs / folder)]
+            if folder == "api":
+                found += [f"api/{topic.page}.md" for topic in TOPICS]
         else:
             found.append(entry)
     return found
@@ -96,7 +99,9 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Add the pages that are files of the repository."""
+    """Add the pages that are files of the repository, and those of the API."""
+    for place, content in pages().items():
+        files.append(File.generated(config, place, content=content))
     for name, place in REPOSITORY.items():
         if (ROOT / name).exists():
             files.append(File.generated(config, place, content=repository_page(name)))
@@ -109,4 +114,6 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
         if page.file.src_uri.startswith(start):
             page.meta.setdefault("search", {"boost": boost})
             break
+    if page.file.src_uri == "api/index.md":
+        return re.sub(r"`ck\.(\w+)`", r"[`ck.\1`][contactkit.\1]", markdown)
     return markdown

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import attrs
-from api_table import api_table
+from api_pages import api_table
 from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from errata_table import errata_table

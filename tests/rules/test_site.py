@@ -1,0 +1,79 @@
+"""The site: its navigation, pages made of other files, signatures and equations of docstrings.
+
+Needs the extra ``docs``; CI builds the whole site strictly besides (`make docs`).
+"""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+
+import contactkit as ck
+
+pytest.importorskip("griffe")
+pytest.importorskip("mkdocs")
+
+ROOT = Path(__file__).parents[2]
+SCRIPTS = ROOT / "docs" / "scripts"
+
+
+@pytest.fixture(scope="module")
+def script():
+    """A script of docs/scripts/, imported as mkdocs does."""
+    sys.path.insert(0, str(SCRIPTS))
+
+    def load(name):
+        spec = importlib.util.spec_from_file_location(f"docs_{name}", SCRIPTS / f"{name}.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    yield load
+    sys.path.remove(str(SCRIPTS))
+
+
+def test_pages_of_a_folder_follow_the_links_of_its_index(script, tmp_path):
+    for name in ("c", "a", "b", "index"):
+        (tmp_path / "how-to").mkdir(exist_ok=True)
+        (tmp_path / "how-to" / f"{name}.md").write_text("# ?")
+    (tmp_path / "how-to" / "index.md").write_text("first [b](b.md), then [a](a.md#there)")
+    nav = [{"Home": "index.md"}, {"How-to": "how-to/*.md"}, {"Empty": "none/*.md"}]
+    assert script("site_pages").expanded(nav, tmp_path) == [
+        {"Home": "index.md"},
+        {"How-to": [f"how-to/{name}.md" for name in ("index", "b", "a", "c")]},
+    ]
+
+
+def test_links_of_the_changelog_are_seen_from_its_page(script):
+    page = script("site_pages").repository_page("CHANGELOG.md")
+    assert "](../errata.md)" in page
+    assert "](docs/" not in page
+
+
+def test_every_public_name_has_a_page(script):
+    api = script("api_pages")
+    shown = [name for names in api.public_names().values() for name in names]
+    assert sorted(shown) == sorted(ck._HOMES)
+    for topic, names in api.public_names().items():
+        page = api.pages()[f"api/{topic}.md"]
+        assert all(f"::: contactkit.{name}\n" in page for name in names)
+    with pytest.raises(LookupError, match="no topic .* nowhere"):
+        api.topic_of("nowhere.module")
+
+
+def test_signatures_have_the_defaults_of_attrs(script):
+    found = script("docstrings").constructor(ck.Meniscus)
+    assert found["liquid"].default is None
+    assert found["relative_humidity"].default == "None"
+    assert found["contact_angle_lower"].default == "0.0"
+    assert found["contact_angle_lower"].annotation == "float"
+    assert found["liquid"].kind.value == "keyword-only"
+    assert script("docstrings").constructor(ck.Interface)["lower"].default == "Body()"
+
+
+def test_equations_of_docstrings_are_those_of_markdown(script):
+    text = "At ``h`` it is :math:`h^{-3}`:\n\n.. math::\n    F = \\eta\n        v\n\nMore.\n"
+    assert script("docstrings").in_markdown(text) == (
+        "At `h` it is $h^{-3}$:\n\n$$\nF = \\eta v\n$$\n\nMore.\n"
+    )
