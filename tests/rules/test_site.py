@@ -58,7 +58,7 @@ def test_every_public_name_has_a_page(script):
     for topic, names in api.public_names().items():
         page = api.pages()[f"api/{topic}.md"]
         assert all(f"::: contactkit.{name}\n" in page for name in names)
-    with pytest.raises(LookupError, match="no topic .* nowhere"):
+    with pytest.raises(LookupError, match=r"no topic .* nowhere"):
         api.topic_of("nowhere.module")
 
 
