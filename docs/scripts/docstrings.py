@@ -75,8 +75,8 @@ def constructor(kind: type) -> Parameters:
     return Parameters(*parameters)
 
 
+class Docstrings(Extension):
     """Equations of docstrings, and the signatures that attrs writes, for griffe."""
-    """What griffe cannot read from the source: equations, and what attrs writes."""
 
     def on_object(self, *, obj: Object, **_: Any) -> None:
         """Rewrite the docstring of an object, if it has one."""
