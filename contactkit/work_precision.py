@@ -88,6 +88,7 @@ class WorkPrecision:
             rows.append(
                 f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
             )
+        rows.append("seconds: wall time, the least where a setting ran more than once")
         rows.append(
             f"relative error of the {self.quantity} against {self.reference:.10g}, "
             f"known to {self.floor:.0e}"

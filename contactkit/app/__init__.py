@@ -10,6 +10,7 @@ report_page  One page of HTML about a result: figures, numbers, validity, plan, 
 run          Running a scene from the command line: its numbers, files and figures.
 gallery      Every figure and table of the source, computed again and judged.
 cost         Work and precision of every kind of scene: error against time.
+fmu_files    FMU files as the command line orders them.
 system       Valve and film as a system structure (SSP 1.0), for masters that read those.
 crosscheck   Reference files beside native FMUs, in the format of the FMI cross-check.
 """

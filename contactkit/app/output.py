@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,6 +19,8 @@ from attrs import asdict, define, field, frozen
 
 from ..errors import DescriptionError
 from ..files.scenes import write_whole
+from ..reading.archives import checked_archive
+from ..reading.texts import from_json, read_text
 from ..units import quantity_text
 
 __all__ = [
@@ -27,9 +30,9 @@ __all__ = [
     "Folder",
     "Printed",
     "Record",
+    "check_file",
     "check_folder",
     "enter",
-    "is_entered",
     "read_record",
     "written_to",
 ]
@@ -38,10 +41,21 @@ RECORD = "contactkit.json"
 """Name of the record in an output folder."""
 
 Stamps = dict[str, tuple[int, int, int]]
-"""Time, size and inode of files by name, which tell whether one was written again."""
 
-_SUFFIXES = (".csv", ".fmu", ".html", ".npz", ".png")  # of all files that commands write
-_LARGEST = 50_000_000  # bytes of a record
+# Suffixes of all files that commands write.
+_COMMON = (".csv", ".fmu", ".html", ".npz", ".png", ".ssp")
+_SUFFIXES = {
+    "gallery": (*_COMMON, ".md", ".pdf", ".svg"),
+    "crosscheck": (*_COMMON, ".opt"),
+}
+_CONTINUED = ("gallery",)  # which finds out itself whether data that are kept can be used
+# Member of an archive, or the file itself, that names the program, and how it does so.
+_MARKS = {
+    ".fmu": ("modelDescription.xml", b'generationTool="contactkit'),
+    ".html": ("", b'<meta name="generator" content="contactkit'),
+    ".ssp": ("SystemStructure.ssd", b'generationTool="contactkit'),
+}
+_HEAD = 4000  # bytes in which they do
 
 
 @frozen
@@ -69,6 +83,17 @@ class Command:
     name: str
     scene: str
     settings: tuple[str, ...] = ()
+
+    def outputs(self, folder: Path) -> list[Path]:
+        """Files of a folder that the command might have written, by their suffixes."""
+        suffixes = _SUFFIXES.get(self.name, _COMMON)
+        present = sorted(folder.iterdir()) if folder.is_dir() else []
+        return [path for path in present if path.suffix in suffixes and path.is_file()]
+
+    def stamps(self, folder: Path) -> Stamps:
+        """Time, size and inode of those files, which tell whether one was written again."""
+        found = {path.name: path.stat() for path in self.outputs(folder)}
+        return {name: (one.st_mtime_ns, one.st_size, one.st_ino) for name, one in found.items()}
 
 
 @define
@@ -102,7 +127,7 @@ class Folder:
 
     def enter(self) -> None:
         """Enter the files that are new or changed, drop those that are gone, write the record."""
-        files, after = self.record.files, _stamps(self.path)
+        files, after = self.record.files, self.command.stamps(self.path)
         for name, stamp in after.items():
             if self._stamps.get(name) != stamp:
                 files[name] = FileEntry(self.command.name, _sha256(self.path / name))
@@ -136,9 +161,9 @@ def written_to(path: Path, command: Command, *, overwrite: bool = False) -> Iter
     scene = _identity(command.scene, path)
     known = _known(path, overwrite)
     if not overwrite:
-        _check_files(path, scene, known)
+        _check_files(path, command, scene, known)
     record = known if known is not None and known.scene == scene else Record(scene)
-    folder = Folder(path, command, record, _stamps(path))
+    folder = Folder(path, command, record, command.stamps(path))
     try:
         yield folder
     finally:
@@ -153,11 +178,42 @@ def enter(path: Path, command: str) -> None:
         _write_record(path.parent, record)
 
 
-def is_entered(path: Path) -> bool:
+def check_file(path: Path, suffix: str, *, overwrite: bool = False) -> None:
+    """Refuse to replace a file that contactkit did not write, or that was changed since.
+
+    Pages, FMUs and system structures name the program that wrote them.
+
+    Raises
+    ------
+    DescriptionError
+        Unless `overwrite` is given; also if the file has another suffix.
+    """
+    if path.suffix != suffix:
+        raise DescriptionError("--out", str(path), f"end in {suffix}")
+    check_folder(path.parent)
+    if path.exists() and not (overwrite or _is_entered(path) or _is_ours(path)):
+        hint = "contactkit did not write it; give another file, or --overwrite"
+        raise DescriptionError("--out", str(path), "be a new file", hint=hint)
+
+
+def _is_entered(path: Path) -> bool:
     """Whether the record of its folder has a file, unchanged."""
     record = read_record(path.parent)
     entry = record.files.get(path.name) if record is not None else None
     return entry is not None and not _is_changed(path, entry)
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a file names contactkit as what wrote it."""
+    member, mark = _MARKS.get(path.suffix, ("", b""))
+    try:
+        with path.open("rb") as file:
+            if not member:
+                return bool(mark) and mark in file.read(_HEAD)
+            with checked_archive(file, path.name) as packed, packed.open(member) as text:
+                return mark in text.read(_HEAD)
+    except (OSError, ValueError, KeyError, RuntimeError, zlib.error):
+        return False
 
 
 def check_folder(folder: Path) -> None:
@@ -198,17 +254,18 @@ def _known(path: Path, overwrite: bool) -> Record | None:
         raise
 
 
-def _check_files(path: Path, scene: str, known: Record | None) -> None:
+def _check_files(path: Path, command: Command, scene: str, known: Record | None) -> None:
     """Refuse files that the record does not have as written for this scene."""
-    present = list(_outputs(path))
+    present = command.outputs(path)
     cure = "give another folder, or --overwrite"
     if known is not None and known.scene != scene and any(p.name in known.files for p in present):
         expected = "be a folder of this scene, or a new one"
         hint = f"its files are those of {known.scene}; {cure}"
         raise DescriptionError("--out", str(path), expected, hint=hint)
     files = known.files if known is not None else {}
-    foreign = sorted(p.name for p in present if p.name not in files)
-    changed = sorted(p.name for p in present if p.name in files and _is_changed(p, files[p.name]))
+    foreign = [p.name for p in present if p.name not in files]
+    own = [] if command.name in _CONTINUED else [p for p in present if p.name in files]
+    changed = [p.name for p in own if _is_changed(p, files[p.name])]
     found = [
         *([f"{_listed(foreign)}, which this scene did not write"] if foreign else []),
         *([f"{_listed(changed)}, changed since contactkit wrote it"] if changed else []),
@@ -223,16 +280,6 @@ def _check_files(path: Path, scene: str, known: Record | None) -> None:
 def _listed(names: list[str]) -> str:
     more = f" and {len(names) - 3} more" if len(names) > 3 else ""
     return ", ".join(names[:3]) + more
-
-
-def _outputs(path: Path) -> Iterator[Path]:
-    """Files of a folder of the kinds that commands write."""
-    if path.is_dir():
-        yield from (p for p in path.iterdir() if p.suffix in _SUFFIXES and p.is_file())
-
-
-def _stamps(path: Path) -> Stamps:
-    return {p.name: ((s := p.stat()).st_mtime_ns, s.st_size, s.st_ino) for p in _outputs(path)}
 
 
 def _is_changed(path: Path, entry: FileEntry) -> bool:
@@ -254,9 +301,7 @@ def read_record(path: Path) -> Record | None:
     """
     file = path / RECORD
     try:
-        if file.stat().st_size > _LARGEST:
-            raise ValueError(f"more than {_LARGEST} bytes")
-        table = json.loads(file.read_text(encoding="utf-8"))
+        table = from_json(read_text(file, "TEXT_BYTES"), str(file))
         return Record(
             _text(table["scene"]),
             {_text(n): FileEntry(*map(_text, one)) for n, one in table["files"].items()},
@@ -264,7 +309,7 @@ def read_record(path: Path) -> Record | None:
         )
     except FileNotFoundError:
         return None
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise DescriptionError(
             "file", str(file), "be a record of contactkit", hint=f"{type(error).__name__}: {error}"
         ) from None

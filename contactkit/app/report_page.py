@@ -13,12 +13,12 @@ from ..export.pages import bullets, figure, listing, page, section
 from ..extras import missing_extra
 from ..files.results import AnyResult, load_result
 from ..files.scenes import write_whole
-from .output import RECORD, Printed, Record, check_folder, is_entered, read_record
+from .output import RECORD, Printed, Record, read_record
 
 if TYPE_CHECKING:
     from ..scene.validity import ValidityNumber
 
-__all__ = ["PAGE", "check_page", "folder_page", "report_page", "result_page", "write_page"]
+__all__ = ["PAGE", "folder_page", "report_page", "result_page", "write_page"]
 
 PAGE = "report.html"
 """Name of the page in an output folder."""
@@ -49,28 +49,6 @@ def report_page(source: Path) -> str:
         "be a result file, or a folder that contactkit run or study wrote to",
         hint=f"it has neither {RECORD} nor {_RESULT}",
     )
-
-
-def check_page(path: Path, *, overwrite: bool = False) -> None:
-    """Refuse to replace a file that contactkit did not write, or that was changed since.
-
-    Raises
-    ------
-    DescriptionError
-        Unless `overwrite` is given; also if the file is none of HTML.
-    """
-    if path.suffix != ".html":
-        raise DescriptionError("--out", str(path), "end in .html")
-    check_folder(path.parent)
-    if path.exists() and not (overwrite or is_entered(path) or _is_ours(path)):
-        hint = "contactkit did not write it; give another file, or --overwrite"
-        raise DescriptionError("--out", str(path), "be a new file", hint=hint)
-
-
-def _is_ours(path: Path) -> bool:
-    """Whether a page names contactkit as its generator."""
-    with path.open(encoding="utf-8", errors="replace") as file:
-        return '<meta name="generator" content="contactkit' in file.read(1000)
 
 
 def write_page(text: str, path: Path) -> Path:

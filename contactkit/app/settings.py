@@ -11,9 +11,10 @@ from attrs import evolve
 
 from ..errors import DescriptionError
 from ..files.structure import FileError
-from ..studies.paths import changed, check_apart, read_value
+from ..reading.texts import check_keys, check_plain
+from ..studies.paths import changed, check_apart, paths_of, read_value
 
-__all__ = ["assignments", "with_settings"]
+__all__ = ["assignments", "known_paths", "with_settings"]
 
 S = TypeVar("S")
 _OPTION = "--set"
@@ -45,10 +46,15 @@ def assignments(given: Iterable[str]) -> dict[str, Any]:
 
 def _plain_value(text: str) -> Any:
     """A value of TOML; the text itself if it is none."""
+    check_keys(text, _OPTION)
     try:
         found = tomllib.loads(f"value = {text}")
     except tomllib.TOMLDecodeError:
         return text
+    except RecursionError:
+        expected = "hold tables and lists of fewer levels"
+        raise DescriptionError(_OPTION, f"{text[:40]} ...", expected) from None
+    check_plain(found, _OPTION)
     value = found.pop("value")
     is_plain = isinstance(value, bool | int | float | str | list | dict) and not found
     return value if is_plain else text
@@ -82,6 +88,14 @@ def with_settings(opened: S, given: Sequence[str]) -> S:
     parts = {"scene": made.scene} | ({} if accuracy is None else {"accuracy": made.accuracy})
     found: S = evolve(described, **parts)
     return found
+
+
+def known_paths(opened: object) -> list[str]:
+    """Paths that can be set in an opened scene, sorted."""
+    described: Any = opened
+    accuracy = getattr(described, "accuracy", None)
+    settings = [] if accuracy is None else [f"accuracy.{one}" for one in paths_of(accuracy)]
+    return sorted([*paths_of(described.scene), *settings])
 
 
 @contextmanager

@@ -15,7 +15,15 @@ import test_imports as rule  # noqa: E402
 LEFT_OUT = {"_lazy", "__main__", "errors", "units", "validators", "accuracy", "work_precision"}
 # Place along the row, 0 to 1, where arrows would otherwise pass behind a room.
 ACROSS = {
-    **{"cli": 0.5, "app": 0.5, "fmu": 0.5, "models": 0.6, "studies": 0.12, "plot": 0.97},
+    **{
+        "cli": 0.5,
+        "gallery": 0.7,
+        "app": 0.5,
+        "fmu": 0.5,
+        "models": 0.6,
+        "studies": 0.12,
+        "plot": 0.97,
+    },
     **{
         "analyses": 0.68,
         "shortcuts": 0.02,

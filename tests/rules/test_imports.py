@@ -35,6 +35,7 @@ FLOORS = [
     ["fmu"],
     ["app"],
     ["gallery"],
+    ["commands"],
     ["cli"],
     ["__main__"],
 ]

@@ -119,6 +119,7 @@ def test_a_scene_runs_into_numbers_files_and_figures(scene_file, tmp_path, capsy
     names = {path.name for path in out.iterdir()}
     assert names == {
         "contact.png",
+        "contactkit.json",
         "stress.png",
         "stack.png",
         "load-curve.png",

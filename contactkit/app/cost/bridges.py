@@ -164,7 +164,7 @@ def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progre
     scalars: dict[str, tuple[float, str]] = {}
     for found in (forces, ruptures):
         each = "gap" if found is forces else "bridge"
-        lines += [f"{found.quantity}: time is for each {each}", *_rows(found)]
+        lines += [f"{found.quantity}: wall time, for each {each}", *_rows(found)]
         for p in found.points:
             key = f"{found.quantity} / {p.method} / {p.label}"
             scalars |= {f"{key} / error": (p.error, "-"), f"{key} / seconds": (p.seconds, "s")}

@@ -58,7 +58,7 @@ def contact_cost(
     if grids is not None:
         text += [grids.table(), ""]
     text += [str(discretised or "discretisation error: needs even numbers of pixels"), ""]
-    text.append(f"{'effects up to':24s} {'seconds':>9s} {'adds':>9s}  operator applications")
+    text.append(f"{'effects up to':24s} {'wall [s]':>9s} {'adds':>9s}  operator applications")
     before = 0.0
     for one in effects:
         adds = one.seconds - before

@@ -59,7 +59,7 @@ class Outcome(NamedTuple):
 
     def __str__(self) -> str:
         """A line of the progress."""
-        kept = "kept" if self.is_kept else f"{self.seconds:.1f} s"
+        kept = "kept" if self.is_kept else f"{self.seconds:.1f} s CPU time"
         wrong = "".join(f"\n    does not hold: {statement}" for statement in self.failed)
         return f"{self.label}: {self.summary} ({kept}){wrong}"
 

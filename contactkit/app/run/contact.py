@@ -62,7 +62,7 @@ def _text(result: ContactResult, studies: Studies) -> str:
     work = result.work
     lines.append(
         f"  {work.n_solves} solves, {work.n_operator_applications} operator applications, "
-        f"{work.seconds:.2f} s"
+        f"{work.seconds:.2f} s wall time"
     )
     return "\n".join([*lines, *study_text(studies)])
 

@@ -56,7 +56,8 @@ def _text(made: Plan, result: SeparationResult) -> str:
     if errata:
         errata = ["errata of what is taken as printed, at the start:", *errata]
     work = result.work
-    cost = f"{work.n_steps} steps, {work.n_evaluations} force evaluations, {work.seconds:.3f} s"
+    counts = f"{work.n_steps} steps, {work.n_evaluations} force evaluations"
+    cost = f"{counts}, {work.seconds:.3f} s wall time"
     lines = [str(made), result.message, *numbers, "validity:", *validity, *errata, cost]
     return "\n".join(lines)
 

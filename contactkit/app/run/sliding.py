@@ -57,7 +57,7 @@ def _text(result: SlidingResult) -> str:
     errata = [f"  {line}" for one in result.errata for line in str(one).splitlines()]
     if errata:
         errata = ["errata of what is taken as printed:", *errata]
-    cost = f"{result.work.n_evaluations} points, {result.work.seconds:.3f} s"
+    cost = f"{result.work.n_evaluations} points, {result.work.seconds:.3f} s wall time"
     said = [str(result.plan), result.message, *numbers, "validity:", *validity, *errata, cost]
     return "\n".join(said)
 

@@ -84,7 +84,7 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
         f"{'oil':>9s}  {'tears':>7s}  {'cavity':>9s}  {'release':>9s}  {'sticks':>9s}  "
         f"{'peak force':>10s}  {'impulse':>9s}  {'coupling':>8s}  {'seconds':>7s}  held by",
         f"{'':>9s}  {'at':>7s}  {'':>9s}  {'[ms]':>9s}  {'[ms]':>9s}  {'[N]':>10s}  "
-        f"{'[N.s]':>9s}  {'error':>8s}  {'':>7s}",
+        f"{'[N.s]':>9s}  {'error':>8s}  {'(wall)':>7s}",
     ]
     scalars: dict[str, tuple[Any, str]] = {"dry_release_delay": (dry, "s")}
     spread = [""]

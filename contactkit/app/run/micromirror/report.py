@@ -192,8 +192,8 @@ def _flips(scene: MicromirrorScene, run: MirrorRun, free: float, error: float) -
         f"{abs(wave.reset_voltage):g} V begins at {begun * 1e6:g} us, {ending}; {len(lands)} "
         f"landings and bounces of tips; at the end {final:+.2f} deg",
         f"two FMUs tip-contact: {coupled.n_steps} steps of at most "
-        f"{scene.study.communication_step * 1e9:g} ns in {run.seconds:.2f} s; tilt off the "
-        f"monolithic model by {error:.1e} of the landing tilt up to the first touch of the "
+        f"{scene.study.communication_step * 1e9:g} ns in {run.seconds:.2f} s wall time; tilt off "
+        f"the monolithic model by {error:.1e} of the landing tilt up to the first touch of the "
         "other side",
     ]
 

@@ -1,0 +1,126 @@
+"""FMU files as the command line orders them: of a scene, or of a model by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+from ..errors import PlanError
+from .scenes import FmuStart, OpenedScene, open_scene
+from .settings import assignments, with_settings
+
+__all__ = ["Order", "build_fmu", "check_order"]
+
+
+class Order(NamedTuple):
+    """An FMU to build: of what, with which values set, where to, in which form."""
+
+    what: str
+    settings: Sequence[str]
+    out: Path
+    native: bool
+    model: str | None
+    fmi: str
+
+
+def check_order(order: Order) -> None:
+    """Refuse contradictory options before anything is built.
+
+    Raises
+    ------
+    PlanError
+        With the option to add or to leave out.
+    """
+    if order.fmi != "2" and not order.native:
+        raise PlanError(
+            "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
+        )
+    if order.model is not None and not order.native:
+        raise PlanError(
+            f"--model chooses the model of a native FMU; add --native, or build {order.model} by "
+            f"its name"
+        )
+    if (order.what, order.model) == ("stiction-force", "stiction-mass"):
+        raise PlanError(
+            "stiction-force has no mass, so it cannot be built with --model stiction-mass; build "
+            "stiction-mass"
+        )
+    if order.what == "valve-drive" and order.model not in (None, "valve-drive"):
+        raise PlanError(
+            f"valve-drive has no film, so it cannot be built with --model {order.model}; leave "
+            f"out --model, or give a scene"
+        )
+
+
+def build_fmu(order: Order) -> str:
+    """Build an FMU and return what it is, in words.
+
+    Raises
+    ------
+    DescriptionError, PlanError
+        If a value is not possible, or the scene has no such FMU.
+    """
+    from ..fmu.python.build import FMUS, build
+
+    by_name = order.what in FMUS
+    opened = None if by_name else with_settings(open_scene(order.what), order.settings)
+    given = assignments(order.settings) if by_name else {}
+    if order.native:
+        return _build_native(order, opened, given)
+    start = FmuStart(order.what, given) if opened is None else opened.fmu_start()
+    build(start.name, order.out, start=start.values)
+    return start.name
+
+
+def _build_native(order: Order, opened: OpenedScene | None, given: Mapping[str, Any]) -> str:
+    """Build an FMU in C; `given` are start values of a model that is built by its name."""
+    from ..fmu.native.build import build_native, native_scene
+    from ..fmu.native.drive import build_native_drive, build_native_stop
+    from ..fmu.native.tip import build_native_tip
+    from ..models.micromirror.scene import MicromirrorScene
+    from ..scene.scenes import ContactScene
+
+    what, model, fmi = order.what, order.model, _version(order.fmi)
+    scene = getattr(opened, "scene", None)
+    if "valve-drive" in (what, model):
+        values = given if what == "valve-drive" else _drive_start(what, scene)
+        build_native_drive(order.out, start=values, fmi=fmi)
+        return f"valve-drive, native, FMI {fmi}.0"
+    if what == "contact-stop" or isinstance(scene, ContactScene):
+        values = given if opened is None else opened.fmu_start().values
+        build_native_stop(order.out, start=values, fmi=fmi)
+        return f"contact-stop, native, FMI {fmi}.0"
+    if model is None and (what == "tip-contact" or isinstance(scene, MicromirrorScene)):
+        values = given if opened is None else opened.fmu_start().values
+        build_native_tip(order.out, start=values, fmi=fmi)
+        return f"tip-contact, native, FMI {fmi}.0"
+    film_alone = "stiction-force" in (what, model)
+    kind: Literal["stiction-mass", "stiction-force"] = (
+        "stiction-force" if film_alone else "stiction-mass"
+    )
+    film, start = native_scene(opened or what, _film_model(model))
+    build_native(film, order.out, model=kind, start={**start, **given}, fmi=fmi)
+    return f"{kind}, native, FMI {fmi}.0"
+
+
+def _version(fmi: str) -> Literal[2, 3]:
+    return 3 if fmi == "3" else 2
+
+
+def _film_model(model: str | None) -> Literal["stiction-mass", "stiction-force"] | None:
+    if model == "stiction-force":
+        return "stiction-force"
+    return None if model is None else "stiction-mass"
+
+
+def _drive_start(what: str, scene: Any) -> Mapping[str, Any]:
+    """Start values of the drive of a scene."""
+    from .run.injector.cosimulation import drive_start
+
+    valve = getattr(scene, "valve", None)
+    if valve is None:
+        raise PlanError(
+            f"{what} has no valve; a valve-drive needs a scene with one, such as fuel-injector"
+        )
+    return drive_start(valve)

@@ -1,0 +1,16 @@
+"""Commands of the command line, one to a module.
+
+group           The command ``contactkit``, and the commands below it.
+options         Arguments and options that several commands take, with their completion.
+terminal        Printing of results, remarks, progress and times, as much as is asked for.
+work            Runs of a scene: its output folder, its progress, its report.
+run             ``contactkit run``.
+study           ``contactkit study``.
+plan            ``contactkit plan`` and ``contactkit check``, which run nothing.
+cost            ``contactkit cost``.
+report          ``contactkit report``.
+gallery         ``contactkit gallery``.
+lists           ``contactkit list`` and ``contactkit new``, which help to write a scene file.
+fmu             ``contactkit fmu build``, ``fmu system`` and ``fmu crosscheck``.
+completion      ``contactkit completion``.
+"""

@@ -1,0 +1,37 @@
+"""``contactkit cost``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from . import options
+from .work import Job, run_job
+
+__all__ = ["cost"]
+
+
+@click.command(cls=options.Command)
+@options.scene
+@options.settings
+@options.folder
+@click.option(
+    "--error", type=float, default=1e-6, help="Relative error to recommend a setting for."
+)
+@options.overwrite
+@options.as_json
+def cost(
+    scene: str,
+    settings: tuple[str, ...],
+    out: Path | None,
+    error: float,
+    overwrite: bool,
+    as_json: bool,
+) -> None:
+    """Measure error against computing time for a scene.
+
+    SCENE is a scene file, or the name of a scene of contactkit.
+    """
+    job = Job("cost", scene, settings, out, overwrite, as_json)
+    run_job(job, lambda opened, progress: opened.cost(out, progress, error))
