@@ -123,6 +123,7 @@ if TYPE_CHECKING:
     from .shortcuts.contact_area import contact_area
     from .shortcuts.menisci import bridge_force, capillary_force
     from .shortcuts.squeeze import squeeze_time
+    from .studies.sensitivity import Range, sensitivity
     from .studies.study import study
 
 __version__ = "0.1.0"
@@ -228,6 +229,8 @@ _HOMES = {
     "register_effect": "effects",
     "save_result": "files.results",
     "save_scene": "files.scenes",
+    "Range": "studies.sensitivity",
+    "sensitivity": "studies.sensitivity",
     "simulate": "separation.simulate",
     "solve": "contact.solve",
     "squeeze_time": "shortcuts.squeeze",
@@ -292,6 +295,7 @@ __all__ = [
     "PlasticHistory",
     "Pressing",
     "Pull",
+    "Range",
     "RigidBase",
     "Rupture",
     "SelfAffineRoughness",
@@ -337,6 +341,7 @@ __all__ = [
     "register_effect",
     "save_result",
     "save_scene",
+    "sensitivity",
     "simulate",
     "solve",
     "squeeze_time",

@@ -146,6 +146,8 @@ def readable_unit(size: float, unit: str) -> tuple[float, str]:
         is_used = prefix <= 1.0 or symbol in _LARGE or (symbol, prefix) == ("g", 1e3)
         if is_used and abs(size) >= 0.9999999 * factor * 0.1 ** (power - 1):
             return factor, f"{letter}{symbol}{match[2]}{match[3]}"
+    if abs(size) < 1e-3 * factor:  # a power of ten of the plain unit reads better
+        return 1.0, unit
     return factor, f"{letter}{symbol}{match[2]}{match[3]}"
 
 
@@ -154,8 +156,8 @@ def quantity_text(value: float, unit: str) -> str:
 
     Examples
     --------
-    >>> quantity_text(5.64e-8, "m"), quantity_text(0.25, "m"), quantity_text(0.5, "-")
-    ('56.4 nm', '250 mm', '0.5')
+    >>> quantity_text(5.64e-8, "m"), quantity_text(0.25, "m"), quantity_text(1e-19, "J")
+    ('56.4 nm', '250 mm', '1e-19 J')
     """
     factor, name = readable_unit(value, unit)
     number = f"{value / factor:.4g}"

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 from attrs import NOTHING, Attribute, fields, has
 
-from ..units import quantity_text
+from ..units import celsius, quantity_text
 
-__all__ = ["Line", "described"]
+__all__ = ["Line", "described", "value_text"]
 
 _NAMED = ("Material", "Liquid")  # parts that have names of their own
 _PLAIN = ("Interface", "Body", "Layer", "Meniscus", "Window")  # whose field says what they are
@@ -48,7 +48,8 @@ def described(part: Any, name: str = "") -> Line:
     text = ", ".join(said)
     if not name:
         return Line(kind, text, tuple(parts))
-    if kind not in _PLAIN and name != getattr(part, "name", None):
+    is_said = kind in _PLAIN or kind.lower().endswith(name.lower())  # the coil is a Coil
+    if not is_said and name != getattr(part, "name", None):
         text = f"{kind}: {text}" if text else kind
     return Line(name, text, tuple(parts))
 
@@ -63,7 +64,7 @@ def _add(one: Attribute[Any], value: Any, said: list[str], parts: list[Line]) ->
             Line(name, "", tuple(described(v, _name_of(v, i)) for i, v in enumerate(value)))
         )
     else:
-        said.append(f"{name} {_text(value, one.metadata.get('unit', '-'))}")
+        said.append(f"{name} {value_text(value, one.metadata.get('unit', '-'))}")
 
 
 def _name_of(part: Any, index: int) -> str:
@@ -71,16 +72,27 @@ def _name_of(part: Any, index: int) -> str:
     return str(getattr(part, "name", "") or index)
 
 
-def _text(value: Any, unit: str) -> str:
+def value_text(value: Any, unit: str) -> str:
+    """Value of a field in the unit that suits it; objects by their names.
+
+    Examples
+    --------
+    >>> value_text(0.02, "kg"), value_text(None, "Pa"), value_text((300.0, 353.15), "K")
+    ('20 g', 'none', '26.85 degC, 80 degC')
+    """
+    if value is None:
+        return "none"
     if isinstance(value, bool | str):
         return str(value)
+    if isinstance(value, int | float) and unit == "K":
+        return f"{value - celsius(0.0):.4g} degC"
     if isinstance(value, int | float):
         return quantity_text(float(value), unit)
     if shape := getattr(value, "shape", ()):
         return " x ".join(map(str, shape)) + " values"
     if isinstance(value, tuple | list):
-        return ", ".join(_text(v, unit) for v in value)
-    return str(value)
+        return ", ".join(value_text(v, unit) for v in value)
+    return str(getattr(value, "label", None) or getattr(value, "name", None) or value)
 
 
 def _is_default(one: Attribute[Any], value: Any) -> bool:

@@ -27,25 +27,15 @@ if TYPE_CHECKING:
     from ..contact.effects.base import ContactEffect
     from ..separation.effects.base import SeparationEffect
 
-__all__ = ["ContactScene", "Scene", "SeparationScene", "SlidingScene"]
+__all__ = ["ContactScene", "InWords", "Scene", "SeparationScene", "SlidingScene"]
 
 _E = TypeVar("_E", bound=Effect)
 
 
-@frozen(kw_only=True)
-class Scene(Described):
-    """Two bodies, their loading, and the effects to simulate: the base class of all scenes."""
+class InWords:
+    """Text of a scene, as `print` and notebooks show it."""
 
-    name: str = ""
-    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
-    interface: Interface = field(validator=part(Interface))
-    loading: Loading = field(validator=part(Loading))
-    effects: tuple[Effect, ...] = field(converter=as_tuple)
-
-    @property
-    def run_by(self) -> str:
-        """Name of the function that runs the plan of such a scene."""
-        return "simulate"
+    __slots__ = ()
 
     def __str__(self) -> str:
         """The scene in words, a line for each part; what is at its default is left out."""
@@ -59,6 +49,22 @@ class Scene(Described):
         from .description import described
 
         return nested_list(described(self))
+
+
+@frozen(kw_only=True)
+class Scene(InWords, Described):
+    """Two bodies, their loading, and the effects to simulate: the base class of all scenes."""
+
+    name: str = ""
+    temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))
+    interface: Interface = field(validator=part(Interface))
+    loading: Loading = field(validator=part(Loading))
+    effects: tuple[Effect, ...] = field(converter=as_tuple)
+
+    @property
+    def run_by(self) -> str:
+        """Name of the function that runs the plan of such a scene."""
+        return "simulate"
 
     def effect(self, kind: type[_E]) -> _E | None:
         """Return the effect of a kind; None if the scene does not call for it."""

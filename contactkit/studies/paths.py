@@ -28,6 +28,7 @@ __all__ = [
     "combinations",
     "paths_of",
     "read_value",
+    "value_at",
 ]
 
 Scene = SeparationScene | SlidingScene | ContactScene
@@ -58,12 +59,12 @@ class _Owner(NamedTuple):
     field: str
 
 
-def axes(scene: Scene, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
+def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
     """Parse the parameters to vary.
 
     Parameters
     ----------
-    scene : ContactScene, SeparationScene or SlidingScene
+    scene : ContactScene, SeparationScene or SlidingScene, or that of a device
         The scene that the paths refer to.
     accuracy : Accuracy
         The settings that paths beginning with ``accuracy.`` refer to.
@@ -199,7 +200,7 @@ def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
     return attrs.evolve(owner, **changes)
 
 
-def _axis(scene: Scene, accuracy: Accuracy, key: str, values: Iterable[Any]) -> Axis:
+def _axis(scene: object, accuracy: Accuracy, key: str, values: Iterable[Any]) -> Axis:
     paths = tuple(path.strip() for path in key.split(","))
     owners = [_owner(scene, accuracy, path, "vary") for path in paths]
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
@@ -234,7 +235,29 @@ def _unit(owner: _Owner) -> str:
     return unit
 
 
-def _owner(scene: Any, accuracy: Accuracy | None, path: str, origin: str) -> _Owner:
+def value_at(scene: object, accuracy: Accuracy, path: str) -> Any:
+    """Value that a path leads to.
+
+    Raises
+    ------
+    DescriptionError
+        If the path does not exist.
+
+    Examples
+    --------
+    >>> import contactkit as ck
+    >>> value_at(ck.Meniscus(liquid=ck.load_liquid("water")), ck.Accuracy(), "liquid.name")
+    'water'
+    """
+    return _walk(scene, accuracy, path, "vary")[1]
+
+
+def _owner(scene: object, accuracy: Accuracy | None, path: str, origin: str) -> _Owner:
+    return _walk(scene, accuracy, path, origin)[0]
+
+
+def _walk(scene: object, accuracy: Accuracy | None, path: str, origin: str) -> tuple[_Owner, Any]:
+    """What a path refers to, and the value there."""
     settings = {} if accuracy is None else {"accuracy": accuracy}
     at: Any = settings | {name: getattr(scene, name) for name in _fields(scene)}
     kind, name, walked = None, "", ""
@@ -247,7 +270,7 @@ def _owner(scene: Any, accuracy: Accuracy | None, path: str, origin: str) -> _Ow
         walked = f"{walked}.{segment}" if walked else segment
     if walked == "accuracy":
         raise DescriptionError(origin, path, "lead to a field of it, such as 'accuracy.rtol'")
-    return _Owner(kind, name)
+    return _Owner(kind, name), at
 
 
 class _Step(NamedTuple):

@@ -19,7 +19,6 @@ import numpy as np
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.run.injector.cycles import delay, dry_delay
 from contactkit.app.scenes import open_scene
 from contactkit.capillary.exact import pressure_branch as bridge_film
 from contactkit.capillary.exact import stability as bridge_limit
@@ -29,6 +28,7 @@ from contactkit.capillary.flats import force_law as flat_law
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.python.build import build
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw
+from contactkit.models.injector.delays import delay, dry_delay
 from contactkit.models.injector.monolithic import simulate as simulate_monolithic
 from contactkit.models.injector.scene import InjectorScene
 from contactkit.units import celsius

@@ -256,21 +256,14 @@ def cosimulate(
     """
     import numpy as np
 
-    _check(stop_time, step, tolerance)
+    march = _march(stop_time, step, tolerance, linear, progress or _nothing)
     left, right = Fmu.of(drive), Fmu.of(mass)
     with DriveSide(Path(left.path)) as one, MassSide(Path(right.path)) as other:
         one.start(left.start, stop_time)
         inner = {"rtol": 1e-2 * tolerance} if tolerance and "rtol" in other.variables else {}
         other.start({**inner, **right.start}, stop_time)
-        report = progress or _nothing
         begun = clock.perf_counter()
-        if tolerance is None:
-            assert step is not None  # checked above
-            length = stop_time / max(1, math.ceil(stop_time / step - 1e-9))
-            _check_step(one, other, length)
-            times, rows, rejected = *_fixed(one, other, stop_time, length, linear, report), 0
-        else:
-            times, rows, rejected = _chosen(one, other, stop_time, tolerance, report)
+        times, rows, rejected = march(one, other)
         seconds = clock.perf_counter() - begun
         names, log = one.names + other.names, tuple(one.log + other.log)
     table = np.array(rows)
@@ -283,14 +276,29 @@ def _nothing(fraction: float) -> None:
     """Report to nobody."""
 
 
-def _check(stop_time: float, step: float | None, tolerance: float | None) -> None:
-    if (step is None) == (tolerance is None):
-        raise DescriptionError("step", step, "be given, or else a tolerance", unit="s")
+_Marched = tuple[list[float], list[list[float]], int]
+"""Communication points, outputs at them, and how often a step was rolled back."""
+
+
+def _march(
+    stop_time: float,
+    step: float | None,
+    tolerance: float | None,
+    linear: bool,
+    progress: Progress,
+) -> Callable[[DriveSide, MassSide], _Marched]:
+    """Check the times and return what takes the steps: equal ones, or by the tolerance."""
     for name, value in (("stop_time", stop_time), ("step", 1.0 if step is None else step)):
         if not (math.isfinite(value) and value > 0.0):
             raise DescriptionError(name, value, "be positive and finite", unit="s")
     if tolerance is not None and not 1e-8 <= tolerance <= 0.1:
         raise DescriptionError("tolerance", tolerance, "be between 1e-8 and 0.1")
+    if step is not None and tolerance is None:
+        length = stop_time / max(1, math.ceil(stop_time / step - 1e-9))
+        return lambda drive, mass: _fixed(drive, mass, stop_time, length, linear, progress)
+    if tolerance is not None and step is None:
+        return lambda drive, mass: _chosen(drive, mass, stop_time, tolerance, progress)
+    raise DescriptionError("step", step, "be given, or else a tolerance", unit="s")
 
 
 def _fixed(
@@ -300,8 +308,9 @@ def _fixed(
     length: float,
     linear: bool,
     progress: Progress,
-) -> tuple[list[float], list[list[float]]]:
-    """Times and outputs at steps of one length."""
+) -> _Marched:
+    """Take equal steps of a length [s] that the end stop allows."""
+    _check_step(drive, mass, length)
     n = round(stop_time / length)
     times, rows = [0.0], [drive.outputs() + mass.outputs()]
     for i in range(n):
@@ -312,13 +321,13 @@ def _fixed(
         rows.append(drive.outputs() + mass.outputs())
         if i % 200 == 0:
             progress(i / n)
-    return times, rows
+    return times, rows, 0
 
 
 def _chosen(
     drive: DriveSide, mass: MassSide, stop_time: float, tolerance: float, progress: Progress
-) -> tuple[list[float], list[list[float]], int]:
-    """Times and outputs of adaptive steps, and how often one was rolled back."""
+) -> _Marched:
+    """Take adaptive steps."""
     steps = Steps(drive, mass, stop_time, tolerance, _longest(drive, mass))
     times, rows = [0.0], [drive.outputs() + mass.outputs()]
     while steps.time < stop_time:

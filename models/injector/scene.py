@@ -9,7 +9,7 @@ from attrs import evolve, field, frozen
 from ...errors import DescriptionError
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
-from ...scene.scenes import SeparationScene
+from ...scene.scenes import InWords, SeparationScene
 from ...separation.effects.registry import SeparationEffect, TensionLimit
 from ...units import celsius, si
 from ...validators import as_tuple, finite, part, positive
@@ -70,7 +70,7 @@ class Study:
 
 
 @frozen(kw_only=True)
-class InjectorScene:
+class InjectorScene(InWords):
     """A separation scene whose pull comes from a valve, and the temperatures to run it at."""
 
     name: str = "fuel injector"

@@ -9,7 +9,7 @@ from attrs import evolve, field, frozen
 from ...errors import DescriptionError
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
-from ...scene.scenes import SeparationScene
+from ...scene.scenes import InWords, SeparationScene
 from ...separation.effects.registry import (
     SeparationEffect,
 )
@@ -72,7 +72,7 @@ class MirrorStudy:
 
 
 @frozen(kw_only=True)
-class MicromirrorScene:
+class MicromirrorScene(InWords):
     """Everything the file of a micromirror says; `interface` and `loading` are those of one tip."""
 
     interface: Interface = field(validator=part(Interface))

@@ -15,11 +15,12 @@ from attrs import evolve
 import contactkit as ck
 from contactkit.app.cost.separation import other_menisci
 from contactkit.app.run.injector.cosimulation import cosimulate_cases
-from contactkit.app.run.injector.cycles import cycles, delay, dry_delay, run_error
+from contactkit.app.run.injector.cycles import cycles, run_error
 from contactkit.app.run.injector.report import report
 from contactkit.app.scenes import open_scene
 from contactkit.files.scenes import structure
 from contactkit.fmu.slaves.stiction_mass import mass_values
+from contactkit.models.injector.delays import delay, dry_delay
 from contactkit.models.injector.scene import Study
 from contactkit.separation.effects.base import LimitKind
 from contactkit.units import celsius

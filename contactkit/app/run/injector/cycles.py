@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from attrs import evolve
 from scipy.interpolate import CubicHermiteSpline
 
 from ....models.injector.monolithic import simulate
@@ -15,15 +14,12 @@ from ....models.injector.scene import InjectorScene
 from ....models.injector.valve import energising_times
 from ....numerics.roots import bracketed_root
 from ....separation.effects.base import LimitKind
-from ....separation.effects.registry import ViscousForce
-from ....separation.plan import Plan, plan
+from ....separation.plan import plan
 from .cosimulation import InjectorRun
 
 __all__ = [
     "Cycle",
     "cycles",
-    "delay",
-    "dry_delay",
     "largest_pull",
     "run_error",
 ]
@@ -76,40 +72,6 @@ def _release_time(run: InjectorRun, gap: float, start: float, end: float) -> flo
     step = slice(int(np.argmax(risen)), int(np.argmax(risen)) + 2)
     cubic = CubicHermiteSpline(time[step], gaps[step] - gap, speeds[step])
     return bracketed_root(lambda moment: float(cubic(moment)), *time[step].tolist())
-
-
-def dry_delay(scene: InjectorScene) -> float:
-    """Release delay [s] of a spool without a film: what magnet, spring and mass alone take."""
-    film = scene.separation(scene.temperature)
-    meniscus = film.meniscus
-    thin = evolve(meniscus.liquid, viscosity=1e-15, kinematic_viscosity=None)
-    interface = evolve(film.interface, meniscus=evolve(meniscus, liquid=thin))
-    dry = plan(evolve(film, interface=interface, effects=(ViscousForce(),)))
-    return _release(scene, dry, 1e-8)
-
-
-def _release(scene: InjectorScene, made: Plan, rtol: float) -> float:
-    end = scene.first_pulse_end
-    return simulate(made, scene.valve, end, rtol=rtol, until_release=True).cycles[0].release_time
-
-
-def delay(
-    scene: InjectorScene,
-    temperature: float,
-    *,
-    tears: bool = True,
-    strength: float | None = None,
-    cavity_pressure: float | None = None,
-    rtol: float = 1e-6,
-) -> float:
-    """Delay of the first release [s], nan if it is not released within the pulse.
-
-    By the monolithic model, for an oil as in `InjectorScene.separation`.
-    """
-    film = scene.separation(
-        temperature, tears=tears, strength=strength, cavity_pressure=cavity_pressure
-    )
-    return _release(scene, plan(film), rtol)
 
 
 def largest_pull(scene: InjectorScene) -> float:

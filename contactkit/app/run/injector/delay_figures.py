@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ....models.injector.delays import delay
 from ....models.injector.scene import InjectorScene
 from ....plot import style as plot
 from ....separation.effects.registry import TensionLimit
 from ....units import bar, celsius
 from .cosimulation import InjectorRun
-from .cycles import cycles, delay, largest_pull
+from .cycles import cycles, largest_pull
 
 __all__ = ["delays_over_strength", "delays_over_temperature"]
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
+from ....models.injector.delays import delay, dry_delay
 from ....models.injector.scene import InjectorScene
 from ....separation.effects.base import FilmStatus
 from ....separation.effects.registry import TensionLimit
@@ -17,7 +18,7 @@ from ....separation.plan import plan
 from ....units import bar, celsius
 from ...report import Report
 from .cosimulation import InjectorRun, cosimulate_cases
-from .cycles import Cycle, cycles, delay, dry_delay, largest_pull, run_error
+from .cycles import Cycle, cycles, largest_pull, run_error
 from .end_stop import end_stop_numbers
 
 __all__ = ["plan_text", "report", "run_injector"]

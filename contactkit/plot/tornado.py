@@ -1,0 +1,121 @@
+"""Tornado figures: which assumption moves an answer, and by how much."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..scene.description import value_text
+from .axis_units import axis_unit
+from .separation import Axes, Patch, figure
+
+if TYPE_CHECKING:
+    from ..studies.sensitivity import Influence, Sensitivity
+
+__all__ = ["tornado"]
+
+_LOW, _HIGH, _BETWEEN = "#0072b2", "#e69f00", "0.8"  # distinct to the colour-blind, and in grey
+_MISSING = 0.12  # of the width of the axis, beyond the greatest answer
+
+
+def tornado(
+    found: Sensitivity,
+    ax: Axes | None = None,
+    *,
+    most: int = 15,
+    names: Mapping[str, str] | None = None,
+    missing: str = "no answer",
+) -> Axes:
+    """Draw the answer over the range of each assumption, the most influential on top.
+
+    A bar leads from the answer of the scene as it is to the answer at each end of the range, with
+    the value of the assumption beside it. A grey line spans the answers in between, where they
+    reach further.
+
+    Parameters
+    ----------
+    found : Sensitivity
+        From `contactkit.sensitivity`.
+    ax : Axes, optional
+        Where to draw; a new figure if none is given.
+    most : int
+        Most assumptions to draw.
+    names : mapping, optional
+        What to call the assumptions, by path; else the end of the path.
+    missing : str
+        What it means that there is no answer, such as "never released".
+    """
+    rows = found.influences[:most]
+    if ax is None:
+        _, ax = figure(1, 1, (7.5, 1.0 + 0.42 * len(rows)))
+    known = [v for one in rows for v in one.extent(found.base) if math.isfinite(v)]
+    low, high = min(known, default=0.0), max(known, default=1.0)
+    factor, unit = axis_unit(max(abs(low), abs(high)), found.unit)
+    width = (high - low) / factor or abs(high) / factor or 1.0
+    has_gaps = any(one.has_gaps for one in rows)
+    end = high / factor + (_MISSING * width if has_gaps else 0.0)
+    base = found.base / factor if math.isfinite(found.base) else end
+    for i, one in enumerate(rows):
+        _row(ax, i, one, (base, end, factor), 0.012 * width)
+    ax.axvline(base, color="k", lw=1.0)
+    if has_gaps:
+        ax.axvline(end, color="0.5", lw=0.8, ls=":")
+        ax.annotate(missing, (end, -0.62), ha="center", va="bottom", fontsize="small", color="0.3")
+    called = names or {}
+    labels = [called.get(one.path) or _short(one.path) for one in rows]
+    heads = [f"{n} ({_printed(o.base, o.unit)})" for n, o in zip(labels, rows, strict=True)]
+    ax.set_yticks(range(len(rows)), heads)
+    ax.set_ylim(len(rows) - 0.4, -0.9 if has_gaps else -0.6)
+    ax.set_xlim(low / factor - 0.16 * width, end + 0.16 * width)
+    ax.set_xlabel(found.answer + ("" if unit == "-" else f" [{unit}]"))
+    _legend(ax)
+    return ax
+
+
+def _row(ax: Axes, i: int, one: Influence, scale: tuple[float, float, float], space: float) -> None:
+    """Draw one assumption: both ends of its range, and what lies between."""
+    base, end, factor = scale
+    known = [v / factor for v in one.answers if not math.isnan(v)]
+    span = [base, *known, *([end] if one.has_gaps else [])]
+    ax.plot([min(span), max(span)], [i, i], color=_BETWEEN, lw=1.5, zorder=1)
+    for offset, value, answer, color in (
+        (-0.2, one.values[0], one.answers[0], _LOW),
+        (0.2, one.values[-1], one.answers[-1], _HIGH),
+    ):
+        to = end if math.isnan(answer) else answer / factor
+        style: dict[str, Any] = {"hatch": "////", "alpha": 0.5} if math.isnan(answer) else {}
+        ax.barh(i + offset, to - base, 0.36, left=base, color=color, zorder=2, **style)
+        side = -1.0 if to < base else 1.0
+        ax.annotate(
+            _printed(value, one.unit),
+            (to + side * space, i + offset),
+            ha="left" if side > 0.0 else "right",
+            va="center",
+            fontsize="x-small",
+            bbox={"color": "w", "pad": 0.3, "lw": 0.0},
+        )
+
+
+def _legend(ax: Axes) -> None:
+    ends = [Patch(color=_LOW, label="low end"), Patch(color=_HIGH, label="high end")]
+    ax.legend(handles=ends, loc="lower right", fontsize="small", framealpha=1.0)
+
+
+def _printed(value: Any, unit: str) -> str:
+    """A value with the letters of print."""
+    text = value_text(value, unit)
+    for plain, letters in (
+        (" um", " µm"),
+        ("degC", "°C"),
+        ("ohm", "Ω"),
+        ("m2", "m²"),
+        ("m3", "m³"),
+    ):
+        text = text.replace(plain, letters)
+    return text
+
+
+def _short(path: str) -> str:
+    """Last name of a path; the first of several that vary together."""
+    return path.partition(",")[0].strip().rpartition(".")[2].replace("_", " ")

@@ -1,0 +1,421 @@
+"""Sensitivity of an answer to the assumptions behind it, one at a time over its plausible range."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from html import escape
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+
+from ..accuracy import Accuracy
+from ..errors import ContactkitError, DescriptionError, nearest
+from ..files.scenes import write_whole
+from ..scene.description import value_text
+from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
+from ..scene.tabular import Contents, Quantity, Tabular
+from ..units import quantity_text
+from .paths import axes, changed, value_at
+from .study import Study, study
+
+__all__ = ["Influence", "Range", "Sensitivity", "sensitivity"]
+
+_WIDE = 10.0  # ratio of the ends of a range from which the values between are spaced by ratios
+_Row = tuple[Any, ...]
+
+
+@frozen
+class Range:
+    """Plausible range of an assumption, and the reason for it.
+
+    Parameters
+    ----------
+    low, high : float or str
+        Ends of the range, in SI units or as texts with a unit. Names of the library for solids and
+        liquids. Where several paths vary together, tuples with a value for each path.
+    reason : str
+        Why the range is plausible: a datasheet, a measurement, a guess.
+
+    Examples
+    --------
+    >>> Range("10 g", "40 g", "2 to 5 cm3 of steel").high
+    '40 g'
+    """
+
+    low: Any
+    high: Any
+    reason: str = ""
+
+
+@frozen(eq=False)
+class Influence:
+    """Answers over the range of one assumption.
+
+    Attributes
+    ----------
+    path : str
+        Path of the assumption in the scene; several, separated by commas, that vary together.
+    unit : str
+        Unit of its values; that of the first path.
+    base : object
+        Value in the scene as it is; that of the first path.
+    values : tuple
+        Values from the low to the high end; those of the first path.
+    answers : tuple of float
+        Answer at each value; nan where there is none.
+    messages : tuple of str
+        Why there is none; empty elsewhere.
+    reason : str
+        Why the range is plausible.
+    """
+
+    path: str
+    unit: str
+    base: Any
+    values: tuple[Any, ...]
+    answers: tuple[float, ...]
+    messages: tuple[str, ...] = field(repr=False)
+    reason: str = ""
+
+    @property
+    def has_gaps(self) -> bool:
+        """Whether there is no answer somewhere in the range."""
+        return any(map(math.isnan, self.answers))
+
+    def extent(self, base: float) -> tuple[float, float]:
+        """Least and greatest answer over the range, that of the scene as it is among them."""
+        known = [one for one in (base, *self.answers) if not math.isnan(one)]
+        return (min(known), max(known)) if known else (math.nan, math.nan)
+
+    def swing(self, base: float) -> float:
+        """Greatest less least answer; infinite where there is none somewhere in the range."""
+        low, high = self.extent(base)
+        return math.inf if self.has_gaps else high - low
+
+
+@frozen(eq=False)
+class Sensitivity(Tabular):
+    """Answer of a scene, and what each assumption does to it, the most influential first.
+
+    Attributes
+    ----------
+    answer, unit : str
+        Name of the answer, and its unit.
+    base : float
+        Answer of the scene as it is.
+    influences : tuple of Influence
+        One for each assumption, sorted by the change of the answer over its range; first those
+        with a value for which there is no answer.
+    """
+
+    answer: str
+    unit: str
+    base: float
+    influences: tuple[Influence, ...] = field(repr=False)
+
+    def influence(self, path: str) -> Influence:
+        """Return what the assumption of a path does.
+
+        Raises
+        ------
+        DescriptionError
+            If the path was not varied.
+        """
+        known = {one.path: one for one in self.influences}
+        if path not in known:
+            raise DescriptionError("path", path, "be one that varies", hint=nearest(path, known))
+        return known[path]
+
+    def table(self) -> str:
+        """Return the assumptions with their ranges and the answers at both ends as text."""
+        heads = ("assumption", "low", "as it is", "high", "answer low", "high", "change")
+        rows = [heads, *(self._cells(one) for one in self.influences)]
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = [
+            "  ".join(
+                cell.ljust(w) if i == 0 else cell.rjust(w)
+                for i, (cell, w) in enumerate(zip(row, widths, strict=True))
+            )
+            for row in rows
+        ]
+        missing = [f"{one.path}: {text}" for one in self.influences for text in _first(one)]
+        return "\n".join([f"{self.answer} = {self._text(self.base)}", *lines, *missing])
+
+    def _cells(self, one: Influence) -> tuple[str, ...]:
+        values = (one.values[0], one.base, one.values[-1])
+        answers = (one.answers[0], one.answers[-1], one.swing(self.base))
+        return (one.path, *(value_text(v, one.unit) for v in values), *map(self._text, answers))
+
+    def _text(self, answer: float) -> str:
+        return quantity_text(answer, self.unit) if math.isfinite(answer) else "none"
+
+    def __str__(self) -> str:
+        """Return the table."""
+        return self.table()
+
+    def _repr_html_(self) -> str:
+        """The table in a notebook."""
+        return f"<pre>{escape(self.table())}</pre>"
+
+    def contents(self) -> Contents:
+        """Return assumptions, their ranges as text and the answers at the ends and extremes."""
+        rows, axis = self.influences, ("assumption",)
+        ends = np.array([one.extent(self.base) for one in rows]).reshape(-1, 2)
+
+        def texts(values: Iterable[Any]) -> Quantity:
+            cells = [value_text(v, one.unit) for v, one in zip(values, rows, strict=True)]
+            return Quantity(axis, np.array(cells), "-")
+
+        found = {
+            "assumption": Quantity(axis, np.array([one.path for one in rows]), "-"),
+            "low": texts(one.values[0] for one in rows),
+            "as_it_is": texts(one.base for one in rows),
+            "high": texts(one.values[-1] for one in rows),
+            "answer_low": Quantity(axis, np.array([o.answers[0] for o in rows]), self.unit),
+            "answer_high": Quantity(axis, np.array([o.answers[-1] for o in rows]), self.unit),
+            "least": Quantity(axis, ends[:, 0], self.unit, "least answer in the range"),
+            "greatest": Quantity(axis, ends[:, 1], self.unit, "greatest answer in the range"),
+            "reason": Quantity(axis, np.array([one.reason for one in rows]), "-"),
+            "answer": Quantity((), self.base, self.unit, self.answer),
+        }
+        return Contents(axis, found, {"title": f"sensitivity of {self.answer}"})
+
+    def save_csv(self, path: str | Path) -> Path:
+        """Write every answer to a CSV file, a row for each value, atomically.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file; its suffix becomes ``.csv``.
+        """
+        path = Path(path).with_suffix(".csv")
+        heads = ("assumption", "value", "value_unit", f"{self.answer} [{self.unit}]")
+        with (
+            write_whole(path) as temporary,
+            temporary.open("w", newline="", encoding="utf-8") as file,
+        ):
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow([*heads, "message", "reason"])
+            writer.writerow(["as it is", "", "", f"{self.base:.6g}", "", ""])
+            for one in self.influences:
+                cells = zip(one.values, one.answers, one.messages, strict=True)
+                for value, found, message in cells:
+                    shown = f"{value:.6g}" if isinstance(value, float) else value_text(value, "-")
+                    writer.writerow(
+                        [one.path, shown, one.unit, f"{found:.6g}", message, one.reason]
+                    )
+        return path
+
+
+def _first(one: Influence) -> list[str]:
+    """First reason why there is no answer."""
+    return [text for text in one.messages if text][:1]
+
+
+def sensitivity(
+    scene: Any,
+    ranges: Mapping[str, Range | tuple[Any, Any]],
+    answer: str | Callable[[Any], float],
+    accuracy: Accuracy | None = None,
+    *,
+    n: int = 2,
+    unit: str | None = None,
+    label: str | None = None,
+    store: str | Path | None = None,
+    workers: int = 1,
+    client: Any = None,
+    progress: Callable[[float], None] | None = None,
+) -> Sensitivity:
+    """Sweep each assumption over its plausible range, the others as in the scene.
+
+    Parameters
+    ----------
+    scene : ContactScene, SeparationScene or SlidingScene, or that of a device
+        The scene as it is.
+    ranges : mapping of str to Range
+        Plausible range by the dotted path of the assumption, as in `study`: ``loading.mass``,
+        ``effects.tension-limit.strength``. Paths that vary together are one key, separated by
+        commas, with tuples as ends. A pair ``(low, high)`` is a range without a reason.
+    answer : str or callable
+        The number that is asked for: the name of one of the result, such as ``peak_force``; or a
+        function of a scene that returns it, nan where there is none, which also takes the scenes
+        of devices.
+    accuracy : Accuracy, optional
+        Numerical settings, for an answer by name.
+    n : int
+        Values from end to end, at least 2. More than the ends show an answer that is not
+        monotonic; they are spaced by ratios in a range of more than a decade, evenly in others.
+        Whole numbers, names and paths that vary together have the ends alone.
+    unit, label : str, optional
+        Unit and name of the answer of a function; by default ``-`` and the name of the function.
+    store, workers, client, progress : optional
+        As in `study`; but for `progress`, only for an answer by name.
+
+    Returns
+    -------
+    Sensitivity
+        Influences of the assumptions, the largest first. Effects of two assumptions at once are
+        left out: repeat it from another scene to see whether the order changes.
+
+    Raises
+    ------
+    DescriptionError
+        If a path, a range or the answer does not exist, or something is given that is not used.
+    PlanError
+        If the effects do not fit the scene, for an answer by name.
+
+    Examples
+    --------
+    >>> import contactkit as ck
+    >>> oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=870.0)
+    >>> face = ck.Flat(radius=1e-3)
+    >>> scene = ck.SeparationScene(
+    ...     interface=ck.Interface(lower=face, upper=face, meniscus=ck.Meniscus(liquid=oil)),
+    ...     loading=ck.ImposedSpeed(speed=0.001, initial_gap=5e-6, final_gap=25e-6),
+    ...     effects=(ck.ViscousForce(),),
+    ... )
+    >>> found = ck.sensitivity(
+    ...     scene,
+    ...     {
+    ...         "interface.meniscus.liquid.viscosity": ck.Range("50 mPa.s", "0.2 Pa.s", "grades"),
+    ...         "loading.initial_gap": ck.Range("4 um", "6 um", "waviness of the faces"),
+    ...     },
+    ...     "peak_force",
+    ... )
+    >>> [one.path for one in found.influences]
+    ['interface.meniscus.liquid.viscosity', 'loading.initial_gap']
+    """
+    settings = accuracy if accuracy is not None else Accuracy.standard
+    assumptions = [_Assumption(scene, settings, *one, n) for one in _checked(ranges, n).items()]
+    paths = [path for one in assumptions for path in one.paths]
+    base = dict(zip(paths, chain(*(one.base for one in assumptions)), strict=True))
+    rows = [base]
+    rows += [base | dict(zip(o.paths, row, strict=True)) for o in assumptions for row in o.rows]
+    if isinstance(answer, str):
+        _unused(unit=unit, label=label)
+        run = partial(study, workers=workers, store=store, client=client, progress=progress)
+        made, unit = _studied(scene, rows, answer, partial(run, accuracy=accuracy))
+        answers = made.column(answer).tolist()
+        messages = [point.message if point.has_failed else "" for point in made.points]
+        return _collected(assumptions, answers, messages, (answer, unit))
+    _unused(accuracy=accuracy, store=store, client=client, workers=workers - 1 or None)
+    answers, messages = _asked(scene, rows, answer, progress)
+    name = label or answer.__name__.replace("_", " ")
+    return _collected(assumptions, answers, messages, (name, unit or "-"))
+
+
+def _studied(
+    scene: Any, rows: list[dict[str, Any]], answer: str, run: Callable[..., Study[Any]]
+) -> tuple[Study[Any], str]:
+    """One study of all rows, and the unit of the answer."""
+    if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
+        expected = f"be a function for a {type(scene).__name__}, whose answers have no names"
+        raise DescriptionError("answer", answer, expected)
+    paths = list(rows[0])
+    values = [tuple(row.values()) if len(paths) > 1 else row[paths[0]] for row in rows]
+    made = run(scene, {", ".join(paths): values})
+    names = [name for name in made.units if name not in paths]
+    if answer not in names:
+        expected = "be a number of the result"
+        raise DescriptionError("answer", answer, expected, hint=nearest(answer, names))
+    return made, made.unit(answer)
+
+
+def _collected(
+    assumptions: list[_Assumption],
+    answers: list[float],
+    messages: list[str],
+    named: tuple[str, str],
+) -> Sensitivity:
+    """Answers in the order of the rows, as influences."""
+    found, at = [], 1
+    for one in assumptions:
+        end = at + len(one.rows)
+        found.append(one.influence(tuple(answers[at:end]), tuple(messages[at:end])))
+        at = end
+    base = answers[0]
+    found.sort(key=lambda one: -one.swing(base))
+    return Sensitivity(*named, base, tuple(found))
+
+
+def _checked(ranges: Mapping[str, Range | tuple[Any, Any]], n: int) -> dict[str, Range]:
+    if isinstance(n, bool) or not isinstance(n, int) or n < 2:
+        raise DescriptionError("n", n, "be a whole number of at least 2: the ends of a range")
+    if not isinstance(ranges, Mapping) or not ranges:
+        raise DescriptionError("ranges", ranges, "name at least one assumption and its range")
+    found = {}
+    for path, given in ranges.items():
+        one = given
+        if isinstance(given, tuple | list) and len(given) == 2:
+            one = Range(given[0], given[1])
+        if not isinstance(one, Range):
+            raise DescriptionError(f"ranges[{path!r}]", one, "be a Range, or a pair (low, high)")
+        found[path] = one
+    return found
+
+
+def _unused(**given: object) -> None:
+    """Refuse what the kind of answer does not use."""
+    cure = (
+        "accuracy, store, workers and client belong to an answer by its name, unit and label to "
+        "a function"
+    )
+    for name, value in given.items():
+        if value is not None:
+            raise DescriptionError(name, value, "be left out", hint=cure)
+
+
+class _Assumption:
+    """An assumption with its paths, the rows of values to try, and the row of the scene."""
+
+    def __init__(self, scene: Any, accuracy: Accuracy, path: str, given: Range, n: int) -> None:
+        (axis,) = axes(scene, accuracy, {path: (given.low, given.high)})
+        self.path, self.paths, self.unit = path, axis.paths, axis.units[0]
+        self.base = tuple(value_at(scene, accuracy, one) for one in axis.paths)
+        self.reason = given.reason
+        self.rows: list[_Row] = list(axis.values)
+        low, high = axis.values[0][0], axis.values[-1][0]
+        if len(axis.paths) == 1 and isinstance(low, float) and isinstance(high, float):
+            self.rows = [(value,) for value in _between(low, high, n)]
+
+    def influence(self, answers: tuple[float, ...], messages: tuple[str, ...]) -> Influence:
+        values = tuple(row[0] for row in self.rows)
+        return Influence(self.path, self.unit, self.base[0], values, answers, messages, self.reason)
+
+
+def _between(low: float, high: float, n: int) -> list[float]:
+    """Values from end to end, by ratios where these are far apart."""
+    if low * high > 0.0 and max(high / low, low / high) > _WIDE:
+        found = np.geomspace(low, high, n).tolist()
+    else:
+        found = np.linspace(low, high, n).tolist()
+    return [low, *found[1:-1], high]
+
+
+def _asked(
+    scene: Any,
+    rows: list[dict[str, Any]],
+    answer: Callable[[Any], float],
+    progress: Callable[[float], None] | None,
+) -> tuple[list[float], list[str]]:
+    """Answers of a function, and why there are none."""
+    if not callable(answer):
+        raise DescriptionError("answer", answer, "be the name of a number, or a function")
+    scenes = [changed(scene, Accuracy.standard, row).scene for row in rows]
+    answers, messages = list[float](), list[str]()
+    for i, one in enumerate(scenes):
+        try:
+            found, message = float(answer(one)), ""
+        except ContactkitError as error:
+            found, message = math.nan, str(error)
+        answers.append(found)
+        messages.append(message)
+        if progress is not None:
+            progress((i + 1) / len(scenes))
+    return answers, messages
