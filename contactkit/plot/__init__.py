@@ -8,14 +8,6 @@ contact     Figures of contacts: pressure, areas, sections, layers, load curves.
 stress      Stress below a contact: sections to scale, with the maximum marked.
 slip        Partial slip and stick-slip.
 plastic_history Loading histories: force over approach, residual depth.
-separation  Figures of separations and costs; axes, legends and colours of all figures.
-axis_units  Units of axes: those in which a quantity of some size reads best.
-contact     Figures of contacts.
-study       Figures of studies: numbers over a parameter, bands over seeds.
-tornado     Tornado figures: which assumption moves an answer, and by how much.
-plastic_history Figures of loading histories: force over approach, residual depth.
-stress      Figures of stress below a contact: sections to scale, with the maximum marked.
-roughness   Figures of rough surfaces: area over load beside theories, spectra, patches.
 adhesion    Load and area over the approach of contacts under adhesion.
 load_displacement Load-displacement curves: first loading and unloading.
 roughness   Rough surfaces: area over load beside theories, spectra, patches.
@@ -23,6 +15,7 @@ separation  Separations and slidings: gap and forces, cycles, reference scales.
 film        Films on faces: pressure, liquid fraction; animations.
 curves      Any curves of a result along one axis.
 study       Studies: numbers over a parameter, bands over seeds.
+tornado     Tornado figures: which assumption moves an answer.
 cost        Error over seconds.
 gallery     Figures of the gallery: bands over seeds, colour bars, files for print.
 """

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..scene.description import value_text
-from .axis_units import axis_unit
-from .separation import Axes, Patch, figure
+from .axis_units import axis_unit, in_print
+from .style import Axes, Patch, figure
 
 if TYPE_CHECKING:
     from ..studies.sensitivity import Influence, Sensitivity
@@ -23,7 +23,7 @@ def tornado(
     found: Sensitivity,
     ax: Axes | None = None,
     *,
-    most: int = 15,
+    most: int = 12,
     names: Mapping[str, str] | None = None,
     missing: str = "no answer",
 ) -> Axes:
@@ -104,16 +104,8 @@ def _legend(ax: Axes) -> None:
 
 def _printed(value: Any, unit: str) -> str:
     """A value with the letters of print."""
-    text = value_text(value, unit)
-    for plain, letters in (
-        (" um", " µm"),
-        ("degC", "°C"),
-        ("ohm", "Ω"),
-        ("m2", "m²"),
-        ("m3", "m³"),
-    ):
-        text = text.replace(plain, letters)
-    return text
+    number, space, name = value_text(value, unit).rpartition(" ")
+    return f"{number}{space}{in_print(name)}" if space else name
 
 
 def _short(path: str) -> str:

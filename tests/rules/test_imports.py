@@ -53,7 +53,7 @@ DRAWN = {
         "analyses.pull_off",
         "analyses.stick_slip",
     ),
-    "studies": ("studies.table",),
+    "studies": ("studies.sensitivity", "studies.table"),
 }
 # A method for users that stands for a function of a room above, imported when it is called.
 CALLED_FROM_BELOW = {"contactkit.scene.result": {"contactkit.files.results"}} | {

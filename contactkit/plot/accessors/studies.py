@@ -1,19 +1,21 @@
-"""Figures of a study, ``study.plot``."""
+"""Figures of a study and of a sensitivity, ``study.plot``."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ...errors import DescriptionError
 from ..axis_units import axis_label, readable
 from ..study import study_curves
 from ..style import Axes, figure, legend
+from ..tornado import tornado
 from .base import Figures
 
 if TYPE_CHECKING:
     from ...studies.table import Study
 
-__all__ = ["StudyFigures"]
+__all__ = ["SensitivityFigures", "StudyFigures"]
 
 
 class StudyFigures(Figures["Study[Any]"]):
@@ -53,6 +55,33 @@ class StudyFigures(Figures["Study[Any]"]):
         if len(curves) > 1:
             legend(ax)
         return ax
+
+
+class SensitivityFigures(Figures["Sensitivity"]):
+    """Figures of what the assumptions of a scene do to an answer."""
+
+    def tornado(
+        self,
+        *,
+        most: int = 12,
+        names: Mapping[str, str] | None = None,
+        missing: str = "no answer",
+        ax: Axes | None = None,
+    ) -> Axes:
+        """Draw the answer over the range of each assumption, the most influential on top.
+
+        Parameters
+        ----------
+        most : int
+            Most assumptions to draw.
+        names : mapping, optional
+            What to call the assumptions, by path; else the end of the path.
+        missing : str
+            What it means that there is no answer, such as "never released".
+        ax : Axes, optional
+            Where to draw; a new figure if not given.
+        """
+        return tornado(self._owner, ax, most=most, names=names, missing=missing)
 
 
 def _of_parameter(study: Study[Any], path: str) -> tuple[float, str]:

@@ -11,7 +11,6 @@ import contactkit as ck
 from contactkit.app.scenes import open_scene
 from contactkit.models.injector.assumptions import NAMES, RANGES, RANGES_SUSTAINED, sustaining
 from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
-from contactkit.plot.tornado import tornado
 
 VISCOSITY, RADIUS = "interface.meniscus.liquid.viscosity", "interface.lower.surface.radius"
 RADII = f"{RADIUS}, interface.upper.surface.radius"
@@ -119,7 +118,7 @@ def test_refusals(film, change, message):
 
 
 def test_figure_has_a_bar_for_each_end(film, found):
-    ax = tornado(found, names={VISCOSITY: "viscosity"})
+    ax = found.plot.tornado(names={VISCOSITY: "viscosity"})
     labels = [one.get_text() for one in ax.get_yticklabels()]
     assert labels == [
         "viscosity (100 mPa.s)",
