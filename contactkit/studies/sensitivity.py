@@ -9,7 +9,7 @@ from functools import partial
 from html import escape
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import field, frozen
@@ -33,8 +33,7 @@ _WIDE = 10.0  # ratio of the ends of a range from which the values between are s
 _Row = tuple[Any, ...]
 
 
-@frozen
-class Range:
+class Range(NamedTuple):
     """Plausible range of an assumption, and the reason for it.
 
     Parameters
@@ -242,10 +241,7 @@ def sensitivity(
     *,
     n: int = 2,
     unit: str | None = None,
-    label: str | None = None,
-    store: str | Path | None = None,
     workers: int = 1,
-    client: Any = None,
     progress: Callable[[float], None] | None = None,
 ) -> Sensitivity:
     """Sweep each assumption over its plausible range, the others as in the scene.
@@ -268,10 +264,12 @@ def sensitivity(
         Values from end to end, at least 2. More than the ends show an answer that is not
         monotonic; they are spaced by ratios in a range of more than a decade, evenly in others.
         Whole numbers, names and paths that vary together have the ends alone.
-    unit, label : str, optional
-        Unit and name of the answer of a function; by default ``-`` and the name of the function.
-    store, workers, client, progress : optional
-        As in `study`; but for `progress`, only for an answer by name.
+    unit : str, optional
+        Unit of the answer of a function, whose name is that of the answer; ``-`` if not given.
+    workers : int
+        Number of processes, for an answer by name.
+    progress : callable, optional
+        Called with the completed fraction, 0 to 1.
 
     Returns
     -------
@@ -314,15 +312,15 @@ def sensitivity(
     rows = [base]
     rows += [base | dict(zip(o.paths, row, strict=True)) for o in assumptions for row in o.rows]
     if isinstance(answer, str):
-        _unused(unit=unit, label=label)
-        run = partial(study, workers=workers, store=store, client=client, progress=progress)
+        _unused(unit=unit)
+        run = partial(study, workers=workers, progress=progress)
         made, unit = _studied(scene, rows, answer, partial(run, accuracy=accuracy))
         answers = made.column(answer).tolist()
         messages = [point.message if point.has_failed else "" for point in made.points]
         return _collected(assumptions, answers, messages, (answer, unit))
-    _unused(accuracy=accuracy, store=store, client=client, workers=workers - 1 or None)
+    _unused(accuracy=accuracy, workers=None if workers == 1 else workers)
     answers, messages = _asked(scene, rows, answer, progress)
-    name = label or answer.__name__.replace("_", " ")
+    name = getattr(answer, "__name__", "answer").replace("_", " ")
     return _collected(assumptions, answers, messages, (name, unit or "-"))
 
 
@@ -367,21 +365,15 @@ def _checked(ranges: Mapping[str, Range | tuple[Any, Any]], n: int) -> dict[str,
         raise DescriptionError("ranges", ranges, "name at least one assumption and its range")
     found = {}
     for path, given in ranges.items():
-        one = given
-        if isinstance(given, tuple | list) and len(given) == 2:
-            one = Range(given[0], given[1])
-        if not isinstance(one, Range):
-            raise DescriptionError(f"ranges[{path!r}]", one, "be a Range, or a pair (low, high)")
-        found[path] = one
+        if not isinstance(given, tuple | list) or not 2 <= len(given) <= 3:
+            raise DescriptionError(f"ranges[{path!r}]", given, "be a Range, or a pair (low, high)")
+        found[path] = Range(*given)
     return found
 
 
 def _unused(**given: object) -> None:
     """Refuse what the kind of answer does not use."""
-    cure = (
-        "accuracy, store, workers and client belong to an answer by its name, unit and label to "
-        "a function"
-    )
+    cure = "accuracy and workers belong to an answer by its name, unit to a function"
     for name, value in given.items():
         if value is not None:
             raise DescriptionError(name, value, "be left out", hint=cure)

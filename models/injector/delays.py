@@ -87,7 +87,7 @@ def closing_lag(scene: InjectorScene) -> float:
 
 
 def residual_gap(scene: InjectorScene) -> float:
-    """How far [m] the spool stands off its end cap when the second pulse begins."""
+    """Gap [m] beyond the rest gap when the second pulse begins."""
     found = _first_cycle(scene, plan(scene.separation(scene.temperature)))
     return float(found["gap"][-1]) - scene.loading.rest_gap
 

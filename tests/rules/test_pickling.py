@@ -142,6 +142,9 @@ MADE = {
     "slide": lambda: ck.simulate(ck.plan(sliding())),
     "contact with every effect": all_effects,
     "study": lambda: ck.study(rough(), {"loading.pressure": [1e5, 2e5]}, GRID, keep_maps=True),
+    "sensitivity": lambda: ck.sensitivity(
+        rough(), {"loading.pressure": (1e5, 2e5)}, "contact_area", GRID
+    ),
     "load curve": lambda: ck.load_curve(ck.plan(rough(), GRID), pressures=[1e5, 2e5]),
     "load-displacement curve": lambda: ck.load_displacement(rough(), points=4, accuracy=GRID),
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),

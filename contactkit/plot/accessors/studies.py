@@ -13,6 +13,7 @@ from ..tornado import tornado
 from .base import Figures
 
 if TYPE_CHECKING:
+    from ...studies.sensitivity import Sensitivity
     from ...studies.table import Study
 
 __all__ = ["SensitivityFigures", "StudyFigures"]
@@ -81,7 +82,8 @@ class SensitivityFigures(Figures["Sensitivity"]):
         ax : Axes, optional
             Where to draw; a new figure if not given.
         """
-        return tornado(self._owner, ax, most=most, names=names, missing=missing)
+        found: Sensitivity = self._owner
+        return tornado(found, ax, most=most, names=names, missing=missing)
 
 
 def _of_parameter(study: Study[Any], path: str) -> tuple[float, str]:

@@ -88,9 +88,9 @@ def test_what_has_no_answer_comes_first_and_says_why(film):
         return scene.loading.initial_gap
 
     ranges = {"loading.speed": (1e-4, 1e-2), "loading.initial_gap": (4e-6, 6e-6)}
-    got = ck.sensitivity(film, ranges, gap_over, unit="m", label="gap")
+    got = ck.sensitivity(film, ranges, gap_over, unit="m")
     first, last = got.influences
-    assert (first.path, got.answer, got.unit) == ("loading.initial_gap", "gap", "m")
+    assert (first.path, got.answer, got.unit) == ("loading.initial_gap", "gap over", "m")
     assert first.has_gaps
     assert first.swing(got.base) == math.inf
     assert last.answers == (5e-6, 5e-6)
@@ -121,7 +121,7 @@ def test_figure_has_a_bar_for_each_end(film, found):
     ax = found.plot.tornado(names={VISCOSITY: "viscosity"})
     labels = [one.get_text() for one in ax.get_yticklabels()]
     assert labels == [
-        "viscosity (100 mPa.s)",
+        "viscosity (100 mPa·s)",
         "initial gap (5 µm)",
         "radius (1 mm)",
         "speed (1 mm/s)",
