@@ -19,6 +19,7 @@ _EXTRAS = {
     "pandas": "data",
     "pyamg": "films",
     "pythonfmu": "fmu",
+    "pyvista": "view3d",
     "xarray": "data",
     "ziglang": "native",
 }

@@ -6,6 +6,8 @@ accessors   Figures of results as methods: ``result.plot``.
 maps        Maps over the window of a contact.
 contact     Figures of contacts: pressure, areas, sections, layers, load curves.
 stress      Stress below a contact: sections to scale, with the maximum marked.
+view3d      Surface, pressure and stress in three dimensions, through pyvista.
+explore     A map with sections that follow the mouse, and a slider over depth.
 slip        Partial slip and stick-slip.
 plastic_history Loading histories: force over approach, residual depth.
 adhesion    Load and area over the approach of contacts under adhesion.

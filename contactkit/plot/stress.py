@@ -53,7 +53,8 @@ def below(
 ) -> Axes:
     """Draw contours of the stress under the row of maximum pressure, to scale, with its maximum.
 
-    Stress jumps at interfaces (dashed); each layer is drawn on its own.
+    Stress jumps at interfaces (dashed); each layer is drawn on its own. Down to less than a few
+    pixels the depth is stretched.
 
     Parameters
     ----------
@@ -82,12 +83,15 @@ def below(
     if not part.depth[0] < shown:
         expected = f"lie below the first plane, at {part.depth[0]:g} m"
         raise DescriptionError("stress.depth", shown, expected, unit="m")
-    inside = np.abs(x) <= 1.6 * shown
+    pixel = result.plan.grid.pixel_size[1]
+    inside = np.abs(x) <= max(1.6 * shown, 4.5 * pixel)
     length, length_name = axis_unit(shown, "m")
     stress, stress_name = axis_unit(float(values.max()), "Pa")
     planes, picked = part.depth / length, values[:, inside] / stress
     ax = draw_section(x[inside] / length, planes, part.layer, picked, ax, _levels(picked))
     ax.set_ylim(shown / length, 0.0)
+    if shown < 4.5 * pixel:  # a few pixels: stretched, as nothing of it could be seen to scale
+        ax.set_aspect("auto")
     ax.set_xlabel(f"x from the maximum pressure [{length_name}]")
     ax.set_ylabel(f"depth [{length_name}]")
     _name_layers(ax, result.plan.scene.interface.lower.elastic_stack, shown / length, length)
@@ -192,8 +196,9 @@ def draw_section(
     """
     ax = ax if ax is not None else figure()[1]
     if isinstance(levels, int):
-        levels = np.linspace(0.0, float(values.max()), levels + 1).tolist()
-    steps = list(levels)
+        steps = np.linspace(0.0, float(values.max()), levels + 1)
+    else:
+        steps = np.asarray(levels, dtype=float)
     for number in sorted(set(layer.tolist())):
         rows = np.flatnonzero(layer == number)
         if len(rows) < 2:

@@ -7,15 +7,18 @@ Some minutes; names select some of the runs: ``python docs/scripts/pictures.py h
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 import json
 import math
+import re
 import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from measured_blocks import write_blocks
 from PIL import Image
@@ -129,11 +132,11 @@ def _number(text: str, digits: str) -> str:
     return "-" if math.isnan(value) else format(value, digits)
 
 
-def keep(folder: Path, names: Mapping[str, str]) -> None:
-    """Keep some figures of a run, small."""
+def keep(folder: Path, names: Mapping[str, str], colours: int = 128) -> None:
+    """Keep some figures of a run, small by a palette of so many colours."""
     for name, kept in names.items():
         with Image.open(folder / f"{name}.png") as figure:
-            small = figure.convert("RGB").quantize(128, dither=Image.Dither.NONE)
+            small = figure.convert("RGB").quantize(colours, dither=Image.Dither.NONE)
             small.save(IMG / f"{kept}.png", optimize=True)
 
 
@@ -164,9 +167,25 @@ def run_example(name: str, folder: Path) -> None:
     subprocess.run([sys.executable, "-c", code], check=True, cwd=EXAMPLES)
 
 
+def views(folder: Path) -> None:
+    """Draw the views in three dimensions of the contact that the page on figures solves."""
+    from contactkit.plot.view3d import save_view
+
+    page = (IMG.parent / "how-to" / "figures.md").read_text("utf-8")
+    names: dict[str, Any] = {}
+    with contextlib.chdir(folder):
+        exec(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1], names)
+    save_view(names["result"].plot.surface_3d(off_screen=True), folder / "surface.png")
+    save_view(names["result"].plot.stress_3d(off_screen=True), folder / "stress.png")
+
+
 def main(arguments: Sequence[str]) -> int:
     """Run the scenes and keep their figures."""
     IMG.mkdir(exist_ok=True)
+    if not arguments or "views" in arguments:
+        with tempfile.TemporaryDirectory(prefix="contactkit-") as name:
+            views(Path(name))
+            keep(Path(name), {"surface": "surface-3d", "stress": "stress-3d"}, colours=256)
     for example in SHOWN_EXAMPLES:
         if arguments and example not in arguments:
             continue

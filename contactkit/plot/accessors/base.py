@@ -16,7 +16,7 @@ C = TypeVar("C", bound=Tabular)
 
 
 class Figures(Generic[T]):
-    """Figures of one object as methods, each of which takes ``ax=`` and returns the axes.
+    """Figures of one object as methods; those in a plane take ``ax=`` and return the axes.
 
     `available` lists those that this object can draw, as ``dir`` and ``print`` do. One of an
     effect that the scene does not list raises `NotSimulatedError`.

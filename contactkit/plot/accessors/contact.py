@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from ...analyses.subsurface import MeasureName
 from ...contact.plan import ContactPlan
 from ...contact.result import ContactResult
 from ...errors import PlanError
 from .. import contact as of_contact
-from .. import maps, plastic_history, slip, stress
+from .. import maps, plastic_history, slip, stress, view3d
+from ..explore import Explorer, explore
 from ..roughness import heights_map
 from ..style import Axes
 from .base import Figures, of_absent_effects
+
+if TYPE_CHECKING:
+    from pyvista import Plotter
 
 __all__ = ["ContactFigures", "ContactPlanFigures"]
 
@@ -60,6 +64,20 @@ class ContactFigures(Figures[ContactResult]):
     ) -> Axes:
         """Draw contours of the stress below the maximum pressure; see `plot.stress.below`."""
         return stress.below(self._owner, measure, ax, depth=depth)
+
+    def surface_3d(
+        self, colour: str = "pressure", shape: view3d.Shape = "gap", *, off_screen: bool = False
+    ) -> Plotter:
+        """Draw the surface in three dimensions (extra view3d); see `plot.view3d.view_surface`."""
+        return view3d.view_surface(self._owner, colour, shape, off_screen=off_screen)
+
+    def stress_3d(self, measure: MeasureName = "von_mises", *, off_screen: bool = False) -> Plotter:
+        """Draw the stress below in three dimensions, cut open; see `plot.view3d.view_stress`."""
+        return view3d.view_stress(self._owner, measure, off_screen=off_screen)
+
+    def explore(self, name: str = "pressure", measure: MeasureName | None = None) -> Explorer:
+        """Look at a map or at planes of stress with the mouse; see `plot.explore.explore`."""
+        return explore(self._owner, name, measure)
 
     def slip_zones(self, *, step: int = -1, ax: Axes | None = None) -> Axes:
         """Draw where the contact sticks and slips at the end of a step."""
