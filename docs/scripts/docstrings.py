@@ -20,6 +20,7 @@ from griffe import (
 )
 
 _BLOCK = re.compile(r"^( *)\.\. math::[ ]*(.*(?:\n(?:\1[ ]+.*|[ ]*(?=\n\1[ ])))*)", re.MULTILINE)
+_TABLE = re.compile(r"^( *)(=+(?: +=+)+)\n((?:.*\n)+?)\1\2\n((?:.*\n)+?)\1\2$", re.MULTILINE)
 KINDS = {
     inspect.Parameter.POSITIONAL_ONLY: ParameterKind.positional_only,
     inspect.Parameter.POSITIONAL_OR_KEYWORD: ParameterKind.positional_or_keyword,
@@ -34,9 +35,26 @@ def _block(match: re.Match[str]) -> str:
     return "\n\n".join(f"{indent}$$\n{indent}{tex}\n{indent}$$" for tex in equations if tex)
 
 
+def _table(match: re.Match[str]) -> str:
+    """A simple table of reStructuredText as one of Markdown."""
+    indent, rule = match[1], match[2]
+    starts = [column.start() for column in re.finditer(r"=+", rule)]
+    rows: list[list[str]] = []
+    for line in [*match[3].splitlines(), *match[4].splitlines()]:
+        text = line[len(indent) :]
+        cells = [text[a:b].strip() for a, b in zip(starts, [*starts[1:], None], strict=True)]
+        if cells[0] or not rows:
+            rows.append(cells)
+        else:  # a line that continues the row above
+            rows[-1] = [" ".join(both).strip() for both in zip(rows[-1], cells, strict=True)]
+    rows.insert(1, ["---"] * len(starts))
+    return "\n".join(f"{indent}| {' | '.join(row)} |" for row in rows)
+
+
 def in_markdown(text: str) -> str:
     """Docstring with its mathematics, and double backticks, in Markdown's words."""
-    text = _BLOCK.sub(_block, text)
+    text = _TABLE.sub(_table, _BLOCK.sub(_block, text))
+    text = re.sub(r"^( *)\.\. \[(\d+)\] ", r"\1\2. ", text, flags=re.MULTILINE)
     text = re.sub(r":math:`([^`]+)`", lambda m: f"${' '.join(m[1].split())}$", text)
     return re.sub(r"(?<!`)``(?!`)", "`", text)
 

@@ -77,3 +77,10 @@ def test_equations_of_docstrings_are_those_of_markdown(script):
     assert script("docstrings").in_markdown(text) == (
         "At `h` it is $h^{-3}$:\n\n$$\nF = \\eta v\n$$\n\nMore.\n"
     )
+
+
+def test_tables_of_docstrings_are_those_of_markdown(script):
+    text = "===  ======\na    b\n===  ======\nh    gap of\n     faces\nr    radius\n===  ======"
+    assert script("docstrings").in_markdown(text) == (
+        "| a | b |\n| --- | --- |\n| h | gap of faces |\n| r | radius |"
+    )
