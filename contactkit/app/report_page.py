@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,7 @@ from .output import RECORD, Printed, Record, read_record
 if TYPE_CHECKING:
     from ..scene.validity import ValidityNumber
 
-__all__ = ["PAGE", "folder_page", "report_page", "result_page", "write_page"]
+__all__ = ["PAGE", "folder_page", "report_page", "result_page", "validity_rows", "write_page"]
 
 PAGE = "report.html"
 """Name of the page in an output folder."""
@@ -156,7 +156,7 @@ def _result_sections(result: AnyResult) -> list[str]:
     errata = [str(one) for one in getattr(result, "errata", ())]
     return [
         section("Result", numbers_table(f"{result.status}: {result.message}", result.scalars())),
-        section("Validity", table([_validity_row(one) for one in result.validity])),
+        section("Validity", table(validity_rows(result.validity))),
         section("Errata of what is taken as printed", bullets(errata)),
         section("Plan", result.plan._repr_html_()),
         section("Scene", result.plan.scene._repr_html_()),
@@ -169,7 +169,10 @@ def _counts(work: dict[str, Any]) -> list[tuple[str, int]]:
     return [(name, v) for name, v in work.items() if name.startswith("n_")]
 
 
-def _validity_row(number: ValidityNumber) -> tuple[str, ...]:
-    name, _, rest = str(number).partition(" = " if number.value is not None else ": ")
-    said, _, detail = rest.partition("; ")
-    return (name, said, detail)
+def validity_rows(numbers: Iterable[ValidityNumber]) -> list[tuple[str, str, str]]:
+    """Rows of a table of validity: name, value with its bound, detail; out of range first."""
+    rows = []
+    for one in sorted(numbers, key=lambda number: number.is_valid is not False):
+        said = str(one).removeprefix(one.name).removesuffix(one.detail)
+        rows.append((one.name, said.strip(" =:;,"), one.detail))
+    return rows

@@ -13,11 +13,11 @@ _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 0 auto; padding: 1rem;
   color: #222; background: #fff; }
 h1 { font-size: 1.5rem; line-height: 1.2; } h2 { font-size: 1.15rem; margin: 2rem 0 0.5rem; }
-h1, p, li, td, figcaption { overflow-wrap: anywhere; }
+h1, p, li, td, figcaption { overflow-wrap: break-word; }
 section > div { overflow-x: auto; } p { margin: 0.5rem 0; }
 table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
-td { border-bottom: 1px solid #ddd; padding: 0.2rem 1rem 0.2rem 0; vertical-align: top;
-  min-width: 4.5rem; }
+td { border-bottom: 1px solid #ddd; padding: 0.2rem 0.8rem 0.2rem 0; vertical-align: top;
+  min-width: 4rem; }
 figure { margin: 1rem 0; } img { max-width: 100%; height: auto; }
 figcaption, footer { color: #555; font-size: 0.85rem; }
 pre { font: 0.75rem/1.35 ui-monospace, monospace; overflow-x: auto; }

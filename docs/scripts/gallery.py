@@ -34,7 +34,8 @@ def copy_pages() -> None:
 
 
 if __name__ == "__main__":
-    command = [sys.executable, "-m", "contactkit", "gallery", *sys.argv[1:], "--out", str(MADE)]
+    command = [sys.executable, "-m", "contactkit", "gallery", *sys.argv[1:]]
+    command += ["--out", str(MADE), "--overwrite"]
     status = subprocess.run(command, check=False).returncode
     copy_pages()
     sys.exit(status)

@@ -74,6 +74,22 @@ def test_a_page_holds_figures_numbers_plan_validity_and_sources(folder):
     assert page.count("<img") == len(list(folder.glob("*.png"))) > 0
 
 
+def test_what_is_out_of_range_comes_first():
+    from contactkit.app.report_page import validity_rows
+    from contactkit.scene.validity import ValidityNumber
+
+    numbers = [
+        ValidityNumber(name="a", value=0.1, high=1.0, detail="small; is good"),
+        ValidityNumber(name="b", value=None, high=1.0, detail="nothing is given"),
+        ValidityNumber(name="c", value=2.0, high=1.0, detail="too large"),
+    ]
+    assert validity_rows(numbers) == [
+        ("c", "2 (at most 1): OUT OF RANGE", "too large"),
+        ("a", "0.1 (at most 1): ok", "small; is good"),
+        ("b", "not evaluated", "nothing is given"),
+    ]
+
+
 def test_a_page_needs_no_network_and_no_script(folder):
     found = Elements((folder / "report.html").read_text())
     assert found.links
