@@ -45,6 +45,7 @@ def main(out: Path) -> float:
     found = area_over_load(pressed)
     figure, axes = plot.figure(1, 2, size=(11.0, 4.8))
     roughness_plot.area_and_theories(found, axes)
+    plot.letters(axes)
     plot.save(figure, out / "area_and_theories")
     return float(found.corrected[-1] / found.theories["Persson"][-1])
 

@@ -65,6 +65,7 @@ def main(out: Path) -> float:
         plot.plain_log(ax.xaxis)
         plot.title(ax, f"Ball of 3 mm, 5 N: {title}")
     plot.legend(left)
+    plot.letters((left, right))
     plot.save(figure, out / "coated_sphere")
     exact = hertz.sphere(LOAD, RADIUS, STEEL.plane_strain_modulus).peak_pressure
     value = pressed(None, 0.0).of(ck.SubsurfaceStress).maxima["von_mises"].value

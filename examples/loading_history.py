@@ -42,6 +42,7 @@ def main(out: Path) -> float:
     plot.title(left, "Half the load, none, the full load, none, the full load")
     history_plot.residual_depth(result, right)
     plot.title(right, "Residual depth")
+    plot.letters((left, right))
     plot.save(figure, out / "loading_history")
     return float(part.plastic_work[-1] * RADIUS / (FORCE * contact_radius**2))
 

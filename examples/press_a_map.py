@@ -62,6 +62,7 @@ def main(out: Path) -> float:
     plot.plain_log(right.xaxis)
     plot.title(right, "Contact at a mean pressure of 0.2 GPa")
     plot.legend(right)
+    plot.letters((left, right))
     plot.save(figure, out / "press_a_map")
     thin, thick = (ck.press(heights, PIXEL, coated(h), PRESSURE) for h in (1e-3 * nm, 1e3 * um))
     pairs = zip((thin, thick), ends, strict=True)

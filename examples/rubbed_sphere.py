@@ -40,6 +40,7 @@ def main(out: Path) -> float:
     plot.title(middle, "Zones after the reversal")
     slip_plot.hysteresis(result, right)
     plot.title(right, "Force over displacement")
+    plot.letters((left, middle, right))
     plot.save(figure, out / "rubbed_sphere")
     modulus = 0.5 * GLASS.young_modulus / (1.0 + GLASS.poisson_ratio) / (2.0 - GLASS.poisson_ratio)
     sphere = partial_slip.Sphere(FORCE, FRICTION, radius, modulus)

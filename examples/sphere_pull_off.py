@@ -62,6 +62,7 @@ def main(out: Path, grid: int = 64) -> float:
         ax.set_xlim(-1.5 * UNITS.approach / um, 0.32 * UNITS.approach / um)
         plot.title(ax, f"sphere on rubber, Maugis parameter {transition:g}")
         plot.legend(ax, loc="lower left")
+    plot.letters(axes)
     plot.save(figure, out / "sphere_pull_off")
     return -curve.pull_off_force / (limits.pull_off.load * UNITS.load)
 

@@ -81,6 +81,7 @@ def main(out: Path) -> float:
     right.annotate("end of the current pulse", (0.02, 4.03), fontsize=8, color="#606060")
     plot.title(right, "a ring with a vent, oil that never tears")
     plot.legend(right, loc="upper right", bbox_to_anchor=(1.0, 0.93))
+    plot.letters((left, right))
     plot.save(figure, out / "vented_end_face")
     return 1.0 - damping(1.0 * mm).coefficient(GAP) / damping(0.0).coefficient(GAP)
 

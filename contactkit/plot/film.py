@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DescriptionError
 from ..lubrication.reynolds.film import FilmState
 from ..lubrication.reynolds.motion import PullState
-from .axis_units import axis_unit
+from .axis_units import axis_unit, scaled
 from .style import COLORS, Axes, figure, legend
 
 if TYPE_CHECKING:
@@ -132,12 +132,12 @@ def opening(
     if axes is None:
         axes = figure(3, 1, size=(6.5, 6.5), sharex=True)[1]
     time = np.array([s.time for s in states]) * 1e3
-    gap = [float(s.state.gap[s.state.film.face.loaded].min()) * 1e6 for s in states]
+    gap, length = scaled([s.state.gap[s.state.film.face.loaded].min() for s in states], "m")
     radius = np.sqrt([copies * s.state.cavity_area / np.pi for s in states]) * 1e3
     face = states[0].state.film.face
     film = float(np.sqrt(copies * face.loaded.sum() * face.cell_area / np.pi)) * 1e3
     axes[0].plot(time, gap, color=COLORS["gap"])
-    axes[0].set(ylabel="smallest gap [um]", ylim=(0.0, None))
+    axes[0].set(ylabel=f"smallest gap [{length}]", ylim=(0.0, None))
     axes[1].plot(time, [s.force for s in states], color=COLORS["viscous"])
     axes[1].set(ylabel="force of the film [N]")
     axes[2].plot(time, radius, color=_CAVITY, label="cavity")
@@ -220,7 +220,7 @@ def animate(
 
 def _instant(time: float, gap: float) -> str:
     factor, unit = next(
-        ((f, u) for f, u in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")) if time >= f), (1e-9, "ns")
+        ((f, u) for f, u in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")) if time >= f), (1e-9, "ns")
     )
     size, length = axis_unit(gap, "m")
     return f"{time / factor:.3g} {unit}, {gap / size:.3g} {length}"

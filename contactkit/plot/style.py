@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from matplotlib.axis import Axis
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..errors import DescriptionError
@@ -88,9 +90,12 @@ STYLE: Any = {
     "axes.titlesize": 11.0,
     "axes.prop_cycle": cycler(color=[colour for colour, *_ in SERIES]),
     "figure.constrained_layout.use": True,
+    "hatch.linewidth": 0.5,
     "svg.hashsalt": "contactkit",  # the same names in a file every time
 }
 
+_MICRO = re.compile(r"(?<![\w$\\])u(?=(?:m[23]?|s|N|J|Pa)\b)")
+_DEGREES = re.compile(r"(?<=\d) deg\b|\bdeg(?=C?\b)")
 _UNDATED: dict[str, dict[str, None]] = {
     "png": {"Software": None},
     "pdf": {"CreationDate": None},
@@ -153,6 +158,7 @@ def save(made: Figure, path: str | Path, **more: Any) -> Path:
     kind = path.suffix.lower().removeprefix(".")
     if kind not in _UNDATED:
         raise DescriptionError("save.path", str(path), "end in .png, .pdf or .svg")
+    _set_in_print(made)
     with write_whole(path) as temporary, mpl.rc_context(STYLE):
         made.savefig(temporary, format=kind, **({"metadata": _UNDATED[kind]} | more))
     return path
@@ -196,10 +202,21 @@ def plain_log(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:
-    """Number panels (a), (b) ... and name them."""
-    for i, (ax, text) in enumerate(zip(axes, titles, strict=True)):
-        ax.set_title(f"({chr(97 + i)}) {text}", loc="left", fontsize=10)
+def letters(axes: Iterable[Axes], titles: Sequence[str] | None = None) -> None:
+    """Number panels (a), (b) ... and name them; they keep their titles if none are given."""
+    panels = list(axes)
+    names = [ax.get_title(loc="left") for ax in panels] if titles is None else titles
+    for i, (ax, text) in enumerate(zip(panels, names, strict=True)):
+        ax.set_title(f"({chr(97 + i)}) {text}".rstrip(), loc="left", fontsize=10)
+
+
+def _set_in_print(made: Figure) -> None:
+    """Write units in all texts of a figure with µ and °: labels may come from tables in ASCII."""
+    for text in made.findobj(Text):
+        given = text.get_text()
+        changed = _DEGREES.sub("°", _MICRO.sub("µ", given))
+        if changed != given:
+            text.set_text(changed)
 
 
 def bars(names: Sequence[str], values: Sequence[float], ax: Axes, label: str) -> Axes:

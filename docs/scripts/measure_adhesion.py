@@ -135,6 +135,7 @@ def pictures() -> None:
     for ax in (left, right):
         plot.legend(ax, loc="lower left")
     picture = IMG / "adhesion-loops.png"
+    plot.letters((left, right))
     plot.save(figure, picture)
     with Image.open(picture) as drawn:
         drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(picture)

@@ -236,6 +236,7 @@ def draw(found: Mapping[str, Lines]) -> None:
         plot.plain_log(ax.xaxis)
         plot.title(ax, PANELS[name].title)
         plot.legend(ax, loc="best", fontsize=8)
+    plot.letters(axes.flat)
     plot.save(figure, PICTURE)
     with Image.open(PICTURE) as drawn:
         small = drawn.convert("RGB").quantize(64, dither=Image.Dither.NONE)

@@ -230,5 +230,6 @@ def _draw(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Pa
         cost_plot.closures(one, ax, names)
     plot.title(axes[0], f"{scene.name}: force, up to {scene.reach:g} of the limit")
     plot.title(axes[1], "rupture distance")
+    plot.letters(axes)
     plot.shared_legend(made, axes[0])
     return (plot.save(made, out / "cost"),)

@@ -282,4 +282,5 @@ def _draw(
         [e.name for e in effects], [e.seconds for e in effects], axes[-1], "seconds of the solve"
     )
     plot.title(axes[-1], "effects, one after another")
+    plot.letters(axes)
     return (plot.save(made, out / "cost"),)

@@ -307,6 +307,7 @@ def coupling_figure(found: Sequence[tuple[Case, float, Sequence[Run]]], out: Pat
     for ax in axes[:, 0]:
         _bands(ax)
         ax.set_ylabel("relative error of the release time")
+    plot.letters(axes.flat)
     plot.shared_legend(made, axes[0, 0])
     return plot.save(made, out / "coupling")
 

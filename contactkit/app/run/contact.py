@@ -84,6 +84,7 @@ def draw_contact(result: ContactResult, studies: Studies, out: Path) -> list[Pat
     contact_plot.contact_spots(result, axes[1])
     mean = f"mean pressure {quantity_text(result.mean_pressure, 'Pa')}"
     plot.title(axes[0], f"{title}, {mean}" if title else mean)
+    plot.letters(axes)
     files = [plot.save(made, out / "contact")]
     if result.plan.has(SubsurfaceStress):
         files.append(_stress(result, title, out))
@@ -121,6 +122,7 @@ def _slip(result: ContactResult, title: str, out: Path) -> Path:
     slip.traction_profile(result, axes[1])
     slip.hysteresis(result, axes[2])
     plot.title(axes[0], f"{title}: tangential load path".removeprefix(": "))
+    plot.letters(axes)
     return plot.save(made, out / "slip")
 
 
@@ -132,6 +134,7 @@ def _history(result: ContactResult, title: str, out: Path) -> Path:
     plastic_history.force_approach(result, axes[0])
     plastic_history.residual_depth(result, axes[1])
     plot.title(axes[0], f"{title}: loading history".removeprefix(": "))
+    plot.letters(axes)
     return plot.save(made, out / "loading-history")
 
 

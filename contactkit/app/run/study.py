@@ -299,6 +299,8 @@ def draw_studies(studies: Studies, title: str, out: Path) -> Path:
         ax.set_visible(False)
     head = ", ".join(filter(None, [_what(first), _runs(studies[0].made)]))
     plot.title(flat[0], f"{title}: {head}".removeprefix(": "))
+    if len(panels) > 1:
+        plot.letters(flat[: len(panels)])
     if len(curves) > 1:
         plot.shared_legend(figure, flat[0])
     return plot.save(figure, out / _slug(_what(first)))

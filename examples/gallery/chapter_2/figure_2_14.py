@@ -71,7 +71,8 @@ def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
     for i, loads in enumerate(first_yield(data)[:2]):
         colour = plot.series(i)["color"]
         axes[0].axvline(np.median(loads), color=colour, lw=0.9, ls=":")
-    plot.shared(figure, axes[0])
+    axes[0].plot([], [], color="0.3", lw=0.9, ls=":", label="load of first yield, median")
+    plot.shared(figure, axes[0], columns=4)
     return map_figure(data, [f"{one}\n(at $10^{{-3}} E_3$)" for one in LABELS], CROP), figure
 
 

@@ -253,6 +253,19 @@ def test_the_suffix_chooses_the_kind_of_file(suffix, start, tmp_path):
     assert not (tmp_path / "figure.jpg").exists()
 
 
+def test_units_are_saved_in_the_letters_of_print(tmp_path):
+    figure, (left, right) = style.figure(1, 2)
+    left.set(xlabel="time [us]", ylabel="tilt [deg]")
+    right.set(xlabel="5 um at 20 degC, 60/60 deg", ylabel="bus, degrees and medium")
+    left.set_title("first", loc="left")
+    style.letters(ax for ax in (left, right))
+    style.save(figure, tmp_path / "figure.png", dpi=30)
+    assert (left.get_xlabel(), left.get_ylabel()) == ("time [µs]", "tilt [°]")
+    assert right.get_xlabel() == "5 µm at 20 °C, 60/60°"
+    assert right.get_ylabel() == "bus, degrees and medium"
+    assert [ax.get_title(loc="left") for ax in (left, right)] == ["(a) first", "(b)"]
+
+
 def test_matplotlib_comes_with_the_first_figure_alone():
     code = (
         "import sys, numpy as np, contactkit as ck\n"

@@ -129,8 +129,10 @@ def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, d
         _finish(ax, scene, dry)
         ax.axvline(whole, color="0.5", lw=0.8, ls="-.")
         ax.annotate(
-            "beyond, no pull on a\nresting spool tears ",
+            "beyond, no pull on a\nresting spool tears",
             (whole, 0.6),
+            xytext=(-4, 0),
+            textcoords="offset points",
             ha="right",
             fontsize=8,
             xycoords=("data", "axes fraction"),
@@ -141,6 +143,7 @@ def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, d
     for ax in axes[0][1:]:
         ax.set_ylabel("")
     plot.shared_legend(made, axes[0][0])
+    plot.letters(axes.flat)
     return plot.save(made, out / "delay-against-strength")
 
 

@@ -51,8 +51,8 @@ def _oil(scene: InjectorScene, run: InjectorRun) -> str:
     return f"tears at {limit.tension / bar:g} bar, cavity at {held:.3g} bar"
 
 
-def _shade(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
-    """Shade where the film is torn."""
+def _hatch(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
+    """Hatch where the film is torn, below the curves."""
     acts = run.coupled["limit"] == LimitKind.TENSION
     across = ax.get_xaxis_transform()
     ax.fill_between(
@@ -61,9 +61,11 @@ def _shade(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
         1,
         where=acts,
         transform=across,
-        color=plot.COLORS["limit"],
-        alpha=0.35,
+        facecolor="none",
+        edgecolor="0.85",
+        hatch="//",
         lw=0,
+        zorder=0,
         **more,
     )
 
@@ -78,7 +80,7 @@ def _gap(ax: Any, scene: InjectorScene, run: InjectorRun, time: Any) -> None:
 
 
 def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
-    """Draw what opens as positive and what holds as negative."""
+    """Draw what opens as positive and what holds as negative; the stop, which rings, behind."""
     signals = run.coupled
     for name, label, color, sign in (
         ("F_mag", "magnet, opens", "magnet", 1.0),
@@ -89,7 +91,8 @@ def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
     ):
         if name == "F_m" and not signals[name].any():
             continue
-        ax.plot(time, sign * signals[name], color=plot.COLORS[color], label=label)
+        behind = {"lw": 0.7, "zorder": 1.5} if name == "F_stop" else {}
+        ax.plot(time, sign * signals[name], color=plot.COLORS[color], label=label, **behind)
     top = 1.15 * float(signals["F_mag"].max())
     ax.set_ylim(-top, top)
     ax.axhline(0.0, color="0.3", lw=0.6)
@@ -97,18 +100,29 @@ def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
 
 
 def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
-    made, (gap, speed, force) = plot.figure(3, 1, (9.0, 8.0), sharex=True)
-    time = run.coupled.time * 1e3
-    _gap(gap, scene, run, time)
-    plot.title(gap, f"{scene.name}, oil at {run.label}: {scene.valve.profile.cycles} firing cycles")
-    speed.plot(time, run.coupled["v"], color=plot.COLORS["speed"])
-    speed.set_ylabel("speed of the spool [m/s]")
-    _forces(force, run, time)
-    for ax in (gap, force):
-        _shade(ax, run, time, label="film torn" if ax is force else None)
-    plot.shared_legend(made, force)
-    plot.title(force, "forces: up opens, down holds (impacts on the stop are cut off)")
-    force.set_xlabel("time [ms]")
+    """First cycle: gap, speed and forces; left its opening alone, where forces change fast."""
+    made, axes = plot.figure(3, 2, (12.0, 8.0), sharey="row", sharex="col", squeeze=False)
+    profile = scene.valve.profile
+    time = (run.coupled.time - profile.start_delay) * 1e3
+    first = cycles(run, scene)[0].delay
+    opening = profile.on_time if math.isnan(first) else min(2.0 * first, profile.on_time)
+    ends = (opening * 1e3, min(profile.period * 1e3, float(time[-1])))
+    for (gap, speed, force), end in zip(axes.T, ends, strict=True):
+        shown = (time > -0.05 * end) & (time < end)
+        _gap(gap, scene, run, time)
+        speed.plot(time, run.coupled["v"], color=plot.COLORS["speed"])
+        _forces(force, run, time)
+        for ax in (gap, force):
+            _hatch(ax, run, time, label="film torn" if ax is force else None)
+        force.set(xlabel="time since energising [ms]", xlim=(-0.05 * end, end))
+        gap.set_ylim(0.0, 1.15e6 * float(run.coupled["h"][shown].max()))
+    for ax in axes[:, 1]:
+        ax.set_ylabel("")
+    axes[1, 0].set_ylabel("speed of the spool [m/s]")
+    plot.shared_legend(made, axes[2, 0])
+    head = f"{scene.name}, oil at {run.label}"
+    forces = "up opens, down holds; impacts on the stop are cut off"
+    plot.letters(axes.flat, (f"{head}: opening", "first cycle", "", "", forces, ""))
     return plot.save(made, out / f"force-balance_{run.name}")
 
 
@@ -161,6 +175,7 @@ def _zoom(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path:
     ):
         ax.set_ylabel(label)
     plot.shared_legend(made, axes[1][0])
+    plot.letters(axes.flat)
     return plot.save(made, out / "release-zoom")
 
 
@@ -208,4 +223,5 @@ def _cycle(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> Path
     axes[0][0].set_ylim(bottom=0.0)
     axes[1][0].set_ylim(0.0, 100.0)
     plot.shared_legend(made, axes[0][0])
+    plot.letters(axes.flat)
     return plot.save(made, out / "one-cycle")

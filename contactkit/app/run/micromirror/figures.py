@@ -54,6 +54,7 @@ def _flips(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
     phase.plot(tilt, run.coupled["rate"] * 1e-3, color=_PLUS, lw=0.8)
     phase.set(xlabel="tilt [deg]", ylabel="rate [rad/ms]")
     plot.title(phase, "phase plane")
+    plot.letters((over, phase))
     return plot.save(made, out / "flips")
 
 
@@ -89,6 +90,7 @@ def _first_flip(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
     plot.title(volts, text)
     plot.title(force, "up: tips hold the side down; down: bent tips push it up")
     plot.shared_legend(made, gap)
+    plot.letters((volts, tilt, gap, force))
     return plot.save(made, out / "first-flip")
 
 
@@ -130,6 +132,7 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
     axes[0][0].set_ylabel("gap under a tip [nm]")
     axes[1][0].set_ylabel("force of the tips\non the mirror [nN]")
     plot.shared_legend(made, axes[0][0])
+    plot.letters(axes.flat)
     return plot.save(made, out / "lift-off")
 
 
@@ -166,14 +169,17 @@ def _release(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Pa
         1,
         where=freed,
         transform=across,
-        color=plot.COLORS["limit"],
-        alpha=0.3,
+        facecolor="none",
+        edgecolor="0.8",
+        hatch="//",
         lw=0,
+        zorder=0,
         label="spring alone releases",
     )
     volts.set(xlabel="relative humidity [%]", ylabel="reset pulse [V]")
     plot.title(volts, f"reset pulse of {wave.reset_time * 1e6:g} us")
-    plot.legend(volts, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    plot.legend(volts, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)
+    plot.letters((force, volts))
     return plot.save(made, out / "release-against-humidity")
 
 

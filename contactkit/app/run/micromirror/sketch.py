@@ -23,6 +23,7 @@ def sketch(scene: MicromirrorScene, made: Plan, out: Path) -> Path:
     figure, (whole, near) = plot.figure(1, 2, (11.0, 4.4), width_ratios=(1.5, 1))
     _mirror(whole, scene)
     _tip(near, scene, made)
+    plot.letters((whole, near))
     return plot.save(figure, out / "side-view")
 
 
