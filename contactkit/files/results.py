@@ -173,6 +173,11 @@ def _read(source: IO[bytes], name: str) -> AnyResult:
     for key, (value, _) in numbers.items():
         if not isinstance(value, Real):
             raise TypeError(f"{key} is a {type(value).__name__} and no number")
+    if not (isinstance(header["status"], str) and isinstance(header["message"], str)):
+        raise TypeError("status and message are no texts")
+    work = header["work"]
+    if not all(isinstance(value, Real) for name, value in work.items() if name != "stages"):
+        raise TypeError(f"its work is no count: {work}")
     return result
 
 

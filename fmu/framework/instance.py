@@ -297,7 +297,7 @@ def _described(path: Path) -> Any:
             found = read_model_description(file)
     except Exception as error:  # fmpy raises no narrower one
         raise DescriptionError(
-            "FMU", str(path), "have a model description that can be read", hint=str(error)
+            "FMU", str(path), "have a model description that can be read", hint=str(error)[:500]
         ) from error
     if found.fmiVersion != "2.0":
         hint = f"this is one of FMI {found.fmiVersion}: take the FMI 2 build"

@@ -27,7 +27,7 @@ def solved(faces: StopFaces) -> LoadDisplacementCurve:
         If what they name is not a contact scene.
     """
     given = faces.contact
-    curve = curve_of_scene(json.dumps(given) if isinstance(given, Mapping) else given)
+    curve = curve_of_scene(json.dumps(given, default=str) if isinstance(given, Mapping) else given)
     return curve if faces.area is None else curve.scaled(faces.area / curve.nominal_area)
 
 

@@ -121,6 +121,8 @@ def _check_result(result: Any) -> None:
         assert isinstance(value, numbers.Real), (name, value)
         assert isinstance(unit, str), (name, unit)
     assert to_bytes(result)
+    assert str(result)
+    assert isinstance(result.status, str)
 
 
 # Height maps ---------------------------------------------------------------------------------

@@ -1,0 +1,93 @@
+"""Files are read by few functions, which SECURITY.md lists with what they check."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from contactkit.reading.limits import LIMITS
+
+ROOT = Path(__file__).parents[2]
+SECURITY = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
+
+# What reads or runs what others have written, and the modules that may call it, with the reason.
+OUTSIDE = {
+    "json.load": (),
+    "json.loads": (
+        "contactkit/reading/texts.py",
+        "contactkit/roughness/instrument_channels.py",  # its own text
+        "contactkit/app/output.py",
+        "examples/gallery/measured/cases.py",  # of the package
+        "fmu/framework/state.py",
+        "fmu/python/integrity.py",  # beside the code that reads it, whose hash it is checked with
+        "models/end_stop/solve.py",  # tables of a scene file that was read, as a key
+    ),
+    "tomllib.load": (),
+    "tomllib.loads": (
+        "contactkit/files/scenes.py",
+        "contactkit/files/structure.py",  # the library
+        "contactkit/app/settings.py",  # one value of the command line
+    ),
+    "np.load": (),
+    "numpy.load": (),
+    "np.memmap": (),
+    "np.fromfile": (),
+    "np.genfromtxt": (),
+    "np.loadtxt": ("contactkit/roughness/height_maps.py",),
+    "pickle.load": (),
+    "pickle.loads": ("contactkit/studies/run.py",),  # from the process that started this one
+    "zipfile.ZipFile": (
+        "contactkit/reading/archives.py",
+        "fmu/contents/packing.py",  # writes
+        "fmu/python/build.py",  # what it has just made
+    ),
+    "fromstring": ("contactkit/reading/xml_elements.py",),
+    "etree.parse": (),
+    "extractall": (),
+    "eval": (),
+    "exec": (),
+    "os.system": (),
+}
+
+
+def calls(path):
+    """Names of what a module calls."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call):
+            yield ast.unparse(node.func)
+
+
+def callers():
+    found = {name: set() for name in OUTSIDE}
+    for folder in ("contactkit", "fmu", "models", "examples/gallery"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            for name in set(calls(path)):
+                for known in OUTSIDE:
+                    if name == known or name.endswith(f".{known}"):
+                        found[known].add(path.relative_to(ROOT).as_posix())
+    return found
+
+
+def test_files_are_read_by_these_modules_only():
+    assert callers() == {name: set(modules) for name, modules in OUTSIDE.items()}
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_a_limit_is_stated(name):
+    limit = LIMITS[name]
+    row = f"| `CONTACTKIT_MAX_{name}` | {limit.text(limit.value)} | {limit.what} |"
+    assert row in SECURITY
+
+
+def test_the_readers_that_are_listed_are_there():
+    table = SECURITY.partition("## Readers")[2]
+    folders = {"fmu": ROOT / "fmu", "": ROOT / "contactkit"}
+    for line in re.findall(r"^\| [^|]+ \| ([^|]+) \|", table, re.MULTILINE)[1:]:
+        for name in re.findall(r"`([\w.]+)`", line):
+            head, *rest = name.split(".")
+            base = folders["fmu"] if head == "fmu" else folders[""] / head
+            places = [base.joinpath(*rest[:n]) for n in (len(rest), len(rest) - 1)]
+            assert any(one.with_suffix(".py").is_file() for one in places), name
