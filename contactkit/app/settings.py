@@ -49,7 +49,7 @@ def _plain_value(text: str) -> Any:
     check_keys(text, _OPTION)
     try:
         found = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):  # no TOML, a number of thousands of digits, or too deep
+    except tomllib.TOMLDecodeError:
         return text
     except RecursionError:
         expected = "hold tables and lists of fewer levels"
