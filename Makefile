@@ -33,7 +33,8 @@ test-all: test $(VENV)/.test-all
 	$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m "slow or hypothesis" \
 		--hypothesis-profile=random --hypothesis-seed=$(SEED)
 
-# Everything against other programs, some minutes, one table. The whole table of docs/accuracy.md:
+# Everything against other programs, some minutes, one table; docs/scripts/peers_data.py puts it
+# into docs/demands. Larger maps:
 # .venv/bin/python tests/benchmarks/peers/compare.py --sizes 256 512 1024 2048 --areas 1 5 20 --budget 120
 bench: $(VENV)/.test peers
 	$(BIN)/python tests/benchmarks/peers/bench.py --peers $(VENV)/peers

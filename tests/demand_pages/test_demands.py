@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
+import typing
 from pathlib import Path
 
 import pytest
-from demands import PAGES
+from demands import PAGES, accuracy_studies
+from demands.accuracy import ANALYSES
+from demands.accuracy_studies import SCENES, STUDIES
 from demands.cost import counts, run
 from demands.effect_scenes import CONTACTS, ENTRIES
 from demands.effects import lists
@@ -82,3 +86,43 @@ def test_an_effect_still_costs_what_the_page_counts(kind):
         assert set(now) == set(found["counts"])
         for name, count in found["counts"].items():
             assert now[name] == pytest.approx(count, rel=0.15, abs=10), name
+
+
+SHOWN_STUDIES = load("accuracy-and-cost")["studies"]
+COVERED = {solver for study in STUDIES.values() for solver in study.solvers}
+FILES = {"plan", "save_scene"}  # they compute no answer
+
+
+def test_every_solver_and_every_shipped_scene_has_its_errors():
+    assert set(STUDIES) == set(SHOWN_STUDIES)
+    assert set(SCENES) == set(load("accuracy-and-cost")["presets"])
+    methods = typing.get_type_hints(ck.Accuracy)["method"]
+    assert set(typing.get_args(methods)) <= COVERED
+    assert set(bundled_scenes()) <= COVERED | set(SCENES)
+    named = {name: getattr(ck, name) for name in ck.__all__}
+    functions = {name: one for name, one in named.items() if inspect.isfunction(one)}
+    for name in set(functions) - FILES:
+        first = next(iter(inspect.signature(functions[name]).parameters.values()), None)
+        kind = "" if first is None else str(first.annotation)
+        if any(word in kind for word in ("Scene", "Plan", "SpringSlider")):
+            assert name in COVERED | set(ANALYSES), f"{name} has no study of its error"
+    assert [test for _, test in ANALYSES.values() if not (ROOT / test).exists()] == []
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "releases",
+        "bridges",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("slip", "history", "lines")),
+    ],
+)
+def test_errors_and_counts_of_a_study_still_hold(name, monkeypatch):
+    monkeypatch.setattr(accuracy_studies, "cpu_seconds", lambda *given, **more: 0.0)
+    now = {(p["method"], p["setting"]): p for p in STUDIES[name].points()}
+    assert len(now) == len(SHOWN_STUDIES[name])
+    for shown in SHOWN_STUDIES[name]:
+        found = now[shown["method"], shown["setting"]]
+        assert found["error"] <= 3.0 * shown["error"] + 1e-11
+        for unit, count in shown["counts"].items():
+            assert found["counts"][unit] == pytest.approx(count, rel=0.1, abs=5)

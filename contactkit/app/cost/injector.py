@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ...fmu.master.couple import AdaptiveSteps, FixedSteps, Mass
     from ...fmu.master.steps import Scheme
 
-__all__ = ["coupling_settings", "injector_cost", "injector_sweep"]
+__all__ = ["coupling_settings", "injector_cost", "injector_settings", "injector_sweep"]
 
 Progress = Callable[[float], None]
 
@@ -66,7 +66,7 @@ def injector_sweep(scene: InjectorScene, progress: Progress) -> WorkPrecision:
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         pair = build_fmus(scene, Path(folder))
-        settings = _injector_settings(scene, film, pair)
+        settings = injector_settings(scene, film, pair)
         settings += coupling_settings(scene, film, pair[0], Path(folder))
         return sweep(
             settings,
@@ -78,7 +78,7 @@ def injector_sweep(scene: InjectorScene, progress: Progress) -> WorkPrecision:
         )
 
 
-def _injector_settings(
+def injector_settings(
     scene: InjectorScene, film: SeparationScene, pair: InjectorFmus
 ) -> list[Setting]:
     """Monolithic model over tolerances, FMU pairs over steps, published closures as models."""

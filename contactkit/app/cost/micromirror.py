@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
+import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -27,7 +28,11 @@ _STEPS = (100e-9, 50e-9, 20e-9, 10e-9, 5e-9, 2e-9)  # [s]
 _TOLERANCES = (1e-4, 1e-6, 1e-8)
 
 
-def mirror_sweep(scene: MicromirrorScene, progress: Callable[[float], None]) -> WorkPrecision:
+def mirror_sweep(
+    scene: MicromirrorScene,
+    progress: Callable[[float], None],
+    clock: Callable[[], float] = time.perf_counter,
+) -> WorkPrecision:
     """Error of the time at which the tips are free, by solver, communication step and profile.
 
     Raises
@@ -61,6 +66,7 @@ def mirror_sweep(scene: MicromirrorScene, progress: Callable[[float], None]) -> 
             floor=max(abs(near / exact - 1.0), 1e-14),
             repeats=3,
             progress=progress,
+            clock=clock,
         )
 
 

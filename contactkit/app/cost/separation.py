@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Callable
 from functools import partial
@@ -34,7 +35,9 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 """Relative tolerances of time that are compared."""
 
 
-def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecision:
+def separation_sweep(
+    scene: SeparationScene, progress: Progress, clock: Callable[[], float] = time.perf_counter
+) -> WorkPrecision:
     """Error of the release time of a pull over the tolerance of time, against another solver."""
     if not isinstance(scene.loading, ImposedForce) or scene.loading.mass is None:
         raise PlanError(
@@ -65,7 +68,9 @@ def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecisio
         for rtol in TOLERANCES[::3]
     ]
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
-    return sweep(settings, exact.value, quantity="release time", floor=floor, progress=progress)
+    return sweep(
+        settings, exact.value, quantity="release time", floor=floor, progress=progress, clock=clock
+    )
 
 
 def _release(scene: SeparationScene, rtol: float) -> Outcome:

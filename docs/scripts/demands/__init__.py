@@ -9,6 +9,8 @@ hard_bridges   Hard cases of liquid bridges: right angles, rupture, pinned conta
 hard_cases     Page of the hard cases.
 cost           Cost of a scene: CPU seconds, peak memory and counts of plan and run.
 effect_scenes  A scene for each effect, with it and without it, and the formula of the effect.
+accuracy_studies  Error over cost of each solver, and of each shipped scene by the presets.
+accuracy       Page of accuracy and cost: error over CPU time of solvers, scenes and peers.
 effects        Page of the effects: role, formula, source, validity, cost, scenes.
 """
 
@@ -26,6 +28,7 @@ def _module(name: str) -> Callable[[], ModuleType]:
 
 
 PAGES: Mapping[str, Callable[[], ModuleType]] = {
+    "accuracy-and-cost": _module("accuracy"),
     "hard-cases": _module("hard_cases"),
     "effects": _module("effects"),
 }

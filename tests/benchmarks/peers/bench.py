@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from report import conditions, good, grouped, is_ours
+from report import conditions, goal, good, grouped, is_ours
 
 HERE = Path(__file__).parent
 RUNS = {  # a script and what it is asked in the short run
@@ -44,6 +44,7 @@ def contacts(kept):
             best = min([r for r in there if good(r)] or there, key=lambda row: row["seconds"])
             row |= {"peer": best["solver"], "peer_seconds": best["seconds"]}
             row |= {"peer_error": best["kkt"], "is_good": good(best)}
+            row["goal"] = goal(mine["solver"], mine["n"])
         else:
             row |= {"peer": "all peers", "missing": "none has an answer"}
         found.append(row)
@@ -54,20 +55,23 @@ def summary(found):
     """One table: what it is, what it takes, and the peer's seconds over ours."""
     lines = [
         "| what | pixels a side | convolutions | CPU s | error | peer | its CPU s | its error "
-        "| its seconds over ours |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "| its seconds over ours | goal |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in found:
         count = "-" if row["count"] is None else f"{row['count']}"
         cells = [row["what"], f"{row['n']}", count, f"{row['seconds']:.3f}"]
         cells += [_error(row["error"]), row["peer"]]
         if "missing" in row:
-            cells += ["-", "-", f"left out: {row['missing']}"]
+            cells += ["-", "-", f"left out: {row['missing']}", "-"]
         else:
             is_good = row.get("is_good", (row["peer_error"] or 0.0) <= row.get("target", 0.0))
             over = row["peer_seconds"] / row["seconds"]
             cells += [f"{row['peer_seconds']:.3f}", _error(row["peer_error"])]
             cells.append(f"{'' if is_good else '> '}{over:.1f}")
+            aim = row.get("goal")
+            missed = aim is not None and over < aim
+            cells.append("-" if aim is None else f"{aim:g}{' missed' * missed}")
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
