@@ -51,8 +51,8 @@ def page(data: Mapping[str, Any]) -> str:
         "`Accuracy.draft`, `Accuracy.standard` (without a choice) and `Accuracy.reference`: error "
         "and CPU seconds of plan and run. The last columns are what the grid of the scene leaves, "
         "by `discretisation_error`: where they are larger than the error of the tolerance, a finer "
-        "grid helps and a tighter tolerance does not. An error of 0 is exact: every pixel of "
-        "`tip-landing` in contact is at its hardness.",
+        "grid helps and a tighter tolerance does not. The pressures of `tip-landing` are the "
+        "same to the last bit: 99 % of the pixels in contact are at the hardness.",
         _presets(data["presets"]),
         "The devices (`fuel-injector`, `micromirror`) are governed by their communication step and "
         "the bridges by their profile: see below.",

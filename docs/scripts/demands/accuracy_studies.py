@@ -222,7 +222,7 @@ STUDIES: Mapping[str, Study] = {
     ),
     "fuel-injector": Study(
         "First release of the fuel injector, by solver, coupling and communication step",
-        "a monolithic solution by scipy at 1e-11",
+        "a monolithic solution by scipy at 1e-11; each setting is run once",
         ("fuel-injector", "advance"),
         _injector,
     ),
