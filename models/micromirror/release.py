@@ -13,10 +13,21 @@ from .coupling import couple
 from .scene import MicromirrorScene
 from .tip_film import Adhesion, adhesion, tip_law
 
-__all__ = ["Landing", "Release", "Reset", "landing", "release", "release_curve", "smallest_reset"]
+__all__ = [
+    "Landing",
+    "Release",
+    "Reset",
+    "humidity_limit",
+    "landing",
+    "release",
+    "release_curve",
+    "smallest_reset",
+    "voltage_needed",
+]
 
 _COARSE = 2.0  # [V] between the pulses tried first
 _FINE = 0.05  # [V]
+_WETTEST, _STEP = 0.98, 0.005  # [-] relative humidities
 _AWAY = 0.5  # [-] over the landing tilt, below which a mirror has left
 
 
@@ -144,6 +155,26 @@ def smallest_reset(scene: MicromirrorScene, made: Plan) -> Reset:
 
 def _try(scene: MicromirrorScene, made: Plan, reset_voltage: float) -> float:
     return release(scene, made, reset_voltage)
+
+
+def voltage_needed(scene: MicromirrorScene) -> float:
+    """Smallest reset voltage [V] that releases at the humidity of the runs; nan if none does."""
+    return smallest_reset(scene, tip_law(scene.tip, scene.study.humidity)).voltage
+
+
+def humidity_limit(scene: MicromirrorScene) -> float:
+    """Least relative humidity at which the springs alone do not release the mirror.
+
+    To 0.005, by halving between dry air and 98 %: 1 if the springs release there, too; nan if they
+    do not even release a dry mirror.
+    """
+
+    def sticks(humidity: float) -> bool:
+        return math.isnan(release(scene, tip_law(scene.tip, humidity), None))
+
+    if sticks(0.0):
+        return math.nan
+    return first_true(sticks, 0.0, _WETTEST, atol=_STEP) if sticks(_WETTEST) else 1.0
 
 
 def release_curve(scene: MicromirrorScene, progress: Callable[[float], None]) -> list[Release]:

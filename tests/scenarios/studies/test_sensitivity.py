@@ -11,6 +11,9 @@ import contactkit as ck
 from contactkit.app.scenes import open_scene
 from contactkit.models.injector.assumptions import NAMES, RANGES, RANGES_SUSTAINED, sustaining
 from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
+from contactkit.models.micromirror.assumptions import NAMES as MIRROR_NAMES
+from contactkit.models.micromirror.assumptions import RANGES as MIRROR_RANGES
+from contactkit.models.micromirror.release import humidity_limit, voltage_needed
 
 VISCOSITY, RADIUS = "interface.meniscus.liquid.viscosity", "interface.lower.surface.radius"
 RADII = f"{RADIUS}, interface.upper.surface.radius"
@@ -176,3 +179,14 @@ def test_devices_print_in_words(injector):
     mirror = open_scene("micromirror").scene
     assert "hamaker constant 1e-19 J" in str(mirror)
     assert "<li><b>hinge</b>" in mirror._repr_html_()
+
+
+def test_the_tip_decides_whether_the_mirror_releases():
+    mirror = open_scene("micromirror").scene
+    assert humidity_limit(mirror) == pytest.approx(0.55, abs=0.01)
+    assert voltage_needed(mirror) == pytest.approx(27.8, abs=0.1)
+    radius = "interface.upper.surface.radius"
+    chosen = {path: MIRROR_RANGES[path] for path in (radius, "loading.mass")}
+    got = ck.sensitivity(mirror, chosen, voltage_needed, unit="V")
+    assert [one.path for one in got.influences] == [radius, "loading.mass"]
+    assert set(MIRROR_RANGES) <= set(MIRROR_NAMES)

@@ -1,0 +1,110 @@
+"""Tornado figures of the devices: ``python docs/scripts/sensitivity.py``.
+
+Sweeps the assumptions of the fuel injector and the micromirror over the ranges of
+`models/*/assumptions.py` by their monolithic and coupled models. Writes figures to
+``docs/img/``, every answer as CSV to ``docs/img/data/``, and the tables of the pages. Some minutes.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from measured_blocks import write_blocks
+from PIL import Image
+from validation_tables import grid
+
+import contactkit as ck
+from contactkit.app.scenes import open_scene
+from contactkit.models.injector import assumptions as injector
+from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
+from contactkit.models.micromirror import assumptions as micromirror
+from contactkit.models.micromirror.release import humidity_limit, voltage_needed
+from contactkit.plot.axis_units import in_print
+from contactkit.plot.style import save
+from contactkit.scene.description import value_text
+from contactkit.studies.sensitivity import Sensitivity
+
+IMG = Path(__file__).parents[1] / "img"
+SHOWN = 0.02  # of the largest finite change; the table leaves out what moves the answer less
+
+
+class Case(NamedTuple):
+    """A tornado figure: scene, ranges, the answer, its unit, and what it means to have none."""
+
+    scene: Any
+    ranges: Mapping[str, ck.Range]
+    names: Mapping[str, str]
+    answer: Callable[[Any], float]
+    unit: str
+    missing: str
+
+
+def cases() -> dict[str, Case]:
+    """Tornado figures by the names of their files."""
+    valve = open_scene("fuel-injector").scene
+    late = injector.sustaining(valve)
+    mirror = open_scene("micromirror").scene
+    ranges, held, names = injector.RANGES, injector.RANGES_SUSTAINED, injector.NAMES
+    never = "never released"
+    tips = (micromirror.RANGES, micromirror.NAMES)
+    return {
+        "injector-sticking": Case(valve, ranges, names, sticking_time, "s", never),
+        "injector-sticking-sustained": Case(late, held, names, sticking_time, "s", never),
+        "injector-closing": Case(valve, ranges, names, closing_lag, "s", "never opened"),
+        "injector-standoff": Case(valve, ranges, names, residual_gap, "m", ""),
+        "mirror-voltage": Case(mirror, *tips, voltage_needed, "V", "no voltage"),
+        "mirror-humidity": Case(mirror, *tips, humidity_limit, "-", "sticks dry"),
+    }
+
+
+def table(found: Sensitivity, names: Mapping[str, str]) -> str:
+    """Assumptions with their ranges, reasons, and the answers at both ends."""
+    swings = [one.swing(found.base) for one in found.influences if not one.has_gaps]
+    least = SHOWN * max(swings)
+
+    def text(answer: float) -> str:
+        return "none" if answer != answer else value_text(answer, found.unit)
+
+    rows = [
+        (
+            names[one.path],
+            f"{value_text(one.values[0], one.unit)} ... {value_text(one.values[-1], one.unit)}",
+            text(one.answers[0]),
+            text(one.answers[-1]),
+            one.reason,
+        )
+        for one in found.influences
+        if one.swing(found.base) >= least
+    ]
+    rest = [names[one.path] for one in found.influences if one.swing(found.base) < least]
+    heads = ("assumption", "range", "answer at the low end", "at the high end", "reason")
+    below = f"\n\nLess than {SHOWN:.0%} of the largest: {', '.join(rest)}." if rest else ""
+    return f"As it is: {text(found.base)}.\n\n{grid(heads, rows)}{below}"
+
+
+def main() -> int:
+    """Compute the cases named on the command line, or all."""
+    blocks = {}
+    known = cases()
+    for name in sys.argv[1:] or known:
+        one = known[name]
+        found = ck.sensitivity(one.scene, one.ranges, one.answer, n=5, unit=one.unit)
+        ax = found.plot.tornado(names=one.names, missing=one.missing, most=11)
+        if one.unit == "-":
+            ax.set_xlabel("relative humidity at which the springs alone fail")
+        path = save(ax.figure, IMG / f"tornado-{name}")
+        with Image.open(path) as figure:
+            figure.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+        found.save_csv(IMG / "data" / f"tornado-{name}")
+        blocks[f"tornado {name}"] = table(found, one.names).replace(" um", f" {in_print('um')}")
+        sys.stdout.write(f"{found}\n\n")
+    missing = write_blocks(blocks)
+    sys.stdout.write(f"no page has: {', '.join(missing) or 'none missing'}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
