@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["Scale", "below", "draw_section", "stress_section"]
+__all__ = ["Scale", "below", "depth_shown", "draw_section", "stress_section"]
 
 _FAINT = 0.1  # of the maximum: as deep as the stress is larger, a figure reaches
 _NAMED = 0.07  # of the depth shown: a layer of that thickness bears its name
@@ -79,7 +79,7 @@ def below(
         raise DescriptionError("stress.measure", measure, f"be one of {', '.join(MEASURES)}")
     values = np.asarray(MEASURES[measure](part.section))
     values, x = _around_maximum(result, part, values)
-    shown = _depth_shown(part, values) if depth is None else depth
+    shown = depth_shown(result, measure) if depth is None else depth
     if not part.depth[0] < shown:
         expected = f"lie below the first plane, at {part.depth[0]:g} m"
         raise DescriptionError("stress.depth", shown, expected, unit="m")
@@ -112,9 +112,10 @@ def _around_maximum(result: ContactResult, part: StressPart, values: Map) -> tup
     return values, np.asarray((np.arange(nx) - centre) * dx, dtype=np.float64)
 
 
-def _depth_shown(part: StressPart, values: Map) -> float:
-    """Depth [m] down to which the stress is more than a small fraction of its maximum."""
-    largest = values.max(axis=1)
+def depth_shown(result: ContactResult, measure: MeasureName = "von_mises") -> float:
+    """Depth [m] down to which `below` draws: where the stress is a tenth of its maximum."""
+    part = result.of(SubsurfaceStress)
+    largest = np.asarray(MEASURES[measure](part.section)).max(axis=1)
     last = int(np.flatnonzero(largest > _FAINT * largest.max())[-1])
     return float(part.depth[min(last + 1, len(part.depth) - 1)])
 

@@ -102,14 +102,12 @@ def _stress(result: ContactResult, title: str, out: Path) -> Path:
     from ...plot import stress
     from ...plot import style as plot
 
-    made, axes = plot.figure(1, 2, size=(12.0, 4.2))
+    made, axes = plot.figure(2, 1, size=(8.0, 7.4))
+    depth = stress.depth_shown(result)
     stress.below(result, ax=axes[0])
-    maximum = result.of(SubsurfaceStress).maxima["von_mises"]
-    planes = result.of(SubsurfaceStress).depth
-    near = max(3.0 * maximum.z, float(planes[min(2, len(planes) - 1)]))
-    stress.below(result, ax=axes[1], depth=near)
+    stress.below(result, ax=axes[1], depth=0.2 * depth)
     whole = f"{title}: stress below the maximum pressure".removeprefix(": ")
-    plot.letters(axes, (whole, f"near its maximum, {quantity_text(maximum.value, 'Pa')}"))
+    plot.letters(axes, (whole, "its upper fifth"))
     return plot.save(made, out / "stress")
 
 
