@@ -32,6 +32,12 @@ def _block(match: re.Match[str]) -> str:
     """Paragraphs of a directive are equations of their own, as in Sphinx."""
     indent = match[1]
     equations = [" ".join(part.split()) for part in re.split(r"\n[ ]*\n", match[2])]
+    equations = [  # aligned as Sphinx aligns them
+        rf"\begin{{aligned}} {tex} \end{{aligned}}"
+        if re.search(r"\\\\|&", tex) and "\\begin{" not in tex
+        else tex
+        for tex in equations
+    ]
     return "\n\n".join(f"{indent}$$\n{indent}{tex}\n{indent}$$" for tex in equations if tex)
 
 

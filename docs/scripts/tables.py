@@ -99,7 +99,8 @@ def descriptions(kind: type) -> dict[str, str]:
         part = re.search(r"^Parameters\n-+\n(.*?)(?=^\w[\w ]*\n-+\n|\Z)", text, re.M | re.S)
         for entry in re.split(r"\n(?=\S)", part[1]) if part else ():
             head, _, body = entry.partition("\n")
-            meaning = re.sub(r":math:`\\?", "`", " ".join(body.split()).replace("``", "`"))
+            meaning = re.sub(r":math:`([^`]+)`", r"$\1$", " ".join(body.split()))
+            meaning = meaning.replace("``", "`")
             for name in head.partition(" : ")[0].split(", "):
                 if meaning and not text.startswith("See "):
                     found.setdefault(name, meaning)

@@ -4,6 +4,10 @@ Needs the extra ``docs``; CI builds the whole site strictly besides (`make docs`
 """
 
 import importlib.util
+import json
+import re
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -84,3 +88,34 @@ def test_tables_of_docstrings_are_those_of_markdown(script):
     assert script("docstrings").in_markdown(text) == (
         "| a | b |\n| --- | --- |\n| h | gap of faces |\n| r | radius |"
     )
+
+
+CODE = re.compile(r"^( *)```.*?^\1```|`[^`\n]+`|^(?: *>>>| *\.\.\. ).*$", re.MULTILINE | re.DOTALL)
+FORMULA = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$(?=\S)([^$\n]+?)(?<=\S)\$", re.DOTALL)
+READ = """
+const katex = require(process.argv[1]);
+const formulas = JSON.parse(require("fs").readFileSync(0));
+for (const formula of formulas)
+  try { katex.renderToString(formula, {displayMode: true, strict: "ignore"}); }
+  catch (error) { console.log(formula + ": " + error.message); }
+"""
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="needs node to run KaTeX")
+def test_katex_reads_every_formula(script):
+    in_markdown = script("docstrings").in_markdown
+    texts = [path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md")]
+    for folder in ("contactkit", "fmu", "models"):
+        for path in (ROOT / folder).rglob("*.py"):
+            texts += [in_markdown(text) for text in path.read_text("utf-8").split('"""')[1::2]]
+    found = {a or b for text in texts for a, b in FORMULA.findall(CODE.sub("", text))}
+    assert len(found) > 300
+    katex = ROOT / "docs" / "assets" / "katex" / "katex.min.js"
+    done = subprocess.run(
+        ["node", "-e", READ, str(katex)],
+        input=json.dumps(sorted(found)),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == ""
