@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
+from attrs import frozen
+
 from ..errors import PlanError
 from .scenes import FmuStart, OpenedScene, open_scene
 from .settings import assignments, with_settings
@@ -22,6 +24,17 @@ class Order(NamedTuple):
     native: bool
     model: str | None
     fmi: str
+
+
+@frozen
+class _Named:
+    """A model by its name with start values, as `native_scene` asks for them."""
+
+    start: FmuStart
+
+    def fmu_start(self) -> FmuStart:
+        """See `OpenedScene.fmu_start`."""
+        return self.start
 
 
 def check_order(order: Order) -> None:
@@ -99,8 +112,8 @@ def _build_native(order: Order, opened: OpenedScene | None, given: Mapping[str, 
     kind: Literal["stiction-mass", "stiction-force"] = (
         "stiction-force" if film_alone else "stiction-mass"
     )
-    film, start = native_scene(opened or what, _film_model(model))
-    build_native(film, order.out, model=kind, start={**start, **given}, fmi=fmi)
+    film, start = native_scene(opened or _Named(FmuStart(what, given)), _film_model(model))
+    build_native(film, order.out, model=kind, start=start, fmi=fmi)
     return f"{kind}, native, FMI {fmi}.0"
 
 

@@ -187,6 +187,22 @@ def test_start_values_of_an_fmu_are_set_by_name_or_path(tmp_path, scene, capsys)
     assert "n" in capsys.readouterr().err
 
 
+def test_a_native_fmu_by_name_takes_values_of_its_tables(tmp_path, monkeypatch):
+    """Those of the film, which are no variables of a native FMU, and those that are."""
+    built = []
+
+    def note(film, out, **more):
+        built.append((film, more["start"]))
+        raise KeyboardInterrupt  # before the compiler
+
+    monkeypatch.setattr("contactkit.fmu.native.build.build_native", note)
+    words = ["--native", "--set", "R=2 mm", "--set", "m=25 g", "--out", str(tmp_path / "a.fmu")]
+    assert main(["fmu", "build", "stiction-mass", *words]) == 130
+    ((film, start),) = built
+    assert film.interface.lower.surface.radius == 2e-3
+    assert film.loading.mass == start.get("m", film.loading.mass) == 0.025
+
+
 def test_a_gallery_replaces_no_file_of_others(tmp_path, capsys):
     index = tmp_path / "index.md"
     index.write_text("mine")
