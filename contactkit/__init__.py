@@ -123,8 +123,11 @@ if TYPE_CHECKING:
     from .shortcuts.contact_area import contact_area
     from .shortcuts.menisci import bridge_force, capillary_force
     from .shortcuts.squeeze import squeeze_time
+    from .studies.estimate import plan_study
     from .studies.sensitivity import Range, sensitivity
+    from .studies.stream import stream_study
     from .studies.study import study
+    from .studies.study_file import StudyFile
 
 __version__ = "0.1.0"
 
@@ -198,6 +201,7 @@ _HOMES = {
     "Sphere": "scene.surfaces",
     "SpringSlider": "analyses.stick_slip",
     "Stack": "scene.materials",
+    "StudyFile": "studies.study_file",
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
     "TensionLimit": "separation.effects.registry",
@@ -222,6 +226,7 @@ _HOMES = {
     "load_result": "files.results",
     "load_scene": "files.scenes",
     "plan": "planning",
+    "plan_study": "studies.estimate",
     "discretisation_error": "contact.discretisation",
     "press": "contact.press",
     "pull_off_curve": "analyses.pull_off",
@@ -236,6 +241,7 @@ _HOMES = {
     "squeeze_time": "shortcuts.squeeze",
     "stick_slip": "analyses.stick_slip",
     "load_displacement": "analyses.load_displacement.solve",
+    "stream_study": "studies.stream",
     "study": "studies.study",
 }
 
@@ -309,6 +315,7 @@ __all__ = [
     "Sphere",
     "SpringSlider",
     "Stack",
+    "StudyFile",
     "SubsurfaceStress",
     "TangentialStep",
     "TensionLimit",
@@ -335,6 +342,7 @@ __all__ = [
     "load_result",
     "load_scene",
     "plan",
+    "plan_study",
     "press",
     "published",
     "pull_off_curve",
@@ -346,6 +354,7 @@ __all__ = [
     "solve",
     "squeeze_time",
     "stick_slip",
+    "stream_study",
     "study",
 ]
 

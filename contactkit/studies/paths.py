@@ -156,6 +156,15 @@ def combinations(varied: tuple[Axis, ...]) -> list[dict[str, Any]]:
     return [dict(zip(paths, itertools.chain(*rows), strict=True)) for rows in product]
 
 
+def values_at(varied: tuple[Axis, ...], place: int) -> dict[str, Any]:
+    """Values by path of one point, by its place in the order of `combinations`."""
+    rows = []
+    for axis in reversed(varied):
+        place, i = divmod(place, len(axis.values))
+        rows.append((axis.paths, axis.values[i]))
+    return {p: v for paths, row in reversed(rows) for p, v in zip(paths, row, strict=True)}
+
+
 class Changed(NamedTuple):
     """Scene and accuracy of a point of a study."""
 

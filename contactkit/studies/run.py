@@ -1,15 +1,13 @@
-"""Execution of the pieces of a study: in this process, in worker processes, or on a client."""
+"""Pieces of a study: points that are solved one after the other, and the worker that does it."""
 
 from __future__ import annotations
 
 import os
 import pickle
-import queue
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -32,13 +30,13 @@ __all__ = [
     "Done",
     "Piece",
     "Task",
+    "begin_worker",
     "end_with_parent",
     "one_thread",
     "put",
-    "run_here",
-    "run_in_processes",
-    "run_on_client",
+    "run_in_worker",
     "run_piece",
+    "run_remotely",
 ]
 
 _PINNED = (
@@ -68,6 +66,7 @@ class Piece:
     tasks: tuple[Task, ...]
     store: Store | None
     keeps_maps: bool
+    retries: int = 0
 
 
 class Done(NamedTuple):
@@ -84,6 +83,10 @@ class _Chain:
     def __init__(self) -> None:
         self._plan: ContactPlan | None = None
         self._contacts = ContactChain()
+
+    def clear(self) -> None:
+        """Start anew, after a solve that ended in the middle."""
+        self._plan, self._contacts = None, ContactChain()
 
     def run(self, scene: Scene, accuracy: Accuracy) -> AnyResult:
         if not isinstance(scene, ContactScene):
@@ -122,26 +125,38 @@ def run_piece(
 
 
 def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> None:
-    """Write a point, unless it was refused: the cure may lie outside the scene."""
-    if point.status != "refused":
+    """Write a point, unless it was refused or failed: the cure may lie outside the scene."""
+    if point.status not in ("refused", "failed"):
         store.write(key, point, maps)
 
 
 def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyResult | None]:
-    scene, accuracy = changed(piece.scene, piece.accuracy, task.values)
+    """Solve a point; what may pass, such as a full disk or memory, is tried again."""
     begun = time.perf_counter()
     result: AnyResult | None = None
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        try:
-            answer = chain.run(scene, accuracy)
-            scalars, result = answer.scalars(), answer
-        except InfeasibleError as error:
-            status, message = "infeasible", str(error)
-        except ConvergenceError as error:
-            status, message = "not converged", str(error)
-        except ContactkitError as error:
-            status, message = "refused", str(error)
+        for attempt in range(piece.retries + 1):
+            if attempt:
+                time.sleep(min(0.1 * 2**attempt, 10.0))
+            try:
+                answer = chain.run(*changed(piece.scene, piece.accuracy, task.values))
+                scalars, result = answer.scalars(), answer
+                break
+            except InfeasibleError as error:
+                status, message = "infeasible", str(error)
+                break
+            except ConvergenceError as error:
+                status, message = "not converged", str(error)
+                break
+            except ContactkitError as error:
+                status, message = "refused", str(error)
+                break
+            except Exception as error:  # noqa: BLE001 - a defect costs its point, not the others
+                status, message = "failed", f"{type(error).__name__}: {error}"
+                chain.clear()
+                if not isinstance(error, OSError | MemoryError):
+                    break
     seconds = time.perf_counter() - begun
     notes = tuple(dict.fromkeys(f"{w.category.__name__}: {w.message}" for w in caught))
     if result is None:
@@ -155,98 +170,26 @@ def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyRes
     return point, result
 
 
-def run_here(pieces: Sequence[Piece], report: Callable[[], None]) -> Iterator[list[Done]]:
-    """Run pieces in sequence in this process."""
-    for piece in pieces:
-        yield run_piece(piece, report)
-
-
-def run_in_processes(
-    pieces: Sequence[Piece], workers: int, report: Callable[[], None]
-) -> Iterator[list[Done]]:
-    """Run pieces in worker processes, each with one thread.
-
-    If this process is interrupted, each worker finishes its current point and writes it; if this
-    process is killed, the workers end at once.
-
-    Raises
-    ------
-    ContactkitError
-        If a worker dies.
-    """
-    from multiprocessing import get_context
-
-    context = get_context("spawn")  # a fork would inherit the locks of threads
-    reports, stop = context.SimpleQueue(), context.Event()
-    n = min(workers, len(pieces))
-    with ProcessPoolExecutor(n, context, _begin_worker, (reports, stop)) as pool:
-        try:
-            with one_thread():
-                futures = [pool.submit(_run_in_worker, pickle.dumps(piece)) for piece in pieces]
-            for found in _as_they_end(futures, lambda: _drain(reports, report)):
-                _drain(reports, report)
-                yield found
-        except BrokenProcessPool:
-            raise ContactkitError(
-                "a worker process ended before its points did, for lack of memory or because the "
-                "script starts the study outside `if __name__ == '__main__':`; with a store, "
-                "running it again continues where it stopped"
-            ) from None
-        finally:
-            stop.set()
-            pool.shutdown(cancel_futures=True)
-
-
-def run_on_client(
-    pieces: Sequence[Piece], client: Any, report: Callable[[], None]
-) -> Iterator[list[Done]]:
-    """Run pieces on a client with ``submit(function, argument)`` that returns a future."""
-    futures = []
-    try:
-        with warnings.catch_warnings():
-            # Height maps make a piece large; each is transferred once, so the warning is no use.
-            warnings.simplefilter("ignore")
-            futures += [client.submit(_run_remotely, pickle.dumps(piece)) for piece in pieces]
-        for found in _as_they_end(futures, lambda: None):
-            for _ in found:
-                report()
-            yield found
-    finally:
-        for future in futures:
-            if not future.done():
-                future.cancel()
-
-
-def _as_they_end(futures: Sequence[Any], meanwhile: Callable[[], None]) -> Iterator[list[Done]]:
-    """Results of futures of any kind, in the order in which they finish."""
-    ended: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    for future in futures:
-        future.add_done_callback(ended.put)
-    for _ in futures:
-        while True:
-            meanwhile()
-            try:
-                future = ended.get(timeout=0.1)
-                break
-            except queue.Empty:
-                continue
-        yield future.result()
-
-
-def _run_remotely(piece: bytes) -> list[Done]:
-    return run_piece(pickle.loads(piece))
-
-
 # In a worker process -------------------------------------------------------------------------
+
+BEGUN = "begun"
+"""First report of a worker; those after it are of finished points."""
 
 _worker: dict[str, Any] = {}
 
 
-def _begin_worker(reports: Any, stop: Any) -> None:
+def run_remotely(piece: bytes) -> list[Done]:
+    """Solve a pickled piece, on a client of any kind."""
+    return run_piece(pickle.loads(piece))
+
+
+def begin_worker(reports: Any, stop: Any) -> None:
+    """Set up a worker process: it ends with its parent, which decides when to stop."""
     import signal
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the starting process decides when to stop
     _worker.update(reports=reports, stop=stop)
+    reports.put(BEGUN)
     threading.Thread(target=end_with_parent, daemon=True).start()
 
 
@@ -260,15 +203,10 @@ def end_with_parent() -> None:
         os._exit(1)
 
 
-def _run_in_worker(piece: bytes) -> list[Done]:
+def run_in_worker(piece: bytes) -> list[Done]:
+    """Solve a pickled piece in a worker process, with a report of each point."""
     reports, stop = _worker["reports"], _worker["stop"]
     return run_piece(pickle.loads(piece), lambda: reports.put(None), stop.is_set)
-
-
-def _drain(reports: Any, report: Callable[[], None]) -> None:
-    while not reports.empty():
-        reports.get()
-        report()
 
 
 @contextmanager

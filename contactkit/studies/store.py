@@ -25,12 +25,12 @@ from ..scene.scales import Scale
 if TYPE_CHECKING:
     from .paths import Scene
 
-__all__ = ["FAILED", "Store", "StudyPoint"]
+__all__ = ["FAILED", "Store", "StudyPoint", "scene_key"]
 
 _FORMAT = 2
 _OLD = 3600.0  # seconds after which the incomplete files of a killed run are removed
 
-FAILED = ("infeasible", "not converged", "refused")
+FAILED = ("infeasible", "not converged", "refused", "failed")
 """Statuses of points without a solution."""
 
 
@@ -45,7 +45,8 @@ class StudyPoint:
     scalars : mapping of str to (float, str)
         Numbers of the result with their units; nan where the point has none.
     status, message : str
-        Those of the result; or ``infeasible``, ``not converged`` or ``refused``, and why.
+        Those of the result; or ``infeasible``, ``not converged``, ``refused`` or ``failed`` (a
+        defect, or a worker that ended), and why.
     seconds : float
         Time of the solve [s].
     counts : mapping of str to int
@@ -79,6 +80,17 @@ class StudyPoint:
         return self.counts.get("n_operator_applications", 0)
 
 
+def scene_key(scene: Scene, accuracy: Accuracy) -> str:
+    """Key of a point: a hash of all that its results depend on."""
+    from .. import __version__
+
+    tables = unstructure(scene, {})
+    tables.pop("name", None)  # a title does not change results
+    files = sorted(_content(surface.path) for surface in _measured(scene))
+    what = [_FORMAT, __version__, tables, attrs.asdict(accuracy), files]
+    return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
+
+
 @frozen
 class Store:
     """A folder of finished points.
@@ -97,13 +109,7 @@ class Store:
 
     def key(self, scene: Scene, accuracy: Accuracy) -> str:
         """Return the key of a point."""
-        from .. import __version__
-
-        tables = unstructure(scene, {})
-        tables.pop("name", None)  # a title does not change results
-        files = sorted(_content(surface.path) for surface in _measured(scene))
-        what = [_FORMAT, __version__, tables, attrs.asdict(accuracy), files]
-        return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
+        return scene_key(scene, accuracy)
 
     def read(self, key: str, values: Mapping[str, Any]) -> StudyPoint | None:
         """Return a point; None if there is none.

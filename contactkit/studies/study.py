@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -15,12 +15,19 @@ from attrs import evolve
 from ..accuracy import Accuracy
 from ..contact.chain import downwards, imposed
 from ..contact.plan import unprepared_plan
-from ..errors import DescriptionError, InfeasibleError, PlanError, ValidityWarning
+from ..errors import (
+    ContactkitError,
+    DescriptionError,
+    InfeasibleError,
+    PlanError,
+    ValidityWarning,
+)
 from ..files.results import from_bytes
 from ..planning import plan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .paths import Axis, Scene, Vary, axes, changed, combinations
-from .run import Done, Piece, Task, put, run_here, run_in_processes, run_on_client
+from .run import Done, Piece, Task, put
+from .spread import run_here, run_in_processes, run_on_client
 from .store import Store, StudyPoint
 from .table import Study
 
@@ -30,7 +37,17 @@ if TYPE_CHECKING:
     from ..separation.results import SeparationResult
     from ..separation.sliding.result import SlidingResult
 
-__all__ = ["Study", "StudyPoint", "check_study", "study"]
+__all__ = [
+    "Study",
+    "StudyPoint",
+    "check_effects",
+    "check_kind",
+    "check_study",
+    "check_whole",
+    "slots",
+    "spread",
+    "study",
+]
 
 
 @overload
@@ -44,6 +61,7 @@ def study(
     client: Any = ...,
     progress: Callable[[float], None] | None = ...,
     keep_maps: bool = ...,
+    retries: int = ...,
 ) -> Study[ContactResult]: ...
 
 
@@ -58,6 +76,7 @@ def study(
     client: Any = ...,
     progress: Callable[[float], None] | None = ...,
     keep_maps: bool = ...,
+    retries: int = ...,
 ) -> Study[SeparationResult]: ...
 
 
@@ -72,6 +91,7 @@ def study(
     client: Any = ...,
     progress: Callable[[float], None] | None = ...,
     keep_maps: bool = ...,
+    retries: int = ...,
 ) -> Study[SlidingResult]: ...
 
 
@@ -85,6 +105,7 @@ def study(
     client: Any = None,
     progress: Callable[[float], None] | None = None,
     keep_maps: bool = False,
+    retries: int = 2,
 ) -> Study[Any]:
     """Solve a scene for every combination of parameter values.
 
@@ -117,6 +138,10 @@ def study(
         Called with the completed fraction, 0 to 1.
     keep_maps : bool
         Whether to keep the complete results, with maps or curves, in `Study.results`.
+    retries : int
+        How often a point is solved again whose worker died, or which ended for lack of memory or
+        disk. What fails in the same way each time, such as a defect, is not solved again; either
+        way the point is ``failed`` and the others go on.
 
     Returns
     -------
@@ -152,23 +177,34 @@ def study(
             1e+09               0.28125  converged
             3e+09               0.46875  converged
     """
-    if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
-        raise DescriptionError(
-            "scene", scene, "be a ContactScene, a SeparationScene or a SlidingScene"
-        )
-    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise DescriptionError("workers", workers, "be a whole number of at least 1")
+    check_kind(scene)
+    check_whole("workers", workers, 1)
+    check_whole("retries", retries, 0)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
     varied = axes(scene, accuracy, vary)
     kept = Store(Path(store).resolve()) if store is not None else None
-    run = _Run(scene, accuracy, varied, kept, keep_maps, progress)
-    pieces = run.pieces(_slots(client, workers))
+    run = _Run(scene, accuracy, varied, kept, keep_maps, progress, retries)
+    pieces = run.pieces(slots(client, workers))
     run.check(pieces)
-    with closing(_spread(pieces, workers, client, run.report)) as ended:
+    with closing(spread(pieces, workers, client, run.report)) as ended:
         for found in ended:
             for done in found:
                 run.take(done)
     return run.finish()
+
+
+def check_kind(scene: object) -> None:
+    """Refuse what is no scene."""
+    if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
+        raise DescriptionError(
+            "scene", scene, "be a ContactScene, a SeparationScene or a SlidingScene"
+        )
+
+
+def check_whole(name: str, value: object, least: int) -> None:
+    """Refuse what is no whole number, or less than the least."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise DescriptionError(name, value, f"be a whole number of at least {least}")
 
 
 def check_study(
@@ -186,11 +222,11 @@ def check_study(
     accuracy = accuracy if accuracy is not None else Accuracy.standard
     varied = axes(scene, accuracy, vary)
     points = [changed(scene, accuracy, values) for values in combinations(varied)]
-    _check_effects(*points[0])
+    check_effects(*points[0])
     return varied
 
 
-def _check_effects(scene: Scene, accuracy: Accuracy) -> None:
+def check_effects(scene: Scene, accuracy: Accuracy) -> None:
     """Refuse effects that do not fit the scene of a point, but no load: that is of this point."""
     with suppress(InfeasibleError):
         if isinstance(scene, ContactScene):
@@ -210,9 +246,11 @@ class _Run:
         store: Store | None,
         keeps_maps: bool,
         progress: Callable[[float], None] | None,
+        retries: int = 0,
     ) -> None:
         self.scene, self.accuracy, self.varied = scene, accuracy, varied
         self.store, self.keeps_maps, self.progress = store, keeps_maps, progress
+        self.retries = retries
         self.loads: dict[int, float] = {}  # or approaches, of contacts
         self.tasks = [self._task(i, values) for i, values in enumerate(combinations(varied))]
         self.points: dict[int, StudyPoint] = {}
@@ -259,7 +297,7 @@ class _Run:
             chains = [self._ordered(self.scene, chain) for chain in chains]
         parts = math.ceil(slots / max(len(chains), 1))
         return [
-            Piece(self.scene, self.accuracy, tuple(cut), self.store, self.keeps_maps)
+            Piece(self.scene, self.accuracy, tuple(cut), self.store, self.keeps_maps, self.retries)
             for chain in chains
             for cut in _cut(chain, parts)
         ]
@@ -271,13 +309,13 @@ class _Run:
     def check(self, pieces: list[Piece]) -> None:
         """Refuse effects that do not fit the scene before any solve, and report progress."""
         if pieces:
-            _check_effects(*changed(self.scene, self.accuracy, pieces[0].tasks[0].values))
+            check_effects(*changed(self.scene, self.accuracy, pieces[0].tasks[0].values))
         if self.progress is not None and (self.n_done or not pieces):
             self.progress(self.n_done / len(self.tasks))
 
     def report(self) -> None:
-        """Count a finished point."""
-        self.n_done += 1
+        """Count a finished point; one that was lost is counted once."""
+        self.n_done = min(self.n_done + 1, len(self.tasks))
         if self.progress is not None:
             self.progress(self.n_done / len(self.tasks))
 
@@ -298,6 +336,8 @@ class _Run:
         points = [self.points[i] for i in range(len(self.tasks))]
         if all(point.status == "refused" for point in points):
             raise PlanError(f"every point of the study is refused: {points[0].message}")
+        if all(point.status == "failed" for point in points):
+            raise ContactkitError(f"every point of the study failed: {points[0].message}")
         scalars = {n: unit for p in points for n, (_, unit) in p.scalars.items()}
         counts = dict.fromkeys((n for p in points for n in p.counts), "-")
         varied = {p: u for axis in self.varied for p, u in zip(axis.paths, axis.units, strict=True)}
@@ -338,15 +378,18 @@ def _cut(chain: list[Task], parts: int) -> Iterator[list[Task]]:
         yield chain[first:last]
 
 
-def _slots(client: Any, workers: int) -> int:
+def slots(client: Any, workers: int) -> int:
     """Number of pieces that can run at once."""
     threads = getattr(client, "nthreads", None)
     return max(workers, sum(threads().values()) if callable(threads) else 1)
 
 
-def _spread(pieces: list[Piece], workers: int, client: Any, report: Callable[[], None]) -> Any:
+def spread(
+    pieces: Iterable[Piece], workers: int, client: Any, report: Callable[[], None]
+) -> Generator[list[Done], None, None]:
+    """Run pieces where they are to run: on a client, in processes, or here."""
     if client is not None:
-        return run_on_client(pieces, client, report)
-    if workers > 1 and len(pieces) > 1:
+        return run_on_client(pieces, client, slots(client, workers), report)
+    if workers > 1 and not (isinstance(pieces, list) and len(pieces) < 2):
         return run_in_processes(pieces, workers, report)
     return run_here(pieces, report)

@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..plot.accessors.studies import StudyFigures
 
 
-__all__ = ["Study", "StudyLine"]
+__all__ = ["Study", "StudyLine", "as_text", "study_contents"]
 
 _MAX_COLUMNS = 6  # of a table without named columns
 _WIDEST = 40  # characters of a value without a name
@@ -68,6 +68,7 @@ class Study(Tabular, Generic[R_co]):
     paths: tuple[tuple[str, ...], ...]
     units: Mapping[str, str] = field(repr=False)
     _results: tuple[R_co | None, ...] | None = field(repr=False)
+    _definitions: Mapping[str, str] = field(factory=dict, repr=False)
 
     @property
     def results(self) -> tuple[R_co | None, ...]:
@@ -152,21 +153,7 @@ class Study(Tabular, Generic[R_co]):
         Values that are no numbers, such as liquids, are given by their names. An axis along which
         several parameters vary together has the name of the first.
         """
-        varied = [path for paths in self.paths for path in paths]
-        names = _labels([*varied, *self.units], varied)
-        axes = tuple(names[paths[0]] for paths in self.paths)
-        found = {}
-        for i, paths in enumerate(self.paths):
-            at = np.moveaxis(np.arange(len(self.points)).reshape(self.shape), i, 0)
-            first = at.reshape(self.shape[i], -1)[:, 0]
-            for path in paths:
-                values = _as_array(self.column(path)[first])
-                found[names[path]] = Quantity((axes[i],), values, self.unit(path), path)
-        for name in [*self.units, "status"]:
-            if name not in varied:
-                values, unit = self.column(name).reshape(self.shape), self.units.get(name, "-")
-                found[name] = Quantity(axes, values, unit, name.replace("_", " "))
-        return Contents(axes, found, {"title": "study"})
+        return study_contents(self)
 
     def _repr_html_(self) -> str:
         """The table in a notebook."""
@@ -198,10 +185,10 @@ class Study(Tabular, Generic[R_co]):
     def _named(self, path: str, value: Any) -> str:
         """A parameter in a legend: numbers with their name and unit, others as they are."""
         if isinstance(value, bool) or not isinstance(value, int | float):
-            return _text(value)
+            return as_text(value)
         unit = self.units[path]
         end = "" if unit == "-" else f" {unit}"
-        return f"{_ends(path)[0].replace('_', ' ')} {_text(value)}{end}"
+        return f"{_ends(path)[0].replace('_', ' ')} {as_text(value)}{end}"
 
     def bands(self, over: str | None = None) -> Study[R_co]:
         """Return the study over its other parameters, with a band over the seeds at each point.
@@ -263,6 +250,7 @@ class Study(Tabular, Generic[R_co]):
             paths,
             banded | {name: units[name] for name in counts},
             None,
+            self.scale_definitions,
         )
 
     def dimensionless(self) -> Study[R_co]:
@@ -309,6 +297,11 @@ class Study(Tabular, Generic[R_co]):
         """Scales of the first point that has any, by unit; their definitions hold for all."""
         return next((point.scales for point in self.points if point.scales), {})
 
+    @property
+    def scale_definitions(self) -> Mapping[str, str]:
+        """Definition of each reference scale by its name, also of bands, whose points have none."""
+        return self._definitions or {one.name: one.definition for one in self.scales.values()}
+
     def _is_own_scale(self, path: str) -> bool:
         """Whether a parameter is its scale at every point."""
         unit = self.units[path]
@@ -335,7 +328,7 @@ class Study(Tabular, Generic[R_co]):
         shown = [*varied, *(names or self._telling(varied))]
         labels = _labels(shown, varied)
         heads = [f"{labels[n]} [{self.unit(n)}]" for n in shown]
-        cells = [[_text(_number(p, n)) for n in shown] for p in self.points]
+        cells = [[as_text(_number(p, n)) for n in shown] for p in self.points]
         widths = [max(map(len, column)) for column in zip(heads, *cells, strict=True)]
         rows = [
             "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) + f"  {status}"
@@ -385,7 +378,7 @@ class Study(Tabular, Generic[R_co]):
             writer = csv.writer(file)
             writer.writerow([*(f"{n} [{self.units[n]}]" for n in names), "status", "message"])
             for point in self.points:
-                cells = [_text(_number(point, n), digits=10) for n in names]
+                cells = [as_text(_number(point, n), digits=10) for n in names]
                 writer.writerow([*cells, point.status, point.message])
         return path
 
@@ -401,8 +394,41 @@ class Study(Tabular, Generic[R_co]):
         """
         columns = {name: _as_array(self.column(name)) for name in (*self.units, "status")}
         header = {"units": dict(self.units), "paths": self.paths, "shape": self.shape}
-        scales = {one.name: one.definition for one in self.scales.values()}
-        return save_npz(path, columns, header | {"scales": scales})
+        return save_npz(path, columns, header | {"scales": dict(self.scale_definitions)})
+
+
+class _Columns(Protocol):
+    """A study as columns over its parameters."""
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+
+    @property
+    def paths(self) -> tuple[tuple[str, ...], ...]: ...
+
+    @property
+    def units(self) -> Mapping[str, str]: ...
+
+    def column(self, name: str) -> NDArray[Any]: ...
+
+
+def study_contents(study: _Columns) -> Contents:
+    """All columns of a study over its parameters; see `Study.contents`."""
+    varied = [path for paths in study.paths for path in paths]
+    names = _labels([*varied, *study.units], varied)
+    axes = tuple(names[paths[0]] for paths in study.paths)
+    found = {}
+    for i, paths in enumerate(study.paths):
+        at = np.moveaxis(np.arange(math.prod(study.shape)).reshape(study.shape), i, 0)
+        first = at.reshape(study.shape[i], -1)[:, 0]
+        for path in paths:
+            values = _as_array(study.column(path)[first])
+            found[names[path]] = Quantity((axes[i],), values, study.units[path], path)
+    for name in [*study.units, "status"]:
+        if name not in varied:
+            values, unit = study.column(name).reshape(study.shape), study.units.get(name, "-")
+            found[name] = Quantity(axes, values, unit, name.replace("_", " "))
+    return Contents(axes, found, {"title": "study"})
 
 
 def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -> StudyPoint:
@@ -426,7 +452,7 @@ def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -
 
 def _as_array(column: NDArray[Any]) -> NDArray[Any]:
     """A column as an array without objects: text for what is no number."""
-    return column if column.dtype != object else np.array([_text(value) for value in column])
+    return column if column.dtype != object else np.array([as_text(value) for value in column])
 
 
 def _points(places: list[int]) -> str:
@@ -444,7 +470,8 @@ def _number(point: StudyPoint, name: str) -> Any:
     return point.counts.get(name, math.nan)
 
 
-def _text(value: Any, digits: int = 6) -> str:
+def as_text(value: Any, digits: int = 6) -> str:
+    """A value in a table: what is no number by its label or name."""
     if isinstance(value, float):
         return f"{value:.{digits}g}"
     for name in ("label", "name"):  # of a stack; of a material, a liquid or an effect

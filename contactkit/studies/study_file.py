@@ -1,0 +1,360 @@
+"""File of a study: a SQLite database with a row for each point, read column by column."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+import math
+import sqlite3
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..accuracy import Accuracy
+from ..errors import DescriptionError, ValidityWarning, nearest
+from ..export.contents import Contents
+from ..files.scenes import write_whole
+from .paths import Axis, Scene
+from .run import Done
+from .store import FAILED, scene_key
+from .table import as_text, study_contents
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from pandas import DataFrame
+    from xarray import Dataset
+
+__all__ = ["FailedRow", "StudyFile", "StudyWriter"]
+
+_FORMAT = 1
+_OWN = ("place", "status", "message", "notes")
+_PAUSE = 1.0  # seconds between writes to the disk
+
+
+class FailedRow(NamedTuple):
+    """A point without a solution: its place in the product, its parameters, status and message."""
+
+    place: int
+    values: Mapping[str, Any]
+    status: str
+    message: str
+
+
+class StudyFile:
+    """A study in a file: columns over its points, read when they are asked for.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file that `stream_study` has written, or is writing.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Number of values of each parameter.
+    paths : tuple of tuple of str
+        Paths of each parameter, several where they vary together.
+    units : mapping of str to str
+        Unit of each column.
+
+    Raises
+    ------
+    DescriptionError
+        If it is no file of a study.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path).with_suffix(".sqlite")
+        if not self.path.is_file():
+            raise DescriptionError("file", str(path), "exist")
+        try:
+            with self._opened() as base:
+                header = dict(base.execute("SELECT key, value FROM header"))
+                units = dict(base.execute("SELECT name, unit FROM units"))
+            axes = json.loads(header["axes"])
+            self.paths = tuple(tuple(axis["paths"]) for axis in axes)
+            self._values = {
+                p: [row[i] for row in a["values"]] for a in axes for i, p in enumerate(a["paths"])
+            }
+            self.shape = tuple(len(axis["values"]) for axis in axes)
+            varied = {p: u for a in axes for p, u in zip(a["paths"], a["units"], strict=True)}
+        except (sqlite3.Error, ValueError, KeyError, TypeError) as error:
+            raise DescriptionError("file", str(path), "be a study", hint=str(error)) from None
+        self.units: dict[str, str] = varied | units
+
+    def _opened(self) -> _Closing:
+        return _Closing(f"{self.path.resolve().as_uri()}?mode=ro")
+
+    @property
+    def n_points(self) -> int:
+        """Number of points of the study."""
+        return math.prod(self.shape)
+
+    @property
+    def n_done(self) -> int:
+        """Number of points that are in the file."""
+        with self._opened() as base:
+            return int(base.execute("SELECT count(*) FROM points").fetchone()[0])
+
+    def column(self, name: str) -> NDArray[Any]:
+        """Return one column over all points, as `Study.column`; nan where there is no value.
+
+        ``status`` is empty where a point is not solved yet.
+
+        Raises
+        ------
+        DescriptionError
+            If there is no such column.
+        """
+        if name in self._values:
+            i = next(i for i, paths in enumerate(self.paths) if name in paths)
+            given = np.array(self._values[name])
+            places = np.arange(self.n_points) // math.prod(self.shape[i + 1 :]) % self.shape[i]
+            column: NDArray[Any] = given[places]
+            return column.astype(float) if column.dtype.kind in "iuf" else column
+        if name not in self.units and name != "status":
+            raise DescriptionError(
+                "column", name, "be one of the study", hint=nearest(name, list(self.units))
+            )
+        is_text = name == "status"
+        found = np.full(self.n_points, "" if is_text else np.nan, "U16" if is_text else float)
+        with self._opened() as base:
+            for place, value in base.execute(f"SELECT place, {_quoted(name)} FROM points"):
+                found[place] = value if value is not None else np.nan
+        return found
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a column; ``-`` for none."""
+        return self.units[name]
+
+    def failed(self) -> Iterator[FailedRow]:
+        """Yield the points without a solution."""
+        marks = ", ".join("?" * len(FAILED))
+        wanted = f"SELECT place, status, message FROM points WHERE status IN ({marks})"
+        with self._opened() as base:
+            for place, status, message in base.execute(f"{wanted} ORDER BY place", FAILED):
+                yield FailedRow(place, self._values_at(place), status, message)
+
+    def forget_failed(self) -> int:
+        """Remove points that failed or were refused, so that they are solved again; how many."""
+        base = sqlite3.connect(self.path)
+        with base:
+            gone = base.execute("DELETE FROM points WHERE status IN ('failed', 'refused')").rowcount
+        base.close()
+        return int(gone)
+
+    def _values_at(self, place: int) -> dict[str, Any]:
+        at = np.unravel_index(place, self.shape)
+        return {
+            p: self._values[p][int(i)] for i, ps in zip(at, self.paths, strict=True) for p in ps
+        }
+
+    def contents(self) -> Contents:
+        """Return all columns over the parameters, as `Study.contents`."""
+        return study_contents(self)
+
+    def to_xarray(self) -> Dataset:
+        """Return all columns as a dataset of xarray; ``to_netcdf`` of it writes a file."""
+        from ..export.datasets import dataset
+
+        return dataset(self.contents())
+
+    def to_dataframe(self) -> DataFrame:
+        """Return all columns as a data frame of pandas, with a row for each point."""
+        from ..export.frames import frame
+
+        return frame(self.contents())
+
+    def save_csv(self, path: str | Path) -> Path:
+        """Write all columns to a CSV file, row by row and atomically."""
+        path = Path(path).with_suffix(".csv")
+        numbers = [name for name in self.units if name not in self._values]
+        chosen = ", ".join(["place", *map(_quoted, numbers), "status", "message"])
+        varied = list(self._values)
+        with (
+            write_whole(path) as temporary,
+            temporary.open("w", newline="", encoding="utf-8") as file,
+            self._opened() as base,
+        ):
+            writer = csv.writer(file)
+            heads = [f"{name} [{self.units[name]}]" for name in (*varied, *numbers)]
+            writer.writerow([*heads, "status", "message"])
+            for place, *row in base.execute(f"SELECT {chosen} FROM points ORDER BY place"):
+                values = self._values_at(place)
+                cells = [*(values[name] for name in varied), *row]
+                writer.writerow(
+                    [
+                        f"{c:.10g}" if isinstance(c, float) else "nan" if c is None else c
+                        for c in cells
+                    ]
+                )
+        return path
+
+    def __repr__(self) -> str:
+        return f"StudyFile({self.path.name!r}, {self.n_done} of {self.n_points} points)"
+
+
+class _Closing:
+    """A connection that is closed at the end of a ``with`` block."""
+
+    def __init__(self, uri: str) -> None:
+        self._base = sqlite3.connect(uri, uri=True)
+
+    def __enter__(self) -> sqlite3.Connection:
+        return self._base
+
+    def __exit__(self, *_: object) -> None:
+        self._base.close()
+
+
+class StudyWriter:
+    """Writer of the file of a study; a context manager, which ends with all rows on the disk."""
+
+    def __init__(
+        self, path: str | Path, scene: Scene, accuracy: Accuracy, varied: Sequence[Axis]
+    ) -> None:
+        self.path = Path(path).with_suffix(".sqlite") if str(path) != ":memory:" else Path(path)
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        axes = [
+            {
+                "paths": a.paths,
+                "units": a.units,
+                "values": [[_plain(v) for v in r] for r in a.values],
+            }
+            for a in varied
+        ]
+        text = json.dumps(axes)
+        digest = hashlib.sha256(text.encode()).hexdigest()
+        header = {
+            "format": str(_FORMAT),
+            "key": f"{scene_key(scene, accuracy)} {digest}",
+            "axes": text,
+        }
+        self._done = np.zeros(math.prod(len(axis.values) for axis in varied), dtype=bool)
+        self._base = sqlite3.connect(self.path)
+        try:
+            self._begin(header)
+        except sqlite3.Error as error:
+            self._base.close()
+            raise DescriptionError(
+                "file", str(path), "be the file of a study", hint=str(error)
+            ) from None
+        except DescriptionError:
+            self._base.close()
+            raise
+        self._columns = {row[1] for row in self._base.execute("PRAGMA table_info(points)")}
+        self._written = time.monotonic()
+
+    def _begin(self, header: Mapping[str, str]) -> None:
+        """Make the tables, or check that those of the file are of the same study."""
+        base = self._base
+        base.execute("CREATE TABLE IF NOT EXISTS header (key TEXT PRIMARY KEY, value TEXT)")
+        base.execute("CREATE TABLE IF NOT EXISTS units (name TEXT PRIMARY KEY, unit TEXT)")
+        base.execute(
+            "CREATE TABLE IF NOT EXISTS points "
+            "(place INTEGER PRIMARY KEY, status TEXT, message TEXT, notes TEXT)"
+        )
+        found = dict(base.execute("SELECT key, value FROM header"))
+        if found and found.get("key") != header["key"]:
+            raise DescriptionError(
+                "stream_study(path)",
+                str(self.path),
+                "be a new file, or that of the same study",
+                hint="it holds a study of another scene, accuracy, version or other values",
+            )
+        base.executemany("INSERT OR REPLACE INTO header VALUES (?, ?)", header.items())
+        base.commit()
+        for (place,) in base.execute("SELECT place FROM points"):
+            self._done[place] = True
+
+    def is_done(self, place: int) -> bool:
+        """Whether a point is in the file."""
+        return bool(self._done[place])
+
+    @property
+    def n_done(self) -> int:
+        """Number of points in the file."""
+        return int(self._done.sum())
+
+    @property
+    def n_solved(self) -> int:
+        """Number of points that are neither failed nor refused; counted in the file."""
+        wanted = "SELECT count(*) FROM points WHERE status NOT IN ('failed', 'refused')"
+        return int(self._base.execute(wanted).fetchone()[0])
+
+    def outside(self) -> tuple[int, str]:
+        """Number of points outside the range of a model, and the names of the models."""
+        mark = f"{ValidityWarning.__name__}: "
+        wanted = "SELECT notes, count(*) FROM points WHERE notes LIKE ? GROUP BY notes"
+        rows = self._base.execute(wanted, (f"%{mark}%",)).fetchall()
+        names = [one for notes, _ in rows for one in notes.split("; ") if one.startswith(mark)]
+        return sum(n for _, n in rows), ", ".join(
+            dict.fromkeys(n.removeprefix(mark) for n in names)
+        )
+
+    def first_message(self) -> str:
+        """Message of the first point."""
+        row = self._base.execute("SELECT message FROM points ORDER BY place LIMIT 1").fetchone()
+        return str(row[0]) if row else ""
+
+    def write(self, points: Sequence[Done]) -> None:
+        """Write points; they are on the disk within a second, or at the end."""
+        for place, point, _ in points:
+            numbers = {n: (float(v), unit) for n, (v, unit) in point.scalars.items()}
+            numbers |= {"seconds": (point.seconds, "s")}
+            numbers |= {n: (float(v), "-") for n, v in point.counts.items()}
+            for name in numbers.keys() - self._columns:
+                self._add(name, numbers[name][1])
+            # Of a solved point the numbers are kept; of its notes, which models are outside.
+            message = point.message if point.has_failed else ""
+            notes = "; ".join(dict.fromkeys(note.partition(" = ")[0] for note in point.notes))
+            row = {"place": place, "status": point.status, "message": message, "notes": notes}
+            row |= {n: v if math.isfinite(v) else _text_of(v) for n, (v, _) in numbers.items()}
+            names, marks = ", ".join(map(_quoted, row)), ", ".join("?" * len(row))
+            self._base.execute(
+                f"INSERT OR REPLACE INTO points ({names}) VALUES ({marks})", tuple(row.values())
+            )
+            self._done[place] = True
+        if time.monotonic() - self._written > _PAUSE:
+            self._base.commit()
+            self._written = time.monotonic()
+
+    def _add(self, name: str, unit: str) -> None:
+        self._base.execute(f"ALTER TABLE points ADD COLUMN {_quoted(name)} REAL")
+        self._base.execute("INSERT OR REPLACE INTO units VALUES (?, ?)", (name, unit))
+        self._columns.add(name)
+
+    @property
+    def n_bytes(self) -> int:
+        """Size of the file [bytes]."""
+        self._base.commit()
+        pages, size = (
+            self._base.execute(f"PRAGMA {name}").fetchone()[0]
+            for name in ("page_count", "page_size")
+        )
+        return int(pages * size)
+
+    def __enter__(self) -> StudyWriter:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._base.commit()
+        self._base.close()
+
+
+def _text_of(value: float) -> float | None:
+    """An infinite number as it is; nan, which SQLite does not have, as none."""
+    return None if math.isnan(value) else value
+
+
+def _plain(value: Any) -> Any:
+    """A value of a parameter as JSON has it: numbers, truth values and texts."""
+    return value if isinstance(value, bool | int | float | str) else as_text(value)
+
+
+def _quoted(name: str) -> str:
+    return '"' + name.replace('"', '""') + '"'
