@@ -18,7 +18,7 @@ from ..errors import ContactkitError, ValidityWarning
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .paths import Axis, Scene, Vary, axes, changed, values_at
 from .run import Piece, Task
-from .study import check_effects, check_kind, check_whole, slots, spread
+from .study import RETRIES, check_effects, check_kind, check_whole, slots, spread
 from .study_file import StudyFile, StudyWriter
 
 __all__ = ["check_axes", "stream_study"]
@@ -35,7 +35,7 @@ def stream_study(
     workers: int = 1,
     client: Any = None,
     progress: Callable[[float], None] | None = None,
-    retries: int = 2,
+    retries: int = RETRIES,
 ) -> StudyFile:
     """Solve a scene for every combination of parameter values, and write each to a file.
 
@@ -50,8 +50,9 @@ def stream_study(
     path : str or Path
         The file; its suffix becomes ``.sqlite``. An existing file must be of the same study.
     retries : int
-        As in `study`. Points that failed are rows with their message, which are not solved again
-        when the study continues: ``StudyFile(path).forget_failed()`` removes them.
+        How often a point is solved again whose worker died, or which ended for lack of memory or
+        disk; a defect is not. Points that failed are rows with their message. They stay when the
+        study continues, until ``StudyFile(path).forget_failed()`` removes them.
 
     Returns
     -------

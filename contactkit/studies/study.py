@@ -37,7 +37,11 @@ if TYPE_CHECKING:
     from ..separation.results import SeparationResult
     from ..separation.sliding.result import SlidingResult
 
+RETRIES = 2
+"""How often a point is solved again whose worker died, or which lacked memory or disk."""
+
 __all__ = [
+    "RETRIES",
     "Study",
     "StudyPoint",
     "check_effects",
@@ -61,7 +65,6 @@ def study(
     client: Any = ...,
     progress: Callable[[float], None] | None = ...,
     keep_maps: bool = ...,
-    retries: int = ...,
 ) -> Study[ContactResult]: ...
 
 
@@ -76,7 +79,6 @@ def study(
     client: Any = ...,
     progress: Callable[[float], None] | None = ...,
     keep_maps: bool = ...,
-    retries: int = ...,
 ) -> Study[SeparationResult]: ...
 
 
@@ -91,7 +93,6 @@ def study(
     client: Any = ...,
     progress: Callable[[float], None] | None = ...,
     keep_maps: bool = ...,
-    retries: int = ...,
 ) -> Study[SlidingResult]: ...
 
 
@@ -105,7 +106,6 @@ def study(
     client: Any = None,
     progress: Callable[[float], None] | None = None,
     keep_maps: bool = False,
-    retries: int = 2,
 ) -> Study[Any]:
     """Solve a scene for every combination of parameter values.
 
@@ -138,10 +138,6 @@ def study(
         Called with the completed fraction, 0 to 1.
     keep_maps : bool
         Whether to keep the complete results, with maps or curves, in `Study.results`.
-    retries : int
-        How often a point is solved again whose worker died, or which ended for lack of memory or
-        disk. What fails in the same way each time, such as a defect, is not solved again; either
-        way the point is ``failed`` and the others go on.
 
     Returns
     -------
@@ -156,7 +152,8 @@ def study(
         If a path does not exist or a value is invalid; before any solve.
     PlanError
         If the effects do not fit the scene; before any solve. A point without a solution does not
-        stop the study: its results are nan, its status and message state why.
+        stop the study: its results are nan, its status and message state why. Nor does one that
+        fails by a defect, or whose worker died three times: its status is ``failed``.
 
     Examples
     --------
@@ -179,11 +176,10 @@ def study(
     """
     check_kind(scene)
     check_whole("workers", workers, 1)
-    check_whole("retries", retries, 0)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
     varied = axes(scene, accuracy, vary)
     kept = Store(Path(store).resolve()) if store is not None else None
-    run = _Run(scene, accuracy, varied, kept, keep_maps, progress, retries)
+    run = _Run(scene, accuracy, varied, kept, keep_maps, progress, RETRIES)
     pieces = run.pieces(slots(client, workers))
     run.check(pieces)
     with closing(spread(pieces, workers, client, run.report)) as ended:

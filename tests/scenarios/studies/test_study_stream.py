@@ -215,7 +215,7 @@ def test_what_may_pass_is_tried_again_and_what_will_not_is_a_row(failing, tmp_pa
             4e-3: (MemoryError(), 99),
         }
     )
-    study = ck.study(film(), {TIMES: VARY[TIMES]}, QUICK, retries=2)
+    study = ck.study(film(), {TIMES: VARY[TIMES]}, QUICK)
     assert count == {1e-3: 3, 2e-3: 1, 4e-3: 3, 8e-3: 1}
     assert [p.status for p in study.points] == ["curve", "failed", "failed", "curve"]
     assert study.points[1].message == "ZeroDivisionError: a bug"
@@ -262,9 +262,9 @@ class Losing:
 def test_points_of_a_lost_piece_are_submitted_again(tmp_path):
     client = Losing({2e-3: 2, 8e-3: 99})
     with client.pool:
-        study = ck.study(film(), {TIMES: VARY[TIMES]}, QUICK, client=client, retries=1)
+        study = ck.study(film(), {TIMES: VARY[TIMES]}, QUICK, client=client)
     assert [p.status for p in study.points] == ["curve", "curve", "curve", "failed"]
-    assert study.points[3].message.startswith("lost 2 times: its worker: ConnectionError")
+    assert study.points[3].message.startswith("lost 3 times: its worker: ConnectionError")
     assert study.n_solved == 4
 
 
