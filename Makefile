@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # compile numpy again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo test test-all lint bench bench-own peers demands docs format clean
+.PHONY: demo test test-all release-check lint bench bench-own peers demands docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -63,6 +63,14 @@ lint: $(VENV)/.lint
 format: $(VENV)/.lint
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+# What is uploaded: sdist and wheel, complete and as an index shows them. RELEASING.md has the other steps.
+release-check: $(VENV)/.test
+	$(PIP) install build twine
+	rm -rf build dist
+	$(BIN)/python -m build
+	$(BIN)/twine check --strict dist/*
+	$(BIN)/python -m pytest -q -m "slow or not slow" tests/rules/test_packaging.py
 
 docs: $(VENV)/.docs
 	$(BIN)/mkdocs build --strict

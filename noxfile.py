@@ -1,0 +1,44 @@
+"""Tests of the built wheel outside the repository: ``nox`` runs all, ``nox -s wheel-3.12`` one."""
+
+import tempfile
+from pathlib import Path
+
+import nox
+
+ROOT = Path(__file__).parent
+QUICK = ("tests/analytic", "tests/scenarios/test_cli.py", "tests/properties")
+OLDEST = (
+    "attrs==23.2.0",
+    "cattrs==23.2.1",
+    "click==8.1.0",
+    "numpy==2.0.0",
+    "scipy==1.13.0",
+    "tomli-w==1.0.0",
+    "tqdm==4.66.0",
+)
+
+
+def _test(session: nox.Session, *pins: str) -> None:
+    """Install the wheel, and run copies of the tests where no source is found."""
+    dist = session.create_tmp()
+    session.install("build")
+    session.run("python", "-m", "build", "--wheel", "--outdir", dist, str(ROOT))
+    (wheel,) = Path(dist).glob("*.whl")
+    session.install(f"{wheel}[test]", *pins)
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("tests", "pyproject.toml", "examples", "docs"):
+            session.run("cp", "-r", str(ROOT / name), folder, external=True)
+        with session.chdir(folder):
+            session.run("python", "-m", "pytest", *(session.posargs or QUICK))
+
+
+@nox.session(python=["3.11", "3.12", "3.13"])
+def wheel(session: nox.Session) -> None:
+    """Newest packages within the ranges."""
+    _test(session)
+
+
+@nox.session(python="3.11")
+def oldest(session: nox.Session) -> None:
+    """Oldest packages within the ranges."""
+    _test(session, *OLDEST)

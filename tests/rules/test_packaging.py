@@ -1,0 +1,106 @@
+"""What is shipped: the wheel holds every package and data file, the sdist the repository."""
+
+import importlib.util
+import re
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import contactkit
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+FOLDERS = PROJECT["tool"]["setuptools"]["package-dir"]
+DATA = (".toml", ".json", ".c", ".h", ".png", ".svg", ".typed")
+
+
+def folder_of(package):
+    """Folder of a package in the repository."""
+    parent = max((p for p in FOLDERS if f"{package}.".startswith(f"{p}.")), key=len)
+    return ROOT / FOLDERS[parent] / package.removeprefix(parent).lstrip(".").replace(".", "/")
+
+
+def shipped():
+    """Files of the packages by their paths in a wheel."""
+    return {
+        f"{package.replace('.', '/')}/{path.name}"
+        for package in PROJECT["tool"]["setuptools"]["packages"]
+        for path in folder_of(package).iterdir()
+        if path.suffix in (".py", *DATA)
+    }
+
+
+def test_every_package_is_listed():
+    listed = {folder_of(p) for p in PROJECT["tool"]["setuptools"]["packages"]}
+    found = {p.parent for top in set(FOLDERS.values()) for p in (ROOT / top).rglob("__init__.py")}
+    assert found == listed
+
+
+def test_there_is_one_version():
+    version = PROJECT["project"]["version"]
+    assert contactkit.__version__ == version
+    for name, pattern in (
+        ("CITATION.cff", r"^version: (.*)$"),
+        ("conda-recipe/recipe.yaml", r'^  version: "(.*)"$'),
+    ):
+        assert re.search(pattern, (ROOT / name).read_text("utf-8"), re.M)[1] == version
+
+
+def test_conda_needs_what_pip_needs():
+    recipe = (ROOT / "conda-recipe/recipe.yaml").read_text("utf-8")
+    run = re.findall(r"^    - (.*)$", recipe.partition("  run:\n")[2].partition("\n\n")[0], re.M)
+    pinned = {one.replace(" ", "") for one in run}
+    needed = {one.replace(" ", "") for one in PROJECT["project"]["dependencies"]}
+    assert pinned == needed | {f"python{PROJECT['project']['requires-python']}"}
+
+
+def test_links_of_the_readme_hold_on_an_index():
+    spec = importlib.util.spec_from_file_location("setup_of_contactkit", ROOT / "setup.py")
+    setup = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(setup)
+    text = setup.absolute_links((ROOT / "README.md").read_text("utf-8"))
+    links = re.findall(r"\]\(([^)]*)\)", text)
+    assert links
+    for link in links:
+        assert link.startswith(("https://", "#")), link
+        if path := re.match(rf"({re.escape(setup.HOME)}|{re.escape(setup.FILES)})([^#]*)", link):
+            assert (ROOT / path[2]).exists(), link
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """A wheel and a source distribution, by the build backend itself."""
+    out = tmp_path_factory.mktemp("dist")
+    code = (
+        "import sys; from setuptools import build_meta as b; out = sys.argv[1]; "
+        "b.build_sdist(out); b.build_wheel(out)"
+    )
+    copy = tmp_path_factory.mktemp("copy") / "source"
+    subprocess.run(["git", "clone", "-q", str(ROOT), str(copy)], check=True)
+    subprocess.run(
+        [sys.executable, "-c", code, str(out)], cwd=copy, check=True, capture_output=True
+    )
+    return next(out.glob("*.tar.gz")), next(out.glob("*.whl"))
+
+
+@pytest.mark.slow
+def test_wheel_has_every_package_and_data_file(built):
+    with zipfile.ZipFile(built[1]) as wheel:
+        names = set(wheel.namelist())
+    assert shipped() <= names
+    assert not {name for name in names if name.startswith(("tests/", "docs/"))}
+
+
+@pytest.mark.slow
+def test_sdist_has_tests_docs_examples_and_changelog(built):
+    with tarfile.open(built[0]) as sdist:
+        names = {name.partition("/")[2] for name in sdist.getnames()}
+    asked = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+    assert set(asked.stdout.splitlines()) - names == set()
