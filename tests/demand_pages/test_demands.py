@@ -119,10 +119,8 @@ def test_every_solver_and_every_shipped_scene_has_its_errors():
 )
 def test_errors_and_counts_of_a_study_still_hold(name, monkeypatch):
     monkeypatch.setattr(accuracy_studies, "cpu_seconds", lambda *given, **more: 0.0)
-    now = {(p["method"], p["setting"]): p for p in STUDIES[name].points()}
-    assert len(now) == len(SHOWN_STUDIES[name])
-    for shown in SHOWN_STUDIES[name]:
-        found = now[shown["method"], shown["setting"]]
+    for found, shown in zip(STUDIES[name].points(), SHOWN_STUDIES[name], strict=True):
+        assert (found["method"], found["setting"]) == (shown["method"], shown["setting"])
         assert found["error"] <= 3.0 * shown["error"] + 1e-11
         for unit, count in shown["counts"].items():
             assert found["counts"][unit] == pytest.approx(count, rel=0.1, abs=5)

@@ -78,7 +78,7 @@ def _swept(found: WorkPrecision) -> list[Point]:
     ]
 
 
-def _point(method: str, setting: str, error: float, seconds: float, **more: int) -> Point:
+def _point(method: str, setting: str, error: float, seconds: float | None, **more: int) -> Point:
     return {
         "method": method,
         "setting": setting,
@@ -178,19 +178,15 @@ def _panel(name: str) -> Callable[[], list[Point]]:
 
     def points() -> list[Point]:
         panel = measure_work_precision.PANELS[name]
-        unit = "convolutions" if panel.work == "convolutions" else "pixels across"
-        return [
-            {
-                "method": line,
-                "setting": p.setting,
-                "error": p.error,
-                "seconds": None,
-                "counts": {unit: int(p.work)},
-                "is_model": False,
-            }
-            for line, some in panel.lines().items()
-            for p in some
-        ]
+        made = []
+        for line, some in panel.lines().items():
+            for p in some:
+                setting, work = p.setting, int(p.work)
+                if panel.work != "convolutions":  # over the grid, with convolutions as labels
+                    setting, work = f"{work} pixels across", int(p.setting.split()[0])
+                counted = {"convolutions": work}
+                made.append(_point(line, setting, p.error, None, **counted))
+        return made
 
     return points
 
