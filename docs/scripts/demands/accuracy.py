@@ -22,6 +22,10 @@ ANALYSES: Mapping[str, tuple[str, str]] = {
         "solves of `load_curve`, with a monotone interpolation whose error it reports",
         "tests/analytic/contact/test_plastic_history.py",
     ),
+    "stream_study": (
+        "points of `study`, one by one",
+        "tests/scenarios/studies/test_study_stream.py",
+    ),
     "stick_slip": ("closed forms of each phase", "tests/analytic/contact/test_stick_slip.py"),
 }
 """Public functions on scenes and plans without a tolerance of their own."""
