@@ -32,6 +32,7 @@ def with_blocks(language):
             p, id=p.relative_to(ROOT).as_posix(), marks=[pytest.mark.slow] if p in slow else []
         )
         for p in PAGES
+        if p.parent.name != "tutorials"  # run from their sources, test_tutorials.py
         if blocks(p, language)
     ]
 
