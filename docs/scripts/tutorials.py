@@ -27,6 +27,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
+import contactkit as ck
 from contactkit.plot.style import STYLE
 
 ROOT = Path(__file__).parents[2]
@@ -79,7 +80,8 @@ def run(name: str) -> list[Cell]:
     """Run a tutorial from start to end in a folder of its own; a warning is an error."""
     found = cells(name)
     scope: dict[str, Any] = {"__name__": "__main__"}
-    with elsewhere(), warnings.catch_warnings(), mpl.rc_context(STYLE):
+    registered = ck.EFFECTS.including()  # for the length of the run
+    with elsewhere(), warnings.catch_warnings(), mpl.rc_context(STYLE), registered:
         warnings.simplefilter("error")
         warnings.filterwarnings(
             "ignore", category=DeprecationWarning, module="matplotlib|pyparsing"

@@ -150,6 +150,7 @@ print(f"without the capillary force: {change - 1:+.2%}")
 # - `initial_gap=1 * um` (and the volume with it): a film five times thinner.
 # - `strength=5e6`: what a better assumption about the oil would change.
 # - `rise_time=0.2e-3` in `ImposedForce`: a magnet that needs time.
+# - Put the film beside your own equations: [own ODE with the film](own-ode.md).
 #
 # The whole injector, with magnet, spring and end stop: [fuel injector](../injector.md). The
 # equations: [films on faces](../films.md) and [physics](../physics.md).

@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 SHOWN = ROOT / "docs" / "tutorials"
-FAST = ("humid-sphere",)
+FAST = ("humid-sphere", "own-effect", "own-ode")
 MAKE = "run python docs/scripts/tutorials.py"
 NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")
 PRINTED = re.compile(r"^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)
