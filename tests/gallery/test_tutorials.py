@@ -12,13 +12,13 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SHOWN = ROOT / "docs" / "tutorials"
 FAST = ("humid-sphere", "own-effect", "own-ode")
-MAKE = "run python docs/scripts/tutorials.py"
+MAKE = "run python docs/scripts/tutorials"
 NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")
 PRINTED = re.compile(r"^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def load_script():
-    path = ROOT / "docs" / "scripts" / "tutorials.py"
+    path = ROOT / "docs" / "scripts" / "tutorials" / "__main__.py"
     spec = importlib.util.spec_from_file_location("docs_tutorials", path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # dataclasses look themselves up

@@ -1,4 +1,4 @@
-"""Tutorials as pages and notebooks: ``python docs/scripts/tutorials.py [NAME ...]``.
+"""Tutorials as pages and notebooks: ``python docs/scripts/tutorials [NAME ...]``.
 
 The source of each is a script of examples/tutorials/ in cells: its docstring is title and question,
 ``# %% [markdown]`` begins a cell of text, ``# %%`` one of code. Every cell is run, in order, and
@@ -30,7 +30,7 @@ from PIL import Image
 import contactkit as ck
 from contactkit.plot.style import STYLE
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 SOURCES, SHOWN = ROOT / "examples" / "tutorials", ROOT / "docs" / "tutorials"
 COLOURS, DPI = 256, 120
 MARK = re.compile(r"^# %%( \[markdown\])?\n", re.MULTILINE)
