@@ -90,7 +90,7 @@ def test_an_effect_still_costs_what_the_page_counts(kind):
 
 SHOWN_STUDIES = load("accuracy-and-cost")["studies"]
 COVERED = {solver for study in STUDIES.values() for solver in study.solvers}
-FILES = {"plan", "save_scene"}  # they compute no answer
+FILES = {"plan", "plan_study", "save_scene"}  # they compute no answer
 
 
 def test_every_solver_and_every_shipped_scene_has_its_errors():
