@@ -40,7 +40,7 @@ def read_text(path: Path, limit: str, encoding: str = "utf-8") -> str:
     if path.exists() and not path.is_file():
         raise DescriptionError("file", str(path), "be readable", hint="it is a folder or a device")
     with path.open("rb") as file:
-        content = file.read(limit_of(limit) + 1)  # whatever its size is said to be
+        content = file.read(limit_of(limit) + 1)  # whatever size it states
     if len(content) > limit_of(limit):
         check_limit(limit, max(path.stat().st_size, len(content)), str(path))
     return content.decode(encoding)

@@ -48,8 +48,8 @@ def described(part: Any, name: str = "") -> Line:
     text = ", ".join(said)
     if not name:
         return Line(kind, text, tuple(parts))
-    is_said = kind in _PLAIN or kind.lower().endswith(name.lower())  # the coil is a Coil
-    if not is_said and name != getattr(part, "name", None):
+    is_stated = kind in _PLAIN or kind.lower().endswith(name.lower())  # the coil is a Coil
+    if not is_stated and name != getattr(part, "name", None):
         text = f"{kind}: {text}" if text else kind
     return Line(name, text, tuple(parts))
 

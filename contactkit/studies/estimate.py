@@ -159,13 +159,13 @@ def plan_study(
     n = min(trials, n_points)
     places = sorted({round(i * (n_points - 1) / max(n - 1, 1)) for i in range(n)})
     found: list[Done] = []
-    spent: list[float] = []
+    seconds: list[float] = []
     for place in (places[0], *places):
         task = Task(place, values_at(varied, place), "")
         begun = time.process_time()
         found += run_piece(Piece(scene, accuracy, (task,), None, False))
-        spent.append(time.process_time() - begun)
-    found, spent = found[1:], spent[1:]
+        seconds.append(time.process_time() - begun)
+    found, seconds = found[1:], seconds[1:]
     points = [done.point for done in found]
     if all(point.status in ("refused", "failed") for point in points):
         raise ContactkitError(f"no trial point could be solved: {points[0].message}")
@@ -179,9 +179,9 @@ def plan_study(
         len(found),
         sum(point.has_failed for point in points),
         tuple((", ".join(axis.paths), len(axis.values)) for axis in varied),
-        sum(spent) / len(spent),
-        min(spent),
-        max(spent),
+        sum(seconds) / len(seconds),
+        min(seconds),
+        max(seconds),
         sum(_size(point, set()) for point in points) / len(points),
         _process_memory(),
         disk,

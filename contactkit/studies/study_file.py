@@ -18,6 +18,8 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError, ValidityWarning, nearest
 from ..export.contents import Contents
 from ..files.scenes import write_whole
+from ..reading.limits import check_limit, check_size
+from ..reading.texts import from_json
 from .paths import Axis, Scene
 from .run import Done
 from .store import FAILED, scene_key
@@ -71,23 +73,28 @@ class StudyFile:
         self.path = Path(path).with_suffix(".sqlite")
         if not self.path.is_file():
             raise DescriptionError("file", str(path), "exist")
-        try:
-            with self._opened() as base:
-                header = dict(base.execute("SELECT key, value FROM header"))
-                units = dict(base.execute("SELECT name, unit FROM units"))
-            axes = json.loads(header["axes"])
-            self.paths = tuple(tuple(axis["paths"]) for axis in axes)
-            self._values = {
-                p: [row[i] for row in a["values"]] for a in axes for i, p in enumerate(a["paths"])
-            }
-            self.shape = tuple(len(axis["values"]) for axis in axes)
-            varied = {p: u for a in axes for p, u in zip(a["paths"], a["units"], strict=True)}
-        except (sqlite3.Error, ValueError, KeyError, TypeError) as error:
-            raise DescriptionError("file", str(path), "be a study", hint=str(error)) from None
+        check_size(self.path)
+        with self._opened() as base:
+            if base.execute(
+                "SELECT 1 FROM sqlite_master WHERE type IN ('view', 'trigger')"
+            ).fetchone():
+                raise _no_study(self.path, "it holds views or triggers")
+            header = dict(base.execute("SELECT key, value FROM header"))
+            units = dict(base.execute("SELECT name, unit FROM units"))
+        axes = _checked_axes(from_json(str(header.get("axes")), str(self.path)), self.path)
+        self.paths = tuple(tuple(axis["paths"]) for axis in axes)
+        self._values = {
+            p: [row[i] for row in a["values"]] for a in axes for i, p in enumerate(a["paths"])
+        }
+        self.shape = tuple(len(axis["values"]) for axis in axes)
+        check_limit("POINTS", self.n_points, str(self.path))
+        varied = {p: u for a in axes for p, u in zip(a["paths"], a["units"], strict=True)}
         self.units: dict[str, str] = varied | units
+        if not all(isinstance(text, str) for pair in self.units.items() for text in pair):
+            raise _no_study(self.path, "a unit is no text")
 
     def _opened(self) -> _Closing:
-        return _Closing(f"{self.path.resolve().as_uri()}?mode=ro")
+        return _Closing(self.path)
 
     @property
     def n_points(self) -> int:
@@ -124,8 +131,16 @@ class StudyFile:
         found = np.full(self.n_points, "" if is_text else np.nan, "U16" if is_text else float)
         with self._opened() as base:
             for place, value in base.execute(f"SELECT place, {_quoted(name)} FROM points"):
-                found[place] = value if value is not None else np.nan
+                if not isinstance(value, str if is_text else float | int | None):
+                    raise _no_study(self.path, f"{value!r:.40} in the column {name}")
+                found[self._checked(place)] = value if value is not None else np.nan
         return found
+
+    def _checked(self, place: Any) -> int:
+        """Return the number of a point, which the file may state wrongly."""
+        if isinstance(place, int) and 0 <= place < self.n_points:
+            return place
+        raise _no_study(self.path, f"{place!r:.40} is the place of no point")
 
     def unit(self, name: str) -> str:
         """Return the unit of a column; ``-`` for none."""
@@ -148,7 +163,7 @@ class StudyFile:
         return int(gone)
 
     def _values_at(self, place: int) -> dict[str, Any]:
-        at = np.unravel_index(place, self.shape)
+        at = np.unravel_index(self._checked(place), self.shape)
         return {
             p: self._values[p][int(i)] for i, ps in zip(at, self.paths, strict=True) for p in ps
         }
@@ -199,16 +214,52 @@ class StudyFile:
 
 
 class _Closing:
-    """A connection that is closed at the end of a ``with`` block."""
+    """A connection that reads, closed at the end of a ``with`` block; its errors name the file."""
 
-    def __init__(self, uri: str) -> None:
-        self._base = sqlite3.connect(uri, uri=True)
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._base = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
+        self._base.execute("PRAGMA trusted_schema = OFF")
 
     def __enter__(self) -> sqlite3.Connection:
         return self._base
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, _: object, error: object, trace: object) -> None:
         self._base.close()
+        if isinstance(error, DescriptionError):
+            return
+        if isinstance(error, sqlite3.Error | ValueError | OverflowError):
+            raise _no_study(self._path, str(error)[:200]) from None
+
+
+def _no_study(path: Path, why: str) -> DescriptionError:
+    return DescriptionError("file", str(path), "be a study", hint=why)
+
+
+def _checked_axes(axes: Any, path: Path) -> list[dict[str, Any]]:
+    """Return the axes of a file if they are lists of paths, units and rows of plain values."""
+    is_sound = isinstance(axes, list) and all(
+        isinstance(axis, dict)
+        and all(
+            isinstance(axis.get(key), list) and axis[key] for key in ("paths", "units", "values")
+        )
+        and all(isinstance(text, str) for text in (*axis["paths"], *axis["units"]))
+        and len(axis["units"]) == len(axis["paths"])
+        and all(_is_row(row, len(axis["paths"])) for row in axis["values"])
+        for axis in axes
+    )
+    if not is_sound:
+        raise _no_study(path, "its axes are no lists of paths, units and rows of values")
+    return list(axes)
+
+
+def _is_row(row: Any, width: int) -> bool:
+    """Whether it is a row of as many numbers, texts or truth values as an axis has paths."""
+    return (
+        isinstance(row, list)
+        and len(row) == width
+        and all(isinstance(value, float | int | str | None) for value in row)
+    )
 
 
 class StudyWriter:
@@ -269,6 +320,8 @@ class StudyWriter:
         base.executemany("INSERT OR REPLACE INTO header VALUES (?, ?)", header.items())
         base.commit()
         for (place,) in base.execute("SELECT place FROM points"):
+            if not (isinstance(place, int) and 0 <= place < self._done.size):
+                raise _no_study(self.path, f"{place!r:.40} is the place of no point")
             self._done[place] = True
 
     def is_done(self, place: int) -> bool:

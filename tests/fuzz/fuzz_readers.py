@@ -47,6 +47,7 @@ def readers() -> dict[str, Callable[[], Reader]]:
         "fmu": _fmus,
         "ssp": _components,
         "study": _points,
+        "study file": _study_files,
         "state": _states,
         "quantity": _quantities,
     } | ({"instrument": _instruments} if has_instruments() else {})
@@ -272,6 +273,28 @@ def _points() -> Reader:
         assert all(isinstance(count, int) for count in found.counts.values())
 
     return Reader({"a.json": json.dumps(point).encode()}, read, check)
+
+
+def _study_files() -> Reader:
+    oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=870.0)
+    face = ck.Flat(radius=1e-3)
+    scene = ck.SeparationScene(
+        interface=ck.Interface(
+            lower=face, upper=face, meniscus=ck.Meniscus(liquid=oil, volume=1e-12)
+        ),
+        loading=ck.ImposedTime(time=1e-3, initial_gap=1e-6, final_gap=1e-5),
+        effects=(ck.ViscousForce(),),
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        made = ck.stream_study(scene, {"loading.time": [1e-3, 2e-3]}, Path(folder) / "a")
+        content = made.path.read_bytes()
+
+    def check(found: Any) -> None:
+        for name in (*found.units, "status"):
+            assert len(found.column(name)) == found.n_points
+        list(found.failed())
+
+    return Reader({"a.sqlite": content}, ck.StudyFile, check)
 
 
 def _states() -> Reader:

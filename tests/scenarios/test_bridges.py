@@ -65,7 +65,7 @@ def test_cost_shows_all_closures_with_a_picture(few, tmp_path, capsys):
     text = capsys.readouterr().out
     assert "of the force on every bridge: exact" in text
     assert "of the rupture distance on every bridge: exact" in text
-    assert {path.name for path in out.iterdir()} == {"cost.png", "cost.csv"}
+    assert {path.name for path in out.iterdir()} == {"contactkit.json", "cost.png", "cost.csv"}
     with (out / "cost.csv").open(newline="") as file:
         _, *rows = csv.reader(file)
     assert len(rows) == 2 * (7 + 3)

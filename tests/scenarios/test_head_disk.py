@@ -203,7 +203,7 @@ def test_the_cost_of_a_contact_compares_solvers_grids_and_effects(scene_file, tm
     assert "edge-corrected area / 48 x 48 / error" in numbers
     assert "effects up to + film-meniscus / seconds" in numbers
     assert 0.0 < numbers["discretisation error / max_pressure"]["value"] < 1.0
-    assert {path.name for path in out.iterdir()} == {"cost.png", "cost.csv"}
+    assert {path.name for path in out.iterdir()} == {"contactkit.json", "cost.png", "cost.csv"}
 
 
 def test_a_wet_contact_has_no_fmu_and_is_refused(scene_file, tmp_path, capsys):

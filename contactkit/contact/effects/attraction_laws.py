@@ -111,7 +111,7 @@ class ExponentialAttraction(AttractionLaw):
     """
 
     kind: ClassVar[str] = "exponential"
-    source: ClassVar[str] = "tension w/r exp(-g/r), docs/physics.md, Adhesion in rough contact"
+    source: ClassVar[str] = "tension w/r exp(-g/r), docs/physics/rough-adhesion.md"
 
     def on_grid(self, self_influence: float) -> TensionLaw:
         """See `AttractionLaw.on_grid`."""

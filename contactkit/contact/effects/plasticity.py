@@ -165,7 +165,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         """See `Effect.sources`."""
         bound = "pressure bounded by the hardness, section 2.1.3.2"
         rules = {
-            "continuous": "Eq. (2.41) summed over all interfaces, docs/physics.md, Hardness",
+            "continuous": "Eq. (2.41) summed over all interfaces, docs/physics/hardness.md",
             "literal": "Eq. (2.41) and the three criteria after it (Bhushan and Venkatesan 2005)",
             "material": "hardness of the topmost material",
             "constant": "hardness given with the scene",

@@ -200,11 +200,11 @@ def test_what_is_no_fmu_of_fmi_2_is_named(pair, tmp_path, temporary):
         (tmp_path / "none.fmu", "a file that is there"),
         (text, "a zip archive"),
         (third, "one of FMI 3.0: take the FMI 2 build"),
-        (torn, "description that can be read"),
+        (torn, "torn.fmu, modelDescription.xml'; there is"),
     ):
         with pytest.raises(DescriptionError, match=said) as caught:
             cosimulate(path, pair[1], 1e-4, 1e-5)
-        assert caught.value.value == str(path)
+        assert caught.value.value.startswith(str(path))
 
 
 def test_an_fmu_without_a_library_for_this_host_is_named(pair, tmp_path, temporary):

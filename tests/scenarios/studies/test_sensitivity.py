@@ -21,7 +21,7 @@ RADII = f"{RADIUS}, interface.upper.surface.radius"
 
 @pytest.fixture(scope="module")
 def film():
-    """Flat faces drawn apart at a speed in a bath: F = 3 pi eta R^4 v/(2 h^3)."""
+    """Flat faces drawn apart at a speed, flooded: F = 3 pi eta R^4 v/(2 h^3)."""
     oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=870.0)
     face = ck.Flat(radius=1e-3)
     return ck.SeparationScene(

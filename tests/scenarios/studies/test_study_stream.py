@@ -7,6 +7,7 @@ import csv
 import math
 import os
 import signal
+import sqlite3
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -155,6 +156,32 @@ def test_what_is_no_file_of_a_study_is_refused(tmp_path, text, message):
         with pytest.raises(ck.DescriptionError, match="be the file of a study"):
             ck.stream_study(film(), VARY, tmp_path / "oil.sqlite", QUICK)
         assert (tmp_path / "oil.sqlite").read_text() == text
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("UPDATE header SET value = '[{' WHERE key = 'axes'", "must hold JSON"),
+        ("UPDATE header SET value = '[{}]' WHERE key = 'axes'", "its axes are no lists"),
+        ("INSERT INTO points (place, status) VALUES (-1, 'refused')", "the place of no point"),
+        ("UPDATE points SET viscous_impulse = 'much'", "'much' in the column"),
+        ("CREATE VIEW all_of AS SELECT * FROM points", "views or triggers"),
+        ("DROP TABLE points", "no such table"),
+    ],
+)
+def test_a_file_of_a_study_that_was_changed_is_refused(tmp_path, change, message):
+    path = ck.stream_study(film(), VARY, tmp_path / "oil", QUICK).path
+    base = sqlite3.connect(path)
+    with base:
+        base.execute(change)
+    base.close()
+
+    def read():
+        found = ck.StudyFile(path)
+        return list(found.failed()), found.column("viscous_impulse")
+
+    with pytest.raises(ck.DescriptionError, match=message):
+        read()
 
 
 def test_a_column_that_is_not_there_and_values_that_are_wrong_are_refused(tmp_path):
