@@ -6,7 +6,7 @@ from pathlib import Path
 import nox
 
 ROOT = Path(__file__).parent
-QUICK = ("tests/analytic", "tests/scenarios/test_cli.py", "tests/properties")
+QUICK = ("tests/analytic", "tests/scenarios/command_line", "tests/properties")
 OLDEST = (
     "attrs==23.2.0",
     "cattrs==23.2.1",

@@ -21,7 +21,7 @@ __all__ = ["contactkit"]
 @click.group(
     cls=Group,
     invoke_without_command=True,
-    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    context_settings={"max_content_width": 100},
 )
 @click.option("--version", is_flag=True, help="Print the version and exit.")
 @click.pass_context

@@ -43,11 +43,16 @@ def _flag(entry: str, *names: str, help: str) -> click.Option:
     return click.Option(names, is_flag=True, expose_value=False, callback=keep, help=help)
 
 
+# Click keeps the help option of the first call, which need not come through the whole command line.
+_HELP: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
+
+
 class Command(click.Command):
     """A command with the options that all commands have."""
 
     def __init__(self, *args: Any, **more: Any) -> None:
         super().__init__(*args, **more)
+        self.context_settings = {**_HELP, **self.context_settings}
         self.params += [
             _flag(QUIET, "--quiet", "-q", help="Print errors only, and what --json asks for."),
             _flag(VERBOSE, "--verbose", "-v", help="Print wall and CPU time of each step, too."),
@@ -57,6 +62,10 @@ class Command(click.Command):
 
 class Group(click.Group):
     """Commands in the order in which they were added, with the nearest name for one unknown."""
+
+    def __init__(self, *args: Any, **more: Any) -> None:
+        super().__init__(*args, **more)
+        self.context_settings = {**_HELP, **self.context_settings}
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names of the commands."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -27,17 +28,27 @@ __all__ = ["study"]
     is_flag=True,
     help="In units of the reference scales, such as E* A, in place of SI units.",
 )
+@click.option(
+    "--stream",
+    type=click.Path(path_type=Path),
+    metavar="FILE.sqlite",
+    help="Write points to this file as they are solved, in bounded memory; continues it.",
+)
+@click.option(
+    "--trials",
+    type=click.IntRange(min=0),
+    default=0,
+    help="Solve this many points only, and estimate time, memory and disk of the study.",
+)
 @options.overwrite
 @options.as_json
 def study(
     scene: str,
     settings: tuple[str, ...],
     out: Path | None,
-    workers: int,
-    store: Path | None,
-    dimensionless: bool,
     overwrite: bool,
     as_json: bool,
+    **choices: Any,
 ) -> None:
     """Run the study of a scene file, write its columns and a figure.
 
@@ -45,6 +56,13 @@ def study(
     """
     from ..app.run.study import StudyOptions
 
-    choices = StudyOptions(workers, store, dimensionless)
+    chosen = StudyOptions(**choices)
+    if (chosen.stream or chosen.trials) and (
+        out or chosen.store or chosen.dimensionless or (chosen.stream and chosen.trials)
+    ):
+        raise click.UsageError(
+            "--stream and --trials write no folder: give one of them alone, without --out, --store "
+            "and --dimensionless"
+        )
     job = Job("study", scene, settings, out, overwrite, as_json)
-    run_job(job, lambda opened, progress: opened.study(out, progress, choices))
+    run_job(job, lambda opened, progress: opened.study(out, progress, chosen))

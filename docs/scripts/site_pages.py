@@ -89,12 +89,18 @@ def repository_page(name: str) -> str:
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
-    """Pages of folders; the address of the repository, once pyproject.toml has one."""
+    """Pages of folders, and the address of the repository below each page.
+
+    As `repo_url` of the theme a page would fetch the stars of the repository when it is read.
+    """
     about = {"About": [page for name, page in REPOSITORY.items() if (ROOT / name).exists()]}
     config.nav = [*expanded(config.nav or [], Path(config.docs_dir)), about]
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    urls = {key.lower(): url for key, url in project.get("urls", {}).items()}
-    config.repo_url = urls.get("repository") or urls.get("source")
+    urls = project["urls"]
+    config.copyright = (
+        f'<a href="{urls["Homepage"]}">Repository</a>, <a href="{urls["Issues"]}">issues</a>; '
+        f"{project['license']}"
+    )
     return config
 
 

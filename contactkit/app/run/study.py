@@ -51,11 +51,18 @@ _OF_CONTACTS = (
 
 
 class StudyOptions(NamedTuple):
-    """Options of a study: processes, folder of finished points, units of the reference scales."""
+    """Options of a study.
+
+    `workers` are processes, `store` is a folder of finished points, `dimensionless` asks for units
+    of the reference scales, `stream` is a file that points are written to as they are solved, and
+    `trials` a number of points to estimate the study from, which is not run then.
+    """
 
     workers: int = 1
     store: Path | None = None
     dimensionless: bool = False
+    stream: Path | None = None
+    trials: int = 0
 
 
 _PLAIN = StudyOptions()
@@ -109,12 +116,63 @@ def run_study(
             "the scene file has no study: add a table such as [study] "
             '"loading.speed" = ["1 um/s", "10 um/s"]'
         )
+    if options.trials:
+        return _estimated(scene, accuracy, vary, options)
+    if options.stream is not None:
+        return _streamed(scene, accuracy, vary, progress, options.stream, options.workers)
     made = run_studies(scene, accuracy, vary, progress, options)
     text = "\n".join([*study_text(made), *_definitions(made, options)]).lstrip("\n")
     if out is None:
         return Report(_columns(made), text)
     files = write_studies(made, out)
     return Report(_columns(made), text, files, partial(_drawn, made, scene.name, out))
+
+
+def _estimated(
+    scene: AnyScene, accuracy: Accuracy, vary: Mapping[str, list[Any]], options: StudyOptions
+) -> Report:
+    """Estimate time, memory and disk of a study from a few of its points."""
+    from ...studies.estimate import plan_study
+
+    lines, numbers = list[str](), dict[str, tuple[Any, str]]()
+    for label, variant in study_variants(scene):
+        found = plan_study(variant, vary, accuracy, trials=options.trials, workers=options.workers)
+        lines += [*([f"{label}:"] if label else []), str(found)]
+        key = f"{label}: " if label else ""
+        numbers[f"{key}n_points"] = (found.n_points, "-")
+        numbers[f"{key}cpu_time"] = (found.total_seconds, "s")
+        numbers[f"{key}memory"] = (found.memory, "bytes")
+        numbers[f"{key}disk"] = (found.disk, "bytes")
+    return Report(numbers, "\n".join(lines))
+
+
+def _streamed(
+    scene: AnyScene,
+    accuracy: Accuracy,
+    vary: Mapping[str, list[Any]],
+    progress: Progress,
+    path: Path,
+    workers: int,
+) -> Report:
+    """Write the points of a study to a file as they are solved."""
+    from ...studies.stream import stream_study
+
+    variants, lines, numbers = study_variants(scene), list[str](), dict[str, tuple[Any, str]]()
+    files: list[Path] = []
+    for i, (label, variant) in enumerate(variants):
+        name = path if len(variants) == 1 else path.with_stem(f"{path.stem}-{_slug(label)}")
+
+        def part(fraction: float, before: int = i) -> None:
+            progress((before + fraction) / len(variants))
+
+        made = stream_study(variant, vary, name, accuracy, workers=workers, progress=part)
+        failed = sum(1 for _ in made.failed())
+        lines.append(f"{made.path}: {made.n_done} points, {failed} of them without a solution")
+        key = f"{label}: " if len(variants) > 1 else ""
+        numbers[f"{key}n_points"] = (made.n_done, "-")
+        numbers[f"{key}n_failed"] = (failed, "-")
+        files.append(made.path)
+    return Report(numbers, "\n".join(lines), tuple(files))
 
 
 def run_studies(

@@ -238,3 +238,32 @@ def test_devices_are_studied_by_run(capsys):
 def test_workers_must_be_a_number_of_processes(file, capsys):
     assert main(["study", file(SLIDING), "--workers", "0"]) == 2
     assert "workers must be a whole number of at least 1" in capsys.readouterr().err
+
+
+def test_a_study_is_estimated_and_streamed_from_the_command_line(tmp_path, capsys):
+    scene, out = tmp_path / "film.toml", tmp_path / "film.sqlite"
+    scene.write_text(SEPARATION, encoding="utf-8")
+    assert main(["study", str(scene), "--trials", "2", "--json"]) == 0
+    estimate = json.loads(capsys.readouterr().out)
+    assert estimate["n_points"]["value"] == 6
+    assert estimate["cpu_time"]["value"] > 0.0
+    assert main(["study", str(scene), "--trials", "2"]) == 0
+    assert "study of 6 points" in capsys.readouterr().out
+    assert not out.exists()
+    for _ in range(2):  # the second time nothing is left to solve
+        assert main(["study", str(scene), "--stream", str(out)]) == 0
+        assert "6 points, 0 of them without a solution" in capsys.readouterr().out
+    assert main(["study", str(scene), "--json"]) == 0
+    whole = json.loads(capsys.readouterr().out)["viscous_impulse"]["value"]
+    np.testing.assert_allclose(ck.StudyFile(out).column("viscous_impulse"), whole)
+
+
+@pytest.mark.parametrize("more", [["--trials", "2"], ["--out", "out"], ["--dimensionless"]])
+def test_a_streamed_study_takes_no_folder(tmp_path, capsys, more):
+    scene = tmp_path / "film.toml"
+    scene.write_text(SEPARATION, encoding="utf-8")
+    with pytest.raises(SystemExit) as caught:
+        main(["study", str(scene), "--stream", str(tmp_path / "film.sqlite"), *more])
+    assert caught.value.code == 2
+    assert "give one of them alone" in capsys.readouterr().err
+    assert not (tmp_path / "film.sqlite").exists()
