@@ -8,13 +8,20 @@ import nox
 ROOT = Path(__file__).parent
 QUICK = ("tests/analytic", "tests/scenarios/command_line", "tests/properties")
 OLDEST = (
-    "attrs==23.2.0",
+    "attrs==24.2.0",  # of fmpy; without it 23.2.0 will do
     "cattrs==23.2.1",
     "click==8.1.0",
-    "numpy==2.0.0",
+    "numpy==2.1.3",  # of fmpy; 2.0.0 without it
     "scipy==1.13.0",
     "tomli-w==1.0.0",
     "tqdm==4.66.0",
+    "distributed==2024.1.0",
+    "fmpy==0.3.28",
+    "matplotlib==3.9.0",
+    "numba==0.61.0",  # the first for this numpy
+    "pandas==2.2.3",
+    "pythonfmu==0.7.0",
+    "xarray==2024.6.0",
 )
 
 

@@ -134,7 +134,7 @@ def test_curves_of_a_separation_are_over_time():
     assert found.gap.dims == ("time",)
     assert set(result.columns) <= set(found.variables)
     assert float(found.release_time) == result.scalars()["release_time"][0]
-    middle = float(found.gap.interp(time=0.5 * result.time[-1]))
+    middle = float(found.gap.interp(time=[0.5 * result.time[-1]])[0])
     assert 5e-6 < middle < 25e-6
     assert result.to_dataframe().gap.iloc[-1] == result.gap[-1]
 

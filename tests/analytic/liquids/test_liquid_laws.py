@@ -6,6 +6,7 @@ import math
 import re
 import tomllib
 import warnings
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
 from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
 from contactkit.units import celsius, cSt, parse_quantity
 
-DATA = Path(__file__).parents[3] / "contactkit" / "data" / "liquids.toml"
+DATA = Path(str(resources.files("contactkit.data") / "liquids.toml"))
 BY_KIND = {law.kind: law for law in LAWS}
 
 
