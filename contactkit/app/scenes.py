@@ -17,7 +17,6 @@ from ..files.scenes import (
     structure,
     telling_lines,
 )
-from ..models.end_stop.faces import beside
 from ..models.injector.scene import InjectorScene
 from ..models.library import bundled_scene
 from ..models.liquid_bridges.scene import Bridges
@@ -95,7 +94,7 @@ def _opened(tables: dict[str, Any], path: Path) -> OpenedScene:
     """Open the tables of a file."""
     device = tables.pop("device", None)
     if device is not None:
-        return _open_device(device, beside(tables, path.parent), path.name)
+        return _open_device(device, tables, path.name)
     kind = scene_kind(tables)
     if kind is ContactScene:
         return OpenedContact(*read_scene(tables, ContactScene, path.name))

@@ -14,7 +14,7 @@ from typing import Any, Generic, NamedTuple, TypeVar, overload
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..reading.limits import check_limit
-from ..reading.references import check_references
+from ..reading.references import references_from, resolved_references
 from ..reading.texts import check_keys, check_plain, read_text
 from ..scene.loading import ContactLoading, Sliding
 from ..scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
@@ -75,7 +75,7 @@ def read_scene(tables: Mapping[str, Any], kind: type[S], origin: str) -> SceneFi
 
 
 def read_tables(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file.
+    """Read a TOML file; names of files in it become absolute, found from its folder.
 
     Raises
     ------
@@ -98,8 +98,7 @@ def read_tables(path: str | Path) -> dict[str, Any]:
         raise FileError(path.name, [Problem(f"not TOML: {error}{cure}")]) from None
     except OSError as error:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
-    check_references(tables, path)
-    return tables
+    return resolved_references(tables, path)
 
 
 def _parsed(text: str, name: str) -> dict[str, Any]:
@@ -174,10 +173,21 @@ def load_scene(path: str | Path, kind: type[Scene] = Scene) -> Scene:
 
 
 def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str | Path) -> Path:
-    """Write a scene to a TOML file, in SI units; `load_scene` gives the same scene back."""
+    """Write a scene to a TOML file, in SI units; `load_scene` gives the same scene back.
+
+    The path of a height map is written as found from the folder of the file, so that the file holds
+    wherever it is read.
+
+    Raises
+    ------
+    DescriptionError
+        If the file could not hold the scene whole, such as an array or a surface of one's own, or
+        may not name a height map from where it is; nothing is written then.
+    """
     import tomli_w
 
-    text = tomli_w.dumps(unstructure(scene))
+    tables = unstructure(scene)
+    text = tomli_w.dumps(references_from(tables, Path(path)))
     with write_whole(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return Path(path)

@@ -5,5 +5,5 @@ texts         Texts of limited size, and plain values of limited depth from TOML
 archives      Zip archives: names, sizes and compression ratio checked before a member is read.
 arrays        Arrays of npy and npz files: no pickle, no more than the file holds.
 xml_elements  XML without a document type, of limited depth.
-references    Files that a scene file names: below its own folder or the working folder.
+references    Files that a scene file names: found from its folder, in it or in its project.
 """

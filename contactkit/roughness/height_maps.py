@@ -351,7 +351,8 @@ def _existing(path: str | PathLike[str]) -> Path:
     except OSError:  # a name of too many letters
         is_there = False
     if not is_there:
-        raise DescriptionError("HeightMap.path", str(path), "be a file that exists")
+        hint = "" if file.is_absolute() else f"it is looked for in the working folder, {Path.cwd()}"
+        raise DescriptionError("HeightMap.path", str(path), "be a file that exists", hint=hint)
     return file
 
 

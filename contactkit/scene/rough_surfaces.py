@@ -7,6 +7,7 @@ made into heights on a grid when a contact is planned.
 from __future__ import annotations
 
 import hashlib
+import os
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
@@ -125,6 +126,12 @@ class SelfAffineRoughness(RoughSurface):
             )
 
 
+def _as_path(value: Any) -> str:
+    if isinstance(value, str | os.PathLike):
+        return os.fsdecode(value)
+    raise DescriptionError("Measured.path", value, "be the name of a file")
+
+
 @frozen(kw_only=True)
 class Measured(RoughSurface):
     """A height map from a file: npy, columns of text, ISO 25178-71 as text, formats of instruments.
@@ -132,7 +139,9 @@ class Measured(RoughSurface):
     Parameters
     ----------
     path : str
-        The file. Formats of instruments need the extra ``contactkit[maps]``.
+        The file; in Python from the working folder, in a scene file from the folder of that file,
+        which `load_scene` makes an absolute path. Formats of instruments need the extra
+        ``contactkit[maps]``.
     pixel_size : float or (float, float), optional
         Size of a pixel [m], a pair is (along y, along x); for files that do not say it.
     unit : str, optional
@@ -149,7 +158,7 @@ class Measured(RoughSurface):
 
     kind: ClassVar[str] = "measured"
 
-    path: str
+    path: str = field(converter=_as_path)
     pixel_size: float | tuple[float, float] | None = field(
         default=None, converter=as_pair, validator=optional(_length_or_pair), metadata=si("m")
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FAILED", "Store", "StudyPoint", "scene_key"]
 
-_FORMAT = 2
+_FORMAT = 3
 _OLD = 3600.0  # seconds after which the incomplete files of a killed run are removed
 
 FAILED = ("infeasible", "not converged", "refused", "failed")
@@ -86,9 +86,18 @@ def scene_key(scene: Scene, accuracy: Accuracy) -> str:
 
     tables = unstructure(scene, {})
     tables.pop("name", None)  # a title does not change results
-    files = sorted(_content(surface.path) for surface in _measured(scene))
-    what = [_FORMAT, __version__, tables, attrs.asdict(accuracy), files]
+    _name_by_content(tables)
+    what = [_FORMAT, __version__, tables, attrs.asdict(accuracy)]
     return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
+
+
+def _name_by_content(value: Any) -> None:
+    """Name height maps in tables by what their files hold, wherever these are."""
+    for item in value.values() if isinstance(value, dict) else value:
+        if isinstance(item, dict | list):
+            _name_by_content(item)
+    if isinstance(value, dict) and value.get("shape") == Measured.kind:
+        value["path"] = _content(value["path"])
 
 
 @frozen
@@ -185,17 +194,6 @@ class Store:
 
     def _maps(self, key: str) -> Path:
         return self.folder / f"{key}.npz"
-
-
-def _measured(part: Any) -> Iterator[Measured]:
-    if isinstance(part, Measured):
-        yield part
-    elif attrs.has(type(part)):
-        for a in attrs.fields(type(part)):
-            yield from _measured(getattr(part, a.name))
-    elif isinstance(part, tuple):
-        for item in part:
-            yield from _measured(item)
 
 
 def _content(path: str) -> str:

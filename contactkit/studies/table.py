@@ -477,7 +477,10 @@ def as_text(value: Any, digits: int = 6) -> str:
     for name in ("label", "name"):  # of a stack; of a material, a liquid or an effect
         if given := getattr(value, name, None):
             return str(given)
-    return textwrap.shorten(str(value), _WIDEST, placeholder=" ...")
+    text = str(value)
+    if " " not in text and len(text) > _WIDEST:  # a path, whose end tells
+        return f"... {text[4 - _WIDEST :]}"
+    return textwrap.shorten(text, _WIDEST, placeholder=" ...")
 
 
 def _labels(shown: list[str], varied: list[str]) -> dict[str, str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from attrs import Attribute, field, frozen
@@ -12,9 +11,7 @@ from ...errors import DescriptionError
 from ...units import si
 from ...validators import optional, positive
 
-__all__ = ["StopFaces", "beside"]
-
-_KEY = "contact"
+__all__ = ["StopFaces"]
 
 
 def _contact(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -43,15 +40,3 @@ class StopFaces:
 
     contact: Any = field(validator=_contact)
     area: float | None = field(default=None, validator=optional(positive), metadata=si("m2"))
-
-
-def beside(tables: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a device file whose contact scenes are looked for from its folder."""
-    found: dict[str, Any] = {}
-    for key, value in tables.items():
-        found[key] = value
-        if isinstance(value, Mapping):
-            found[key] = beside(value, folder)
-        elif key == _KEY and isinstance(value, str) and (folder / value).is_file():
-            found[key] = str(folder / value)
-    return found

@@ -12,7 +12,7 @@ from ...analyses.load_displacement.solve import load_displacement
 from ...errors import DescriptionError
 from ...files.scenes import read_scene, read_tables, scene_kind
 from ...scene.scenes import ContactScene
-from ..library import bundled_scene
+from ..library import bundled_scene, bundled_scenes
 from .faces import StopFaces
 
 __all__ = ["curve_of_scene", "solved"]
@@ -27,35 +27,40 @@ def solved(faces: StopFaces) -> LoadDisplacementCurve:
         If what they name is not a contact scene.
     """
     given = faces.contact
-    curve = curve_of_scene(json.dumps(given, default=str) if isinstance(given, Mapping) else given)
+    if isinstance(given, Mapping):
+        curve = _curve_of(json.dumps(given, default=str), "StopFaces.contact", given.get("name"))
+    else:
+        curve = curve_of_scene(given)
     return curve if faces.area is None else curve.scaled(faces.area / curve.nominal_area)
 
 
-@lru_cache(maxsize=8)
-def curve_of_scene(given: str) -> LoadDisplacementCurve:
+def curve_of_scene(name: str) -> LoadDisplacementCurve:
     """Solve a contact scene, for its window.
 
     Parameters
     ----------
-    given : str
-        A file, the name of a scene of this package, or the tables of a scene as JSON.
+    name : str
+        Name of a scene of this package, or a file.
 
     Raises
     ------
     DescriptionError
         If it is not a contact scene.
     """
-    if given.startswith("{"):
-        tables, origin = json.loads(given), "StopFaces.contact"
-    else:
-        path = Path(given)
-        if not path.suffix and not path.exists():
-            path = bundled_scene(given)
-        tables, origin = read_tables(path), path.name
+    path = Path(name)
+    if not path.suffix and (name in bundled_scenes() or not path.exists()):
+        path = bundled_scene(name)
+    return _curve_of(json.dumps(read_tables(path), default=str), path.name, name)
+
+
+@lru_cache(maxsize=8)
+def _curve_of(text: str, origin: str, name: object) -> LoadDisplacementCurve:
+    """Solve a contact scene of tables as JSON, once."""
+    tables = json.loads(text)
     if "device" in tables or scene_kind(tables) is not ContactScene:
         raise DescriptionError(
             "StopFaces.contact",
-            given,
+            name,
             "name a contact scene, with a window and a pressing",
             hint="contact-stop and tip-landing are two of contactkit",
         )

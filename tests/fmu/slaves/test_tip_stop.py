@@ -17,14 +17,15 @@ from contactkit.errors import DescriptionError, InfeasibleError
 from contactkit.files.scenes import unstructure
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.tip_contact import TipStatus
-from contactkit.models.end_stop.faces import StopFaces, beside
-from contactkit.models.end_stop.solve import curve_of_scene, solved
+from contactkit.models.end_stop.faces import StopFaces
+from contactkit.models.end_stop.solve import _curve_of, solved
 from contactkit.models.micromirror.coupling import couple
 from contactkit.models.micromirror.flight import Root
 from contactkit.models.micromirror.monolithic import simulate_monolithic
 from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
 from contactkit.models.micromirror.tip_film import tip_law
 from contactkit.models.micromirror.tip_impact import TipStop, rebound_work
+from contactkit.reading.references import resolved_references
 
 # A summit that is plastic all over is meant.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
@@ -231,7 +232,7 @@ def test_rebound_work_is_that_of_the_curve(curve):
 @pytest.fixture(scope="module")
 def soft(scene, curve, tmp_path_factory):
     """One flip onto compliant sites, dry; the curve is that of the test, not solved again."""
-    curve_of_scene.cache_clear()
+    _curve_of.cache_clear()
     wave = evolve(scene.mirror.waveform, start_delay=0.0, flips=1, period=4.5e-6)
     tips = evolve(scene.mirror.tips, faces=StopFaces(contact=hertz_scene()), landing_damping=1.0)
     mirror = evolve(scene.mirror, waveform=wave, tips=tips)
@@ -355,7 +356,7 @@ def test_mistakes_in_faces_are_reported(soft):
 def test_a_file_is_looked_for_beside_the_one_that_names_it(tmp_path):
     (tmp_path / "mine.toml").write_text("")
     given = {"valve": {"stop": {"faces": {"contact": "mine.toml", "area": 1.0}}}, "name": "x"}
-    found = beside(given, tmp_path)
-    assert found["valve"]["stop"]["faces"]["contact"] == str(tmp_path / "mine.toml")
+    found = resolved_references(given, tmp_path / "device.toml")
+    assert found["valve"]["stop"]["faces"]["contact"] == str(tmp_path.resolve() / "mine.toml")
     given["valve"]["stop"]["faces"]["contact"] = "contact-stop"
-    assert beside(given, tmp_path) == given
+    assert resolved_references(given, tmp_path / "device.toml") == given
