@@ -6,10 +6,13 @@ import os
 import re
 import tomllib
 import uuid
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeVar, overload
+
+import attrs
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
@@ -186,11 +189,50 @@ def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str |
     """
     import tomli_w
 
-    tables = unstructure(scene)
+    tables = _whole_tables(scene, Path(path).name)
     text = tomli_w.dumps(references_from(tables, Path(path)))
     with write_whole(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return Path(path)
+
+
+def _whole_tables(scene: Any, name: str) -> dict[str, Any]:
+    """Tables of a scene, refused unless they give the same scene again."""
+    kinds = (ContactScene, SeparationScene, SlidingScene)
+    kind = next((one for one in kinds if isinstance(scene, one)), None)
+    if kind is None:
+        expected = f"be a {', '.join(one.__name__ for one in kinds[:-1])} or {kinds[-1].__name__}"
+        raise DescriptionError("save_scene(scene)", scene, expected)
+    tables: dict[str, Any] = unstructure(scene)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # they have been issued when the scene was made
+        again = structure(tables, kind, name)
+    if lost := _first_difference(scene, again, kind.__name__):
+        place, given, found = lost
+        raise DescriptionError(
+            place,
+            given,
+            "be what a file can hold whole",
+            hint=f"read again it would be {found!r:.200}; keep the scene in Python",
+        )
+    return tables
+
+
+def _first_difference(given: Any, found: Any, place: str) -> tuple[str, Any, Any] | None:
+    """Path and values of the first part in which two scenes differ; None if none does."""
+    if attrs.has(type(given)) and type(given) is type(found):
+        pairs = [
+            (getattr(given, a.name), getattr(found, a.name), f"{place}.{a.name}")
+            for a in attrs.fields(type(given))
+        ]
+    elif isinstance(given, tuple) and isinstance(found, tuple) and len(given) == len(found):
+        pairs = [
+            (one, other, f"{place}[{i}]")
+            for i, (one, other) in enumerate(zip(given, found, strict=True))
+        ]
+    else:
+        return None if given == found else (place, given, found)
+    return next(filter(None, (_first_difference(*pair) for pair in pairs)), None)
 
 
 @contextmanager

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import attrs
 
-from ..contact.effects.attraction_laws import ATTRACTION_LAWS
+from ..contact.effects.attraction_laws import ATTRACTION_LAWS, AttractionLaw
 from ..contact.effects.plasticity import HardnessMap
+from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError
 from ..liquids.liquid import LAWS
+from ..liquids.temperature_laws import TemperatureLaw
+from ..lubrication.reynolds.damping import DampingLaw
 from ..scene.effect import Effect, EffectRegistry
 from ..scene.interface import Body
 from ..scene.loading import CONTACT_LOADINGS, SEPARATION_LOADINGS, SLIDING_LOADINGS, Loading
@@ -63,12 +66,33 @@ SEPARATION_EFFECT_KINDS: EffectRegistry[Effect] = EffectRegistry(
 )
 LAW_KINDS: dict[str, type] = {kind.kind: kind for kind in LAWS}
 ATTRACTION_KINDS: dict[str, type] = {kind.kind: kind for kind in ATTRACTION_LAWS}
-_TAGS: tuple[tuple[str, Mapping[str, type]], ...] = (
-    ("shape", SURFACE_KINDS),
-    ("kind", LOADING_KINDS),
-    ("law", LAW_KINDS),
-    ("law", ATTRACTION_KINDS),
-    ("law", DAMPING_KINDS),
+
+
+class _Family(NamedTuple):
+    """A base class, the key in a file that names the kind, the kinds, and the cure for others."""
+
+    base: type
+    tag: str
+    kinds: Mapping[str, type]
+    cure: str
+
+
+_FAMILIES = (
+    _Family(
+        Surface,
+        "shape",
+        SURFACE_KINDS,
+        "save its heights as .npy and use Measured(path=..., pixel_size=..., unit='m')",
+    ),
+    _Family(Loading, "kind", LOADING_KINDS, "use one of these"),
+    _Family(
+        TemperatureLaw,
+        "law",
+        LAW_KINDS,
+        "use one of these, or the number at the temperature of the scene",
+    ),
+    _Family(AttractionLaw, "law", ATTRACTION_KINDS, "use one of these"),
+    _Family(DampingLaw, "law", DAMPING_KINDS, "tabulate it: TabulatedDamping"),
 )
 # Fields that may hold an array, and their alternative in a file.
 ARRAY_FIELDS: dict[tuple[type, str], str] = {
@@ -85,7 +109,7 @@ ARRAY_FIELDS: dict[tuple[type, str], str] = {
 _ARRAY = "scene-array-"  # prefix of the keys of arrays, which no other array of a result has
 
 
-def unstructure(value: Any, arrays: Arrays | None = None) -> Any:
+def unstructure(value: Any, arrays: Arrays | None = None, *, for_key: bool = False) -> Any:
     """Convert attrs objects to tables of plain values; defaults are left out.
 
     Parameters
@@ -95,31 +119,77 @@ def unstructure(value: Any, arrays: Arrays | None = None) -> Any:
     arrays : dict, optional
         Where arrays go, under a key that is made from their content and stands for them in the
         tables. None: arrays are refused.
+    for_key : bool
+        Whether the tables are to tell scenes apart, not to be read: a class of one's own is named.
 
     Raises
     ------
     DescriptionError
-        If there is an array and no place for it; says what to use instead.
+        If there is something that the tables could not hold whole: an array and no place for it, a
+        surface, law or effect of one's own, a function; says what to use instead.
     """
-    if isinstance(value, Body) and value.solid is None:
-        return unstructure(value.surface, arrays)  # a rigid body is written as its surface
-    if attrs.has(type(value)):
-        table: dict[str, Any] = {}
-        for tag, kinds in _TAGS:
-            names = [name for name, kind in kinds.items() if type(value) is kind]
-            table |= dict.fromkeys([tag], names[0]) if names else {}
-        if isinstance(value, Effect):
-            table["effect"] = value.name
-        for a in attrs.fields(type(value)):
+    return _Tables(arrays, for_key).of(value, type(value).__name__)
+
+
+class _Tables(NamedTuple):
+    """Conversion of objects to tables; `place` is the path of an object, for messages."""
+
+    arrays: Arrays | None
+    for_key: bool
+
+    def of(self, value: Any, place: str) -> Any:
+        if isinstance(value, Body) and type(value) is Body and value.solid is None:
+            return self.of(value.surface, place)  # a rigid body is written as its surface
+        if attrs.has(type(value)):
+            return self._table(value, place)
+        if isinstance(value, tuple | list):
+            return [self.of(item, f"{place}[{i}]") for i, item in enumerate(value)]
+        if isinstance(value, Mapping):
+            return {str(key): self.of(item, f"{place}.{key}") for key, item in value.items()}
+        plain = value.item() if hasattr(value, "dtype") and not value.ndim else value
+        if not isinstance(plain, bool | int | float | str):
+            hint = "keep the scene in Python, where pickle may hold it"
+            raise DescriptionError(place, value, "be a number, a text, or true or false", hint=hint)
+        return plain
+
+    def _table(self, value: Any, place: str) -> dict[str, Any]:
+        kind = type(value)
+        if "__attrs_attrs__" not in vars(kind):
+            hint = f"decorate {kind.__name__} with @attrs.frozen(kw_only=True)"
+            raise DescriptionError(place, value, "have fields, to be written as a table", hint=hint)
+        table = self._tagged(value, place)
+        for a in attrs.fields(kind):
             item = getattr(value, a.name)
             if getattr(item, "ndim", 0):
-                table[a.alias] = _put_away(item, type(value), a.name, arrays)
+                table[a.alias] = _put_away(item, kind, a.name, self.arrays)
             elif a.init and item is not None and item != a.default:
-                table[a.alias] = unstructure(item, arrays)
+                table[a.alias] = self.of(item, f"{place}.{a.alias}")
         return table
-    if isinstance(value, tuple | list):
-        return [unstructure(item, arrays) for item in value]
-    return value
+
+    def _tagged(self, value: Any, place: str) -> dict[str, Any]:
+        """Key and name of the kind of an object, if it is one of several."""
+        kind = type(value)
+        own = {"class": f"{kind.__module__}.{kind.__qualname__}"} if self.for_key else {}
+        if isinstance(value, Effect):
+            if any(kind in one for one in (SEPARATION_EFFECT_KINDS, CONTACT_EFFECTS)):
+                return {"effect": value.name}
+            if own:
+                return own
+            hint = f"register it first: ck.register_effect({kind.__name__})"
+            raise DescriptionError(place, value, "be an effect that files can name", hint=hint)
+        for family in _FAMILIES:
+            if not isinstance(value, family.base):
+                continue
+            for name, one in family.kinds.items():
+                if one is kind:
+                    return {family.tag: name}
+            if own:
+                return own
+            known = ", ".join(one.__name__ for one in family.kinds.values())
+            raise DescriptionError(
+                place, value, f"be of a kind that files have: {known}", hint=family.cure
+            )
+        return own
 
 
 def _put_away(item: Any, kind: type, name: str, arrays: Arrays | None) -> str:
@@ -128,7 +198,7 @@ def _put_away(item: Any, kind: type, name: str, arrays: Arrays | None) -> str:
             f"{kind.__name__}.{name}",
             f"an array of shape {item.shape}",
             "not be an array, to be written as text",
-            hint=ARRAY_FIELDS[kind, name],
+            hint=ARRAY_FIELDS.get((kind, name), "it is kept in Python and in result files"),
         )
     shape = "x".join(map(str, item.shape))
     key = f"{_ARRAY}{shape}-{hashlib.sha256(item.tobytes()).hexdigest()}"

@@ -84,7 +84,7 @@ def scene_key(scene: Scene, accuracy: Accuracy) -> str:
     """Key of a point: a hash of all that its results depend on."""
     from .. import __version__
 
-    tables = unstructure(scene, {})
+    tables = unstructure(scene, {}, for_key=True)
     tables.pop("name", None)  # a title does not change results
     _name_by_content(tables)
     what = [_FORMAT, __version__, tables, attrs.asdict(accuracy)]
