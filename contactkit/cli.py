@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import click
 from click.shell_completion import shell_complete
@@ -19,7 +22,12 @@ from .extras import missing_extra
 
 __all__ = ["main"]
 
-_NOT_OURS, _INTERRUPTED, _BUG = 2, 130, 70  # exit statuses; 70 as in sysexits.h
+# Exit statuses: 128 and the number of the signal, and 70 as in sysexits.h.
+_NOT_OURS, _INTERRUPTED, _TERMINATED, _BUG = 2, 130, 143, 70
+
+
+class _Terminated(KeyboardInterrupt):
+    """Termination by the system, which ends a command as an interruption does."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -36,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         context = contactkit.make_context(
             "contactkit", list(sys.argv[1:] if arguments is None else arguments)
         )
-        with context, warnings.catch_warnings():
+        with context, warnings.catch_warnings(), _ended_by_signal():
             warnings.showwarning = _show_warning
             return int(contactkit.invoke(context) or 0)
     except click.exceptions.Exit as ended:
@@ -48,13 +56,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader of a pipe, such as head, has closed it
         sys.stderr.close()
         return 0
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         error_line("interrupted; no incomplete files are left")
-        return _INTERRUPTED
+        return _TERMINATED if isinstance(error, _Terminated) else _INTERRUPTED
     except Exception as error:
         if context is not None and context.meta.get(TRACEBACK):
             raise
         return _reported(error)
+
+
+@contextmanager
+def _ended_by_signal() -> Iterator[None]:
+    """Let SIGTERM, which batch systems send before they kill, end a command in good order."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def end(*_: object) -> None:
+        raise _Terminated
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _reported(error: Exception) -> int:

@@ -11,7 +11,7 @@ import json
 import os
 import zlib
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -166,8 +166,11 @@ def written_to(path: Path, command: Command, *, overwrite: bool = False) -> Iter
     folder = Folder(path, command, record, command.stamps(path))
     try:
         yield folder
-    finally:
-        folder.enter()
+    except BaseException:
+        with suppress(OSError):  # what ended the command is what it tells
+            folder.enter()
+        raise
+    folder.enter()
 
 
 def enter(path: Path, command: str) -> None:

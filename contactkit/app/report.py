@@ -10,13 +10,14 @@ __all__ = ["Report"]
 
 
 class Report(NamedTuple):
-    """Report of a run: numbers with their units, text to read, files written.
+    """Report of a run: numbers with their units, and text to read.
 
-    `draw` writes the pictures, after the numbers are safe, and returns their files; None without
-    a folder to write to.
+    `write` writes the files of numbers, then `draw` the pictures; each returns its files. They are
+    called after the numbers have been printed, which a full disk then does not take away. None
+    without a folder to write to.
     """
 
     scalars: Mapping[str, tuple[Any, str]]
     text: str
-    files: tuple[Path, ...] = ()
+    write: Callable[[], Sequence[Path]] | None = None
     draw: Callable[[], Sequence[Path]] | None = None

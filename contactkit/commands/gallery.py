@@ -33,9 +33,9 @@ def gallery(
     """Compute figures and tables of the source, and judge them.
 
     NAME is a page such as 2.9, a chapter such as chapter_2, or the file of a script; all pages
-    if none is given. The exit status is 1 if a check does not hold.
+    if none is given. The exit status is 1 if a check does not hold, 2 if a page cannot be made.
     """
-    from ..app.gallery.run import run_gallery
+    from ..app.gallery.run import exit_status, run_gallery
     from ..app.gallery.scripts import chosen
     from ..app.output import Command, written_to
 
@@ -52,7 +52,10 @@ def gallery(
 
     with written_to(out, Command("gallery", "the gallery"), overwrite=overwrite):
         made = run_gallery(pages, out, draft=quick, report=tell)
-    bad = sum(not one.is_good for one in made)
-    found = f"{bad} with a check that does not hold" if bad else "all checks hold"
-    say(f"{out / 'index.md'}: {len(made)} pages, {found}")
-    return 1 if bad else 0
+    counts = {
+        "with a check that does not hold": sum(bool(one.failed) for one in made),
+        "that could not be made": sum(bool(one.error) for one in made),
+    }
+    found = ", ".join(f"{n} {what}" for what, n in counts.items() if n)
+    say(f"{out / 'index.md'}: {len(made)} pages, {found or 'all checks hold'}")
+    return exit_status(made)

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from . import options
+from .terminal import remark
 from .work import Job, run_job
 
 __all__ = ["study"]
@@ -65,4 +66,16 @@ def study(
             "and --dimensionless"
         )
     job = Job("study", scene, settings, out, overwrite, as_json)
-    run_job(job, lambda opened, progress: opened.study(out, progress, chosen))
+    try:
+        run_job(job, lambda opened, progress: opened.study(out, progress, chosen))
+    except KeyboardInterrupt:
+        if not chosen.trials:
+            remark(_continued(chosen.stream or chosen.store))
+        raise
+
+
+def _continued(kept: Path | None) -> str:
+    """Say whether an interrupted study can go on."""
+    if kept is None:
+        return "nothing is kept: with --store DIR or --stream FILE.sqlite a study can be continued"
+    return f"what is solved is kept in {kept}: the same command continues"

@@ -105,13 +105,16 @@ def timed(what: str) -> Iterator[None]:
 
 
 def show(report: Any, as_json: bool) -> None:
-    """Print the numbers and the files that are there, then draw the pictures."""
+    """Print the numbers, then write the files of them, then draw the pictures."""
     if as_json:
         click.echo(json.dumps(_scalars(report.scalars), indent=2))
-        sys.stdout.flush()
     else:
         say(report.text)
-        print_files("written", report.files)
+    sys.stdout.flush()
+    if report.write is not None:
+        written = report.write()
+        if not as_json:
+            print_files("written", written)
     if report.draw is None:
         return
     try:

@@ -8,7 +8,7 @@ import tomllib
 import uuid
 import warnings
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
@@ -237,7 +237,13 @@ def _first_difference(given: Any, found: Any, place: str) -> tuple[str, Any, Any
 
 @contextmanager
 def write_whole(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`, moved there at the end: no incomplete files."""
+    """Yield a temporary path beside `path`, moved there at the end: no incomplete files.
+
+    Raises
+    ------
+    OSError
+        Of `path` by its name, if it cannot be written.
+    """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     # Not tempfile, whose files are readable by their owner only.
@@ -245,5 +251,11 @@ def write_whole(path: str | Path) -> Iterator[Path]:
     try:
         yield temporary
         os.replace(temporary, path)
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, str(temporary)):
+            raise
+        # Of a full disk there is no name at all.
+        raise OSError(error.errno, error.strerror, str(path)) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)

@@ -7,11 +7,11 @@ import pickle
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ..accuracy import Accuracy
 from ..contact.chain import ContactChain
@@ -104,30 +104,30 @@ class _Chain:
         return result
 
 
-def run_piece(
-    piece: Piece,
-    report: Callable[[], None] | None = None,
-    is_stopped: Callable[[], bool] | None = None,
-) -> list[Done]:
+def run_piece(piece: Piece) -> Iterator[Done]:
     """Solve the points of a piece, and write each to the store when it is finished."""
-    chain, found = _Chain(), []
+    chain = _Chain()
     for task in piece.tasks:
-        if is_stopped is not None and is_stopped():
-            break
         point, result = _solved(chain, piece, task)
         maps = to_bytes(result) if piece.keeps_maps and result is not None else None
         if piece.store is not None:
-            put(piece.store, task.key, point, maps)
-        found.append(Done(task.place, point, maps))
-        if report is not None:
-            report()
-    return found
+            point = put(piece.store, task.key, point, maps)
+        yield Done(task.place, point, maps)
 
 
-def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> None:
-    """Write a point, unless it was refused or failed: the cure may lie outside the scene."""
-    if point.status not in ("refused", "failed"):
+def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> StudyPoint:
+    """Write a point, unless it was refused or failed: the cure may lie outside the scene.
+
+    A point that cannot be written, to a full disk for example, is returned with a note of that.
+    """
+    if point.status in ("refused", "failed"):
+        return point
+    try:
         store.write(key, point, maps)
+    except OSError as error:
+        note = f"not stored: {error.strerror or error}"
+        return evolve(point, notes=(*(n for n in point.notes if n != note), note))
+    return point
 
 
 def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyResult | None]:
@@ -173,14 +173,22 @@ def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyRes
 # In a worker process -------------------------------------------------------------------------
 
 BEGUN = "begun"
-"""First report of a worker; those after it are of finished points."""
+"""First report of a worker; those after it are finished points."""
+
+_LONG = 10.0  # seconds of a piece on a client: what an interrupted study loses at most
+_REPORT = 2**15  # bytes of a report: half of what a pipe of Linux or macOS holds
 
 _worker: dict[str, Any] = {}
 
 
 def run_remotely(piece: bytes) -> list[Done]:
-    """Solve a pickled piece, on a client of any kind."""
-    return run_piece(pickle.loads(piece))
+    """Solve a pickled piece, on a client of any kind; the rest of a long one is sent again."""
+    begun, found = time.perf_counter(), list[Done]()
+    for done in run_piece(pickle.loads(piece)):
+        found.append(done)
+        if time.perf_counter() - begun > _LONG:
+            break
+    return found
 
 
 def begin_worker(reports: Any, stop: Any) -> None:
@@ -204,9 +212,22 @@ def end_with_parent() -> None:
 
 
 def run_in_worker(piece: bytes) -> list[Done]:
-    """Solve a pickled piece in a worker process, with a report of each point."""
-    reports, stop = _worker["reports"], _worker["stop"]
-    return run_piece(pickle.loads(piece), lambda: reports.put(None), stop.is_set)
+    """Solve a pickled piece in a worker process, and report each point as it is finished.
+
+    Maps, and a point with long messages, are returned at the end: what is reported has to fit into
+    a pipe, so that a worker that is killed leaves no half of it.
+    """
+    left = []
+    for done in run_piece(pickle.loads(piece)):
+        reported = done._replace(maps=None)
+        is_small = len(pickle.dumps(reported)) < _REPORT
+        if is_small:
+            _worker["reports"].put(reported)
+        if done.maps is not None or not is_small:
+            left.append(done)
+        if _worker["stop"].is_set():
+            break
+    return left
 
 
 @contextmanager

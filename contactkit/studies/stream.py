@@ -6,7 +6,7 @@ import itertools
 import math
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import closing, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from ..contact.chain import downwards, imposed
 from ..errors import ContactkitError, ValidityWarning
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .paths import Axis, Scene, Vary, axes, changed, values_at
-from .run import Piece, Task
+from .run import Done, Piece, Task
 from .study import RETRIES, check_effects, check_kind, check_whole, slots, spread
 from .study_file import StudyFile, StudyWriter
 
@@ -112,10 +112,12 @@ def stream_study(
         size = _size(len(varied[-1].values), n_points, n_slots)
         base = Piece(scene, accuracy, (), None, False, retries)
         pieces = _pieces(base, varied, size, writer.is_done)
-        with closing(spread(pieces, workers, client, lambda: None)) as ended:
-            for found in ended:
-                writer.write(found)
-                report()
+
+        def take(done: Done) -> None:
+            writer.write([done])
+            report()
+
+        spread(pieces, workers, client, take)
         if not writer.n_solved and n_points:
             message = writer.first_message()
             raise ContactkitError(f"every point of the study failed: {message}")

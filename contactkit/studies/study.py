@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import closing, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
@@ -182,10 +182,7 @@ def study(
     run = _Run(scene, accuracy, varied, kept, keep_maps, progress, RETRIES)
     pieces = run.pieces(slots(client, workers))
     run.check(pieces)
-    with closing(spread(pieces, workers, client, run.report)) as ended:
-        for found in ended:
-            for done in found:
-                run.take(done)
+    spread(pieces, workers, client, run.take)
     return run.finish()
 
 
@@ -256,7 +253,6 @@ class _Run:
             store.sweep()
             for task in self.tasks:
                 self._fetch(store, task)
-        self.n_done = len(self.points)
 
     def _task(self, index: int, values: dict[str, Any]) -> Task:
         """Build the scene of a point, so that an invalid value is refused before any solve."""
@@ -306,26 +302,23 @@ class _Run:
         """Refuse effects that do not fit the scene before any solve, and report progress."""
         if pieces:
             check_effects(*changed(self.scene, self.accuracy, pieces[0].tasks[0].values))
-        if self.progress is not None and (self.n_done or not pieces):
-            self.progress(self.n_done / len(self.tasks))
-
-    def report(self) -> None:
-        """Count a finished point; one that was lost is counted once."""
-        self.n_done = min(self.n_done + 1, len(self.tasks))
-        if self.progress is not None:
-            self.progress(self.n_done / len(self.tasks))
+        if self.progress is not None and (self.points or not pieces):
+            self.progress(len(self.points) / len(self.tasks))
 
     def take(self, done: Done) -> None:
         """Accept a finished point, and write it if the worker wrote to another disk."""
         place, point, maps = done
         key = self.tasks[place].key
         if self.store is not None and not self.store.has(key, maps is not None):
-            put(self.store, key, point, maps)
+            point = put(self.store, key, point, maps)
         if place in self.problems:
             point = evolve(point, notes=(*point.notes, self.problems[place]))
+        is_new = place not in self.points
         self.points[place] = point
         if maps is not None:
             self.results[place] = from_bytes(maps)
+        if is_new and self.progress is not None:
+            self.progress(len(self.points) / len(self.tasks))
 
     def finish(self) -> Study[Any]:
         """Assemble the points; each gets every column, nan where it has no value."""
@@ -381,11 +374,12 @@ def slots(client: Any, workers: int) -> int:
 
 
 def spread(
-    pieces: Iterable[Piece], workers: int, client: Any, report: Callable[[], None]
-) -> Generator[list[Done], None, None]:
+    pieces: Iterable[Piece], workers: int, client: Any, take: Callable[[Done], None]
+) -> None:
     """Run pieces where they are to run: on a client, in processes, or here."""
     if client is not None:
-        return run_on_client(pieces, client, slots(client, workers), report)
-    if workers > 1 and not (isinstance(pieces, list) and len(pieces) < 2):
-        return run_in_processes(pieces, workers, report)
-    return run_here(pieces, report)
+        run_on_client(pieces, client, slots(client, workers), take)
+    elif workers > 1 and not (isinstance(pieces, list) and len(pieces) < 2):
+        run_in_processes(pieces, workers, take)
+    else:
+        run_here(pieces, take)

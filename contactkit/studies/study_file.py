@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import hashlib
 import json
 import math
@@ -34,7 +35,7 @@ __all__ = ["FailedRow", "StudyFile", "StudyWriter"]
 
 _FORMAT = 1
 _OWN = ("place", "status", "message", "notes")
-_PAUSE = 1.0  # seconds between writes to the disk
+_PAUSE = 0.25  # seconds between writes to the disk, some 5 ms each, at least
 
 
 class FailedRow(NamedTuple):
@@ -355,7 +356,22 @@ class StudyWriter:
         return str(row[0]) if row else ""
 
     def write(self, points: Sequence[Done]) -> None:
-        """Write points; they are on the disk within a second, or at the end."""
+        """Write points; they are on the disk within a fraction of a second, or at the end.
+
+        Raises
+        ------
+        OSError
+            Naming the file, if the disk is full for example; what is on the disk stays there.
+        """
+        try:
+            self._insert(points)
+            if time.monotonic() - self._written > _PAUSE:
+                self._base.commit()
+                self._written = time.monotonic()
+        except sqlite3.OperationalError as error:
+            raise _unwritten(self.path, error) from None
+
+    def _insert(self, points: Sequence[Done]) -> None:
         for place, point, _ in points:
             numbers = {n: (float(v), unit) for n, (v, unit) in point.scalars.items()}
             numbers |= {"seconds": (point.seconds, "s")}
@@ -372,9 +388,6 @@ class StudyWriter:
                 f"INSERT OR REPLACE INTO points ({names}) VALUES ({marks})", tuple(row.values())
             )
             self._done[place] = True
-        if time.monotonic() - self._written > _PAUSE:
-            self._base.commit()
-            self._written = time.monotonic()
 
     def _add(self, name: str, unit: str) -> None:
         self._base.execute(f"ALTER TABLE points ADD COLUMN {_quoted(name)} REAL")
@@ -394,9 +407,19 @@ class StudyWriter:
     def __enter__(self) -> StudyWriter:
         return self
 
-    def __exit__(self, *_: object) -> None:
-        self._base.commit()
-        self._base.close()
+    def __exit__(self, kind: object, *_: object) -> None:
+        try:
+            self._base.commit()
+        except sqlite3.OperationalError as error:
+            if kind is None:  # else the first error tells
+                raise _unwritten(self.path, error) from None
+        finally:
+            self._base.close()
+
+
+def _unwritten(path: Path, error: sqlite3.OperationalError) -> OSError:
+    is_full = error.sqlite_errorcode == sqlite3.SQLITE_FULL
+    return OSError(errno.ENOSPC if is_full else errno.EIO, str(error), str(path))
 
 
 def _text_of(value: float) -> float | None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import csv
+import errno
 import re
 import textwrap
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from contactkit.app.gallery.scripts import chosen, digest, load, scripts
@@ -124,11 +126,27 @@ def test_a_check_that_does_not_hold_fails_the_command(page, tmp_path, capsys):
     assert "| **no** |" in (tmp_path / "out" / "squares.md").read_text()
 
 
+def test_a_page_that_cannot_be_written_says_so_beside_its_checks(
+    page, tmp_path, capsys, monkeypatch
+):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(np, "savez_compressed", full)
+    out = tmp_path / "out"
+    assert gallery(page, out) == 2
+    printed = capsys.readouterr().out
+    assert f"1 of 1 hold; not written: No space left on device: {out / 'squares.npz'}" in printed
+    assert "1 pages, 1 that could not be made" in printed
+    assert "does not hold" not in printed
+    assert not (out / "squares.md").exists()
+
+
 def test_a_page_that_fails_does_not_stop_the_others(page, tmp_path, capsys):
     broken = tmp_path / "broken.py"
     broken.write_text(page.read_text().replace("return {", "raise ValueError('no data')\n    {"))
     out = tmp_path / "out"
-    assert main(["gallery", str(broken), str(page), "--out", str(out)]) == 1
+    assert main(["gallery", str(broken), str(page), "--out", str(out)]) == 2
     printed = capsys.readouterr().out
     assert "failed: ValueError: no data" in printed
     assert "1 of 1 hold" in printed

@@ -173,7 +173,7 @@ def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progre
     if out is None:
         return Report(scalars, text)
     both = (forces, ruptures)
-    return Report(scalars, text, _write(both, out), partial(_draw, both, scene, out))
+    return Report(scalars, text, partial(_write, both, out), partial(_draw, both, scene, out))
 
 
 def _rows(found: WorkPrecision) -> list[str]:

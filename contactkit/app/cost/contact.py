@@ -79,9 +79,9 @@ def contact_cost(
     scalars |= {f"effects up to {e.name} / seconds": (e.seconds, "s") for e in effects}
     if out is None:
         return Report(scalars, "\n".join(text))
-    files = _write(solvers, grids, effects, out)
+    write = partial(_write, solvers, grids, effects, out)
     draw = partial(_draw, solvers, grids, effects, out, scene.name or "contact")
-    return Report(scalars, "\n".join(text), files, draw)
+    return Report(scalars, "\n".join(text), write, draw)
 
 
 def _discretised(scene: ContactScene, accuracy: Accuracy) -> DiscretisationError | None:

@@ -31,7 +31,7 @@ def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str)
     text = f"{found.table()}\n{advice}"
     if out is None:
         return Report(scalars, text)
-    return Report(scalars, text, _write(found, out), partial(_draw, found, out, name))
+    return Report(scalars, text, partial(_write, found, out), partial(_draw, found, out, name))
 
 
 def _write(found: WorkPrecision, out: Path) -> tuple[Path, ...]:

@@ -30,12 +30,11 @@ class Made(NamedTuple):
     notes: Sequence[str]
 
 
-def write_page(script: Script, made: Made, out: Path) -> list[Check]:
-    """Draw and check a page, write its files; return its checks."""
+def write_page(script: Script, made: Made, checks: list[Check], out: Path) -> None:
+    """Draw a page, and write its files with the outcome of its checks."""
     from ...plot.gallery import save_all
 
     module, slug = script.module, script.slug
-    checks: list[Check] = list(module.check(made.data))
     drawn = module.draw(made.data)
     figures = list(drawn) if isinstance(drawn, Sequence) else [drawn]
     names = [slug if i == 0 else f"{slug}-{i + 1}" for i in range(len(figures))]
@@ -47,7 +46,6 @@ def write_page(script: Script, made: Made, out: Path) -> list[Check]:
             csv.writer(file).writerows([table.head, *table.rows])
     with write_whole(out / f"{slug}.md") as path:
         path.write_text(_page(script, made, checks, names, table), encoding="utf-8")
-    return checks
 
 
 def _page(

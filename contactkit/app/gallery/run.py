@@ -21,19 +21,27 @@ from ...files.scenes import write_whole
 from ...reading.arrays import read_arrays
 from ...reading.texts import from_json
 from ...studies.run import end_with_parent, one_thread
+from .page import Check
 from .report import Made, index, write_page
 from .scripts import Script, digest, load, scripts
 
-__all__ = ["Outcome", "run_gallery", "run_page"]
+__all__ = ["Outcome", "exit_status", "run_gallery", "run_page"]
 
 _HEAD = "gallery_page"  # entry of the data that describes them
+
+
+def exit_status(outcomes: Sequence[Outcome]) -> int:
+    """Exit status: 2 if a page could not be made or written, 1 if a check does not hold."""
+    if any(one.error for one in outcomes):
+        return 2
+    return 1 if any(one.failed for one in outcomes) else 0
 
 
 class Outcome(NamedTuple):
     """Outcome of a page.
 
-    `failed` are the statements that do not hold, `error` why there is no page; `seconds` of CPU,
-    and whether the data had been kept.
+    `failed` are the statements that do not hold, `error` why there is no page, which may be that it
+    could not be written; `seconds` of CPU, and whether the data had been kept.
     """
 
     path: Path
@@ -52,10 +60,10 @@ class Outcome(NamedTuple):
     @property
     def summary(self) -> str:
         """Outcome of the checks, in a few words."""
-        if self.error:
-            return f"failed: {self.error}"
-        held = self.n_checks - len(self.failed)
-        return f"{held} of {self.n_checks} hold"
+        held = f"{self.n_checks - len(self.failed)} of {self.n_checks} hold"
+        if not self.error:
+            return held
+        return f"{held}; {self.error}" if self.n_checks else f"failed: {self.error}"
 
     def __str__(self) -> str:
         """A line of the progress."""
@@ -152,28 +160,44 @@ def _made(path: Path, out: Path, draft: bool) -> Outcome:
         script = load(path)
         label = script.page.label
         kept = _read(script, out, draft)
-        made = kept or _compute(script, out, draft)
-        checks = write_page(script, made, out)
+        made = kept or _compute(script, draft)
+        checks: list[Check] = list(script.module.check(made.data))
+        problem = _written(script, made, checks, out, is_kept=kept is not None)
     except Exception as error:  # noqa: BLE001 a page that fails does not stop the others
         seconds = time.process_time() - started
         return Outcome(path, label, seconds, False, 0, (), f"{type(error).__name__}: {error}")
     failed = tuple(f"{one.statement} ({one.measured})" for one in checks if not one.holds)
-    return Outcome(path, label, made.seconds, kept is not None, len(checks), failed)
+    return Outcome(path, label, made.seconds, kept is not None, len(checks), failed, problem)
 
 
-def _compute(script: Script, out: Path, draft: bool) -> Made:
+def _written(script: Script, made: Made, checks: list[Check], out: Path, *, is_kept: bool) -> str:
+    """Write the data and the page; why that cannot be done, which takes no check away."""
+    try:
+        if not is_kept:
+            _keep(script, made, out)
+        write_page(script, made, checks, out)
+    except OSError as error:
+        return f"not written: {error.strerror or error}: {error.filename or out}"
+    return ""
+
+
+def _compute(script: Script, draft: bool) -> Made:
     started = time.process_time()
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         found = script.module.compute(draft)
     seconds = time.process_time() - started
     notes = {str(one.message).partition(" = ")[0]: str(one.message) for one in caught}
-    made = Made(dict(found), seconds, draft, list(notes.values()))
-    head = {"digest": digest(script, draft), "seconds": seconds, "notes": made.notes}
+    return Made(dict(found), seconds, draft, list(notes.values()))
+
+
+def _keep(script: Script, made: Made, out: Path) -> None:
+    """Write the data of a page, from which it is made again."""
+    code = digest(script, made.draft)
+    head = {"digest": code, "seconds": made.seconds, "notes": list(made.notes)}
     with write_whole(out / f"{script.slug}.npz") as path:
         entries: Any = {**made.data, _HEAD: np.array(json.dumps(head))}
         np.savez_compressed(path, **entries)
-    return made
 
 
 def _read(script: Script, out: Path, draft: bool) -> Made | None:
@@ -212,4 +236,4 @@ def run_page(file: str, out: str = "out/gallery") -> None:
     """
     (outcome,) = run_gallery([load(Path(file))], Path(out), draft="--quick" in sys.argv[1:])
     sys.stdout.write(f"{outcome}\n{Path(out) / load(Path(file)).slug}.md\n")
-    sys.exit(0 if outcome.is_good else 1)
+    sys.exit(exit_status([outcome]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -148,11 +149,11 @@ def run_bridges(scene: Bridges, out: Path | None, progress: Progress) -> Report:
         f"{label} / {name} / {low:g}-{high:g}": (error, "-")
         for label, low, high, name, error in rows
     }
-    files = (_write(rows, out),) if out is not None else ()
-    return Report(scalars, "\n".join(lines), files)
+    write = partial(_write, rows, out) if out is not None else None
+    return Report(scalars, "\n".join(lines), write)
 
 
-def _write(rows: Sequence[tuple[str, float, float, str, float]], out: Path) -> Path:
+def _write(rows: Sequence[tuple[str, float, float, str, float]], out: Path) -> tuple[Path, ...]:
     from ...files.scenes import write_whole
 
     head = "bridge,from [of the limit],to [of the limit],closure,largest error [-]"
@@ -160,4 +161,4 @@ def _write(rows: Sequence[tuple[str, float, float, str, float]], out: Path) -> P
     path = out / "errors.csv"
     with write_whole(path) as temporary:
         temporary.write_text("\n".join([head, *text, ""]))
-    return path
+    return (path,)

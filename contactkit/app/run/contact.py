@@ -47,8 +47,8 @@ def run_contact(
     text = _text(result, studies)
     if out is None:
         return Report(scalars, text)
-    files = _write(result, studies, out)
-    return Report(scalars, text, files, partial(draw_contact, result, studies, out))
+    write = partial(_write, result, studies, out)
+    return Report(scalars, text, write, partial(draw_contact, result, studies, out))
 
 
 def _text(result: ContactResult, studies: Studies) -> str:

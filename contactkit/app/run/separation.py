@@ -44,8 +44,8 @@ def run_separation(
     text = "\n".join([_text(made, result), *study_text(studies)])
     if out is None:
         return Report(scalars, text)
-    files = (*_write(result, out), *write_studies(studies, out))
-    return Report(scalars, text, files, partial(draw_separation, result, studies, out))
+    write = partial(_write, result, studies, out)
+    return Report(scalars, text, write, partial(draw_separation, result, studies, out))
 
 
 def _text(made: Plan, result: SeparationResult) -> str:
@@ -62,13 +62,14 @@ def _text(made: Plan, result: SeparationResult) -> str:
     return "\n".join(lines)
 
 
-def _write(result: SeparationResult, out: Path) -> tuple[Path, ...]:
+def _write(result: SeparationResult, studies: Studies, out: Path) -> tuple[Path, ...]:
     from ...files.results import save_csv, save_result
 
     headings = {name: column.heading for name, column in result.plan.columns.items()}
     return (
         save_result(result, out / "result"),
         save_csv(out / "result", result.columns, headings),
+        *write_studies(studies, out),
     )
 
 

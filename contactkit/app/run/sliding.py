@@ -45,8 +45,8 @@ def run_sliding(
     text = "\n".join([_text(result), *study_text(studies)])
     if out is None:
         return Report(scalars, text)
-    files = (*_write(result, out), *write_studies(studies, out))
-    return Report(scalars, text, files, partial(draw_sliding, result, studies, out))
+    write = partial(_write, result, studies, out)
+    return Report(scalars, text, write, partial(draw_sliding, result, studies, out))
 
 
 def _text(result: SlidingResult) -> str:
@@ -62,13 +62,14 @@ def _text(result: SlidingResult) -> str:
     return "\n".join(said)
 
 
-def _write(result: SlidingResult, out: Path) -> tuple[Path, ...]:
+def _write(result: SlidingResult, studies: Studies, out: Path) -> tuple[Path, ...]:
     from ...files.results import save_csv, save_result
 
     headings = {name: column.heading for name, column in result.plan.columns.items()}
     return (
         save_result(result, out / "result"),
         save_csv(out / "result", result.columns, headings),
+        *write_studies(studies, out),
     )
 
 

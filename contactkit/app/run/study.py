@@ -124,8 +124,8 @@ def run_study(
     text = "\n".join([*study_text(made), *_definitions(made, options)]).lstrip("\n")
     if out is None:
         return Report(_columns(made), text)
-    files = write_studies(made, out)
-    return Report(_columns(made), text, files, partial(_drawn, made, scene.name, out))
+    write = partial(write_studies, made, out)
+    return Report(_columns(made), text, write, partial(_drawn, made, scene.name, out))
 
 
 def _estimated(
@@ -172,7 +172,7 @@ def _streamed(
         numbers[f"{key}n_points"] = (made.n_done, "-")
         numbers[f"{key}n_failed"] = (failed, "-")
         files.append(made.path)
-    return Report(numbers, "\n".join(lines), tuple(files))
+    return Report(numbers, "\n".join(lines), partial(tuple, files))
 
 
 def run_studies(

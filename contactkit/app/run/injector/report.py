@@ -99,8 +99,8 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
     text = "\n".join(lines)
     if out is None:
         return Report(scalars | numbers, text)
-    files = _write(scene, runs, out)
-    return Report(scalars | numbers, text, files, partial(_draw, scene, runs, out, dry))
+    write = partial(_write, scene, runs, out)
+    return Report(scalars | numbers, text, write, partial(_draw, scene, runs, out, dry))
 
 
 def _row(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:

@@ -88,8 +88,8 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
     text = "\n".join(lines)
     if out is None:
         return Report(scalars, text)
-    files = _write(scene, run, found, out)
-    return Report(scalars, text, files, partial(_draw, scene, run, found, out))
+    write = partial(_write, scene, run, found, out)
+    return Report(scalars, text, write, partial(_draw, scene, run, found, out))
 
 
 def _landed_text(scene: MicromirrorScene, landed: Landing) -> list[str]:
