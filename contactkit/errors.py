@@ -39,6 +39,7 @@ class ContactkitError(Exception):
 
 
 _LONGEST = 500
+_LONGEST_FIELD = 200
 
 
 def _shown(value: object) -> str:
@@ -47,9 +48,14 @@ def _shown(value: object) -> str:
         text = repr(value)
     except (ValueError, RecursionError):  # an integer of thousands of digits; deep nesting
         text = f"a {type(value).__name__} too large to print"
-    if len(text) <= _LONGEST:
+    return _cut(text, _LONGEST)
+
+
+def _cut(text: str, longest: int) -> str:
+    """A text, the middle of a long one left out."""
+    if len(text) <= longest:
         return text
-    return f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 4 :]}"
+    return f"{text[: longest // 2]} ... {text[-longest // 4 :]}"
 
 
 class DescriptionError(ContactkitError, ValueError):
@@ -77,6 +83,7 @@ class DescriptionError(ContactkitError, ValueError):
     def __init__(
         self, field: str, value: object, expected: str, *, unit: str = "", hint: str = ""
     ) -> None:
+        field = _cut(field, _LONGEST_FIELD)
         self.field, self.value, self.unit, self.hint = field, value, unit, hint
         bracket = f" [{unit}]" if unit else ""
         cure = f"; {hint}" if hint else ""

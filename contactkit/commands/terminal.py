@@ -15,6 +15,7 @@ from typing import Any
 import click
 
 from ..extras import missing_extra
+from ..reading.texts import printable
 
 __all__ = [
     "QUIET",
@@ -39,7 +40,7 @@ def _is(entry: str) -> bool:
 
 def error_line(text: str) -> None:
     """Print an error."""
-    click.echo(f"contactkit: {text}", err=True)
+    click.echo(f"contactkit: {printable(text)}", err=True)
 
 
 def remark(text: str) -> None:
@@ -51,7 +52,7 @@ def remark(text: str) -> None:
 def say(text: str) -> None:
     """Print a result, unless the command is to be quiet."""
     if not _is(QUIET):
-        click.echo(text)
+        click.echo(printable(text))
 
 
 def print_files(what: str, files: Sequence[Path]) -> None:
@@ -74,7 +75,7 @@ def progress(text: str) -> Iterator[Callable[[float], None]]:
             total=100,
             mininterval=pause,
             maxinterval=pause,
-            desc=text,
+            desc=printable(text),
             delay=1.0,
             leave=False,
             disable=_is(QUIET),

@@ -6,6 +6,7 @@ face_tables      Faces that a scene file may give the viscous force.
 structure        Tables of plain values to scene objects.
 meniscus_amount  Amount of liquid that a file gives by a contact radius, or by a coverage, at a gap.
 unstructure      Scene objects to tables of plain values, and the names of their kinds in files.
+csv_rows         Rows of CSV files, without formulas.
 results          Result files: npz with a JSON header, and CSV.
 contact_results  Contact results as arrays and a header of plain values, and back.
 """

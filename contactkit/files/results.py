@@ -29,6 +29,7 @@ from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding
 from ..separation.validity import check
 from .contact_results import pack_contact, unpack_contact
+from .csv_rows import csv_line
 from .scenes import structure, unstructure, write_whole
 
 if TYPE_CHECKING:
@@ -255,7 +256,7 @@ def _unpack_sliding(header: dict[str, Any], columns: Arrays, name: str) -> Slidi
 def save_csv(path: str | Path, columns: Mapping[str, Any], headings: Mapping[str, str]) -> Path:
     """Write columns as a CSV file with a heading of name and unit for each."""
     path = Path(path).with_suffix(".csv")
-    header = ",".join(headings[name] for name in columns)
+    header = csv_line(headings[name] for name in columns)
     table = np.column_stack([np.asarray(column, dtype=float) for column in columns.values()])
     with write_whole(path) as temporary:
         np.savetxt(temporary, table, delimiter=",", header=header, comments="", fmt="%.10g")

@@ -18,7 +18,7 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..reading.limits import check_limit
 from ..reading.references import references_from, resolved_references
-from ..reading.texts import check_keys, check_plain, read_text
+from ..reading.texts import check_keys, check_plain, check_texts, read_text
 from ..scene.loading import ContactLoading, Sliding
 from ..scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
 from .structure import (
@@ -98,7 +98,7 @@ def read_tables(path: str | Path) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         comma = re.search(r"= *-?\d+,\d+ *(?=[,}#]|$)", _line_of(text, str(error)))
         cure = "; a decimal comma? write a point" if comma else ""
-        raise FileError(path.name, [Problem(f"not TOML: {error}{cure}")]) from None
+        raise FileError(path.name, [Problem(f"not TOML: {str(error)[:200]}{cure}")]) from None
     except OSError as error:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
     return resolved_references(tables, path)
@@ -117,6 +117,7 @@ def _parsed(text: str, name: str) -> dict[str, Any]:
     except ValueError as error:  # a number of thousands of digits
         raise FileError(name, [Problem(f"not TOML: {str(error)[:200]}")]) from None
     check_plain(tables, name)
+    check_texts(tables, name)
     return tables
 
 

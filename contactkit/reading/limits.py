@@ -14,11 +14,12 @@ _PREFIX = "CONTACTKIT_MAX_"
 
 
 class Limit(NamedTuple):
-    """A limit: its default, its unit, and what it bounds."""
+    """A limit: its default, its unit, what it bounds, and the most that may be set if any."""
 
     value: int
     unit: str
     what: str
+    most: int | None = None
 
     def text(self, number: float) -> str:
         """A number with the unit of the limit."""
@@ -36,7 +37,9 @@ LIMITS = {
     "BYTES": Limit(2**31, "bytes", "result, height map or FMU, packed and unpacked"),
     "RATIO": Limit(200, "", "size of an archive unpacked over packed, above 16 MiB"),
     "MEMBERS": Limit(10_000, "files", "archive"),
-    "DEPTH": Limit(64, "levels", "tables, lists or elements inside each other"),
+    # Parsers call themselves for each level: Python ends them at some 340 tables inside each other.
+    "DEPTH": Limit(64, "levels", "tables, lists or elements inside each other", most=128),
+    "CELL_BYTES": Limit(2**20, "bytes", "text or row in a file of a study"),
     "PIXELS": Limit(2**26, "pixels", "height map, or grid of a contact"),
     "SECONDS": Limit(300, "s", "time to read a height map in a format of an instrument"),
     "POINTS": Limit(10**6, "points", "study, or curve over the gap"),
@@ -50,7 +53,7 @@ def limit_of(name: str) -> int:
     Raises
     ------
     DescriptionError
-        If the environment variable is no positive whole number.
+        If the environment variable is no positive whole number, or more than can be read.
 
     Examples
     --------
@@ -65,8 +68,10 @@ def limit_of(name: str) -> int:
         found = int(float(given)) if len(given) < 40 else 0
     except (ValueError, OverflowError):
         found = 0
-    if found < 1:
-        raise DescriptionError(variable, given, "be a positive whole number, such as 4e9")
+    most = LIMITS[name].most
+    if found < 1 or (most is not None and found > most):
+        ends = "such as 4e9" if most is None else f"at most {most}, which is what can be read"
+        raise DescriptionError(variable, given, f"be a positive whole number, {ends}")
     return found
 
 
@@ -103,11 +108,14 @@ files), got 'a.fmu'; if it is meant, set CONTACTKIT_MAX_MEMBERS=100000
     limit = LIMITS[name]
     what = "unpack to at most" if name == "RATIO" else "have at most"
     times = " times its size" if name == "RATIO" else ""
+    hint = f"if it is meant, set {_PREFIX}{name}={found:.0f}"
+    if limit.most is not None and found > limit.most:
+        hint = f"at most {limit.text(limit.most)} can be read, with {_PREFIX}{name}={limit.most}"
     raise DescriptionError(
         field,
         where,
         f"{what} {limit.text(most)}{times} ({where} has {limit.text(found)})",
-        hint=f"if it is meant, set {_PREFIX}{name}={found:.0f}",
+        hint=hint,
     )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from ..errors import DescriptionError
 from .limits import check_limit, limit_of
 
-__all__ = ["check_keys", "check_plain", "from_json", "read_text"]
+__all__ = ["check_keys", "check_plain", "check_texts", "from_json", "printable", "read_text"]
 
 # What is no key of TOML: strings, which end with their line unless they have three quotes, and
 # comments. Possessive, so that the time rises with the length of a text and not with its square.
@@ -92,6 +92,41 @@ def _inside(value: Any) -> Any:
     if isinstance(value, Mapping):
         return value.values()
     return value if isinstance(value, list) else ()
+
+
+# What a terminal obeys, and what reverses the order of letters; a line may end, and have tabs.
+_UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")
+
+
+def printable(text: str) -> str:
+    r"""A text for a terminal: what would command it is shown as Python writes it.
+
+    Examples
+    --------
+    >>> printable("oil \x1b[31m")
+    'oil \\x1b[31m'
+    """
+    return _UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def check_texts(value: Any, where: str) -> None:
+    """Refuse texts and keys with control characters, which a terminal would obey.
+
+    Raises
+    ------
+    DescriptionError
+        With the text as Python writes it.
+    """
+    level = [value]
+    while level:
+        texts = [one for one in level if isinstance(one, str)]
+        texts += [key for one in level if isinstance(one, Mapping) for key in one]
+        for text in texts:
+            if _CONTROL.search(text):
+                expected = "hold texts without control characters"
+                raise DescriptionError("file", where, expected, hint=f"there is {text!r:.80}")
+        level = [inner for item in level for inner in _inside(item)]
 
 
 def from_json(text: str | bytes, where: str) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
@@ -16,7 +15,7 @@ from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import ContactkitError, DescriptionError, nearest
-from ..files.scenes import write_whole
+from ..files.csv_rows import write_rows
 from ..scene.description import value_text
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..scene.tabular import Contents, Quantity, Tabular
@@ -209,23 +208,13 @@ class Sensitivity(Tabular):
         path : str or Path
             The file; its suffix becomes ``.csv``.
         """
-        path = Path(path).with_suffix(".csv")
         heads = ("assumption", "value", "value_unit", f"{self.answer} [{self.unit}]")
-        with (
-            write_whole(path) as temporary,
-            temporary.open("w", newline="", encoding="utf-8") as file,
-        ):
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow([*heads, "message", "reason"])
-            writer.writerow(["as it is", "", "", f"{self.base:.6g}", "", ""])
-            for one in self.influences:
-                cells = zip(one.values, one.answers, one.messages, strict=True)
-                for value, found, message in cells:
-                    shown = f"{value:.6g}" if isinstance(value, float) else value_text(value, "-")
-                    writer.writerow(
-                        [one.path, shown, one.unit, f"{found:.6g}", message, one.reason]
-                    )
-        return path
+        rows = [["as it is", "", "", f"{self.base:.6g}", "", ""]]
+        for one in self.influences:
+            for value, found, message in zip(one.values, one.answers, one.messages, strict=True):
+                shown = f"{value:.6g}" if isinstance(value, float) else value_text(value, "-")
+                rows.append([one.path, shown, one.unit, f"{found:.6g}", message, one.reason])
+        return write_rows(Path(path).with_suffix(".csv"), [*heads, "message", "reason"], rows)
 
 
 def _first(one: Influence) -> list[str]:

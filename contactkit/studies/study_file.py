@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import errno
 import hashlib
 import json
@@ -18,8 +17,8 @@ import numpy as np
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, ValidityWarning, nearest
 from ..export.contents import Contents
-from ..files.scenes import write_whole
-from ..reading.limits import check_limit, check_size
+from ..files.csv_rows import write_rows
+from ..reading.limits import LIMITS, check_limit, check_size, limit_of
 from ..reading.texts import from_json
 from .paths import Axis, Scene
 from .run import Done
@@ -34,6 +33,15 @@ if TYPE_CHECKING:
 __all__ = ["FailedRow", "StudyFile", "StudyWriter"]
 
 _FORMAT = 1
+_APPLICATION = 0x636B7374  # of the head of a database: "ckst"
+_TABLES = {
+    "header": "key TEXT PRIMARY KEY, value TEXT",
+    "units": "name TEXT PRIMARY KEY, unit TEXT",
+    "points": "place INTEGER PRIMARY KEY, status TEXT, message TEXT, notes TEXT",
+}
+_STATUS = 16  # letters of a status
+_TEXT = 10_000  # letters of a message that are written
+_LONGEST = 10**9  # bytes that SQLite lets one ask for
 _OWN = ("place", "status", "message", "notes")
 _PAUSE = 0.25  # seconds between writes to the disk, some 5 ms each, at least
 
@@ -75,14 +83,13 @@ class StudyFile:
         if not self.path.is_file():
             raise DescriptionError("file", str(path), "exist")
         check_size(self.path)
+        with _Closing(self.path, "TEXT_BYTES") as base:
+            if problem := _foreign(base):
+                raise _no_study(self.path, problem)
+            row = base.execute("SELECT value FROM header WHERE key = 'axes'").fetchone()
+            axes = _checked_axes(from_json(str(row and row[0]), str(self.path)), self.path)
         with self._opened() as base:
-            if base.execute(
-                "SELECT 1 FROM sqlite_master WHERE type IN ('view', 'trigger')"
-            ).fetchone():
-                raise _no_study(self.path, "it holds views or triggers")
-            header = dict(base.execute("SELECT key, value FROM header"))
             units = dict(base.execute("SELECT name, unit FROM units"))
-        axes = _checked_axes(from_json(str(header.get("axes")), str(self.path)), self.path)
         self.paths = tuple(tuple(axis["paths"]) for axis in axes)
         self._values = {
             p: [row[i] for row in a["values"]] for a in axes for i, p in enumerate(a["paths"])
@@ -95,7 +102,7 @@ class StudyFile:
             raise _no_study(self.path, "a unit is no text")
 
     def _opened(self) -> _Closing:
-        return _Closing(self.path)
+        return _Closing(self.path, "CELL_BYTES")
 
     @property
     def n_points(self) -> int:
@@ -129,11 +136,15 @@ class StudyFile:
                 "column", name, "be one of the study", hint=nearest(name, list(self.units))
             )
         is_text = name == "status"
-        found = np.full(self.n_points, "" if is_text else np.nan, "U16" if is_text else float)
+        found = np.full(
+            self.n_points, "" if is_text else np.nan, f"U{_STATUS}" if is_text else float
+        )
         with self._opened() as base:
             for place, value in base.execute(f"SELECT place, {_quoted(name)} FROM points"):
                 if not isinstance(value, str if is_text else float | int | None):
                     raise _no_study(self.path, f"{value!r:.40} in the column {name}")
+                if is_text and len(value) > _STATUS:
+                    raise _no_study(self.path, f"a status of {len(value):,} letters")
                 found[self._checked(place)] = value if value is not None else np.nan
         return found
 
@@ -187,28 +198,17 @@ class StudyFile:
 
     def save_csv(self, path: str | Path) -> Path:
         """Write all columns to a CSV file, row by row and atomically."""
-        path = Path(path).with_suffix(".csv")
         numbers = [name for name in self.units if name not in self._values]
         chosen = ", ".join(["place", *map(_quoted, numbers), "status", "message"])
         varied = list(self._values)
-        with (
-            write_whole(path) as temporary,
-            temporary.open("w", newline="", encoding="utf-8") as file,
-            self._opened() as base,
-        ):
-            writer = csv.writer(file)
-            heads = [f"{name} [{self.units[name]}]" for name in (*varied, *numbers)]
-            writer.writerow([*heads, "status", "message"])
-            for place, *row in base.execute(f"SELECT {chosen} FROM points ORDER BY place"):
-                values = self._values_at(place)
-                cells = [*(values[name] for name in varied), *row]
-                writer.writerow(
-                    [
-                        f"{c:.10g}" if isinstance(c, float) else "nan" if c is None else c
-                        for c in cells
-                    ]
-                )
-        return path
+        heads = [f"{name} [{self.units[name]}]" for name in (*varied, *numbers)]
+        with self._opened() as base:
+            found = base.execute(f"SELECT {chosen} FROM points ORDER BY place")
+            rows = (
+                [*(_cell(self._values_at(place)[name]) for name in varied), *map(_cell, row)]
+                for place, *row in found
+            )
+            return write_rows(Path(path).with_suffix(".csv"), [*heads, "status", "message"], rows)
 
     def __repr__(self) -> str:
         return f"StudyFile({self.path.name!r}, {self.n_done} of {self.n_points} points)"
@@ -217,10 +217,10 @@ class StudyFile:
 class _Closing:
     """A connection that reads, closed at the end of a ``with`` block; its errors name the file."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, limit: str) -> None:
+        self._path, self._limit = path, limit
         self._base = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
-        self._base.execute("PRAGMA trusted_schema = OFF")
+        _guard(self._base, limit)
 
     def __enter__(self) -> sqlite3.Connection:
         return self._base
@@ -229,8 +229,45 @@ class _Closing:
         self._base.close()
         if isinstance(error, DescriptionError):
             return
-        if isinstance(error, sqlite3.Error | ValueError | OverflowError):
-            raise _no_study(self._path, str(error)[:200]) from None
+        if isinstance(error, sqlite3.Error | ValueError | OverflowError | MemoryError):
+            raise _unread(self._path, error, self._limit) from None
+
+
+def _unread(path: Path, error: Exception, limit: str) -> DescriptionError:
+    """Refusal of a file that SQLite does not read, for a text beyond a limit perhaps."""
+    if not (isinstance(error, sqlite3.DataError) and "too big" in str(error)):
+        return _no_study(path, str(error)[:200])
+    expected = f"have texts and rows of at most {LIMITS[limit].text(limit_of(limit))}"
+    hint = f"if longer ones are meant, raise CONTACTKIT_MAX_{limit}"
+    return DescriptionError("file", str(path), expected, hint=hint)
+
+
+def _guard(base: sqlite3.Connection, limit: str) -> None:
+    """Let a connection run no functions of a schema, and take no longer texts than a limit."""
+    base.execute("PRAGMA trusted_schema = OFF")
+    base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, min(limit_of(limit), _LONGEST))
+
+
+def _foreign(base: sqlite3.Connection) -> str:
+    """What a database has that no file of a study has, or lacks; empty if there is nothing."""
+    missing = set(_TABLES)
+    for kind, name, text in base.execute("SELECT type, name, sql FROM sqlite_master"):
+        if kind == "index" and text is None:  # of a primary key
+            continue
+        if kind != "table" or name not in _TABLES:
+            return f"it holds a {kind} {name!r:.40}: a study holds no views, triggers and the like"
+        if not str(text).startswith("CREATE TABLE"):
+            return f"its table {name} is none of its own"
+        missing.discard(name)
+        for _, column, _, _, default, _, hidden in base.execute(f"PRAGMA table_xinfo({name})"):
+            if hidden or default is not None:
+                return f"its column {column!r:.40} is computed"
+    return f"it has no table {min(missing)}" if missing else ""
+
+
+def _cell(value: Any) -> Any:
+    """A number of a row as text; others as they are."""
+    return f"{value:.10g}" if isinstance(value, float) else "nan" if value is None else value
 
 
 def _no_study(path: Path, why: str) -> DescriptionError:
@@ -264,7 +301,13 @@ def _is_row(row: Any, width: int) -> bool:
 
 
 class StudyWriter:
-    """Writer of the file of a study; a context manager, which ends with all rows on the disk."""
+    """Writer of the file of a study; a context manager, which ends with all rows on the disk.
+
+    Raises
+    ------
+    DescriptionError
+        If the file is there and is not of the same study; it is left as it is.
+    """
 
     def __init__(
         self, path: str | Path, scene: Scene, accuracy: Accuracy, varied: Sequence[Axis]
@@ -280,6 +323,7 @@ class StudyWriter:
             for a in varied
         ]
         text = json.dumps(axes)
+        check_limit("TEXT_BYTES", len(text), f"values of {self.path.name}")
         digest = hashlib.sha256(text.encode()).hexdigest()
         header = {
             "format": str(_FORMAT),
@@ -287,8 +331,13 @@ class StudyWriter:
             "axes": text,
         }
         self._done = np.zeros(math.prod(len(axis.values) for axis in varied), dtype=bool)
+        is_new = not (self.path.is_file() and self.path.stat().st_size)
         self._base = sqlite3.connect(self.path)
         try:
+            if is_new:
+                self._make()
+            else:
+                self._check(header)
             self._begin(header)
         except sqlite3.Error as error:
             self._base.close()
@@ -298,26 +347,33 @@ class StudyWriter:
         except DescriptionError:
             self._base.close()
             raise
+        _guard(self._base, "CELL_BYTES")
         self._columns = {row[1] for row in self._base.execute("PRAGMA table_info(points)")}
         self._written = time.monotonic()
 
-    def _begin(self, header: Mapping[str, str]) -> None:
-        """Make the tables, or check that those of the file are of the same study."""
+    def _make(self) -> None:
+        """Make the tables of a new file, and name it as ours."""
+        for name, columns in _TABLES.items():
+            self._base.execute(f"CREATE TABLE {name} ({columns})")
+        self._base.execute(f"PRAGMA application_id = {_APPLICATION}")
+
+    def _check(self, header: Mapping[str, str]) -> None:
+        """Refuse a file of others, or of another study, before anything is written to it."""
         base = self._base
-        base.execute("CREATE TABLE IF NOT EXISTS header (key TEXT PRIMARY KEY, value TEXT)")
-        base.execute("CREATE TABLE IF NOT EXISTS units (name TEXT PRIMARY KEY, unit TEXT)")
-        base.execute(
-            "CREATE TABLE IF NOT EXISTS points "
-            "(place INTEGER PRIMARY KEY, status TEXT, message TEXT, notes TEXT)"
-        )
-        found = dict(base.execute("SELECT key, value FROM header"))
-        if found and found.get("key") != header["key"]:
-            raise DescriptionError(
-                "stream_study(path)",
-                str(self.path),
-                "be a new file, or that of the same study",
-                hint="it holds a study of another scene, accuracy, version or other values",
-            )
+        _guard(base, "TEXT_BYTES")
+        problem = _foreign(base)
+        if base.execute("PRAGMA application_id").fetchone()[0] != _APPLICATION:
+            problem = problem or "contactkit did not write it"
+        elif dict(base.execute("SELECT key, value FROM header")).get("key") != header["key"]:
+            problem = "it holds a study of another scene, accuracy, version or other values"
+        if problem:
+            expected = "be a new file, or that of the same study"
+            hint = f"{problem}; give another file"
+            raise DescriptionError("stream_study(path)", str(self.path), expected, hint=hint)
+
+    def _begin(self, header: Mapping[str, str]) -> None:
+        """Write what the study is, and look which of its points are there."""
+        base = self._base
         base.executemany("INSERT OR REPLACE INTO header VALUES (?, ?)", header.items())
         base.commit()
         for (place,) in base.execute("SELECT place FROM points"):
@@ -376,12 +432,14 @@ class StudyWriter:
             numbers = {n: (float(v), unit) for n, (v, unit) in point.scalars.items()}
             numbers |= {"seconds": (point.seconds, "s")}
             numbers |= {n: (float(v), "-") for n, v in point.counts.items()}
-            for name in numbers.keys() - self._columns:
-                self._add(name, numbers[name][1])
+            for name, (_, unit) in numbers.items():
+                if name not in self._columns:
+                    self._add(name, unit)
             # Of a solved point the numbers are kept; of its notes, which models are outside.
-            message = point.message if point.has_failed else ""
+            message = point.message[:_TEXT] if point.has_failed else ""
             notes = "; ".join(dict.fromkeys(note.partition(" = ")[0] for note in point.notes))
-            row = {"place": place, "status": point.status, "message": message, "notes": notes}
+            row = {"place": place, "status": point.status, "message": message}
+            row["notes"] = notes[:_TEXT]
             row |= {n: v if math.isfinite(v) else _text_of(v) for n, (v, _) in numbers.items()}
             names, marks = ", ".join(map(_quoted, row)), ", ".join("?" * len(row))
             self._base.execute(
@@ -407,14 +465,16 @@ class StudyWriter:
     def __enter__(self) -> StudyWriter:
         return self
 
-    def __exit__(self, kind: object, *_: object) -> None:
+    def __exit__(self, kind: object, error: object, *_: object) -> None:
         try:
             self._base.commit()
-        except sqlite3.OperationalError as error:
+        except sqlite3.OperationalError as other:
             if kind is None:  # else the first error tells
-                raise _unwritten(self.path, error) from None
+                raise _unwritten(self.path, other) from None
         finally:
             self._base.close()
+        if isinstance(error, sqlite3.Error):
+            raise _unread(self.path, error, "CELL_BYTES") from None
 
 
 def _unwritten(path: Path, error: sqlite3.OperationalError) -> OSError:

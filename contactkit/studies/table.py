@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import textwrap
 from collections.abc import Mapping
@@ -15,8 +14,8 @@ from attrs import evolve, field, frozen
 
 from ..errors import DescriptionError, NotSimulatedError, nearest
 from ..export.contents import Contents, Quantity
+from ..files.csv_rows import write_rows
 from ..files.results import save_npz
-from ..files.scenes import write_whole
 from ..scene.result import Result
 from ..scene.scales import Scale
 from ..scene.tabular import Tabular
@@ -369,18 +368,13 @@ class Study(Tabular, Generic[R_co]):
         path : str or Path
             The file; its suffix becomes ``.csv``.
         """
-        path = Path(path).with_suffix(".csv")
         names = list(self.units)
-        with (
-            write_whole(path) as temporary,
-            temporary.open("w", newline="", encoding="utf-8") as file,
-        ):
-            writer = csv.writer(file)
-            writer.writerow([*(f"{n} [{self.units[n]}]" for n in names), "status", "message"])
-            for point in self.points:
-                cells = [as_text(_number(point, n), digits=10) for n in names]
-                writer.writerow([*cells, point.status, point.message])
-        return path
+        heads = [*(f"{n} [{self.units[n]}]" for n in names), "status", "message"]
+        rows = (
+            [*(as_text(_number(one, n), digits=10) for n in names), one.status, one.message]
+            for one in self.points
+        )
+        return write_rows(Path(path).with_suffix(".csv"), heads, rows)
 
     def save_npz(self, path: str | Path) -> Path:
         """Write all columns to an npz file, atomically.

@@ -23,7 +23,8 @@ from contactkit.fmu.contents.ssp import Component
 from contactkit.reading.archives import checked_archive, member
 from contactkit.reading.arrays import read_array, read_arrays
 from contactkit.reading.limits import LIMITS, check_limit, limit_of
-from contactkit.reading.texts import check_keys, check_plain, from_json
+from contactkit.reading.references import resolved_references
+from contactkit.reading.texts import check_keys, check_plain, check_texts, from_json, printable
 from contactkit.reading.xml_elements import check_xml, read_xml
 from contactkit.roughness.height_maps import read_height_map
 from contactkit.units import parse_quantity, parse_unit
@@ -310,6 +311,94 @@ def test_a_scene_file_that_is_nested_deeply_is_refused(put, name):
     refuses(lambda: ck.load_scene(path), "have at most 64 levels", "CONTACTKIT_MAX_DEPTH=")
 
 
+@pytest.mark.parametrize("name", DEEP)
+def test_the_depth_that_is_advised_can_be_read(put, small, name):
+    """A limit beyond what the parsers read would end in a RecursionError."""
+    path = put("a.toml", DEEP[name])
+    most = LIMITS["DEPTH"].most
+    small(DEPTH=most)
+    if name != "tables":  # of 70 levels
+        said = f"at most {most} levels can be read, with CONTACTKIT_MAX_DEPTH={most}"
+        refuses(lambda: ck.load_scene(path), f"have at most {most} levels", said)
+    small(DEPTH=100_000)
+    said = f"CONTACTKIT_MAX_DEPTH must be a positive whole number, at most {most}"
+    refuses(lambda: ck.load_scene(path), said)
+
+
+def test_the_greatest_depth_is_read_by_every_reader(put, small):
+    most = LIMITS["DEPTH"].most
+    small(DEPTH=most)
+    inside = most - 1
+    path = put("a.toml", "a = " + "{a = " * inside + "1" + "}" * inside)
+    refuses(lambda: ck.load_scene(path), "a must be a known key")
+    assert from_json("[" * most + "]" * most, "a.json")
+    refuses(lambda: from_json("[" * 10**6, "a.json"), f"at most {most} levels can be read")
+    assert len(read_xml(b"<a>" * most + b"</a>" * most, "a.xml")) == 1
+
+
+ESCAPE = "\x1b[31mred"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'name = "\\u001b[31mred"',
+        '[interface.meniscus.liquid]\nname = "\\u009b31m"',
+        '[study]\n"loading.\\u0007" = [1]',
+        'a = ["\\b"]',
+    ],
+)
+def test_a_scene_file_holds_nothing_that_a_terminal_obeys(put, text):
+    path = put("a.toml", text)
+    with pytest.raises(DescriptionError, match="hold texts without control characters") as caught:
+        ck.load_scene(path)
+    assert str(caught.value).isprintable()
+
+
+def test_lines_and_tabs_of_texts_are_no_commands():
+    check_texts({"a": ["one\ntwo\tthree\r\n", 1], "b": {"c": "é \u202e"}}, "a.toml")
+    assert printable("one\ntwo\tthree é") == "one\ntwo\tthree é"
+    assert printable(f"{ESCAPE}\x9b\x07\u202e\r") == "\\x1b[31mred\\x9b\\x07\\u202e\\r"
+
+
+def test_what_a_command_prints_is_printable(tmp_path, monkeypatch, capsys):
+    from contactkit.cli import main
+    from contactkit.commands import terminal
+
+    terminal.say(f"liquid {ESCAPE}")
+    terminal.remark(f"axis {ESCAPE}")
+    main(["plan", str(tmp_path / f"{ESCAPE}.toml")])
+    said = capsys.readouterr()
+    assert "\x1b" not in said.out + said.err
+    assert said.out == "liquid \\x1b[31mred\n"
+    assert "axis \\x1b[31mred" in said.err
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "KEY = 1",
+        "[interface]\nKEY = 1",
+        "[KEY]\nKEY = 1",
+        '[[effects]]\neffect = "half-space"\nKEY = 1',
+        "[study]\nKEY = [1]",
+        '[loading]\nkind = "pressing"\nKEY = 1',
+        "KEY = 1\nKEY = 2",
+    ],
+)
+def test_a_long_key_is_not_repeated_whole(put, text):
+    path = put("a.toml", text.replace("KEY", "k" * 20_000))
+
+    def read():
+        opened = open_scene(str(path))
+        ck.study(opened.scene, opened.vary)
+
+    with pytest.raises(DescriptionError) as caught:
+        read()
+    assert len(str(caught.value)) < 1500
+    assert len(str(DescriptionError("k" * 20_000, 1, "be short"))) < 500
+
+
 def test_dots_that_are_no_keys_are_none():
     text = '# ....................................................................... \na = "'
     check_keys(text + "." * 100 + '"\nb = """\n' + "." * 100 + '\n"""\nc = 1.5', "a.toml")
@@ -435,11 +524,11 @@ def test_the_contact_of_a_device_is_beside_it(tmp_path, monkeypatch):
     path = folder / "a.toml"
     path.write_text('device = "micromirror"\n[tip.faces]\ncontact = "../b.toml"\n')
     refuses(lambda: open_scene(str(path)), "a.toml, contact must be a file below the folder")
-    for name in ("a\\u0000b", "x" * 5000):
-        for key in ("path", "contact"):
-            path.write_text(f'[tip]\n{key} = "{name}"\n')
-            said = f"a.toml, {key} must be the name of a file"
-            refuses(lambda: open_scene(str(path)), said)
+    for key in ("path", "contact"):
+        path.write_text(f'[tip]\n{key} = "{"x" * 5000}"\n')
+        said = f"a.toml, {key} must be the name of a file"
+        refuses(lambda: open_scene(str(path)), said)
+        refuses(lambda key=key: resolved_references({key: "a\0b"}, path), said)
 
 
 # Values of JSON ------------------------------------------------------------------------------

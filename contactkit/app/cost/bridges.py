@@ -206,18 +206,13 @@ def _advice(found: WorkPrecision, error: float) -> str:
 
 
 def _write(found: Sequence[WorkPrecision], out: Path) -> tuple[Path, ...]:
-    from ...files.scenes import write_whole
+    from ...files.csv_rows import write_rows
 
-    table = out / "cost.csv"
+    head = ("quantity", "closure", "bridge", "error [-]", "seconds for each gap or bridge [s]")
     rows = [
-        f'"{one.quantity}","{p.method}","{p.label}",{p.error!r},{p.seconds!r}'
-        for one in found
-        for p in one.points
+        (one.quantity, p.method, p.label, p.error, p.seconds) for one in found for p in one.points
     ]
-    head = "quantity,closure,bridge,error [-],seconds for each gap or bridge [s]"
-    with write_whole(table) as temporary:
-        temporary.write_text("\n".join([head, *rows, ""]))
-    return (table,)
+    return (write_rows(out / "cost.csv", head, rows),)
 
 
 def _draw(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Path, ...]:

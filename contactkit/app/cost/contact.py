@@ -249,17 +249,15 @@ def _write(
     effects: tuple[EffectCost, ...],
     out: Path,
 ) -> tuple[Path, ...]:
-    from ...files.scenes import write_whole
+    from ...files.csv_rows import write_rows
 
-    table = out / "cost.csv"
-    rows = ["method,setting,error [-],seconds [s]"]
+    head = ("method", "setting", "error [-]", "seconds [s]")
+    rows: list[tuple[str, str, float | str, float]] = []
     for found in (solvers, grids):
         points = found.points if found is not None else ()
-        rows += [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in points]
-    rows += [f'"effects up to","{e.name}",,{e.seconds!r}' for e in effects]
-    with write_whole(table) as temporary:
-        temporary.write_text("\n".join([*rows, ""]))
-    return (table,)
+        rows += [(p.method, p.label, p.error, p.seconds) for p in points]
+    rows += [("effects up to", e.name, "", e.seconds) for e in effects]
+    return (write_rows(out / "cost.csv", head, rows),)
 
 
 def _draw(

@@ -35,13 +35,11 @@ def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str)
 
 
 def _write(found: WorkPrecision, out: Path) -> tuple[Path, ...]:
-    from ...files.scenes import write_whole
+    from ...files.csv_rows import write_rows
 
-    table = out / "cost.csv"
-    with write_whole(table) as temporary:
-        rows = [f'"{p.method}","{p.label}",{p.error!r},{p.seconds!r}' for p in found.points]
-        temporary.write_text("\n".join(["method,setting,error [-],seconds [s]", *rows, ""]))
-    return (table,)
+    head = ("method", "setting", "error [-]", "seconds [s]")
+    rows = [(p.method, p.label, p.error, p.seconds) for p in found.points]
+    return (write_rows(out / "cost.csv", head, rows),)
 
 
 def _draw(found: WorkPrecision, out: Path, name: str) -> tuple[Path, ...]:

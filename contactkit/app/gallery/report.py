@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ...files.csv_rows import write_rows
 from ...files.scenes import write_whole
 from .page import Check, Data, Table
 from .scripts import CHAPTERS, Script
@@ -42,8 +42,7 @@ def write_page(script: Script, made: Made, checks: list[Check], out: Path) -> No
         save_all(figure, out / name, for_print=not made.draft)
     table: Table | None = module.table(made.data) if hasattr(module, "table") else None
     if table is not None:
-        with write_whole(out / f"{slug}.csv") as path, path.open("w", newline="") as file:
-            csv.writer(file).writerows([table.head, *table.rows])
+        write_rows(out / f"{slug}.csv", table.head, table.rows)
     with write_whole(out / f"{slug}.md") as path:
         path.write_text(_page(script, made, checks, names, table), encoding="utf-8")
 

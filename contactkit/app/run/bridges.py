@@ -154,11 +154,8 @@ def run_bridges(scene: Bridges, out: Path | None, progress: Progress) -> Report:
 
 
 def _write(rows: Sequence[tuple[str, float, float, str, float]], out: Path) -> tuple[Path, ...]:
-    from ...files.scenes import write_whole
+    from ...files.csv_rows import write_rows
 
-    head = "bridge,from [of the limit],to [of the limit],closure,largest error [-]"
-    text = [f'"{label}",{low!r},{high!r},"{name}",{e!r}' for label, low, high, name, e in rows]
-    path = out / "errors.csv"
-    with write_whole(path) as temporary:
-        temporary.write_text("\n".join([head, *text, ""]))
-    return (path,)
+    edges = ("from [of the limit]", "to [of the limit]")
+    head = ("bridge", *edges, "closure", "largest error [-]")
+    return (write_rows(out / "errors.csv", head, rows),)

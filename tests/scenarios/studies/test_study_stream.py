@@ -165,8 +165,8 @@ def test_what_is_no_file_of_a_study_is_refused(tmp_path, text, message):
         ("UPDATE header SET value = '[{}]' WHERE key = 'axes'", "its axes are no lists"),
         ("INSERT INTO points (place, status) VALUES (-1, 'refused')", "the place of no point"),
         ("UPDATE points SET viscous_impulse = 'much'", "'much' in the column"),
-        ("CREATE VIEW all_of AS SELECT * FROM points", "views or triggers"),
-        ("DROP TABLE points", "no such table"),
+        ("CREATE VIEW all_of AS SELECT * FROM points", "no views, triggers"),
+        ("DROP TABLE points", "it has no table points"),
     ],
 )
 def test_a_file_of_a_study_that_was_changed_is_refused(tmp_path, change, message):
