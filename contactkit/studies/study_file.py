@@ -143,7 +143,7 @@ class StudyFile:
             for place, value in base.execute(f"SELECT place, {_quoted(name)} FROM points"):
                 if not isinstance(value, str if is_text else float | int | None):
                     raise _no_study(self.path, f"{value!r:.40} in the column {name}")
-                if is_text and len(value) > _STATUS:
+                if isinstance(value, str) and len(value) > _STATUS:
                     raise _no_study(self.path, f"a status of {len(value):,} letters")
                 found[self._checked(place)] = value if value is not None else np.nan
         return found

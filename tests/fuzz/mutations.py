@@ -10,6 +10,7 @@ import io
 import json
 import random
 import re
+import sqlite3
 import zipfile
 
 import numpy as np
@@ -45,9 +46,25 @@ _WORSE = [
     '"../../../../etc/passwd"',
     '"/etc/passwd"',
     '"\\u0000"',
+    '"\\u001b[31m"',
+    '"=cmd|A0"',
     '"rigid"',
     "1_0",
     '"-20 degC"',
+]
+_STATEMENTS = [
+    "ALTER TABLE points ADD COLUMN z REAL AS (hex(zeroblob(400000000)))",
+    "ALTER TABLE units ADD COLUMN z DEFAULT 1",
+    "CREATE VIEW v AS SELECT * FROM points",
+    "CREATE INDEX i ON points (status)",
+    "CREATE TABLE photos (a)",
+    "DROP TABLE units",
+    "UPDATE points SET status = hex(zeroblob(3000000))",
+    "UPDATE points SET message = zeroblob(3000000), status = 'failed'",
+    "UPDATE points SET place = place - 5, seconds = 'much'",
+    "UPDATE header SET value = '[[[' || value",
+    "UPDATE units SET unit = zeroblob(5)",
+    "INSERT INTO units VALUES ('more', 'm')",
 ]
 _SHAPES = ["(1000000000000,)", "(4, 3)", "()", "(-1,)", "(0, 99999999999999999999)", "[3, 4]"]
 _SHAPES += ["(" + "3000000, " * 9 + ")", "(2, 1000000)", "(True, 3)", "(1" + "0" * 400 + ",)"]
@@ -59,6 +76,8 @@ def changed(data: bytes, others: list[bytes], dice: random.Random) -> bytes:
     for _ in range(dice.choice((1, 1, 1, 2, 4))):
         if data[:2] == b"PK" and dice.random() < 0.8:
             data = _repacked(data, others, dice)
+        elif data[:15] == b"SQLite format 3" and dice.random() < 0.3:
+            data = _stated(data, dice)
         elif data[:6] == b"\x93NUMPY" and dice.random() < 0.6:
             data = _header(data, dice)
         elif dice.random() < 0.5:
@@ -66,6 +85,19 @@ def changed(data: bytes, others: list[bytes], dice: random.Random) -> bytes:
         else:
             data = _tokens(data, dice)
     return data
+
+
+def _stated(data: bytes, dice: random.Random) -> bytes:
+    """A database that a statement of SQL has changed, if it can still be opened."""
+    base = sqlite3.connect(":memory:")
+    try:
+        base.deserialize(data)
+        base.executescript(dice.choice(_STATEMENTS))
+        return base.serialize()
+    except sqlite3.Error:
+        return data
+    finally:
+        base.close()
 
 
 def _bytes(data: bytes, others: list[bytes], dice: random.Random) -> bytes:

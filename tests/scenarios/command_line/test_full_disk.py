@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from contactkit.cli import main
-from contactkit.files import scenes
+from contactkit.files import csv_rows
 from contactkit.files.scenes import write_whole
 from contactkit.models.library import bundled_scenes
 
@@ -76,7 +76,7 @@ def test_a_study_is_printed_and_what_was_written_is_recorded(scene, tmp_path, ca
 
 
 def test_every_kind_of_report_writes_last(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(scenes, "write_whole", no_space)
+    monkeypatch.setattr(csv_rows, "write_whole", no_space)
     path = bundled_scenes()["bridges"]
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 2
     assert "largest error [%]" in capsys.readouterr().out
