@@ -111,7 +111,7 @@ def test_momentum_balances_over_the_first_opening(short, runs):
 @pytest.mark.slow
 def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
     made = report(short.scene, runs, tmp_path)
-    files = (*made.files, *made.draw())
+    files = (*made.write(), *made.draw())
     names = {path.name for path in files}
     assert {"release-zoom.png", "delay-against-temperature.png", "one-cycle.png"} <= names
     assert {"force-balance_minus20degC.png", "delay-against-strength.png"} <= names

@@ -139,7 +139,7 @@ def test_the_fmus_agree_with_the_monolithic_model(short, run):
 @pytest.mark.slow
 def test_the_report_and_its_figures(short, run, tmp_path):
     made = report(short.scene, run, tmp_path, lambda fraction: None)
-    files = (*made.files, *made.draw())
+    files = (*made.write(), *made.draw())
     names = {path.name for path in files}
     assert names == {
         "signals.csv",
