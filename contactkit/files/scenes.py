@@ -205,6 +205,7 @@ def _whole_tables(scene: Any, name: str) -> dict[str, Any]:
         expected = f"be a {', '.join(one.__name__ for one in kinds[:-1])} or {kinds[-1].__name__}"
         raise DescriptionError("save_scene(scene)", scene, expected)
     tables: dict[str, Any] = unstructure(scene)
+    check_texts(tables, name)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # they have been issued when the scene was made
         again = structure(tables, kind, name)

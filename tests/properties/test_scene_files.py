@@ -145,6 +145,7 @@ OWN = {
         "keep the scene in Python",
     ),
     "function": (with_field(separation(), "name", math.sin), r"SeparationScene\.name", "pickle"),
+    "control-character": (separation(name="\x1b[31m"), "control characters", r"'\x1b[31m'"),
     "array": (
         contact(ck.Heights(heights=np.eye(4) * 1e-9, pixel_size=1e-7)),
         r"Heights\.heights",
