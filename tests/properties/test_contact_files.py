@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import attrs
 import numpy as np
@@ -66,7 +67,9 @@ shapes = st.one_of(
     ),
     st.builds(
         ck.Measured,
-        path=st.sampled_from(["map.npy", 'folder/a "quoted" µ.xyz']),
+        path=st.sampled_from(["map.npy", 'folder/a "quoted" µ.xyz']).map(
+            lambda name: str(Path.cwd().resolve() / name)  # as a scene that is read has it
+        ),
         pixel_size=st.none() | pairs,
         unit=st.sampled_from([None, "nm"]),
         detrend=st.sampled_from(["tilt", "none", "mean", "curvature"]),
