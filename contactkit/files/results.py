@@ -23,7 +23,7 @@ from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.curve_result import Work
 from ..separation.motion.state import restored_state
 from ..separation.plan import plan
-from ..separation.results import SeparationResult
+from ..separation.results import SeparationResult, extremes_of
 from ..separation.sliding.plan import plan_sliding
 from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding
@@ -209,6 +209,7 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
         "impulses": dict(result.impulses),
         "state": result.state._asdict() if result.state is not None else None,
         "work": result.work._asdict(),
+        "extremes": dict(result.extremes),
         "errata": [one._asdict() for one in result.errata],
     }
 
@@ -218,6 +219,11 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
     made = plan(scene, Accuracy(**header["accuracy"]))
     state = header["state"]
     _check_columns(columns, made.columns)
+    extremes = header.get("extremes")
+    if extremes is None:  # a file of before version 0.2
+        extremes = extremes_of(made, columns)
+        if state is not None:
+            extremes = {n: v for n, v in extremes.items() if n == "peak_repulsion"}
     return SeparationResult(
         made,
         header["status"],
@@ -227,6 +233,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         restored_state(state) if state is not None else None,
         check(made, columns),
         Work(**header["work"]),
+        extremes,
     )
 
 

@@ -37,19 +37,21 @@ class LateColumns(Mapping[str, "Curve"]):
     def __init__(
         self, known: Mapping[str, Curve], late: Mapping[str, Callable[[], Mapping[str, Curve]]]
     ) -> None:
-        self._known = dict(known)
+        self._known, self._found = known, dict[str, "Curve"]()
         self._late = {name: compute for name, compute in late.items() if name not in known}
-        self._names = (*self._known, *self._late)
+        self._names = (*known, *self._late)
 
     @property
     def computed(self) -> Mapping[str, Curve]:
         """Curves that are there already."""
-        return self._known
+        return {**getattr(self._known, "computed", self._known), **self._found}
 
     def __getitem__(self, name: str) -> Curve:
-        if name not in self._known:
-            self._known |= self._late[name]()
-        return self._known[name]
+        if name in self._late:
+            self._found |= self._late[name]()
+            # What computed them is not needed any more, nor what it holds.
+            self._late = {n: one for n, one in self._late.items() if n not in self._found}
+        return self._found[name] if name in self._found else self._known[name]
 
     def __contains__(self, name: object) -> bool:
         return name in self._names

@@ -16,7 +16,7 @@ from .curve_result import Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .plan import Plan
-from .results import SeparationResult, with_late_curves
+from .results import SeparationResult, extremes_of, with_late_curves
 from .torn_path import TornPoint, torn_points
 from .validity import check
 
@@ -100,7 +100,9 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m{broke(plan)}"
     curves = with_late_curves(plan, columns)
-    return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)
+    return SeparationResult(
+        plan, "curve", message, curves, impulses, None, validity, work, extremes_of(plan, columns)
+    )
 
 
 def _torn(plan: Plan, loading: ImposedSpeed, gaps: list[float]) -> list[TornPoint]:
@@ -207,4 +209,6 @@ def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationRes
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s{broke(plan)}"
     curves = with_late_curves(plan, columns)
-    return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)
+    return SeparationResult(
+        plan, "curve", message, curves, impulses, None, validity, work, extremes_of(plan, columns)
+    )
