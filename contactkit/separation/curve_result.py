@@ -85,7 +85,15 @@ class CurveResult(Result):
             name: Quantity(axis, values, known[name].unit, known[name].label)
             for name, values in self.columns.items()
         }
-        return Contents(axis, curves | self._numbers(), self._remarks())
+        return Contents(axis, curves | self._numbers(), self._remarks() | {"curves": self._lines()})
+
+    def _lines(self) -> str:
+        """Say how right straight lines between the points of the curves are."""
+        plan: Any = self.plan
+        return (
+            "straight lines between neighbouring points are right to "
+            f"{plan.accuracy.curve_rtol:g} of the gap, and of the range of each other curve"
+        )
 
     @property
     def time(self) -> Curve:

@@ -42,8 +42,8 @@ def refined(
     """States along a motion, and the time [s] and the row of each.
 
     A straight line between two of them departs from the motion by `Accuracy.curve_rtol` of the
-    gap at most, and of the range of each other curve. A jump is two points, a millionth of a step
-    apart or the next time that a float can tell.
+    gap at most, and of the range of each other curve; over a logarithmic gap, too. A jump is two
+    points, a millionth of a step apart or the next time that a float can tell.
 
     Parameters
     ----------
@@ -56,10 +56,15 @@ def refined(
     row : callable
         What the curves show of a state, the gap first.
     """
-    rows = np.array([row(state) for state in states])
+
+    def shown(state: MotionState) -> Floats:
+        return np.array([*row(state), math.log(state.gap)])
+
+    rows = np.array([shown(state) for state in states])
     rtol = plan.accuracy.curve_rtol
     errors = np.maximum(rtol * np.ptp(rows, axis=0), _SMALLEST * np.abs(rows).max(axis=0)) + 1e-300
-    filled = _Filled(plan, pull, row, errors, rtol)
+    errors[-1] = rtol  # of the logarithm of the gap
+    filled = _Filled(plan, pull, shown, errors, rtol)
     filled.add(states[0], rows[0], is_event=True)
     needed = _curved(np.array([s.time for s in states]), rows, errors, rtol)
     for index, (before, after) in enumerate(pairwise(states)):
@@ -99,20 +104,29 @@ def _marks(state: MotionState) -> tuple[Any, ...]:
 class _Filled:
     """Points of a motion so far."""
 
-    def __init__(self, plan: Plan, pull: PullLaw, row: Row, errors: Floats, rtol: float) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        pull: PullLaw,
+        row: Callable[[MotionState], Floats],
+        errors: Floats,
+        rtol: float,
+    ) -> None:
         self._plan, self._pull, self._row = plan, pull, row
         self._errors, self._rtol = errors, rtol
         self._states: list[MotionState] = []
-        self._rows: list[Any] = []
+        self._rows: list[Floats] = []
         self._events: list[bool] = []
 
-    def add(self, state: MotionState, row: Any, *, is_event: bool = False) -> None:
+    def add(self, state: MotionState, row: Floats, *, is_event: bool = False) -> None:
         """Add a point; events are never left out."""
         self._states.append(state)
         self._rows.append(row)
         self._events.append(is_event)
 
-    def step(self, before: MotionState, after: MotionState, row: Any, *, is_curved: bool) -> None:
+    def step(
+        self, before: MotionState, after: MotionState, row: Floats, *, is_curved: bool
+    ) -> None:
         """Add the end of a step, and what straight lines need within it."""
         is_event = _marks(before) != _marks(after)
         end, length = after, after.time - before.time
@@ -132,18 +146,18 @@ class _Filled:
         self.add(after, row, is_event=is_event)
 
     def _before_event(
-        self, before: MotionState, after: MotionState, row: Any
-    ) -> tuple[MotionState, Any]:
+        self, before: MotionState, after: MotionState, row: Floats
+    ) -> tuple[MotionState, Floats]:
         """Last point before an event at the end of a step."""
         end = self._advanced(before, (after.time - before.time) * (1.0 - _JUMP))
         if _marks(end) != _marks(before):
             return after, row
-        return end, np.array(self._row(end))
+        return end, self._row(end)
 
     def _advanced(self, state: MotionState, dt: float) -> MotionState:
         return advance(self._plan, state, self._pull, dt)
 
-    def _march(self, here: MotionState, row: Any, end: MotionState, row_of_end: Any) -> None:
+    def _march(self, here: MotionState, row: Floats, end: MotionState, row_of_end: Floats) -> None:
         """Add points from one state to another, two at a time, as far apart as lines allow."""
         dt = end.time - here.time
         shortest = _JUMP * dt
@@ -156,8 +170,8 @@ class _Filled:
             last = end if is_last else self._advanced(middle, here.time + dt - middle.time)
             if not here.time < middle.time < last.time:
                 return
-            half = np.array(self._row(middle))
-            row_of_last = row_of_end if is_last else np.array(self._row(last))
+            half = self._row(middle)
+            row_of_last = row_of_end if is_last else self._row(last)
             part = (middle.time - here.time) / (last.time - here.time)
             miss = np.abs(half - row - part * (row_of_last - row))
             allowed = _SHARE * self._errors
@@ -190,7 +204,7 @@ class _Filled:
         allowed = np.tile((1.0 - _SHARE) * self._errors, (len(chosen), 1))
         allowed[:, 0] = (1.0 - _SHARE) * self._rtol * table[:, 1]
         kept = _needed(table, allowed, events[chosen])
-        return [self._states[i] for i in chosen[kept].tolist()], table[kept]
+        return [self._states[i] for i in chosen[kept].tolist()], table[kept, :-1]
 
 
 def _needed(table: Floats, allowed: Floats, events: NDArray[np.bool_]) -> NDArray[np.intp]:
