@@ -74,7 +74,7 @@ class CurveResult(Result):
     def contents(self) -> Contents:
         """Return all curves, also those that are computed when asked for, and the numbers.
 
-        Along ``time`` where that rises from each point to the next; else along ``point``.
+        The total of a curve is ``total_`` with its name. Along ``time`` where that rises from each point to the next; else along ``point``.
         """
         plan: Any = self.plan
         known: Mapping[str, Column] = plan.columns
@@ -85,7 +85,12 @@ class CurveResult(Result):
             name: Quantity(axis, values, known[name].unit, known[name].label)
             for name, values in self.columns.items()
         }
-        return Contents(axis, curves | self._numbers(), self._remarks() | {"curves": self._lines()})
+        # The total of a curve that grows has its name, and would take its place.
+        numbers = {
+            f"total_{name}" if name in curves else name: one
+            for name, one in self._numbers().items()
+        }
+        return Contents(axis, curves | numbers, self._remarks() | {"curves": self._lines()})
 
     def _lines(self) -> str:
         """Say how right straight lines between the points of the curves are."""
