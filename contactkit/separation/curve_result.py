@@ -74,7 +74,8 @@ class CurveResult(Result):
     def contents(self) -> Contents:
         """Return all curves, also those that are computed when asked for, and the numbers.
 
-        The total of a curve is ``total_`` with its name. Along ``time`` where that rises from each point to the next; else along ``point``.
+        The total of a curve is ``total_`` with its name. Along ``time`` where that rises from each
+        point to the next; else along ``point``.
         """
         plan: Any = self.plan
         known: Mapping[str, Column] = plan.columns
@@ -90,11 +91,17 @@ class CurveResult(Result):
             f"total_{name}" if name in curves else name: one
             for name, one in self._numbers().items()
         }
-        return Contents(axis, curves | numbers, self._remarks() | {"curves": self._lines()})
+        return Contents(axis, curves | numbers, self._remarks() | {"curves": self.lines})
 
-    def _lines(self) -> str:
-        """Say how right straight lines between the points of the curves are."""
+    @property
+    def lines(self) -> str:
+        """How right straight lines between the points of the curves are, in a sentence."""
         plan: Any = self.plan
+        if "mean_pull" in self.columns:
+            return (
+                "each cycle has 40 or more points; straight lines between them are right to about "
+                "0.01 of the range of a curve, and a jump is drawn from one to the next"
+            )
         return (
             "straight lines between neighbouring points are right to "
             f"{plan.accuracy.curve_rtol:g} of the gap, and of the range of each other curve"
