@@ -89,9 +89,14 @@ def departures(found, exact, along="time", n=1000):
     return worst
 
 
-@pytest.mark.parametrize("name", PULLS)
+LONG = {"massless", "cavity that heals", "cut-off pressure", "shear", "closes first"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in PULLS]
+)
 def test_lines_between_points_of_a_pull_are_right(name):
-    found, exact = run(PULLS[name]), run(PULLS[name], time_rtol=1e-10, curve_rtol=1e-5)
+    found, exact = run(PULLS[name]), run(PULLS[name], time_rtol=1e-10, curve_rtol=5e-5)
     worst = departures(found, exact)
     assert {"gap", "speed", "pull", "viscous_force", "viscous_impulse"} <= set(worst)
     assert max(worst.values()) < 1e-3, worst
@@ -202,7 +207,7 @@ def test_a_figure_draws_the_points():
     line = result.plot.gap().lines[0]
     assert len(line.get_xdata()) == len(result.time)
     # The axis of the gap is logarithmic, and a line on it is right as well.
-    exact = run(PULLS["stiff"], time_rtol=1e-10, curve_rtol=1e-5)
+    exact = run(PULLS["stiff"], time_rtol=1e-10, curve_rtol=5e-5)
     times = np.linspace(0.0, result.time[-1], 500)[:-1]
     drawn = np.exp(np.interp(times, result.time, np.log(result.gap)))
     assert drawn == pytest.approx(np.interp(times, exact.time, exact.gap), rel=1e-3)
@@ -225,7 +230,7 @@ def test_a_figure_draws_the_points():
 )
 def test_lines_between_points_of_an_imposed_motion_are_right(scene):
     found = run(scene, points=20)
-    exact = run(scene, points=20, curve_rtol=1e-5)
+    exact = run(scene, points=20, curve_rtol=5e-5)
     late = {column.name for effect in scene.effects for column in effect.late}
     worst = departures(found, exact, along="gap")
     assert max(worst[name] for name in worst if name not in late) < 1e-3, worst
