@@ -95,7 +95,7 @@ class CurveResult(Result):
 
     @property
     def lines(self) -> str:
-        """How right straight lines between the points of the curves are, in a sentence."""
+        """Error of straight lines between the points of the curves, in a sentence."""
         plan: Any = self.plan
         if "mean_pull" in self.columns:
             return (
