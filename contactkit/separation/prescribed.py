@@ -6,8 +6,9 @@ import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+import attrs
 import numpy as np
 
 from ..numerics.lines import with_middles
@@ -129,7 +130,8 @@ def _forces_at_speed(
     } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
 
 
-class _SpeedLines(NamedTuple):
+@attrs.frozen(eq=False)
+class _SpeedLines:
     """Curves at a speed, at as many gaps as lines need."""
 
     plan: Plan
@@ -152,7 +154,8 @@ class _SpeedLines(NamedTuple):
         return np.column_stack([*columns.values(), np.concatenate([[0.0], np.cumsum(steps)])])
 
 
-class _TimeLines(NamedTuple):
+@attrs.frozen(eq=False)
+class _TimeLines:
     """Curves within a time, at as many gaps as lines need."""
 
     plan: Plan
@@ -254,7 +257,7 @@ def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
 
 
 def _running(
-    force: Callable[[float, float], float], speed: float, gaps: list[float], end: float
+    force: Callable[[float, float], float], speed: float, gaps: Sequence[float], end: float
 ) -> list[float]:
     """Time integral of a force [N.s] up to each gap of a curve, at an imposed speed.
 

@@ -86,8 +86,8 @@ def _curved(time: Floats, rows: Floats, errors: Floats, rtol: float) -> NDArray[
     most[:-1], most[1:] = bend, np.maximum(most[1:], bend)
     scale = np.tile(errors, (n - 1, 1))
     scale[:, 0] = rtol * rows[:-1, 0]
-    found: NDArray[np.bool_] = ~(most * (length**2)[:, None] < _CURVED * scale).all(axis=1)
-    return found
+    needed[:] = ~(most * (length**2)[:, None] < _CURVED * scale).all(axis=1)
+    return needed
 
 
 def _marks(state: MotionState) -> tuple[Any, ...]:
