@@ -18,6 +18,11 @@ def _tolerance(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "lie between 1e-11 and 0.1")
 
 
+def _curve_error(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-6 <= value <= 0.1:
+        raise refuse(owner, attribute, value, "lie between 1e-6 and 0.1")
+
+
 def _as_grid(value: Any) -> Any:
     made = as_pair(value)
     return tuple(as_whole(n) for n in made) if isinstance(made, tuple) else as_whole(made)
@@ -42,7 +47,7 @@ def _points(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 @frozen(kw_only=True)
 class Accuracy(Described):
-    """Numerical settings of a plan; the first three apply to separation, the others to contact.
+    """Numerical settings of a plan; the first four apply to separation, the others to contact.
 
     Parameters
     ----------
@@ -51,6 +56,10 @@ class Accuracy(Described):
         transferred so far [-]. The release times of the reference cases have about this error.
     points : int
         Points of a curve over the gap (imposed speed or time).
+    curve_rtol : float
+        Largest distance of the motion from a straight line between neighbouring points of a curve
+        of a separation, relative to the gap for the gap and to its range for each other curve [-].
+        Points are added where they are needed and left out where they are not.
     max_steps : int
         Maximum number of time steps of an integration.
     grid : int or (int, int), optional
@@ -77,6 +86,9 @@ class Accuracy(Described):
         default=1e-8, converter=as_number, validator=_tolerance, metadata=si("-")
     )
     points: int = field(default=200, converter=as_whole, validator=_points, metadata=si("-"))
+    curve_rtol: float = field(
+        default=1e-3, converter=as_number, validator=_curve_error, metadata=si("-")
+    )
     max_steps: int = field(default=100_000, converter=as_whole, validator=count, metadata=si("-"))
 
     grid: int | tuple[int, int] | None = field(
@@ -109,6 +121,6 @@ class Accuracy(Described):
     reference: ClassVar[Accuracy]
 
 
-Accuracy.draft = Accuracy(time_rtol=1e-5, points=50, rtol=1e-4)
+Accuracy.draft = Accuracy(time_rtol=1e-5, points=50, curve_rtol=1e-2, rtol=1e-4)
 Accuracy.standard = Accuracy()
-Accuracy.reference = Accuracy(time_rtol=1e-11, points=1000, rtol=1e-10)
+Accuracy.reference = Accuracy(time_rtol=1e-11, points=1000, curve_rtol=1e-4, rtol=1e-10)

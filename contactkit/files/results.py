@@ -20,10 +20,11 @@ from ..reading.arrays import read_arrays
 from ..reading.texts import from_json
 from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
+from ..scene.validity import ValidityNumber
 from ..separation.curve_result import Work
 from ..separation.motion.state import restored_state
-from ..separation.plan import plan
-from ..separation.results import SeparationResult
+from ..separation.plan import Plan, plan
+from ..separation.results import SeparationResult, extremes_of
 from ..separation.sliding.plan import plan_sliding
 from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding
@@ -210,6 +211,8 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
         "impulses": dict(result.impulses),
         "state": result.state._asdict() if result.state is not None else None,
         "work": result.work._asdict(),
+        "extremes": dict(result.extremes),
+        "validity": [number.value for number in result.validity],
         "errata": [one._asdict() for one in result.errata],
     }
 
@@ -219,6 +222,11 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
     made = plan(scene, Accuracy(**header["accuracy"]))
     state = header["state"]
     _check_columns(columns, made.columns)
+    extremes = header.get("extremes")
+    if extremes is None:  # a file of before version 0.2
+        extremes = extremes_of(made, columns)
+        if state is not None:
+            extremes = {n: v for n, v in extremes.items() if n == "peak_repulsion"}
     return SeparationResult(
         made,
         header["status"],
@@ -226,9 +234,23 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         columns,
         header["impulses"],
         restored_state(state) if state is not None else None,
-        check(made, columns),
+        _checked(made, columns, header.get("validity")),
         Work(**header["work"]),
+        extremes,
     )
+
+
+def _checked(
+    made: Plan, columns: Arrays, values: list[float | None] | None
+) -> tuple[ValidityNumber, ...]:
+    """Return ranges of validity with the values of the run; those of its curves in an old file."""
+    found = check(made, columns)
+    if values is None:
+        return found
+    if not all(value is None or isinstance(value, Real) for value in values):
+        raise TypeError(f"its ranges of validity are no numbers: {values}")
+    pairs = zip(found, values, strict=True)
+    return tuple(attrs.evolve(number, value=value) for number, value in pairs)
 
 
 def _pack_sliding(result: SlidingResult) -> dict[str, Any]:

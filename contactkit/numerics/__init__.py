@@ -9,5 +9,6 @@ events          Events inside a step: which is met first, and the step that ends
 three           Linear systems of three equations, for the stages of a step.
 cubic_spline    A cubic spline through points.
 monotone_cubic  Curves through points that keep the order of their values.
+lines           Points of curves between which straight lines are right.
 fft             Real two-dimensional transforms: scipy.fft always, ducc0 where it is installed.
 """

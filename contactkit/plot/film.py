@@ -109,18 +109,21 @@ def instants(
 
 
 def opening(
-    states: Sequence[PullState], axes: Sequence[Axes] | None = None, *, copies: int = 1
+    states: Sequence[PullState | FilmState],
+    axes: Sequence[Axes] | None = None,
+    *,
+    copies: int = 1,
 ) -> Sequence[Axes]:
-    """Draw gap, force and size of the cavity of a pulled mass over time.
+    """Draw gap, force and size of the cavity of a film over time.
 
     Parameters
     ----------
-    states : sequence of PullState
-        Steps of `pull_apart`.
+    states : sequence of PullState or FilmState
+        Steps of `pull_apart` or `follow_gap`.
     axes : sequence of Axes, optional
         Three panels.
     copies : int
-        As in `pull_apart`: 4 for a quarter of a face.
+        As in `pull_apart`, how often the window stands for the face: 4 for a quarter.
 
     Raises
     ------
@@ -131,14 +134,17 @@ def opening(
         raise DescriptionError("opening.states", len(states), "be two or more steps")
     if axes is None:
         axes = figure(3, 1, size=(6.5, 6.5), sharex=True)[1]
-    time = np.array([s.time for s in states]) * 1e3
-    gap, length = scaled([s.state.gap[s.state.film.face.loaded].min() for s in states], "m")
-    radius = np.sqrt([copies * s.state.cavity_area / np.pi for s in states]) * 1e3
-    face = states[0].state.film.face
+    films = [s if isinstance(s, FilmState) else s.state for s in states]
+    # The force of a pulled mass is that of the whole face already.
+    force = [copies * s.force if isinstance(s, FilmState) else s.force for s in states]
+    time = np.array([s.time for s in films]) * 1e3
+    gap, length = scaled([s.gap[s.film.face.loaded].min() for s in films], "m")
+    radius = np.sqrt([copies * s.cavity_area / np.pi for s in films]) * 1e3
+    face = films[0].film.face
     film = float(np.sqrt(copies * face.loaded.sum() * face.cell_area / np.pi)) * 1e3
     axes[0].plot(time, gap, color=COLORS["gap"])
     axes[0].set(ylabel=f"smallest gap [{length}]", ylim=(0.0, None))
-    axes[1].plot(time, [s.force for s in states], color=COLORS["viscous"])
+    axes[1].plot(time, force, color=COLORS["viscous"])
     axes[1].set(ylabel="force of the film [N]")
     axes[2].plot(time, radius, color=_CAVITY, label="cavity")
     axes[2].axhline(film, color="0.5", ls=":", label="film")

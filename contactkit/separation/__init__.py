@@ -1,21 +1,23 @@
 """Separation and sliding of wetted surfaces: plan, simulate, result.
 
-effects       Forces, limits and ends of the film that a scene may list.
-plan          Plan of a separation: the checked scene, its liquid, and each effect prepared once.
-bodies        Checks of the two bodies: rigid, flats or spheres, with room for the film.
-cavity        Cavity of a film that is pulled apart, with the memory of what was torn.
-film          Sum of the prepared forces, and the limits of the liquid.
-simulate      Run of a plan: curve of a speed, impulse of a time, or motion under a pull.
-prescribed    Separations at an imposed speed, or within an imposed time.
-vibration     Separation at an imposed speed with a vibration of the gap.
-torn_path     Film that tears, along an imposed motion.
-torn_cycles   Film that tears, over the cycles of a vibration.
-motion        Motion of a mass under a pull: state, events, time steps.
-integrator    Implicit integration of a mass on a stiff film.
-curve_result  Base class of the results of a separation and of a sliding.
-results       Result of a separation: curves, numbers, ranges of validity, and cost.
-columns       Curves of the motion and of the state of the film.
-scales        Reference scales: capillary force, viscous impulse, time.
-validity      Numbers of validity along a run.
-sliding       One wetted surface sliding past another.
+effects        Forces, limits and ends of the film that a scene may list.
+plan           Plan of a separation: the checked scene, its liquid, and each effect prepared once.
+bodies         Checks of the two bodies: rigid, flats or spheres, with room for the film.
+cavity         Cavity of a film that is pulled apart, with the memory of what was torn.
+film           Sum of the prepared forces, and the limits of the liquid.
+simulate       Run of a plan: curve of a speed, impulse of a time, or motion under a pull.
+prescribed     Separations at an imposed speed, or within an imposed time.
+vibration      Separation at an imposed speed with a vibration of the gap.
+torn_path      Film that tears, along an imposed motion.
+torn_cycles    Film that tears, over the cycles of a vibration.
+motion_curves  Curves of a motion, computed when asked for.
+refine         Points between the steps of a motion where straight lines need them.
+motion         Motion of a mass under a pull: state, events, time steps.
+integrator     Implicit integration of a mass on a stiff film.
+curve_result   Base class of the results of a separation and of a sliding.
+results        Result of a separation: curves, numbers, ranges of validity, and cost.
+columns        Curves of the motion and of the state of the film.
+scales         Reference scales: capillary force, viscous impulse, time.
+validity       Numbers of validity along a run.
+sliding        One wetted surface sliding past another.
 """

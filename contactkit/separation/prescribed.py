@@ -4,21 +4,28 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
+import attrs
 import numpy as np
-from numpy.typing import NDArray
 
+from ..numerics.lines import with_middles
 from ..scene.loading import ImposedSpeed, ImposedTime
 from ..units import quantity_text
-from .curve_result import Work
+from .curve_result import LateColumns, Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .plan import Plan
-from .results import SeparationResult, with_late_curves
-from .torn_path import TornPoint, torn_points
+from .results import SeparationResult, extremes_of, with_late_curves
+from .torn_path import Known, TornPoint, torn_points
 from .validity import check
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Curve = NDArray[np.float64]
 
 __all__ = [
     "at_speed",
@@ -31,7 +38,7 @@ __all__ = [
 ]
 
 
-def frozen(values: object) -> NDArray[np.float64]:
+def frozen(values: object) -> Curve:
     """Make a read-only array of a curve."""
     array = np.array(values, dtype=np.float64)
     array.flags.writeable = False
@@ -67,19 +74,9 @@ def broke(plan: Plan) -> str:
 
 def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResult:
     """Forces along the gap at an imposed speed."""
-    speed, gaps = loading.speed, _grid(plan)
-    rows = [_forces(plan, gap, speed) for gap in gaps]
-    torn = _torn(plan, loading, gaps)
-    rows = [_with_torn(row, point) for row, point in zip(rows, torn, strict=False)] + rows[
-        len(torn) :
-    ]
-    columns = {
-        "time": frozen([(gap - loading.initial_gap) / speed for gap in gaps]),
-        "gap": frozen(gaps),
-        "speed": frozen([speed] * len(gaps)),
-        "pull": frozen([row["pull"] for row in rows]),
-        "film_status": frozen([row["film_status"] for row in rows]),
-    } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
+    gaps, speed = _grid(plan), loading.speed
+    known: dict[float, Known] = {}
+    columns = _at_speed(plan, loading, gaps, known)
     impulses = {}
     film = plan.film
     for kind, law in film.laws.items():
@@ -88,22 +85,118 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
             running = _running(law.force, speed, gaps, end)
             impulses[kind.column.impulse.name] = running[-1]
     if plan.has(ViscousForce):
-        running = [point.impulse for point in torn]
-        running += [running[-1]] * (len(gaps) - len(torn)) if torn else []
-        if not torn:
-            running = _running(lambda gap, v: film.viscous_force(gap, v)[0], speed, gaps, film.end)
-        columns["viscous_impulse"] = frozen(running)
         impulses |= newtonian_impulses(plan)
         if film.is_limited:
-            impulses["viscous_impulse"] = running[-1]
+            impulses["viscous_impulse"] = float(columns["viscous_impulse"][-1])
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m{broke(plan)}"
-    curves = with_late_curves(plan, columns)
-    return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)
+    curves = _drawn(plan, columns, _SpeedLines(plan, loading, gaps, known))
+    return SeparationResult(
+        plan, "curve", message, curves, impulses, None, validity, work, extremes_of(plan, columns)
+    )
 
 
-def _torn(plan: Plan, loading: ImposedSpeed, gaps: list[float]) -> list[TornPoint]:
+def _at_speed(
+    plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], known: dict[float, Known]
+) -> dict[str, Curve]:
+    """Curves at some gaps [m] of an opening at a speed."""
+    torn, film = _torn(plan, loading, gaps, known), plan.film
+    columns = _forces_at_speed(plan, loading, gaps, torn)
+    if plan.has(ViscousForce):
+        running = [point.impulse for point in torn]
+        running += [running[-1]] * (len(gaps) - len(torn)) if torn else []
+        if not torn:
+            running = _running(
+                lambda gap, v: film.viscous_force(gap, v)[0], loading.speed, gaps, film.end
+            )
+        columns["viscous_impulse"] = frozen(running)
+    return columns
+
+
+def _forces_at_speed(
+    plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], torn: Sequence[TornPoint]
+) -> dict[str, Curve]:
+    """Curves that need no integral, at some gaps [m]."""
+    speed = loading.speed
+    rows = [_forces(plan, gap, speed) for gap in gaps]
+    rows[: len(torn)] = [_with_torn(*pair) for pair in zip(rows, torn, strict=False)]
+    return {
+        "time": frozen([(gap - loading.initial_gap) / speed for gap in gaps]),
+        "gap": frozen(gaps),
+        "speed": frozen([speed] * len(gaps)),
+        "pull": frozen([row["pull"] for row in rows]),
+        "film_status": frozen([row["film_status"] for row in rows]),
+    } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
+
+
+@attrs.frozen(eq=False)
+class _SpeedLines:
+    """Curves at a speed, at as many gaps as lines need."""
+
+    plan: Plan
+    loading: ImposedSpeed
+    gaps: Sequence[float]
+    known: dict[float, Known]
+    """What is known of a film that tears."""
+
+    def __call__(self) -> dict[str, Curve]:
+        """Return the curves by their names."""
+        gaps = _with_middles(self.plan, self.gaps, self._table)
+        return _at_speed(self.plan, self.loading, gaps, self.known)
+
+    def _table(self, gaps: Curve) -> Curve:
+        """Return all curves; the impulse by the trapezoidal rule, which is as right as lines."""
+        torn = _torn(self.plan, self.loading, gaps.tolist(), self.known)
+        columns = _forces_at_speed(self.plan, self.loading, gaps.tolist(), torn)
+        pull, time = columns["pull"], columns["time"]
+        steps = 0.5 * (pull[1:] + pull[:-1]) * np.diff(time)
+        return np.column_stack([*columns.values(), np.concatenate([[0.0], np.cumsum(steps)])])
+
+
+@attrs.frozen(eq=False)
+class _TimeLines:
+    """Curves within a time, at as many gaps as lines need."""
+
+    plan: Plan
+    gaps: Sequence[float]
+
+    def __call__(self) -> dict[str, Curve]:
+        """Return the curves by their names."""
+        return _within_time(self.plan, _with_middles(self.plan, self.gaps, self._table))
+
+    def _table(self, gaps: Curve) -> Curve:
+        return np.column_stack(list(_within_time(self.plan, gaps.tolist()).values()))
+
+
+def _with_middles(
+    plan: Plan, gaps: Sequence[float], table: Callable[[Curve], Curve]
+) -> list[float]:
+    """Gaps [m] between which straight lines are right, over a logarithmic gap too.
+
+    What ends at a gap is there at that gap, and gone at the next that a float can tell.
+    """
+    film, rtol = plan.film, plan.accuracy.curve_rtol
+    places = {*gaps, *(math.nextafter(e, math.inf) for e in (film.end, film.release) if e in gaps)}
+    places = {place for place in places if place <= gaps[-1]}
+    for a, b in pairwise(gaps):
+        # A line over the gap misses one over its logarithm by an eighth of the square.
+        n = math.ceil(math.log(b / a) / math.sqrt(8.0 * rtol)) if a > 0.0 else 1
+        places |= {a * (b / a) ** (k / n) for k in range(1, n)}
+    found: list[float] = with_middles(np.array(sorted(places)), table, rtol).tolist()
+    return found
+
+
+def _drawn(
+    plan: Plan, columns: Mapping[str, Curve], lines: Callable[[], dict[str, Curve]]
+) -> Mapping[str, Curve]:
+    """Curves of a result: those of a run, with points between its own when asked for."""
+    return with_late_curves(plan, LateColumns({}, dict.fromkeys(columns, lines)))
+
+
+def _torn(
+    plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], known: dict[float, Known]
+) -> list[TornPoint]:
     """Film that tears, at each gap up to its end; none for a film that does not remember it."""
     film, law = plan.film, plan.film.cavity
     if law is None:
@@ -111,7 +204,7 @@ def _torn(plan: Plan, loading: ImposedSpeed, gaps: list[float]) -> list[TornPoin
     start, speed = loading.initial_gap, loading.speed
     times = [(gap - start) / speed for gap in gaps if gap <= film.end]
     rtol = plan.accuracy.time_rtol
-    return torn_points(film, law, lambda time: (start + speed * time, speed), times, rtol)
+    return torn_points(film, law, lambda time: (start + speed * time, speed), times, rtol, known)
 
 
 def _with_torn(row: dict[str, float], point: TornPoint) -> dict[str, float]:
@@ -164,7 +257,7 @@ def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
 
 
 def _running(
-    force: Callable[[float, float], float], speed: float, gaps: list[float], end: float
+    force: Callable[[float, float], float], speed: float, gaps: Sequence[float], end: float
 ) -> list[float]:
     """Time integral of a force [N.s] up to each gap of a curve, at an imposed speed.
 
@@ -194,17 +287,24 @@ def newtonian_impulses(plan: Plan) -> dict[str, float]:
 def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationResult:
     """Impulse and mean force of an opening of which only the duration is given."""
     gaps = _grid(plan)
-    columns = {"gap": frozen(gaps)}
-    rows = [_forces(plan, gap, 0.0) for gap in gaps] if plan.film.static_columns else []
-    static = [column.name for column in plan.film.static_columns]
-    columns |= {name: frozen([row[name] for row in rows]) for name in static}
-    impulses = {}
-    if plan.has(ViscousForce):
-        impulses = newtonian_impulses(plan)
-        impulse, last = plan.film.newtonian_impulse, plan.film.end
-        columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
+    columns = _within_time(plan, gaps)
+    impulses = newtonian_impulses(plan) if plan.has(ViscousForce) else {}
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s{broke(plan)}"
-    curves = with_late_curves(plan, columns)
-    return SeparationResult(plan, "curve", message, curves, impulses, None, validity, work)
+    curves = _drawn(plan, columns, _TimeLines(plan, gaps))
+    return SeparationResult(
+        plan, "curve", message, curves, impulses, None, validity, work, extremes_of(plan, columns)
+    )
+
+
+def _within_time(plan: Plan, gaps: Sequence[float]) -> dict[str, Curve]:
+    """Curves at some gaps [m] where only the duration is given."""
+    static = [column.name for column in plan.film.static_columns]
+    rows = [_forces(plan, gap, 0.0) for gap in gaps] if static else []
+    columns = {"gap": frozen(gaps)}
+    columns |= {name: frozen([row[name] for row in rows]) for name in static}
+    if plan.has(ViscousForce):
+        impulse, last = plan.film.newtonian_impulse, plan.film.end
+        columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
+    return columns

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, Protocol, TypeVar
 
@@ -14,7 +14,7 @@ from ..scene.loading import ImposedTime
 from ..scene.scales import Scales
 from ..scene.validity import ValidityNumber
 from .curve_result import CurveResult, LateColumns, Work
-from .effects.base import RunCurves
+from .effects.base import RunCurves, SeparationEffect
 from .effects.viscous import ViscousForce
 from .motion.state import MotionState
 from .plan import Plan
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-__all__ = ["SeparationResult", "Work", "with_late_curves"]
+__all__ = ["SeparationResult", "Work", "extremes_of", "with_late_curves"]
 
 P_co = TypeVar("P_co", covariant=True)
 
@@ -61,6 +61,9 @@ class SeparationResult(CurveResult):
         Whether the models were inside their ranges.
     work : Work
         What it cost.
+    extremes : mapping of str to float
+        Greatest force of all films and solids that resists opening, and that pushes the bodies
+        apart [N], by the names they have in `scalars`.
     """
 
     cure: ClassVar[str] = "impose a speed or a force to get it"
@@ -73,6 +76,7 @@ class SeparationResult(CurveResult):
     state: MotionState | None = field(repr=False)
     validity: tuple[ValidityNumber, ...] = field(repr=False)
     work: Work
+    extremes: Mapping[str, float] = field(repr=False)
 
     @property
     def gap(self) -> Curve:
@@ -163,25 +167,9 @@ class SeparationResult(CurveResult):
         for effect in self.plan.scene.effects:
             found |= effect.scalars(self)
         if self.state is not None:
-            return found | _numbers_of_motion(self.plan, self.state) | self._extremes()
-        return found | self._extremes() | self._means_of_cycles()
-
-    def _extremes(self) -> dict[str, tuple[float, str]]:
-        """Greatest force that resists opening, and greatest that pushes the bodies apart.
-
-        All forces of film and solids together. Where only the duration is given, the path of the
-        viscous force in time is not known: the others are then taken, under names that say so.
-        """
-        forces = self.plan.forces
-        known = [self.columns[force.name] for force in forces if force.name in self.columns]
-        if not known:
-            return {}
-        total = sum(known[1:], known[0])
-        kind = "" if len(known) == len(forces) else "static_"
-        found = {f"peak_{kind}repulsion": (max(-float(total.min()), 0.0), "N")}
-        if self.state is None:  # a motion knows its peak between the points of its curves too
-            found[f"peak_{kind}force"] = (max(float(total.max()), 0.0), "N")
-        return found
+            found |= _numbers_of_motion(self.plan, self.state)
+        found |= {name: (value, "N") for name, value in self.extremes.items()}
+        return found | self._means_of_cycles()
 
     def _means_of_cycles(self) -> dict[str, tuple[float, str]]:
         """Pull over the whole of a vibration: its mean, that without vibration, its extremes."""
@@ -197,24 +185,52 @@ class SeparationResult(CurveResult):
 
 
 def with_late_curves(
-    plan: Plan, columns: Mapping[str, Curve], volume_fraction: Sequence[float] | None = None
+    plan: Plan,
+    columns: Mapping[str, Curve],
+    volume_fraction: Callable[[], Curve] | None = None,
 ) -> Mapping[str, Curve]:
     """Add the curves that effects compute when they are asked for.
 
-    `volume_fraction` is the volume of the film over that of the scene along the run; 1 if not
+    `volume_fraction` returns the volume of the film over that of the scene along the run; 1 if not
     given.
     """
-    import numpy as np
-
-    gap = columns["gap"]
-    given = np.ones(gap.shape) if volume_fraction is None else np.array(volume_fraction)
-    run = RunCurves(plan, gap, is_whole(plan, columns), given)
     late = {
-        column.name: partial(effect.late_curves, run)
+        column.name: partial(_late_curves, plan, effect, columns, volume_fraction)
         for effect in plan.scene.effects
         for column in effect.late
     }
     return LateColumns(columns, late)
+
+
+def _late_curves(
+    plan: Plan,
+    effect: SeparationEffect,
+    columns: Mapping[str, Curve],
+    volume_fraction: Callable[[], Curve] | None,
+) -> Mapping[str, Curve]:
+    import numpy as np
+
+    gap = columns["gap"]
+    given = np.ones(gap.shape) if volume_fraction is None else volume_fraction()
+    return effect.late_curves(RunCurves(plan, gap, is_whole(plan, columns), given))
+
+
+def extremes_of(plan: Plan, columns: Mapping[str, Curve]) -> dict[str, float]:
+    """Greatest force that resists opening, and that pushes the bodies apart [N], by their names.
+
+    All forces of film and solids together. Where only the duration is given, the path of the
+    viscous force in time is not known: the others are then taken, under names that say so.
+    """
+    forces = plan.forces
+    known = [columns[force.name] for force in forces if force.name in columns]
+    if not known:
+        return {}
+    total = sum(known[1:], known[0])
+    kind = "" if len(known) == len(forces) else "static_"
+    return {
+        f"peak_{kind}repulsion": max(-float(total.min()), 0.0),
+        f"peak_{kind}force": max(float(total.max()), 0.0),
+    }
 
 
 def _numbers_of_motion(plan: Plan, state: MotionState) -> dict[str, tuple[float, str]]:

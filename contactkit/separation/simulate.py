@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from typing import TYPE_CHECKING, overload
+from typing import overload
 
 from ..errors import ConvergenceError, InfeasibleError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
@@ -16,18 +16,15 @@ from .curve_result import Work
 from .effects.registry import ViscousForce
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
+from .motion_curves import at_steps, motion_curves, pull_law
 from .plan import Plan
-from .prescribed import at_speed, frozen, newtonian_impulses, simulated, within_time
-from .results import SeparationResult, with_late_curves
+from .prescribed import at_speed, newtonian_impulses, within_time
+from .results import SeparationResult
 from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
 from .sliding.run import slide
 from .validity import check
 from .vibration import vibrating
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 __all__ = ["advance", "simulate"]
 
@@ -130,14 +127,6 @@ def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) ->
     return result
 
 
-def pull_law(plan: Plan) -> Callable[[float], float]:
-    """Pull [N] of the scene at a time [s]."""
-    force, rise = plan.scene.imposed_force.force, plan.scene.imposed_force.rise_time
-    if rise == 0.0:
-        return lambda time: force
-    return lambda time: -force * math.expm1(-time / rise)
-
-
 def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
     """Advance by one internal step, or to the next event."""
     return internal_step(plan, state, pull, plan.scene.imposed_force.time_limit)
@@ -175,36 +164,12 @@ def _motion_result(
     status, message = _outcome(plan, last, pull(last.time), problem)
     message += _rupture(states)
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
-    columns = _columns(plan, states, pull)
-    validity = check(plan, columns)
-    curves = with_late_curves(plan, columns, [state.volume_fraction for state in states])
-    return SeparationResult(plan, status, message, curves, impulses, last, validity, work)
-
-
-def _columns(
-    plan: Plan, states: list[MotionState], pull: Callable[[float], float]
-) -> dict[str, NDArray[np.float64]]:
-    """Curves along the states of a motion."""
-    rows = [outputs(plan, state, pull(state.time)) for state in states]
-    columns = {
-        "time": frozen([s.time for s in states]),
-        "gap": frozen([s.gap for s in states]),
-        "speed": frozen([s.speed for s in states]),
-        "pull": frozen([pull(s.time) for s in states]),
-        "film_status": frozen([row.status for row in rows]),
-    }
-    static = [_static_forces(plan, state) for state in states]
-    curves = {c.name: [row[c.name] for row in static] for c in plan.film.static_columns} | {
-        "viscous_force": [row.viscous for row in rows],
-        "newtonian_force": [_newtonian_force(plan, s) for s in states],
-        "limit": [row.limit for row in rows],
-        "cavity_radius": [row.cavity_radius for row in rows],
-        "void_volume": [row.void for row in rows],
-    }
-    columns |= {name: frozen(curves[name]) for name in simulated(plan)}
-    if plan.has(ViscousForce):
-        columns["viscous_impulse"] = frozen([s.impulses["viscous_impulse"] for s in states])
-    return columns
+    along, force = at_steps(plan, states, pull)
+    validity = check(plan, along)
+    # The motion knows its peak between the steps too.
+    extremes = {"peak_repulsion": max(-float(force.min()), 0.0)}
+    curves = motion_curves(plan, states)
+    return SeparationResult(plan, status, message, curves, impulses, last, validity, work, extremes)
 
 
 def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) -> tuple[str, str]:
@@ -237,16 +202,3 @@ def _rupture(states: list[MotionState]) -> str:
     if first is None:
         return ""
     return f"; the film broke at {quantity_text(first.gap, 'm')}, after {first.break_time:.6g} s"
-
-
-def _static_forces(plan: Plan, state: MotionState) -> dict[str, float]:
-    """Each force [N] that does not depend on speed, 0 where it has ended."""
-    film = acting_film(plan, state)
-    none = {column.name: 0.0 for column in plan.film.static_columns}
-    return none | (film.static_forces(state.gap) if film is not None else {})
-
-
-def _newtonian_force(plan: Plan, state: MotionState) -> float:
-    if state.broken:
-        return 0.0
-    return plan.film_with(state.volume_fraction).newtonian_force(state.gap, state.speed)

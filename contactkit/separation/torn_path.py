@@ -14,7 +14,7 @@ from .cavity.state import FULL, Cavity, Phase
 from .effects.base import LimitKind
 from .film import Film
 
-__all__ = ["TornPoint", "torn_points"]
+__all__ = ["Known", "TornPoint", "torn_points"]
 
 
 class TornPoint(NamedTuple):
@@ -31,8 +31,21 @@ class TornPoint(NamedTuple):
     void: float
 
 
+class Known(NamedTuple):
+    """Film at a time of its path, with all that its way on from there depends on."""
+
+    point: TornPoint
+    cavity: Cavity
+    step: float
+
+
 def torn_points(
-    film: Film, law: CavityLaw, place: Place, times: Sequence[float], rtol: float
+    film: Film,
+    law: CavityLaw,
+    place: Place,
+    times: Sequence[float],
+    rtol: float,
+    known: dict[float, Known] | None = None,
 ) -> list[TornPoint]:
     """Film at each of some ascending times [s], full at the first of them.
 
@@ -46,23 +59,39 @@ def torn_points(
         Where the film is wanted [s].
     rtol : float
         Tolerance of the void of a step, over the volume of the film.
+    known : dict, optional
+        What other times gave, which is not computed again; what these give is added.
     """
-    cavity, total = FULL, 0.0
-    first = place(times[0])
-    if is_torn_by(law, cavity, *first):
-        cavity = born(law, *first)
-    found = [_point(film, law, cavity, place, times[0], 0.0)]
-    step = 0.0
+    known = {} if known is None else known
+    if times[0] not in known:
+        first, cavity = place(times[0]), FULL
+        if is_torn_by(law, cavity, *first):
+            cavity = born(law, *first)
+        known[times[0]] = Known(_point(film, law, cavity, place, times[0], 0.0), cavity, 0.0)
     for begin, end in pairwise(times):
-        last = begin
-        for point in along_path(law, cavity, place, begin, end, rtol, step):
-            if point.impulse is None:
-                total += film.newtonian_impulse(place(last)[0], place(point.time)[0])
-            else:
-                total += point.impulse
-            cavity, last, step = point.cavity, point.time, point.step
-        found.append(_point(film, law, cavity, place, end, total))
-    return found
+        if end not in known:
+            known[end] = _after(film, law, place, (begin, known[begin]), end, rtol)
+    return [known[time].point for time in times]
+
+
+def _after(
+    film: Film,
+    law: CavityLaw,
+    place: Place,
+    start: tuple[float, Known],
+    end: float,
+    rtol: float,
+) -> Known:
+    """Film at a later time [s]."""
+    begin, ((_, total, *_), cavity, step) = start
+    last = begin
+    for point in along_path(law, cavity, place, begin, end, rtol, step):
+        if point.impulse is None:
+            total += film.newtonian_impulse(place(last)[0], place(point.time)[0])
+        else:
+            total += point.impulse
+        cavity, last, step = point.cavity, point.time, point.step
+    return Known(_point(film, law, cavity, place, end, total), cavity, step)
 
 
 def _point(

@@ -28,7 +28,7 @@ from .effects.base import LIMIT, FilmStatus, LimitKind
 from .effects.registry import ViscousForce
 from .plan import Plan
 from .prescribed import frozen, simulated, torn_row
-from .results import SeparationResult, with_late_curves
+from .results import SeparationResult, extremes_of, with_late_curves
 from .torn_cycles import TornCycles, torn_cycles
 from .torn_path import TornPoint
 from .validity import check
@@ -205,6 +205,7 @@ def vibrating(
         None,
         check(plan, columns),
         Work(0, 0, n, clock.perf_counter() - begun),
+        extremes_of(plan, columns),
     )
 
 

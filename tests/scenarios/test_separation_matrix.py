@@ -190,7 +190,7 @@ def test_validity_is_judged_while_the_film_is_there():
     assert result.speed[~whole].max() > 10.0 * result.speed[whole].max()
     worst = 997.0 * (result.speed * result.gap)[whole].max() / 0.89e-3
     (found,) = [number for number in result.validity if number.name == "Reynolds number"]
-    assert found.value == pytest.approx(worst)
+    assert 0.9 * worst < found.value <= worst  # at the steps, which the curve has points between
 
 
 @pytest.mark.parametrize("limit", [EFFECTS[6], EFFECTS[7]], ids=lambda effect: effect.name)

@@ -44,7 +44,7 @@ def separation_sweep(
             "cost needs a scene with loading.force [N] and loading.mass [kg]: a curve at an "
             "imposed speed or time is closed form and costs microseconds"
         )
-    from ...separation.simulate import pull_law
+    from ...separation.motion_curves import pull_law
 
     made = plan(scene)
     end = 1.001 * _release(scene, 1e-8).value

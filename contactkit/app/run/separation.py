@@ -58,7 +58,8 @@ def _text(made: Plan, result: SeparationResult) -> str:
     work = result.work
     counts = f"{work.n_steps} steps, {work.n_evaluations} force evaluations"
     cost = f"{counts}, {work.seconds:.3f} s wall time"
-    lines = [str(made), result.message, *numbers, "validity:", *validity, *errata, cost]
+    curves = f"curves: {result.lines}"
+    lines = [str(made), result.message, *numbers, "validity:", *validity, *errata, curves, cost]
     return "\n".join(lines)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...lubrication import dimensionless as numbers
 from ...lubrication.couette_flat import lens_area
+from ...numerics.lines import with_middles
 from ...numerics.quadrature import gauss_legendre
 from ...scene.validity import ValidityNumber
 from ...units import nm
@@ -31,7 +32,7 @@ _NODES = 12  # of a panel between two points of a curve
 def slide(plan: SlidingPlan, begun: float) -> SlidingResult:
     """Run a sliding: curves over the travel, and totals."""
     loading = plan.scene.loading
-    travel = np.linspace(0.0, plan.end, max(plan.accuracy.points, 2))
+    travel = _travel(plan)
     columns: dict[str, Any] = {
         "travel": travel,
         "overlap_area": plan.film.menisci * lens_area(plan.wetted_radius, travel),
@@ -61,6 +62,18 @@ def slide(plan: SlidingPlan, begun: float) -> SlidingResult:
         check_sliding(plan),
         Work(0, 0, len(travel), clock.perf_counter() - begun),
     )
+
+
+def _travel(plan: SlidingPlan) -> Floats:
+    """Travel [m] of the points of the curves, between which straight lines are right."""
+    speed = plan.scene.loading.speed or 0.0
+
+    def table(travel: Floats) -> Floats:
+        forces = [law.force(travel, speed) + 0.0 * travel for law in plan.laws.values()]
+        return np.column_stack([lens_area(plan.wetted_radius, travel), *forces])
+
+    even = np.linspace(0.0, plan.end, max(plan.accuracy.points, 2))
+    return with_middles(even, table, plan.accuracy.curve_rtol)
 
 
 def _frozen(values: Any) -> Floats:

@@ -24,7 +24,7 @@ from contactkit.capillary.arc.bridge import arc_bridge
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.contact.effects.base import Compliance, PressureBound
 from contactkit.reference import elliptic_bridge
-from contactkit.separation.simulate import pull_law
+from contactkit.separation.motion_curves import pull_law
 from contactkit.work_precision import WorkPrecision, sweep
 
 from .cost import counts, cpu_seconds, run

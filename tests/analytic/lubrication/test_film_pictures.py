@@ -50,6 +50,14 @@ def test_an_opening_shows_gap_force_and_cavity(steps):
     assert 0.5 < cavity.max() < R * 1e3
 
 
+def test_an_opening_of_a_prescribed_gap_is_drawn_too(steps):
+    pulled = film_plot.opening(steps, copies=4)
+    followed = film_plot.opening([step.state for step in steps], copies=4)
+    for one, other in zip(pulled, followed, strict=True):
+        for line, same in zip(one.lines, other.lines, strict=True):
+            assert np.asarray(line.get_ydata()) == pytest.approx(np.asarray(same.get_ydata()))
+
+
 @pytest.mark.slow
 def test_an_animation_has_a_picture_for_each_state(steps, tmp_path):
     image = pytest.importorskip("PIL.Image")
