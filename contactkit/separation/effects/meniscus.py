@@ -191,6 +191,8 @@ class MeniscusForce(SeparationForce):
         volume = plan.prepared.film.volume
         if not plan.scene.interface.is_flat:
             found.append(_lateral(plan, gaps))
+            if self.takes_printed():
+                found.append(_printed_neck(plan.prepared, gaps))
         elif math.isfinite(volume):
             found.append(
                 ValidityNumber(
@@ -282,6 +284,22 @@ def _weight(plan: Plan, gaps: Sequence[float]) -> ValidityNumber:
         if density is not None
         else "not judged, liquid.density [kg/m3] is not given",
         source="rho g V over the force, or over 0.3 gamma V^(1/3) where that is larger",
+    )
+
+
+def _printed_neck(
+    prepared: PreparedScene[SeparationScene], gaps: Sequence[float]
+) -> ValidityNumber:
+    from .meniscus_sphere import printed_neck
+
+    known = [neck for neck in printed_neck(prepared, gaps).tolist() if math.isfinite(neck)]
+    return ValidityNumber(
+        name="radius of the neck in Eq. (3.12) over that of the arc",
+        value=min(known, default=None),
+        low=0.0,
+        detail="where it is zero, the printed force is infinite, and below zero the circle of the "
+        "arc reaches beyond the axis; MeniscusForce() has neither",
+        source="x_c - r1 over r1",
     )
 
 
