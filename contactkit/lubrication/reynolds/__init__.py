@@ -35,6 +35,7 @@ _HOMES = {
     "FilmState": "film",
     "FlowFactors": "rough_flow",
     "Hole": "face",
+    "HoleState": "film",
     "Intersection": "shapes",
     "Leakage": "rough_flow",
     "Pocket": "face",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import Attribute, field, frozen
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Film", "FilmState"]
+__all__ = ["Film", "FilmState", "HoleState"]
 
 
 @frozen(kw_only=True, eq=False, slots=False)
@@ -93,6 +93,19 @@ class Film(Described):
         return self.cavity_tension if self.tensile_strength is None else self.tensile_strength
 
 
+class HoleState(NamedTuple):
+    """A hole of a face at one instant."""
+
+    area: float
+    """Area [m2]."""
+    pressure: float
+    """Pressure [Pa]."""
+    flow: float
+    """Volume flow out of the hole into the film [m3/s]."""
+    force: float
+    """Force of its pressure on the face, (ambient - p) times area, that resists separation [N]."""
+
+
 @frozen(kw_only=True, eq=False, slots=False)
 class FilmState:
     """Film at one instant.
@@ -109,8 +122,6 @@ class FilmState:
         Fraction theta of the gap that is liquid [-], 1 where the film is full.
     balance : Balance, optional
         The discrete film that was solved; None for a film at rest that has not moved yet.
-    inflow : float
-        Net volume flow into the film through all reservoirs [m3/s].
     excess : ndarray, optional
         Flow gained between the rim and the sides of its cells (`Rim.excess`) [m3/s].
     is_torn : ndarray of bool, shape (ny, nx)
@@ -130,7 +141,6 @@ class FilmState:
     pressure: Array = field(repr=False)
     liquid_fraction: Array = field(repr=False)
     balance: Balance | None = field(default=None, repr=False)
-    inflow: float = 0.0
     excess: Array | None = field(default=None, repr=False)
     is_torn: NDArray[np.bool_] = field(repr=False)
     lower_velocity: tuple[float, float] = (0.0, 0.0)
@@ -144,8 +154,52 @@ class FilmState:
 
     @cached_property
     def force(self) -> float:
-        """Force that resists separation, the integral of ambient - p over film and pockets [N]."""
+        """Force of the film that resists separation [N].
+
+        The integral of ambient - p over film and pockets; `pad_force` counts holes as well.
+        """
         return self._integral(self.film.ambient - self.pressure)
+
+    @cached_property
+    def pad_force(self) -> float:
+        """Force on the whole pad that resists separation [N]: film, pockets and holes."""
+        return self.force + sum(hole.force for hole in self.holes)
+
+    @cached_property
+    def holes(self) -> tuple[HoleState, ...]:
+        """Each `Hole` of the face, in the order they were given in: its flow and its force."""
+        made, flow = self.film.face.holes, self._flow_at_rim
+        ambient = self.film.ambient
+        beyond = None if self.balance is None else self.balance.mesh.rim.beyond
+        return tuple(
+            HoleState(
+                area,
+                pressure,
+                0.0 if beyond is None else float(flow[np.isin(beyond, cells)].sum()),
+                (ambient - pressure) * area,
+            )
+            for area, pressure, cells in made
+        )
+
+    @cached_property
+    def inflow(self) -> float:
+        """Net volume flow into the film through all reservoirs and holes [m3/s]."""
+        if self.balance is None:
+            return 0.0
+        return float(self._flow_at_rim[self.balance.mesh.rim_number < 0].sum())
+
+    @cached_property
+    def _flow_at_rim(self) -> Array:
+        """Volume flow into the film through each side of the rim [m3/s]."""
+        balance = self.balance
+        if balance is None:
+            return np.zeros(0)
+        rim, p, theta = balance.mesh.rim, self.pressure.ravel(), self.liquid_fraction.ravel()
+        driven = balance.outer * (p[rim.beyond] - p[rim.cell])
+        outward = balance.carried[1] * rim.sign
+        carried = np.where(outward > 0.0, outward * theta[rim.cell], outward)
+        flow: Array = driven - carried
+        return flow if self.excess is None else flow + self.excess
 
     @cached_property
     def torque(self) -> tuple[float, float]:

@@ -512,26 +512,14 @@ def _state(task: Task, balance: Balance, found: Solution) -> FilmState:
     fraction[mesh.loaded] = 1.0 - found.void[which]
     pressure, fraction = pressure.reshape(face.shape), fraction.reshape(face.shape)
     torn = np.zeros(face.shape, bool)
-    excess = _excess(task, mesh)
     return FilmState(
         film=task.film,
         gap=task.gap,
         pressure=pressure,
         liquid_fraction=fraction,
         balance=balance,
-        inflow=_inflow(balance, pressure, fraction) + float(excess[mesh.rim_number < 0].sum()),
-        excess=excess,
+        excess=_excess(task, mesh),
         is_torn=torn,
         iterations=found.iterations,
         time=0.0 if math.isinf(task.dt) else task.dt,
     )
-
-
-def _inflow(balance: Balance, pressure: Array, fraction: Array) -> float:
-    """Net volume flow from the reservoirs into the film [m3/s]."""
-    rim, is_open = balance.mesh.rim, balance.mesh.rim_number < 0
-    p, theta = pressure.ravel(), fraction.ravel()
-    driven = balance.outer * (p[rim.beyond] - p[rim.cell])
-    outward = balance.carried[1] * rim.sign
-    carried = np.where(outward > 0.0, outward * theta[rim.cell], outward)
-    return float((driven - carried)[is_open].sum())
