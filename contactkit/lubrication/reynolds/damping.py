@@ -23,8 +23,10 @@ from ...errors import DescriptionError
 from ...numerics.quadrature import gauss_legendre
 from ...units import si
 from ...validators import finite, positive, refuse
+from ...validity import ValidityNumber
 
 __all__ = [
+    "ATMOSPHERE",
     "DampingLaw",
     "DomeDamping",
     "PowerDamping",
@@ -32,14 +34,60 @@ __all__ = [
     "disc_damping",
     "dome_damping",
     "ellipse_damping",
+    "film_tension",
+    "inertia",
     "recess_damping",
     "rectangle_damping",
     "ring_damping",
+    "slenderness_of",
     "triangle_damping",
 ]
 
+ATMOSPHERE = 101_325.0
+"""Standard atmosphere [Pa]: tension at which a liquid at ambient pressure is in vacuum."""
+
 ZETA_5 = 1.0369277551433699
 """Riemann's zeta function of 5."""
+
+
+def film_tension(tension: float, strength: float) -> ValidityNumber:
+    """Whether a liquid bears the tension [Pa] of a film; inf: one that is said never to tear."""
+    bears = strength if strength < math.inf else ATMOSPHERE
+    value = max(tension, 0.0) / (bears or 1.0)  # of a liquid that bears none, in Pa
+    return ValidityNumber(
+        name="tension over the strength of the liquid",
+        value=1.0 if abs(value - 1.0) < 1e-9 else value,
+        high=1.0,
+        detail=f"the liquid is at {tension / 1e5:.3g} bar below ambient, and would have torn at "
+        f"{bears / 1e5:.3g} bar; give the film a cavity_pressure and a tensile_strength, or move "
+        f"more slowly",
+        source="strength as given; else a vacuum at ambient pressure",
+    )
+
+
+def slenderness_of(radius: float, height: float) -> ValidityNumber:
+    """Whether a film is much wider [m] than high [m]."""
+    return ValidityNumber(
+        name="slenderness of the film",
+        value=radius / height,
+        low=5.0,
+        detail="lubrication wants a film much wider than high; at a flooded rim 16 h/(3 pi r) of "
+        "the force is left out",
+        source="Reynolds 1886; Hasimoto 1958",
+    )
+
+
+def inertia(density: float | None, reynolds: float | None) -> ValidityNumber:
+    """Whether the inertia of the liquid is small."""
+    return ValidityNumber(
+        name="Reynolds number",
+        value=reynolds,
+        high=1.0,
+        detail="the density [kg/m3] is not given"
+        if density is None
+        else "inertia of the film is left out; move more slowly, or take a smaller gap",
+        source="rho u h^2/(eta L), rho h' h/eta for a disc",
+    )
 
 
 @frozen(kw_only=True, slots=False)
@@ -76,6 +124,43 @@ class DampingLaw(abc.ABC):
     def force(self, gap: float, speed: float, viscosity: float) -> float:
         """Force [N] that resists separation at a gap [m], a speed [m/s] and a viscosity [Pa.s]."""
         return viscosity * speed * self.coefficient(gap)
+
+    def validity(
+        self,
+        gap: float,
+        speed: float,
+        viscosity: float,
+        *,
+        strength: float = ATMOSPHERE,
+        density: float | None = None,
+    ) -> tuple[ValidityNumber, ...]:
+        """Whether a full film is in its range at a gap [m], a speed [m/s] and a viscosity [Pa.s].
+
+        Parameters
+        ----------
+        gap, speed, viscosity : float
+            Where the law is used.
+        strength : float
+            Tension below ambient at which the liquid tears [Pa].
+        density : float, optional
+            Density of the liquid [kg/m3], for its inertia.
+
+        Examples
+        --------
+        >>> for number in disc_damping(3.175e-3).validity(5e-6, 0.2, 0.1):
+        ...     print(str(number).split(" (")[0])
+        tension over the strength of the liquid = 4.78e+04
+        slenderness of the film = 635
+        Reynolds number: not evaluated, the density [kg/m3] is not given
+        """
+        radius = math.sqrt(self.area / math.pi)
+        tension = viscosity * max(speed, 0.0) * self.onset(gap)
+        number = None if density is None else density * abs(speed) * gap / viscosity
+        return (
+            film_tension(tension, strength),
+            slenderness_of(radius, gap),
+            inertia(density, number),
+        )
 
     def onset_speed(self, gap: float, tension: float, viscosity: float) -> float:
         """Speed [m/s] at which the pressure somewhere is a tension [Pa] below ambient."""

@@ -489,10 +489,12 @@ def _area_of_hole(face: Face, shape: Shape, level: Array) -> float:
         window = (left, left + nx * dx, bottom, bottom + ny * dy)
         return _fraction_in_window(shape, window) * float(np.pi * shape.radius**2)
     # Cells of an eighth, those at its edge by their distance to it.
-    x = left + (np.arange(_FINER * nx) + 0.5) * dx / _FINER
-    y = bottom + (np.arange(_FINER * ny) + 0.5) * dy / _FINER
-    around = np.where(face.owner == SOLID, -np.inf, face.level)
+    columns = np.flatnonzero((face.x[0] > low_x - dx) & (face.x[0] < high_x + dx))
+    rows = np.flatnonzero((face.y[:, 0] > low_y - dy) & (face.y[:, 0] < high_y + dy))
+    around = np.where(face.owner == SOLID, -np.inf, face.level)[np.ix_(rows, columns)]
     around = around.repeat(_FINER, axis=0).repeat(_FINER, axis=1)
+    x = left + (_FINER * columns[0] + np.arange(around.shape[1]) + 0.5) * dx / _FINER
+    y = bottom + (_FINER * rows[0] + np.arange(around.shape[0]) + 0.5) * dy / _FINER
     inside = np.minimum(shape.level(x[None, :], y[:, None]), around)
     part = np.clip(0.5 + inside * _FINER / np.sqrt(dx * dy), 0.0, 1.0)
     return float(part.sum()) * face.cell_area / _FINER**2

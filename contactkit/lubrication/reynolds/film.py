@@ -10,12 +10,13 @@ import numpy as np
 from attrs import Attribute, field, frozen
 
 from ...units import si
-from ...validators import Described, finite, non_negative, part, positive, refuse
+from ...validators import Described, finite, non_negative, optional, part, positive, refuse
 from .face import RESERVOIR, Face
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...validity import ValidityNumber
     from .discretisation import Balance
 
     Array = NDArray[np.floating[Any]]
@@ -42,6 +43,8 @@ class Film(Described):
         default that of the cavity, ambient - cavity_pressure.
     compressibility : float
         Compressibility of the liquid in the gap [1/Pa]; a film without a reservoir needs it.
+    density : float, optional
+        Density of the liquid [kg/m3], for the Reynolds number among `FilmState.validity`.
 
     Notes
     -----
@@ -55,6 +58,7 @@ class Film(Described):
     cavity_pressure: float = field(default=-math.inf, metadata=si("Pa"))
     tensile_strength: float | None = field(default=None, metadata=si("Pa"))
     compressibility: float = field(default=0.0, validator=non_negative, metadata=si("1/Pa"))
+    density: float | None = field(default=None, validator=optional(positive), metadata=si("kg/m3"))
 
     @cavity_pressure.validator
     def _check_cavity(self, attribute: Attribute[float], value: Any) -> None:
@@ -254,6 +258,21 @@ class FilmState:
         power = float(self.balance.inner @ inside**2 + self.balance.outer @ rim**2)
         return power if self.excess is None else power + float(self.excess @ rim)
 
+    @cached_property
+    def validity(self) -> tuple[ValidityNumber, ...]:
+        """Numbers that state whether the film is in the range of its model.
+
+        Tension in the liquid, slope and thickness of the gap, slenderness, inertia, grid.
+        """
+        from .validity import film_numbers
+
+        return film_numbers(self)
+
+    @property
+    def pressure_gradient(self) -> tuple[Array, Array]:
+        """Pressure gradient in each cell along y and x, the mean of those at its sides [Pa/m]."""
+        return _gradient(self)
+
     @property
     def shear_force(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Tangential forces (x, y) of the film on the lower and on the upper wall [N]."""
@@ -272,7 +291,7 @@ class FilmState:
         :math:`\mp \eta \theta (u_2 - u_1)/h - (h/2) \nabla p` on the upper (-) and lower (+) wall:
         fingers of liquid in a cavity carry shear as the film does, by the liquid fraction.
         """
-        slope_y, slope_x = _gradient(self)
+        slope_y, slope_x = self.pressure_gradient
         couette = self.film.viscosity * self.liquid_fraction / self.gap
         inside = self.film.face.loaded
         walls = []
