@@ -80,7 +80,7 @@ def _of_mass(loading: ImposedForce, attraction: float, time: float) -> float:
 
 
 def closed_first(loading: ImposedForce, gaps: Iterable[float], film: Film) -> str:
-    """How far a motion closed before it opened, for the message of a run; empty if it did not."""
+    """Remark in the message of a run on how far it closed before it opened; empty if not."""
     start, least = loading.initial_gap, min(gaps)
     if not closing_note(loading, film) or least >= start * (1.0 - _LEAST):
         return ""

@@ -123,9 +123,15 @@ class MeniscusForce(SeparationForce):
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
         meniscus = scene.meniscus
-        if scene.liquid_pressure is not None:
-            return self._lacks_at_pressure(scene)
         missing: tuple[str, ...] = ()
+        given = [
+            n for n, left in (("pulled", "lower"), ("radius", "arc")) if getattr(self, n) != left
+        ]
+        if given and not (self.takes_printed() and scene.interface.is_flat):
+            named = " and ".join(f"{name}={getattr(self, name)!r}" for name in given)
+            missing += (f'two flats and profile="as-published" for {named}, which Eq. (3.11) has',)
+        if scene.liquid_pressure is not None:
+            return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
         if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):

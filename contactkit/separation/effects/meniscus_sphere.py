@@ -170,7 +170,8 @@ def printed_neck(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]
     arc = arc_sphere.solve(np.array(gaps), volume, *fixed, profile="parabola")
     inverse = arc.inverse_arc_radius
     neck = neck_by_curvature_3_12(arc.radius_upper, arc.slope_upper, inverse, fixed[1])
-    return np.where(inverse < 0.0, np.abs(neck), neck)
+    found: Floats = np.where(inverse < 0.0, np.abs(neck), neck)
+    return found
 
 
 def _poles(prepared: PreparedScene[SeparationScene], end: float) -> tuple[float, ...]:

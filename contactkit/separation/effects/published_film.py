@@ -47,8 +47,9 @@ def _circle(prepared: PreparedScene[SeparationScene], gap: float) -> float:
     effect = prepared.scene.effect(MeniscusForce)
     if effect is None and math.isinf(prepared.film.volume):
         return prepared.film.rim
-    pulled, radius = ("lower", "arc") if effect is None else (effect.pulled, effect.radius)
-    return printed_radius(prepared, pulled, radius, gap).radius
+    if effect is None:
+        return printed_radius(prepared, "lower", "arc", gap).radius
+    return printed_radius(prepared, effect.pulled, effect.radius, gap).radius
 
 
 def _height(prepared: PreparedScene[SeparationScene], gap: float) -> float:
