@@ -21,7 +21,7 @@ from ..lubrication.reynolds.damping import (
     triangle_damping,
 )
 from ..units import si
-from ..validators import positive
+from ..validators import finite, positive
 
 __all__ = ["DAMPING_KINDS", "FACE_TABLES", "FaceTable"]
 
@@ -108,7 +108,7 @@ class _Recess(FaceTable):
 class _Dome(FaceTable):
     kind: ClassVar[str] = "dome"
     radius: float = field(validator=positive, metadata=si("m"))
-    curvature_radius: float = field(validator=positive, metadata=si("m"))
+    curvature_radius: float = field(validator=finite, metadata=si("m"))
 
     def law(self) -> DampingLaw:
         return dome_damping(self.radius, self.curvature_radius)

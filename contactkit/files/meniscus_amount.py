@@ -87,7 +87,6 @@ def with_amount(meniscus: Meniscus, given: Mapping[str, Any]) -> Meniscus:
     size: dict[str, Any] = {key: given[key] for key in form.optional if key in given}
     for key, unit in form.needed.items():
         size[key] = parse_quantity(given[key], unit, f"Meniscus.{key}")
-    size["gap"] = size.pop("at_gap")
     make = Meniscus.from_radius if by_radius else Meniscus.from_coverage
     made = make(
         liquid=meniscus.liquid,

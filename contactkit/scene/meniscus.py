@@ -6,12 +6,14 @@ outside, so that it is negative in a hollow meniscus.
 
 from __future__ import annotations
 
+import inspect
 import math
+from collections.abc import Callable, Mapping
 from typing import Literal
 
 from attrs import Attribute, evolve, field, frozen
 
-from ..errors import DescriptionError
+from ..errors import DescriptionError, nearest
 from ..liquids.liquid import Liquid
 from ..units import si
 from ..validators import (
@@ -43,6 +45,27 @@ def _negative(owner: object, attribute: Attribute[float], value: float) -> None:
 def _humidity(owner: object, attribute: Attribute[float], value: float) -> None:
     if not (_is_number(value) and 0.0 <= value <= 1.0):
         raise refuse(owner, attribute, value, "lie between 0 and 1", "a fraction, not per cent")
+
+
+def _at_gap(
+    function: Callable[..., Meniscus], at_gap: float | None, earlier: Mapping[str, float]
+) -> float:
+    """Gap at which a radius or a coverage holds, by its name or its earlier one."""
+    where, value = f"Meniscus.{function.__name__}(at_gap)", at_gap
+    for name, given in earlier.items():
+        if name != "gap":
+            cure = nearest(name, inspect.signature(function).parameters)
+            raise TypeError(f"{where[:-8]}() got an unexpected keyword argument {name!r}; {cure}")
+        if at_gap is not None:
+            hint = "gap is its earlier name: leave that out"
+            raise DescriptionError(where, (at_gap, given), "be given once", unit="m", hint=hint)
+        value = given
+    if value is None:
+        hint = "the gap at which that holds, such as at_gap=2e-9"
+        raise DescriptionError(where, value, "be given", unit="m", hint=hint)
+    if not (_is_number(value) and value > 0.0):
+        raise DescriptionError(where, value, "be positive and finite", unit="m")
+    return value
 
 
 @frozen(kw_only=True)
@@ -129,10 +152,11 @@ class Meniscus(Described):
         liquid: Liquid,
         coverage: float,
         area: float,
-        gap: float,
+        at_gap: float | None = None,
         count: int = 1,
         contact_angle_lower: float = 0.0,
         contact_angle_upper: float = 0.0,
+        **earlier: float,
     ) -> Meniscus:
         r"""Menisci that cover a fraction of a face: their `volume` follows from a gap.
 
@@ -144,10 +168,12 @@ class Meniscus(Described):
             What it is.
         coverage : float
             Fraction f of the face under the menisci [-], above 0 and up to 1.
-        area, gap : float
+        area, at_gap : float
             Area A of the face [m2] and gap h [m] at which it is covered, between flats.
         count, contact_angle_lower, contact_angle_upper
             As in `Meniscus`.
+        **earlier : float
+            `gap`, the earlier name of `at_gap`.
 
         Notes
         -----
@@ -158,11 +184,12 @@ class Meniscus(Described):
         --------
         >>> water = Liquid(name="water", surface_tension=0.072)
         >>> film = Meniscus.from_coverage(
-        ...     liquid=water, coverage=0.25, area=1e-12, gap=2e-9, count=100)
+        ...     liquid=water, coverage=0.25, area=1e-12, at_gap=2e-9, count=100)
         >>> f"{film.volume:.3g} m3 in {film.count} menisci"
         '5e-22 m3 in 100 menisci'
         """
-        given = (("coverage", coverage, ""), ("area", area, "m2"), ("gap", gap, "m"))
+        height = _at_gap(cls.from_coverage, at_gap, earlier)
+        given = (("coverage", coverage, ""), ("area", area, "m2"))
         for name, value, unit in given:
             if not (_is_number(value) and value > 0.0 and (unit or value <= 1.0)):
                 expected = "be positive and finite" if unit else "lie above 0 and not above 1"
@@ -171,7 +198,7 @@ class Meniscus(Described):
                 )
         return cls(
             liquid=liquid,
-            volume=coverage * area * gap,
+            volume=coverage * area * height,
             contact_angle_lower=contact_angle_lower,
             contact_angle_upper=contact_angle_upper,
             count=count,
@@ -183,12 +210,13 @@ class Meniscus(Described):
         *,
         liquid: Liquid,
         radius: float,
-        gap: float,
+        at_gap: float | None = None,
         body: Literal["lower", "upper"] = "lower",
         profile: Literal["exact", "arc"] = "exact",
         contact_angle_lower: float = 0.0,
         contact_angle_upper: float = 0.0,
         count: int = 1,
+        **earlier: float,
     ) -> Meniscus:
         r"""Menisci between flats of a given contact radius at a gap: their `volume` follows.
 
@@ -196,15 +224,18 @@ class Meniscus(Described):
         ----------
         liquid : Liquid
             What it is.
-        radius, gap : float
+        radius, at_gap : float
             Radius of the contact circle of each meniscus and gap at which it has that [m].
         body : {"lower", "upper"}
             Body on which the circle is.
         profile : {"exact", "arc"}
             Profile of the meniscus: the exact bridge, or the arc of the source, with which
-            ``MeniscusForce(profile="as-published")`` begins at that radius.
+            ``MeniscusForce(profile="as-published")`` and ``ViscousForce(closure="as-published")``
+            begin at that radius.
         contact_angle_lower, contact_angle_upper, count
             As in `Meniscus`.
+        **earlier : float
+            `gap`, the earlier name of `at_gap`.
 
         Raises
         ------
@@ -217,14 +248,14 @@ class Meniscus(Described):
 
         >>> water = Liquid(name="water", surface_tension=0.072)
         >>> angles = {"contact_angle_lower": math.pi / 3, "contact_angle_upper": math.pi / 3}
-        >>> film = Meniscus.from_radius(liquid=water, radius=100e-9, gap=2e-9, **angles)
+        >>> film = Meniscus.from_radius(liquid=water, radius=100e-9, at_gap=2e-9, **angles)
         >>> f"{film.volume / (math.pi * 1e-14 * 2e-9):.6f} of an upright disc"
         '0.996379 of an upright disc'
         """
-        for name, value in (("radius", radius), ("gap", gap)):
-            if not (_is_number(value) and value > 0.0):
-                where = f"Meniscus.from_radius({name})"
-                raise DescriptionError(where, value, "be positive and finite", unit="m")
+        height = _at_gap(cls.from_radius, at_gap, earlier)
+        if not (_is_number(radius) and radius > 0.0):
+            where = "Meniscus.from_radius(radius)"
+            raise DescriptionError(where, radius, "be positive and finite", unit="m")
         for name, text, options in (
             ("body", body, ("lower", "upper")),
             ("profile", profile, ("exact", "arc")),
@@ -242,5 +273,5 @@ class Meniscus(Described):
         from ..capillary.contact_radius import volume_of_radius
 
         angles = (contact_angle_lower, contact_angle_upper)
-        volume = volume_of_radius(radius, gap, *angles, body=body, profile=profile)
+        volume = volume_of_radius(radius, height, *angles, body=body, profile=profile)
         return evolve(made, volume=count * volume)

@@ -1,47 +1,5 @@
-"""Numbers that state whether a model is in its range, and the warning if one is not."""
+"""Validity numbers of results, under the name that scenes and their effects use."""
 
-from __future__ import annotations
-
-import math
-import warnings
-from collections.abc import Iterable
-
-from attrs import field, frozen
-
-from ..errors import ValidityWarning
+from ..validity import ValidityNumber, warn
 
 __all__ = ["ValidityNumber", "warn"]
-
-
-@frozen(kw_only=True)
-class ValidityNumber:
-    """The worst value of a number over a run, and the range it should be in.
-
-    `value` is None where the scene does not say what the number needs; `detail` then names it.
-    """
-
-    name: str
-    value: float | None
-    low: float = -math.inf
-    high: float = math.inf
-    detail: str
-    source: str = field(default="", repr=False)
-
-    @property
-    def is_valid(self) -> bool | None:
-        """Whether the value is in its range; None if it is not known."""
-        return None if self.value is None else self.low <= self.value <= self.high
-
-    def __str__(self) -> str:
-        bounds = f"at most {self.high:g}" if math.isfinite(self.high) else f"at least {self.low:g}"
-        if self.value is None:
-            return f"{self.name}: not evaluated, {self.detail}"
-        verdict = "ok" if self.is_valid else "OUT OF RANGE"
-        return f"{self.name} = {self.value:.3g} ({bounds}): {verdict}; {self.detail}"
-
-
-def warn(found: Iterable[ValidityNumber], stacklevel: int = 3) -> None:
-    """Issue a `ValidityWarning` for each number that is out of its range."""
-    for number in found:
-        if number.is_valid is False:
-            warnings.warn(str(number), ValidityWarning, stacklevel=stacklevel)

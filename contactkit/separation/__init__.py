@@ -6,6 +6,7 @@ bodies         Checks of the two bodies: rigid, flats or spheres, with room for 
 cavity         Cavity of a film that is pulled apart, with the memory of what was torn.
 film           Sum of the prepared forces, and the limits of the liquid.
 simulate       Run of a plan: curve of a speed, impulse of a time, or motion under a pull.
+first_closing  Bodies that close before a rising pull opens them.
 prescribed     Separations at an imposed speed, or within an imposed time.
 vibration      Separation at an imposed speed with a vibration of the gap.
 torn_path      Film that tears, along an imposed motion.

@@ -28,6 +28,7 @@ from .effects.prepared import PreparedScene, prepare_scene, with_fraction
 from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .effects.viscous import ViscousForce
 from .film import Film
+from .first_closing import closing_note
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -191,10 +192,10 @@ class Plan(ScenePlan):
             found.append(f"the film breaks at {quantity_text(end, 'm')}, before the final gap")
         if isinstance(loading, ImposedForce) and loading.mass is None:
             found.append("no mass: speeds are those at which the film balances the pull")
-        return (
-            *found,
-            *(note for effect in self.scene.effects for note in effect.notes(self.scene)),
-        )
+        if isinstance(loading, ImposedForce):
+            found.append(closing_note(loading, self.film))
+        own = (note for effect in self.scene.effects for note in effect.notes(self.scene))
+        return tuple(filter(None, (*found, *own)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the scene, of which the same plan is made again: laws are functions."""

@@ -82,6 +82,8 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
     for kind, law in film.laws.items():
         if kind is not ViscousForce:
             end = min(law.release, film.end if kind.needs_film else math.inf)
+            if any(gaps[0] <= pole <= min(gaps[-1], end) for pole in law.poles):
+                continue
             running = _running(law.force, speed, gaps, end)
             impulses[kind.column.impulse.name] = running[-1]
     if plan.has(ViscousForce):

@@ -14,6 +14,7 @@ from ..scene.validity import warn
 from ..units import quantity_text
 from .curve_result import Work
 from .effects.registry import ViscousForce
+from .first_closing import closed_first
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
 from .motion_curves import at_steps, motion_curves, pull_law
@@ -163,6 +164,10 @@ def _motion_result(
         impulses = newtonian_impulses(plan) | impulses
     status, message = _outcome(plan, last, pull(last.time), problem)
     message += _rupture(states)
+    if problem is None:
+        message += closed_first(
+            plan.scene.imposed_force, (state.gap for state in states), plan.film
+        )
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     along, force = at_steps(plan, states, pull)
     validity = check(plan, along)

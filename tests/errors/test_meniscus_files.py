@@ -57,7 +57,7 @@ WATER = {
     ],
 )
 def test_a_radius_at_a_gap_is_that_of_python(read, more, given):
-    made = ck.Meniscus.from_radius(radius=100e-9, gap=2e-9, **WATER, **given)
+    made = ck.Meniscus.from_radius(radius=100e-9, at_gap=2e-9, **WATER, **given)
     assert read(RADIUS + more).interface.meniscus == made
 
 
@@ -67,7 +67,7 @@ def test_the_meniscus_starts_with_that_radius(read):
 
 
 def test_a_coverage_at_a_gap_is_that_of_python(read):
-    made = ck.Meniscus.from_coverage(coverage=0.25, area=1e-12, gap=2e-9, count=100, **WATER)
+    made = ck.Meniscus.from_coverage(coverage=0.25, area=1e-12, at_gap=2e-9, count=100, **WATER)
     assert read(COVERAGE + "count = 100").interface.meniscus == made
 
 

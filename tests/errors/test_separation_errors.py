@@ -754,3 +754,19 @@ def test_the_example_is_one_that_people_write(unit, example):
 @pytest.mark.parametrize("text", ["m//s", "m.", ".m", "/", "m^", "2", "m^1.5"])
 def test_a_unit_that_is_half_written_is_refused(text):
     refuses(lambda: parse_unit(text), "unit must be made of known symbols")
+
+
+@pytest.mark.parametrize(
+    ("effect", "upper"),
+    [
+        (ck.MeniscusForce(pulled="upper"), None),
+        (ck.MeniscusForce(profile="arc", radius="disc"), None),
+        (ck.MeniscusForce(profile="as-published", pulled="upper"), ck.Sphere(radius=1e-3)),
+    ],
+)
+def test_a_choice_of_the_printed_force_is_refused_where_it_is_not_read(film_scene, effect, upper):
+    made = film_scene(effect, lower=ck.Flat(), upper=upper, film={"volume": 1e-12})
+    with pytest.raises(
+        ck.PlanError, match=r"two flats and profile=\"as-published\" for (pulled|rad)"
+    ):
+        ck.plan(made)

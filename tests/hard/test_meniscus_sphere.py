@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -107,3 +108,78 @@ def test_a_drop_with_nothing_to_span_is_refused(film_scene):
                 final_gap=1e-4,
             )
         )
+
+
+def unlike(film_scene, first, last, **imposed):
+    """0/150 degrees under a sphere of 100 um, as printed: infinite at 0.8 um."""
+    return film_scene(
+        ck.MeniscusForce(profile="as-published"),
+        lower=ck.Flat(),
+        upper=ck.Sphere(radius=1e-4),
+        liquid={"surface_tension": TENSION},
+        film={
+            "volume": 1e-15,
+            "contact_angle_lower": 0.0,
+            "contact_angle_upper": math.radians(150.0),
+        },
+        initial_gap=first,
+        final_gap=last,
+        **imposed,
+    )
+
+
+def test_the_printed_force_is_evaluated_on_both_sides_of_its_pole(film_scene):
+    """Where x_c = r1 it is infinite; a curve through it rang, one through the circle does not."""
+    plan = ck.plan(unlike(film_scene, 1e-7, 1e-4, speed=1e-3))
+    law = plan.film.laws[ck.MeniscusForce]
+    gaps = law.end * np.linspace(0.0, 0.999, 60)
+    bodies = (0.0, math.radians(150.0), 0.0, 1e4)
+    arc = arc_sphere.solve(gaps, 1e-15, *bodies, profile="parabola")
+    right = published.meniscus_sphere_3_12(arc, TENSION, bodies[1])
+    assert right.min() < 0.0 < right.max()
+    assert max(right) > 5.0 * right[0]
+    found = [law.force(gap, 0.0) for gap in gaps.tolist()]
+    assert found == pytest.approx(right.tolist(), rel=1e-6)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = ck.simulate(plan)
+    (said,) = [str(one.message) for one in caught if "Eq. (3.12)" in str(one.message)]
+    assert said.startswith("radius of the neck in Eq. (3.12) over that of the arc = -")
+    assert result.of(ck.MeniscusForce).impulse is None  # it is infinite
+    assert law.poles == pytest.approx([0.81e-6], rel=0.02)
+
+
+def test_no_force_moves_a_sphere_through_the_pole(film_scene):
+    with pytest.raises(ck.InfeasibleError, match=r"infinite at a gap of 8.*x_c = r1"):
+        ck.plan(unlike(film_scene, 1e-7, 1e-4, force=1e-6, mass=1e-9))
+    ck.plan(unlike(film_scene, 3e-6, 1e-4, force=1e-6, mass=1e-9))  # beyond it
+
+
+ALL_ANGLES = [(a, b) for a in range(0, 181, 30) for b in range(0, 181, 30) if a + b > 0]
+
+
+@pytest.mark.parametrize("degrees", quick([(pair,) for pair in ALL_ANGLES], 1, 6), ids=str)
+def test_the_printed_force_has_a_value_at_all_angles(film_scene, degrees):
+    """Or no arc: of 245 spheres of 1e-9 to 10 R^3 33 were refused as rough before, now none."""
+    lower, upper = map(math.radians, degrees)
+    for volume in (1e-24, 1e-22):
+        film = {"volume": volume, "contact_angle_lower": lower, "contact_angle_upper": upper}
+        scene = film_scene(
+            ck.MeniscusForce(profile="as-published"),
+            lower=ck.Flat(),
+            upper=ck.Sphere(radius=1e-7),
+            liquid={"surface_tension": TENSION},
+            film=film,
+            initial_gap=1e-10,
+            final_gap=1e-6,
+        )
+        try:
+            law = ck.plan(scene).film.laws[ck.MeniscusForce]
+        except ck.InfeasibleError:
+            assert degrees in ((0, 180), (180, 0)) or lower + upper > math.pi
+            continue
+        gaps = min(law.end, 1e-6) * np.array([0.01, 0.3, 0.9])
+        arc = arc_sphere.solve(gaps, volume, lower, upper, 0.0, 1e7, profile="parabola")
+        right = published.meniscus_sphere_3_12(arc, TENSION, upper)
+        found = [law.force(gap, 0.0) for gap in gaps.tolist()]
+        assert found == pytest.approx(right.tolist(), rel=1e-5, abs=1e-9 * TENSION * 1e-7)

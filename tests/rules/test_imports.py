@@ -19,7 +19,7 @@ FOLDERS = {
 # From the ground up. Rooms on one floor do not know each other.
 FLOORS = [
     ["reference", "errors", "frozen", "_lazy"],
-    ["units", "extras"],
+    ["units", "extras", "validity"],
     ["validators", "work_precision", "numerics", "export", "reading"],
     ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],
     ["as_published"],

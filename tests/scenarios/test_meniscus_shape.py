@@ -183,7 +183,7 @@ def test_the_radius_at_the_gap_is_the_one_given(degrees, body):
     water = ck.Liquid(name="water", surface_tension=TENSION)
     for gap in (2e-9, 6e-9, 40e-9):
         film = ck.Meniscus.from_radius(
-            liquid=water, radius=100e-9, gap=gap, body=body, count=4, **angles
+            liquid=water, radius=100e-9, at_gap=gap, body=body, count=4, **angles
         )
         found = bridge(gap, film.volume / 4, lower, upper)
         radius = found.radius_lower if body == "lower" else found.radius_upper
@@ -195,7 +195,7 @@ def test_an_opening_as_published_begins_at_the_radius_of_its_arc(film_scene):
     film = ck.Meniscus.from_radius(
         liquid=water,
         radius=100e-9,
-        gap=2e-9,
+        at_gap=2e-9,
         profile="arc",
         contact_angle_lower=LOWER,
         contact_angle_upper=UPPER,
@@ -209,15 +209,33 @@ def test_an_opening_as_published_begins_at_the_radius_of_its_arc(film_scene):
     ("given", "error", "message"),
     [
         ({"radius": 0.0}, DescriptionError, r"from_radius\(radius\) must be positive"),
-        ({"gap": math.inf}, DescriptionError, r"from_radius\(gap\) must be positive and finite"),
+        (
+            {"at_gap": math.inf},
+            DescriptionError,
+            r"from_radius\(at_gap\) must be positive",
+        ),
         ({"body": "both"}, DescriptionError, r"from_radius\(body\) must be 'lower' or 'upper'"),
         ({"profile": "disc"}, DescriptionError, r"from_radius\(profile\) must be 'exact' or 'arc'"),
-        ({"gap": 1e-6}, InfeasibleError, "no bridge so narrow is stable; give a larger radius"),
-        ({"gap": 1e-6, "profile": "arc"}, InfeasibleError, "its neck would be closed"),
+        ({"at_gap": 1e-6}, InfeasibleError, "no bridge so narrow is stable; give a larger radius"),
+        ({"at_gap": 1e-6, "profile": "arc"}, InfeasibleError, "its neck would be closed"),
         ({"contact_angle_upper": math.pi}, InfeasibleError, "0 and 180 deg"),
     ],
 )
 def test_a_radius_without_a_bridge_is_refused(given, error, message):
     water = ck.Liquid(name="water", surface_tension=TENSION)
     with pytest.raises(error, match=message):
-        ck.Meniscus.from_radius(**({"liquid": water, "radius": 100e-9, "gap": 2e-9} | given))
+        ck.Meniscus.from_radius(**({"liquid": water, "radius": 100e-9, "at_gap": 2e-9} | given))
+
+
+def test_the_earlier_name_of_the_gap_means_the_same():
+    water = ck.Liquid(name="water", surface_tension=TENSION)
+    form = {"liquid": water, "radius": 100e-9}
+    assert ck.Meniscus.from_radius(**form, gap=2e-9) == ck.Meniscus.from_radius(**form, at_gap=2e-9)
+    cover = {"liquid": water, "coverage": 0.5, "area": 1e-12}
+    assert ck.Meniscus.from_coverage(**cover, gap=2e-9).volume == pytest.approx(1e-21, rel=1e-15)
+    with pytest.raises(DescriptionError, match=r"\(at_gap\) must be given once .*gap is"):
+        ck.Meniscus.from_radius(**form, gap=2e-9, at_gap=2e-9)
+    with pytest.raises(DescriptionError, match=r"from_coverage\(at_gap\) must be given \[m\]"):
+        ck.Meniscus.from_coverage(**cover)
+    with pytest.raises(TypeError, match=r"from_radius\(\) got .* 'profil'; did you mean 'profile'"):
+        ck.Meniscus.from_radius(**form, at_gap=2e-9, profil="arc")

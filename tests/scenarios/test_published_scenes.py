@@ -6,6 +6,7 @@ import math
 import loadings
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
@@ -95,14 +96,100 @@ def test_the_viscous_part_is_an_impulse_with_the_conserving_one_beside():
     assert several.errata[0].value == pytest.approx(several.of(ck.ViscousForce).impulse, rel=1e-12)
 
 
-def test_on_a_sphere_the_printed_viscous_force_is_the_conserving_one():
-    sphere = ck.Sphere(radius=1e-3)
-    printed = run(PRINTED, upper=sphere, time=1e-3)
-    kept = run(ck.ViscousForce(), upper=sphere, time=1e-3)
-    assert printed.of(ck.ViscousForce).impulse == kept.of(ck.ViscousForce).impulse
-    (found,) = printed.errata
+def test_on_a_sphere_the_printed_viscous_force_begins_at_the_height_of_the_arc():
+    """The film of the source, 2 nm at the sphere: one volume gives both its printed forces."""
+    water = ck.Liquid(name="water", viscosity=0.89e-3, surface_tension=0.072)
+    angles = {"contact_angle_lower": ANGLE, "contact_angle_upper": ANGLE}
+    meniscus = ck.Meniscus(liquid=water, volume=927.31633935e-27, **angles)
+    scene = ck.SeparationScene(
+        interface=ck.Interface(upper=ck.Sphere(radius=100e-9), meniscus=meniscus),
+        loading=ck.ImposedTime(initial_gap=1e-9, final_gap=39e-9, time=1e-7),
+        effects=(PUBLISHED, PRINTED),
+    )
+    result = ck.simulate(ck.plan(scene))
+    assert result["meniscus_force"][0] == pytest.approx(28.935837e-9, rel=1e-6)
+    assert result.mean_viscous_force == pytest.approx(0.1976e-9, rel=3e-4)  # its four digits
+
+    def lifted(gap):  # Eqs. (3.22) and (3.24)
+        height = math.sqrt(2e-9**2 - 1e-9**2 + gap**2)
+        return 6.0 * math.pi * 0.89e-3 * 100e-9**2 * (1.0 - gap / height) ** 2 / gap
+
+    impulse = quad(lifted, 1e-9, 39e-9, epsabs=0.0, epsrel=1e-12)[0]
+    assert result.mean_viscous_force == pytest.approx(impulse / 1e-7, rel=1e-9)
+    found = result.errata[1]
     assert found.number == "3.26"
-    assert found.value == pytest.approx(found.corrected, rel=1e-12)
+    assert found.value == pytest.approx(impulse, rel=1e-9)
+    assert found.corrected == pytest.approx(impulse, rel=0.02)  # its rim is upright
+    assert found.corrected < found.value
+
+
+@pytest.mark.parametrize(
+    ("degrees", "last"),
+    [((60, 60), 179.5e-9), ((0, 60), 87e-9), ((120, 120), 120e-9), ((180, 120), 31e-9)],
+    ids=str,
+)
+@pytest.mark.parametrize(
+    ("count", "beside"), [(1, ()), (4, (PUBLISHED,))], ids=("alone", "with the meniscus")
+)
+def test_both_printed_forces_have_the_radius_that_is_given(degrees, last, count, beside):
+    """Eq. (3.18) with x_n0 = 100 nm over the opening, not the disc of the same volume."""
+    water = ck.Liquid(name="water", viscosity=0.89e-3, surface_tension=0.072)
+    angles = dict(
+        zip(("contact_angle_lower", "contact_angle_upper"), map(math.radians, degrees), strict=True)
+    )
+    film = ck.Meniscus.from_radius(
+        liquid=water, radius=100e-9, at_gap=2e-9, profile="arc", count=count, **angles
+    )
+    scene = ck.SeparationScene(
+        interface=ck.Interface(meniscus=film),
+        loading=ck.ImposedTime(initial_gap=2e-9, final_gap=last, time=1e-7),
+        effects=(PRINTED, *beside),
+    )
+    result = ck.simulate(ck.plan(scene))
+
+    def rate(gap):  # Eq. (3.18) over the speed
+        return 1.5 * math.pi * 0.89e-3 * 100e-9**4 / gap**3
+
+    mean = quad(rate, 2e-9, last, epsabs=0.0, epsrel=1e-12)[0] / 1e-7
+    assert result.mean_viscous_force == pytest.approx(count * mean, rel=1e-9)
+    assert result.errata[0].value == pytest.approx(count * 1e-7 * mean, rel=1e-9)
+    if count == 1:
+        assert "x_n0 is the contact circle of the arc" in result.errata[0].erratum
+
+
+def test_a_radius_on_the_upper_body_goes_with_the_body_that_is_pulled():
+    water = ck.Liquid(name="water", viscosity=0.89e-3, surface_tension=0.072)
+    film = ck.Meniscus.from_radius(
+        liquid=water,
+        radius=100e-9,
+        at_gap=2e-9,
+        profile="arc",
+        body="upper",
+        contact_angle_lower=0.0,
+        contact_angle_upper=ANGLE,
+    )
+    scene = ck.SeparationScene(
+        interface=ck.Interface(meniscus=film),
+        loading=ck.ImposedTime(initial_gap=2e-9, final_gap=80e-9, time=1e-7),
+        effects=(PRINTED, ck.MeniscusForce(profile="as-published", pulled="upper")),
+    )
+    mean = 0.75 * math.pi * 0.89e-3 * 100e-9**4 * (1 / 2e-9**2 - 1 / 80e-9**2) / 1e-7
+    assert ck.simulate(ck.plan(scene)).mean_viscous_force == pytest.approx(mean, rel=1e-9)
+
+
+@pytest.mark.parametrize("closure", ["flooded", "as-published"])
+def test_a_film_of_fixed_pressure_keeps_no_radius(closure):
+    water = ck.load_liquid("water")
+    scene = ck.SeparationScene(
+        interface=ck.Interface(
+            upper=ck.Sphere(radius=1e-6),
+            meniscus=ck.Meniscus(liquid=water, relative_humidity=0.5),
+        ),
+        loading=ck.ImposedSpeed(initial_gap=1e-9, final_gap=1e-8, speed=1e-6),
+        effects=(ck.ViscousForce(closure=closure),),
+    )
+    with pytest.raises(ck.PlanError, match=f"volume .* with closure='{closure}': at a fixed"):
+        ck.plan(scene)
 
 
 def test_a_flooded_film_keeps_its_radius_rightly():

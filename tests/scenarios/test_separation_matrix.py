@@ -217,9 +217,9 @@ def test_an_impossible_humidity_is_named(value):
         ck.Meniscus(liquid=WATER, relative_humidity=value)
 
 
-@pytest.mark.parametrize("field", ["coverage", "area", "gap"])
+@pytest.mark.parametrize("field", ["coverage", "area", "at_gap"])
 def test_an_impossible_coverage_is_named(field):
-    given = {"coverage": 0.5, "area": 1e-12, "gap": 1e-9} | {field: "2 nm"}
+    given = {"coverage": 0.5, "area": 1e-12, "at_gap": 1e-9} | {field: "2 nm"}
     with pytest.raises(ck.DescriptionError, match=rf"from_coverage\({field}\) must"):
         ck.Meniscus.from_coverage(liquid=WATER, **given)
 

@@ -35,7 +35,9 @@ __all__ = [
     "meniscus_divided_3_33",
     "meniscus_flat_3_11",
     "meniscus_number_3_42",
+    "meniscus_of_circle_3_12",
     "meniscus_sphere_3_12",
+    "neck_by_curvature_3_12",
     "viscous_divided_3_34",
     "viscous_flat_3_18",
     "viscous_flat_3_19",
@@ -44,6 +46,8 @@ __all__ = [
     "viscous_sphere_3_26",
     "viscous_sphere_3_27",
 ]
+
+_ROUND_OFF = 1e-14
 
 
 def _pulled_angle(
@@ -212,13 +216,55 @@ def meniscus_sphere_3_12(state: ArcState, surface_tension: Any, angle_upper: Any
             "have its sphere above a flat",
             hint="swap the bodies and their angles",
         )
-    x, inverse, phi = state.radius_upper, state.inverse_arc_radius, state.slope_upper
-    # x_c - r1 times 1/r1, which is finite for a straight arc
-    centre = x * inverse - (1.0 - np.sin(angle_upper + phi))
-    straight = centre == 0.0  # a cylinder, whose x_c - r1 is its radius
-    second = np.where(straight, 1.0 / x, inverse / np.where(straight, 1.0, centre))
-    line = 2.0 * np.pi * x * np.sin(phi + angle_upper)
-    return surface_tension * (np.pi * x**2 * (inverse + second) + line)
+    force = meniscus_of_circle_3_12(
+        state.radius_upper, state.slope_upper, state.inverse_arc_radius, angle_upper
+    )
+    return surface_tension * force
+
+
+def meniscus_of_circle_3_12(x: Any, slope: Any, inverse: Any, angle_upper: Any) -> Any:
+    r"""Meniscus force of Eq. (3.12) over the surface tension [m].
+
+    Infinite, with a change of sign, where :math:`x_c = r_1`: the circle of the arc, drawn on beyond
+    its contact lines, reaches the axis there, long before a neck closes if the angles are unlike.
+
+    Parameters
+    ----------
+    x, slope : float or ndarray, shape (...)
+        Radius [m] of the contact circle on the sphere and slope of the sphere there [rad].
+    inverse : float or ndarray, shape (...)
+        Curvature 1/r1 of the arc [1/m].
+    angle_upper : float
+        Contact angle on the sphere [rad].
+
+    Examples
+    --------
+    >>> round(float(meniscus_of_circle_3_12(1.0, 0.0, 0.0, math.pi / 2)) / math.pi, 12)
+    3.0
+    """
+    import numpy as np
+
+    centre = neck_by_curvature_3_12(x, slope, inverse, angle_upper)
+    # A cylinder, whose x_c - r1 is its radius; at a pole the arc is curved.
+    straight = (abs(centre) <= _ROUND_OFF) & (abs(x * inverse) <= _ROUND_OFF)
+    with np.errstate(divide="ignore"):
+        second = np.where(straight, 1.0 / x, inverse / np.where(straight, 1.0, centre))
+    return np.pi * x**2 * (inverse + second) + 2.0 * np.pi * x * np.sin(slope + angle_upper)
+
+
+def neck_by_curvature_3_12(x: Any, slope: Any, inverse: Any, angle_upper: Any) -> Any:
+    """Radius x_c - r1 of the neck in Eq. (3.12) times 1/r1 [-], finite for a straight arc.
+
+    Arguments as in `meniscus_of_circle_3_12`.
+
+    Examples
+    --------
+    >>> float(neck_by_curvature_3_12(2.0, 0.0, 1.0, 0.0))  # x_c = 2 and r1 = 1
+    1.0
+    """
+    import numpy as np
+
+    return x * inverse - (1.0 - np.sin(angle_upper + slope))
 
 
 def meniscus_number_3_42(

@@ -4,6 +4,7 @@ shapes           Planforms: discs, rings, rectangles, ellipses, sectors, polygon
 face             A face on a grid: cells of film, reservoirs, pockets, walls.
 gaps             Gap maps: flat, tilted, domed, wavy, with recesses, measured.
 film             A film and its states: forces, volumes, power.
+validity         Ranges of validity of a solved film.
 solve            Pressure at an instant, steady sliding, a step in time.
 motion           Films in time: a prescribed gap, a mass that is pulled.
 damping          Damping laws c(h) of full films: closed forms and tables, without numpy.
@@ -19,7 +20,7 @@ Examples
 >>> from contactkit.lubrication import reynolds
 >>> face = reynolds.rasterise(reynolds.Ring(radius=3e-3, hole_radius=1e-3), 64)
 >>> film = reynolds.Film(face=face, viscosity=0.1)
->>> pull = reynolds.solve_pressure(film, 1e-5, 1e-3).force
+>>> pull = reynolds.solve_pressure(film, 1e-5, 1e-5).force
 """
 
 from ..._lazy import lazy_names
@@ -35,6 +36,7 @@ _HOMES = {
     "FilmState": "film",
     "FlowFactors": "rough_flow",
     "Hole": "face",
+    "HoleState": "film",
     "Intersection": "shapes",
     "Leakage": "rough_flow",
     "Pocket": "face",

@@ -22,9 +22,11 @@ from attrs import Attribute, field, frozen
 from ...errors import DescriptionError
 from ...numerics.quadrature import gauss_legendre
 from ...units import si
-from ...validators import positive, refuse
+from ...validators import finite, positive, refuse
+from ...validity import ValidityNumber
 
 __all__ = [
+    "ATMOSPHERE",
     "DampingLaw",
     "DomeDamping",
     "PowerDamping",
@@ -32,14 +34,60 @@ __all__ = [
     "disc_damping",
     "dome_damping",
     "ellipse_damping",
+    "film_tension",
+    "inertia",
     "recess_damping",
     "rectangle_damping",
     "ring_damping",
+    "slenderness_of",
     "triangle_damping",
 ]
 
+ATMOSPHERE = 101_325.0
+"""Standard atmosphere [Pa]: tension at which a liquid at ambient pressure is in vacuum."""
+
 ZETA_5 = 1.0369277551433699
 """Riemann's zeta function of 5."""
+
+
+def film_tension(tension: float, strength: float) -> ValidityNumber:
+    """Whether a liquid bears the tension [Pa] of a film; inf: one that is said never to tear."""
+    bears = strength if strength < math.inf else ATMOSPHERE
+    value = max(tension, 0.0) / (bears or 1.0)  # of a liquid that bears none, in Pa
+    return ValidityNumber(
+        name="tension over the strength of the liquid",
+        value=1.0 if abs(value - 1.0) < 1e-9 else value,
+        high=1.0,
+        detail=f"the liquid is at {tension / 1e5:.3g} bar below ambient, and would have torn at "
+        f"{bears / 1e5:.3g} bar; give the film a cavity_pressure and a tensile_strength, or move "
+        f"more slowly",
+        source="strength as given; else a vacuum at ambient pressure",
+    )
+
+
+def slenderness_of(radius: float, height: float) -> ValidityNumber:
+    """Whether a film is much wider [m] than high [m]."""
+    return ValidityNumber(
+        name="slenderness of the film",
+        value=radius / height,
+        low=5.0,
+        detail="lubrication wants a film much wider than high; at a flooded rim 16 h/(3 pi r) of "
+        "the force is left out",
+        source="Reynolds 1886; Hasimoto 1958",
+    )
+
+
+def inertia(density: float | None, reynolds: float | None) -> ValidityNumber:
+    """Whether the inertia of the liquid is small."""
+    return ValidityNumber(
+        name="Reynolds number",
+        value=reynolds,
+        high=1.0,
+        detail="the density [kg/m3] is not given"
+        if density is None
+        else "inertia of the film is left out; move more slowly, or take a smaller gap",
+        source="rho u h^2/(eta L), rho h' h/eta for a disc",
+    )
 
 
 @frozen(kw_only=True, slots=False)
@@ -76,6 +124,43 @@ class DampingLaw(abc.ABC):
     def force(self, gap: float, speed: float, viscosity: float) -> float:
         """Force [N] that resists separation at a gap [m], a speed [m/s] and a viscosity [Pa.s]."""
         return viscosity * speed * self.coefficient(gap)
+
+    def validity(
+        self,
+        gap: float,
+        speed: float,
+        viscosity: float,
+        *,
+        strength: float = ATMOSPHERE,
+        density: float | None = None,
+    ) -> tuple[ValidityNumber, ...]:
+        """Whether a full film is in its range at a gap [m], a speed [m/s] and a viscosity [Pa.s].
+
+        Parameters
+        ----------
+        gap, speed, viscosity : float
+            Where the law is used.
+        strength : float
+            Tension below ambient at which the liquid tears [Pa].
+        density : float, optional
+            Density of the liquid [kg/m3], for its inertia.
+
+        Examples
+        --------
+        >>> for number in disc_damping(3.175e-3).validity(5e-6, 0.2, 0.1):
+        ...     print(str(number).split(" (")[0])
+        tension over the strength of the liquid = 4.78e+04
+        slenderness of the film = 635
+        Reynolds number: not evaluated, the density [kg/m3] is not given
+        """
+        radius = math.sqrt(self.area / math.pi)
+        tension = viscosity * max(speed, 0.0) * self.onset(gap)
+        number = None if density is None else density * abs(speed) * gap / viscosity
+        return (
+            film_tension(tension, strength),
+            slenderness_of(radius, gap),
+            inertia(density, number),
+        )
 
     def onset_speed(self, gap: float, tension: float, viscosity: float) -> float:
         """Speed [m/s] at which the pressure somewhere is a tension [Pa] below ambient."""
@@ -130,9 +215,15 @@ class PowerDamping(DampingLaw):
         return sum(j * _cubes(start + depth, end + depth) for j, _, depth in self.terms)
 
 
+def _curved(owner: object, attribute: Attribute[float], value: float) -> None:
+    finite(owner, attribute, value)
+    if value == 0.0:
+        raise refuse(owner, attribute, value, "not be zero", "a flat face: disc_damping")
+
+
 @frozen(kw_only=True, slots=False)
 class DomeDamping(DampingLaw):
-    r"""Damping of a disc under a dome, h + r^2/(2 R_c).
+    r"""Damping of a disc under a dome or a hollow face, h + r^2/(2 R_c), with h in the middle.
 
     .. math:: c = \frac{6 \pi R_c^2 U^2}{h (h + U)^2}, \qquad
               d = 3 R_c \left(\frac1{h^2} - \frac1{(h + U)^2}\right), \qquad U = \frac{R^2}{2 R_c}
@@ -140,28 +231,46 @@ class DomeDamping(DampingLaw):
     Parameters
     ----------
     curvature_radius : float
-        Radius of curvature R_c [m].
+        Radius of curvature R_c [m]; negative for a hollow face.
     rise : float
-        Height U of the dome over its rim [m].
+        Height U of the dome over its rim [m]; of a hollow face its depth, negative. Its rim is
+        closed at a gap of -U in the middle, below which there is no law.
     """
 
-    curvature_radius: float = field(validator=positive, metadata=si("m"))
-    rise: float = field(validator=positive, metadata=si("m"))
+    curvature_radius: float = field(validator=_curved, metadata=si("m"))
+    rise: float = field(validator=_curved, metadata=si("m"))
+
+    def __attrs_post_init__(self) -> None:
+        if self.rise * self.curvature_radius < 0.0:
+            expected = "have the sign of curvature_radius"
+            raise DescriptionError("DomeDamping.rise", self.rise, expected, unit="m")
+
+    def _check(self, gap: float) -> None:
+        _check(gap)
+        if not gap + self.rise > 0.0:
+            raise DescriptionError(
+                "gap",
+                gap,
+                f"exceed {-self.rise:g}, the depth of the hollow face",
+                unit="m",
+                hint="it is that in the middle: at this one the rim is closed, and the liquid is a "
+                "sealed pocket",
+            )
 
     def coefficient(self, gap: float) -> float:
         """See `DampingLaw.coefficient`."""
-        _check(gap)
+        self._check(gap)
         sphere, rise = self.curvature_radius, self.rise
         return 6.0 * math.pi * sphere**2 * (rise / (gap + rise)) ** 2 / gap
 
     def exponent(self, gap: float) -> float:
         """See `DampingLaw.exponent`."""
-        _check(gap)
+        self._check(gap)
         return 1.0 + 2.0 * gap / (gap + self.rise)
 
     def onset(self, gap: float) -> float:
         """See `DampingLaw.onset`."""
-        _check(gap)
+        self._check(gap)
         rim = gap + self.rise
         return 3.0 * self.curvature_radius * self.rise * (gap + rim) / (gap * rim) ** 2
 
@@ -169,12 +278,27 @@ class DomeDamping(DampingLaw):
         """See `DampingLaw.impulse`."""
         from ..squeeze_film import sphere_impulse_flooded
 
-        _check(min(start, end))
+        self._check(min(start, end))
         if end < start:
             return -self.impulse(end, start)
+        if self.rise < 0.0:
+            return self._hollow_impulse(start, end)
         end = min(end, 1e30 * start)
         rim_radius = math.sqrt(2.0 * self.curvature_radius * self.rise)
         return float(sphere_impulse_flooded(self.curvature_radius, rim_radius, start, end, 1.0))
+
+    def _hollow_impulse(self, start: float, end: float) -> float:
+        """Integral over the logarithm of the gap at the rim, in which c is smooth."""
+        end = min(end, 1e9 * start)  # what is beyond is a rounding error
+        low, high = math.log(start + self.rise), math.log(end + self.rise)
+        panels = max(1, math.ceil(high - low))
+        width = (high - low) / panels
+        return sum(
+            width * w * rim * self.coefficient(rim - self.rise)
+            for panel in range(panels)
+            for t, w in zip(*gauss_legendre(16), strict=True)
+            for rim in (math.exp(low + (panel + t) * width),)
+        )
 
 
 @frozen(kw_only=True, slots=False)
@@ -497,14 +621,25 @@ def recess_damping(radius: float, recess_radius: float, depth: float) -> PowerDa
 
 
 def dome_damping(radius: float, curvature_radius: float) -> DomeDamping:
-    """Damping of a disc of film under a dome of a radius of curvature [m].
+    """Damping of a disc of film under a dome, or a hollow face, over the gap in the middle.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the disc [m].
+    curvature_radius : float
+        Radius of curvature [m], negative for a hollow face. That is `radius`^2/(2 R_c) deep, and
+        has a law for larger gaps only.
 
     Examples
     --------
     >>> round(dome_damping(3.175e-3, 1.0).force(1e-5, 1e-3, 0.1), 6)
     21.169097
+    >>> hollow = dome_damping(3.175e-3, -1.0)  # by 5.04 um
+    >>> round(hollow.force(1e-5 - hollow.rise, 1e-3, 0.1), 6)  # 10 um at the rim
+    31.838983
     """
-    _sizes("dome_damping", radius=radius, curvature_radius=curvature_radius)
+    _sizes("dome_damping", radius=radius, curvature_radius=abs(curvature_radius))
     return DomeDamping(
         area=math.pi * radius**2,
         curvature_radius=curvature_radius,

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -29,6 +29,7 @@ __all__ = [
     "Circle",
     "Face",
     "Hole",
+    "HoleCells",
     "Pocket",
     "face_from_image",
     "face_from_level",
@@ -38,11 +39,15 @@ __all__ = [
 
 FILM, RESERVOIR, SOLID = 0, -1, -2
 """Owners of a cell; those of pockets are 1, 2, ..."""
+_FINER = 8
 
 
 @frozen(kw_only=True)
 class Hole(Described):
-    """A hole through a face, held at a pressure: a vent, a feed, a groove that is full.
+    """A hole in a face, held at a pressure: a vent, a feed, the recess of a hydrostatic pad.
+
+    `FilmState.holes` has the flow out of each and the force of its pressure on the face, which
+    `FilmState.pad_force` counts and `FilmState.force`, that of the film, does not.
 
     Parameters
     ----------
@@ -88,6 +93,17 @@ class Circle:
     radius: float
 
 
+class HoleCells(NamedTuple):
+    """A `Hole` on a grid."""
+
+    area: float
+    """Area within the grid [m2]; of a circle that lies in it the exact one."""
+    pressure: float
+    """Pressure [Pa]."""
+    cells: NDArray[np.int64]
+    """Its cells (flat indices)."""
+
+
 @frozen(kw_only=True, eq=False, slots=False)
 class Face:
     """A planform on a grid; made by `rasterise`, or from a level set, mask or image.
@@ -114,6 +130,8 @@ class Face:
         Number of the round hole of a cell, -1 without one.
     notes : tuple of str
         What the grid does not resolve, and how it is treated.
+    holes : tuple of HoleCells
+        Holes at a pressure, in the order they were given in.
     """
 
     level: Array = field(repr=False)
@@ -126,6 +144,7 @@ class Face:
     circles: tuple[Circle, ...] = ()
     circle: NDArray[np.int64] = field(repr=False)
     notes: tuple[str, ...] = ()
+    holes: tuple[HoleCells, ...] = field(default=(), repr=False)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -217,7 +236,7 @@ def rasterise(
         raise DescriptionError("rasterise.cells", cells, "be a whole number of at least 4")
     (x, dx), (y, dy) = _axes(body.bounds, window, cells, periodic)
     level = body.level(x[None, :], y[:, None])
-    return face_from_level(
+    face = face_from_level(
         np.broadcast_to(level, (y.size, x.size)),
         (dy, dx),
         origin=(float(y[0]), float(x[0])),
@@ -225,6 +244,8 @@ def rasterise(
         pressure=pressure,
         periodic=periodic,
     )
+    # Those of the planform itself are no part of the face.
+    return evolve(face, holes=face.holes[len(extra) :])
 
 
 def face_from_level(
@@ -432,13 +453,15 @@ def _with_hole(face: Face, hole: Hole | Pocket) -> Face:
         size = max(face.pixel_size)
         cure = f"give smaller cells than {size:.3g} m, or a Disc, which may be smaller than a cell"
         raise DescriptionError("hole.shape", hole.shape, "cover a cell of the film", hint=cure)
-    owner, pockets, pressure = face.owner, face.pockets, face.pressure
+    owner, pockets, pressure, holes = face.owner, face.pockets, face.pressure, face.holes
     if isinstance(hole, Pocket):
         pockets = (*pockets, (hole.volume, hole.compressibility))
         owner = np.where(covered, len(pockets), owner)
     else:
         owner = np.where(covered, RESERVOIR, owner)
         pressure = np.where(covered, hole.pressure, pressure)
+        area = _area_of_hole(face, hole.shape, level)
+        holes = (*holes, HoleCells(area, hole.pressure, np.flatnonzero(covered)))
     return evolve(
         face,
         level=np.where(covered, -np.maximum(level, 0.0), np.minimum(face.level, -level)),
@@ -448,7 +471,43 @@ def _with_hole(face: Face, hole: Hole | Pocket) -> Face:
         circles=circles,
         circle=circle,
         notes=notes,
+        holes=holes,
     )
+
+
+def _area_of_hole(face: Face, shape: Shape, level: Array) -> float:
+    """Area of a hole [m2] in the film and within the grid."""
+    low_x, high_x, low_y, high_y = shape.bounds
+    (dy, dx), (ny, nx) = face.pixel_size, face.shape
+    left, bottom = face.origin[1] - 0.5 * dx, face.origin[0] - 0.5 * dy
+    near = 1e-9 * (high_x - low_x)
+    within = (low_x >= left - near) and (high_x <= left + nx * dx + near)
+    within &= (low_y >= bottom - near) and (high_y <= bottom + ny * dy + near)
+    if isinstance(shape, Disc) and within and (face.level > 0.0)[level > 0.0].all():
+        return float(np.pi * shape.radius**2)
+    if isinstance(shape, Disc) and not (level > 0.0).any():
+        window = (left, left + nx * dx, bottom, bottom + ny * dy)
+        return _fraction_in_window(shape, window) * float(np.pi * shape.radius**2)
+    # Cells of an eighth, those at its edge by their distance to it.
+    columns = np.flatnonzero((face.x[0] > low_x - dx) & (face.x[0] < high_x + dx))
+    rows = np.flatnonzero((face.y[:, 0] > low_y - dy) & (face.y[:, 0] < high_y + dy))
+    around = np.where(face.owner == SOLID, -np.inf, face.level)[np.ix_(rows, columns)]
+    around = around.repeat(_FINER, axis=0).repeat(_FINER, axis=1)
+    x = left + (_FINER * columns[0] + np.arange(around.shape[1]) + 0.5) * dx / _FINER
+    y = bottom + (_FINER * rows[0] + np.arange(around.shape[0]) + 0.5) * dy / _FINER
+    inside = np.minimum(shape.level(x[None, :], y[:, None]), around)
+    part = np.clip(0.5 + inside * _FINER / np.sqrt(dx * dy), 0.0, 1.0)
+    return float(part.sum()) * face.cell_area / _FINER**2
+
+
+def _fraction_in_window(disc: Disc, window: tuple[float, float, float, float]) -> float:
+    """Fraction of a small disc within a window; centres on its edges count a half or a quarter."""
+    (x, y), radius = disc.centre, disc.radius
+    whole = 1.0
+    for place, low, high in ((x, window[0], window[1]), (y, window[2], window[3])):
+        if min(place - low, high - place) < 1e-9 * radius:
+            whole *= 0.5
+    return whole
 
 
 def _point(face: Face, x: float, y: float, radius: float) -> tuple[NDArray[np.bool_], str]:

@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import Attribute, field, frozen
 
 from ...units import si
-from ...validators import Described, finite, non_negative, part, positive, refuse
+from ...validators import Described, finite, non_negative, optional, part, positive, refuse
 from .face import RESERVOIR, Face
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...validity import ValidityNumber
     from .discretisation import Balance
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Film", "FilmState"]
+__all__ = ["Film", "FilmState", "HoleState"]
 
 
 @frozen(kw_only=True, eq=False, slots=False)
@@ -42,6 +43,8 @@ class Film(Described):
         default that of the cavity, ambient - cavity_pressure.
     compressibility : float
         Compressibility of the liquid in the gap [1/Pa]; a film without a reservoir needs it.
+    density : float, optional
+        Density of the liquid [kg/m3], for the Reynolds number among `FilmState.validity`.
 
     Notes
     -----
@@ -55,6 +58,7 @@ class Film(Described):
     cavity_pressure: float = field(default=-math.inf, metadata=si("Pa"))
     tensile_strength: float | None = field(default=None, metadata=si("Pa"))
     compressibility: float = field(default=0.0, validator=non_negative, metadata=si("1/Pa"))
+    density: float | None = field(default=None, validator=optional(positive), metadata=si("kg/m3"))
 
     @cavity_pressure.validator
     def _check_cavity(self, attribute: Attribute[float], value: Any) -> None:
@@ -93,6 +97,19 @@ class Film(Described):
         return self.cavity_tension if self.tensile_strength is None else self.tensile_strength
 
 
+class HoleState(NamedTuple):
+    """A hole of a face at one instant."""
+
+    area: float
+    """Area [m2]."""
+    pressure: float
+    """Pressure [Pa]."""
+    flow: float
+    """Volume flow out of the hole into the film [m3/s]."""
+    force: float
+    """Force of its pressure on the face, (ambient - p) times area, that resists separation [N]."""
+
+
 @frozen(kw_only=True, eq=False, slots=False)
 class FilmState:
     """Film at one instant.
@@ -109,8 +126,6 @@ class FilmState:
         Fraction theta of the gap that is liquid [-], 1 where the film is full.
     balance : Balance, optional
         The discrete film that was solved; None for a film at rest that has not moved yet.
-    inflow : float
-        Net volume flow into the film through all reservoirs [m3/s].
     excess : ndarray, optional
         Flow gained between the rim and the sides of its cells (`Rim.excess`) [m3/s].
     is_torn : ndarray of bool, shape (ny, nx)
@@ -130,7 +145,6 @@ class FilmState:
     pressure: Array = field(repr=False)
     liquid_fraction: Array = field(repr=False)
     balance: Balance | None = field(default=None, repr=False)
-    inflow: float = 0.0
     excess: Array | None = field(default=None, repr=False)
     is_torn: NDArray[np.bool_] = field(repr=False)
     lower_velocity: tuple[float, float] = (0.0, 0.0)
@@ -144,8 +158,52 @@ class FilmState:
 
     @cached_property
     def force(self) -> float:
-        """Force that resists separation, the integral of ambient - p over film and pockets [N]."""
+        """Force of the film that resists separation [N].
+
+        The integral of ambient - p over film and pockets; `pad_force` counts holes as well.
+        """
         return self._integral(self.film.ambient - self.pressure)
+
+    @cached_property
+    def pad_force(self) -> float:
+        """Force on the whole pad that resists separation [N]: film, pockets and holes."""
+        return self.force + sum(hole.force for hole in self.holes)
+
+    @cached_property
+    def holes(self) -> tuple[HoleState, ...]:
+        """Each `Hole` of the face, in the order they were given in: its flow and its force."""
+        made, flow = self.film.face.holes, self._flow_at_rim
+        ambient = self.film.ambient
+        beyond = None if self.balance is None else self.balance.mesh.rim.beyond
+        return tuple(
+            HoleState(
+                area,
+                pressure,
+                0.0 if beyond is None else float(flow[np.isin(beyond, cells)].sum()),
+                (ambient - pressure) * area,
+            )
+            for area, pressure, cells in made
+        )
+
+    @cached_property
+    def inflow(self) -> float:
+        """Net volume flow into the film through all reservoirs and holes [m3/s]."""
+        if self.balance is None:
+            return 0.0
+        return float(self._flow_at_rim[self.balance.mesh.rim_number < 0].sum())
+
+    @cached_property
+    def _flow_at_rim(self) -> Array:
+        """Volume flow into the film through each side of the rim [m3/s]."""
+        balance = self.balance
+        if balance is None:
+            return np.zeros(0)
+        rim, p, theta = balance.mesh.rim, self.pressure.ravel(), self.liquid_fraction.ravel()
+        driven = balance.outer * (p[rim.beyond] - p[rim.cell])
+        outward = balance.carried[1] * rim.sign
+        carried = np.where(outward > 0.0, outward * theta[rim.cell], outward)
+        flow: Array = driven - carried
+        return flow if self.excess is None else flow + self.excess
 
     @cached_property
     def torque(self) -> tuple[float, float]:
@@ -200,6 +258,21 @@ class FilmState:
         power = float(self.balance.inner @ inside**2 + self.balance.outer @ rim**2)
         return power if self.excess is None else power + float(self.excess @ rim)
 
+    @cached_property
+    def validity(self) -> tuple[ValidityNumber, ...]:
+        """Numbers that state whether the film is in the range of its model.
+
+        Tension in the liquid, slope and thickness of the gap, slenderness, inertia, grid.
+        """
+        from .validity import film_numbers
+
+        return film_numbers(self)
+
+    @property
+    def pressure_gradient(self) -> tuple[Array, Array]:
+        """Pressure gradient in each cell along y and x, the mean of those at its sides [Pa/m]."""
+        return _gradient(self)
+
     @property
     def shear_force(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Tangential forces (x, y) of the film on the lower and on the upper wall [N]."""
@@ -218,7 +291,7 @@ class FilmState:
         :math:`\mp \eta \theta (u_2 - u_1)/h - (h/2) \nabla p` on the upper (-) and lower (+) wall:
         fingers of liquid in a cavity carry shear as the film does, by the liquid fraction.
         """
-        slope_y, slope_x = _gradient(self)
+        slope_y, slope_x = self.pressure_gradient
         couette = self.film.viscosity * self.liquid_fraction / self.gap
         inside = self.film.face.loaded
         walls = []

@@ -14,10 +14,13 @@ from attrs import evolve
 from ...errors import ConvergenceError, DescriptionError
 from .discretisation import checked_gap
 from .film import Film, FilmState
-from .solve import at_rest, step_film
+from .solve import at_rest, unchecked_step
+from .validity import warn_new
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from ...validity import ValidityNumber
 
     Array = NDArray[np.floating[Any]]
 
@@ -80,16 +83,12 @@ def follow_gap(
         raise DescriptionError("times", "out of order or fewer than two", "ascend", unit="s")
     state = at_rest(film, gap(times[0])) if start is None else start
     state = evolve(state, time=times[0])
+    out = {number.name for number in state.validity if number.is_valid is False}
     for earlier, later in pairwise(times):
-        state = step_film(
-            state,
-            gap(later),
-            later - earlier,
-            lower_velocity=lower_velocity,
-            upper_velocity=upper_velocity,
-            solver=solver,
-        )
+        velocities = (lower_velocity, upper_velocity)
+        state = unchecked_step(state, gap(later), later - earlier, velocities, solver)
         state = evolve(state, time=later)
+        warn_new(state.validity, out)
         yield state
 
 
@@ -106,6 +105,11 @@ class PullState(NamedTuple):
     """Force of the film on the mass, positive against separation [N]."""
     state: FilmState
     """The film."""
+
+    @property
+    def validity(self) -> tuple[ValidityNumber, ...]:
+        """See `FilmState.validity`."""
+        return self.state.validity
 
 
 def pull_apart(
@@ -170,6 +174,7 @@ def pull_apart(
     shape = checked_gap(film.face, gap)
     smallest = float(shape[film.face.loaded].min())
     travel, speed, state = 0.0, 0.0, at_rest(film, shape)
+    out = {number.name for number in state.validity if number.is_valid is False}
     acceleration = force / mass
     # A thousandth of the first step would do without a film: with one, it opens a cavity.
     dt = 1e-3 * math.sqrt(2.0 * growth * smallest / acceleration)
@@ -181,6 +186,7 @@ def pull_apart(
         old = speed
         speed, state = _speed(after, old, old + dt * acceleration, mass / dt, copies)
         travel += 0.5 * dt * (old + speed)
+        warn_new(state.validity, out)
         yield PullState(state.time, travel, speed, copies * state.force, state)
 
 
@@ -188,7 +194,7 @@ def _film_after(
     state: FilmState, gap: Array, speed: float, dt: float, solver: str | None, trial: float
 ) -> FilmState:
     """Film at the end of a step that ends at a trial speed."""
-    return step_film(state, gap + 0.5 * dt * (speed + trial), dt, solver=solver)
+    return unchecked_step(state, gap + 0.5 * dt * (speed + trial), dt, solver=solver)
 
 
 def _speed(

@@ -18,15 +18,17 @@ from .face import SOLID, face_from_level
 from .film import Film
 from .linear_systems import choose_solver, solve_sparse
 from .solve import solve_pressure
+from .validity import roughness_number, warn_new
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from ...validity import ValidityNumber
     from .film import FilmState
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["FlowFactors", "Leakage", "flow_factors", "leakage"]
+__all__ = ["FlowFactors", "Leakage", "flow_factors", "leakage", "patch_factors"]
 
 
 class FlowFactors(NamedTuple):
@@ -38,6 +40,13 @@ class FlowFactors(NamedTuple):
     """Mean gap [m]."""
     contact_fraction: float
     """Fraction of the patch where nothing flows because the faces touch [-]."""
+    rms_roughness: float = 0.0
+    """Standard deviation of the gap of the patch [m]."""
+
+    @property
+    def validity(self) -> tuple[ValidityNumber, ...]:
+        """Whether the gap is wide enough against its roughness."""
+        return (roughness_number(self.mean_gap, self.rms_roughness),)
 
     @property
     def factors(self) -> tuple[float, float]:
@@ -57,6 +66,11 @@ class Leakage(NamedTuple):
     """Cells on a path from one reservoir to the other."""
     state: FilmState | None
     """The solved film; None if no path leads through."""
+
+    @property
+    def validity(self) -> tuple[ValidityNumber, ...]:
+        """See `FilmState.validity`; nothing without a path."""
+        return () if self.state is None else self.state.validity
 
 
 def flow_factors(
@@ -97,10 +111,19 @@ def flow_factors(
     >>> round(across, 4), round(along, 4)
     (0.433, 1.375)
     """
+    found = patch_factors(gap, pixel_size, floor, solver)
+    warn_new(found.validity, set())
+    return found
+
+
+def patch_factors(
+    gap: ArrayLike, pixel_size: float | tuple[float, float], floor: float, solver: str | None
+) -> FlowFactors:
+    """See `flow_factors`, without a warning."""
     height, (dy, dx) = _patch(gap), _size(pixel_size)
-    open_cells = height > floor
+    open_cells, rms = height > floor, float(height.std())
     if not open_cells.any():
-        return FlowFactors(np.zeros((2, 2)), float(height.clip(0.0).mean()), 1.0)
+        return FlowFactors(np.zeros((2, 2)), float(height.clip(0.0).mean()), 1.0, rms)
     number = np.where(open_cells, np.cumsum(open_cells).reshape(height.shape) - 1, -1)
     sides = [_periodic_sides(height, number, axis, (dy, dx)) for axis in (1, 0)]
     pressures = _cell_problems(sides, int(open_cells.sum()), solver)
@@ -110,7 +133,7 @@ def flow_factors(
             drop = p[high] - p[low] + (step if row == column else 0.0)
             tensor[row, column] = float(g @ drop) * step / (height.size * dx * dy)
     mean = float(np.where(open_cells, height, 0.0).mean())
-    return FlowFactors(tensor, mean, 1.0 - float(open_cells.mean()))
+    return FlowFactors(tensor, mean, 1.0 - float(open_cells.mean()), rms)
 
 
 def leakage(
@@ -152,7 +175,7 @@ def leakage(
 
     Examples
     --------
-    >>> found = leakage(np.ones((4, 8)), 0.5, viscosity=1.0 / 12.0, pressure_drop=1.0)
+    >>> found = leakage(np.ones((4, 8)), 50.0, viscosity=1.0 / 12.0, pressure_drop=1.0)
     >>> round(found.flow, 12)  # h^3/(12 eta) times width over length
     0.5
     """

@@ -17,8 +17,9 @@ from ...errors import DescriptionError
 from .damping import PowerDamping, TabulatedDamping
 from .face import Face
 from .film import Film, FilmState
-from .rough_flow import flow_factors
-from .solve import solve_pressure
+from .rough_flow import patch_factors
+from .solve import unchecked_pressure
+from .validity import roughness_number, warn_new
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -191,9 +192,10 @@ def rough_damping(
         raise DescriptionError("rough_damping.roughness", heights.shape, "be a map")
     heights = heights - heights.mean()
     nodes = _nodes(gaps, 0.0, points)
+    warn_new([roughness_number(nodes[0], float(heights.std()))], set())
     coefficients, onsets = [], []
     for gap in nodes:
-        conductivity = flow_factors(gap - heights, pixel_size, solver=solver).conductivity
+        conductivity = patch_factors(gap - heights, pixel_size, 0.0, solver).conductivity
         along_x, along_y = float(conductivity[0, 0]), float(conductivity[1, 1])
         if not min(along_x, along_y) > 0.0:
             cure = "no path leads through the contacts: begin at a larger gap"
@@ -227,7 +229,7 @@ def _unit_state(face: Face, gap: Array, solver: str | None) -> FilmState:
         )
     level = float(around[0]) if around.size else 0.0
     film = Film(face=face, viscosity=1.0, ambient=level)
-    state = solve_pressure(film, gap, 1.0, solver=solver)
+    state = unchecked_pressure(film, gap, 1.0, solver=solver)
     return evolve(state, film=film, pressure=state.pressure - level) if level else state
 
 

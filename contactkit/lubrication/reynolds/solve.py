@@ -19,6 +19,7 @@ from .discretisation import Balance, checked_gap, discretise, mesh_of, per_unkno
 from .face import Face, block_means
 from .film import Film, FilmState
 from .linear_systems import choose_solver
+from .validity import warn_new
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -27,7 +28,15 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["at_rest", "carried_rate", "solve_pressure", "steady_film", "step_film"]
+__all__ = [
+    "at_rest",
+    "carried_rate",
+    "solve_pressure",
+    "steady_film",
+    "step_film",
+    "unchecked_pressure",
+    "unchecked_step",
+]
 
 PATIENCE = 4
 """Iterations of the active set before a coarser grid is asked for a better guess."""
@@ -95,13 +104,15 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
         raise DescriptionError("liquid_fraction", worst, "lie between 0 and 1")
     fraction = np.where(face.loaded, fraction, 1.0)
     torn = (fraction < 1.0).any() and math.isfinite(film.cavity_pressure)
-    return FilmState(
+    state = FilmState(
         film=film,
         gap=height,
         pressure=np.where(face.loaded, film.ambient, face.pressure),
         liquid_fraction=fraction,
         is_torn=face.loaded & bool(torn),
     )
+    warn_new(state.validity, set())
+    return state
 
 
 def solve_pressure(
@@ -153,11 +164,26 @@ def solve_pressure(
     >>> from contactkit.lubrication.reynolds.shapes import Disc
     >>> from contactkit.lubrication.squeeze_film import disc_force
     >>> face = rasterise(Disc(radius=3.175e-3), 64)
-    >>> state = solve_pressure(Film(face=face, viscosity=0.1), 1e-5, 1e-3)
-    >>> abs(state.force / disc_force(3.175e-3, 1e-5, 1e-3, 0.1) - 1.0) < 1e-3
+    >>> state = solve_pressure(Film(face=face, viscosity=0.1), 1e-5, 1e-5)
+    >>> abs(state.force / disc_force(3.175e-3, 1e-5, 1e-5, 0.1) - 1.0) < 1e-3
     True
     """
+    velocities = (lower_velocity, upper_velocity)
+    state = unchecked_pressure(film, gap, rate, velocities, solver)
+    warn_new(state.validity, set())
+    return state
+
+
+def unchecked_pressure(
+    film: Film,
+    gap: ArrayLike,
+    rate: ArrayLike = 0.0,
+    velocities: tuple[Velocity, Velocity] = (_AT_REST, _AT_REST),
+    solver: str | None = None,
+) -> FilmState:
+    """See `solve_pressure`, without its numbers of validity: of unit films."""
     face = film.face
+    lower_velocity, upper_velocity = velocities
     height = checked_gap(face, gap)
     floor = film.cavity_pressure
     task = Task(
@@ -226,7 +252,9 @@ def steady_film(
     )
     balance, found = _solve(task)
     state = _state(task, balance, found)
-    return evolve(state, lower_velocity=lower_velocity, upper_velocity=upper_velocity)
+    state = evolve(state, lower_velocity=lower_velocity, upper_velocity=upper_velocity)
+    warn_new(state.validity, set())
+    return state
 
 
 def step_film(
@@ -283,7 +311,23 @@ def step_film(
     >>> abs(gained - 1e-5 * after.inflow) < 1e-13 * before.liquid_volume
     True
     """
+    velocities = (lower_velocity, upper_velocity)
+    after = unchecked_step(state, gap, dt, velocities, solver)
+    before = {number.name for number in state.validity if number.is_valid is False}
+    warn_new(after.validity, before)
+    return after
+
+
+def unchecked_step(
+    state: FilmState,
+    gap: ArrayLike,
+    dt: float,
+    velocities: tuple[Velocity, Velocity] = (_AT_REST, _AT_REST),
+    solver: str | None = None,
+) -> FilmState:
+    """See `step_film`, without its numbers of validity: of trial steps."""
     film, face = state.film, state.film.face
+    lower_velocity, upper_velocity = velocities
     if not (0.0 < dt < math.inf):
         raise DescriptionError("dt", dt, "be positive and finite", unit="s")
     height = checked_gap(face, gap)
@@ -512,26 +556,14 @@ def _state(task: Task, balance: Balance, found: Solution) -> FilmState:
     fraction[mesh.loaded] = 1.0 - found.void[which]
     pressure, fraction = pressure.reshape(face.shape), fraction.reshape(face.shape)
     torn = np.zeros(face.shape, bool)
-    excess = _excess(task, mesh)
     return FilmState(
         film=task.film,
         gap=task.gap,
         pressure=pressure,
         liquid_fraction=fraction,
         balance=balance,
-        inflow=_inflow(balance, pressure, fraction) + float(excess[mesh.rim_number < 0].sum()),
-        excess=excess,
+        excess=_excess(task, mesh),
         is_torn=torn,
         iterations=found.iterations,
         time=0.0 if math.isinf(task.dt) else task.dt,
     )
-
-
-def _inflow(balance: Balance, pressure: Array, fraction: Array) -> float:
-    """Net volume flow from the reservoirs into the film [m3/s]."""
-    rim, is_open = balance.mesh.rim, balance.mesh.rim_number < 0
-    p, theta = pressure.ravel(), fraction.ravel()
-    driven = balance.outer * (p[rim.beyond] - p[rim.cell])
-    outward = balance.carried[1] * rim.sign
-    carried = np.where(outward > 0.0, outward * theta[rim.cell], outward)
-    return float((driven - carried)[is_open].sum())

@@ -4,6 +4,7 @@ base             Roles of an effect in the equation of motion: force, limit, end
 registry         Effects that a separation scene may list.
 prepared         Scene with its liquid at temperature and the shape of its film.
 film_shape       Shape of the film with an upright rim: radius and height over the gap.
+published_film   Film of the printed viscous forces: radius and height of the printed arc.
 viscous          Viscous force of the film, and its limits: tension and shear.
 film_validity    Numbers of validity of a viscous film: compression, soft faces, weight.
 constant_force   Time to open the film under a constant pull, without inertia.

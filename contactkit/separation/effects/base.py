@@ -100,7 +100,8 @@ class ForceLaw:
     `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
     slope jumps, `end` the gap beyond which it does not exist (inf: none). A contact of solids pulls
     off where the gap exceeds `release`, and is there again once that has closed to `recontact`; the
-    law goes on smoothly beyond. It is known up to the gap `known_to`, and constant beyond.
+    law goes on smoothly beyond. It is known up to the gap `known_to`, and constant beyond. At
+    `poles` it is infinite and changes its sign: it has no impulse over them.
     """
 
     force: Callable[[float, float], float]
@@ -109,6 +110,7 @@ class ForceLaw:
     release: float = _INF
     recontact: float = 0.0
     known_to: float = _INF
+    poles: tuple[float, ...] = ()
 
 
 @frozen(eq=False)
@@ -125,7 +127,11 @@ class ForcePart:
 
     @property
     def impulse(self) -> float | None:
-        """Time integral of the force [N.s]; None where only the duration of the run is given."""
+        """Time integral of the force [N.s].
+
+        None where only the duration of the run is given, or over a gap at which the force is
+        infinite, as Eq. (3.12) as printed may be.
+        """
         return self.result.impulses.get(self.column.impulse.name)
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
 
-__all__ = ["FilmShape", "film_shape", "needs_extent"]
+__all__ = ["FilmShape", "between_flats", "film_shape", "needs_extent", "under_sphere"]
 
 
 class FilmShape(NamedTuple):
@@ -65,11 +65,15 @@ def film_shape(
     pressure = scene.liquid_pressure
     if pressure is not None:
         return _at_pressure(scene, liquid.surface_tension, pressure, rim)
+    start, sphere = scene.initial_gap, interface.sphere_radius
     if interface.is_flat:
-        return _between_flats(n, volume, rim, scene.initial_gap, constant_radius)
-    return _under_sphere(
-        n, volume, rim, interface.sphere_radius, scene.initial_gap, constant_radius
-    )
+        if constant_radius:
+            rim, volume = min(rim, squeeze.disc_radius(volume, start)), math.inf
+        return between_flats(n, volume, rim)
+    if constant_radius:
+        height = float(squeeze.sphere_film_height(start, volume, sphere))
+        rim, volume = min(rim, math.sqrt(2.0 * sphere * (height - start))), math.inf
+    return under_sphere(n, volume, rim, sphere)
 
 
 def _face_radius(scene: SeparationScene | SlidingScene) -> float:
@@ -78,9 +82,8 @@ def _face_radius(scene: SeparationScene | SlidingScene) -> float:
     return next((radius for radius in brought if radius), scene.interface.rim_radius)
 
 
-def _between_flats(n: int, volume: float, rim: float, start: float, constant: bool) -> FilmShape:
-    if constant:
-        rim, volume = min(rim, squeeze.disc_radius(volume, start)), math.inf
+def between_flats(n: int, volume: float, rim: float) -> FilmShape:
+    """Films between flats [m3] up to a rim [m]; of infinite volume full to it at every gap."""
     full_gap = volume / (math.pi * rim * rim) if math.isfinite(rim) else 0.0
 
     def radius(gap: float) -> float:
@@ -89,21 +92,17 @@ def _between_flats(n: int, volume: float, rim: float, start: float, constant: bo
     return FilmShape(n, volume, rim, full_gap, math.inf, radius, lambda gap: gap)
 
 
-def _under_sphere(
-    n: int, volume: float, rim: float, sphere: float, start: float, constant: bool
-) -> FilmShape:
-    def free_height(gap: float) -> float:
-        return float(squeeze.sphere_film_height(gap, volume, sphere))
-
-    if constant:
-        rim, volume = min(rim, math.sqrt(2.0 * sphere * (free_height(start) - start))), math.inf
+def under_sphere(n: int, volume: float, rim: float, sphere: float) -> FilmShape:
+    """Films under a sphere [m3, m]; of infinite volume full to the rim [m] at every gap."""
     sag = rim * rim / (2.0 * sphere)
     # Full to the rim while D^2 + V/(pi R) >= (D + sag)^2.
     full_gap = 0.5 * (volume / (math.pi * sphere * sag) - sag) if 0.0 < sag < math.inf else 0.0
     full_gap = max(full_gap, 0.0)
 
     def height(gap: float) -> float:
-        return gap + sag if gap < full_gap or math.isinf(volume) else free_height(gap)
+        if gap < full_gap or math.isinf(volume):
+            return gap + sag
+        return float(squeeze.sphere_film_height(gap, volume, sphere))
 
     def radius(gap: float) -> float:
         return math.sqrt(2.0 * sphere * max(height(gap) - gap, 0.0))

@@ -123,9 +123,15 @@ class MeniscusForce(SeparationForce):
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
         meniscus = scene.meniscus
-        if scene.liquid_pressure is not None:
-            return self._lacks_at_pressure(scene)
         missing: tuple[str, ...] = ()
+        given = [
+            n for n, left in (("pulled", "lower"), ("radius", "arc")) if getattr(self, n) != left
+        ]
+        if given and not (self.takes_printed() and scene.interface.is_flat):
+            named = " and ".join(f"{name}={getattr(self, name)!r}" for name in given)
+            missing += (f'two flats and profile="as-published" for {named}, which Eq. (3.11) has',)
+        if scene.liquid_pressure is not None:
+            return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
         if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):
@@ -191,6 +197,8 @@ class MeniscusForce(SeparationForce):
         volume = plan.prepared.film.volume
         if not plan.scene.interface.is_flat:
             found.append(_lateral(plan, gaps))
+            if self.takes_printed():
+                found.append(_printed_neck(plan.prepared, gaps))
         elif math.isfinite(volume):
             found.append(
                 ValidityNumber(
@@ -282,6 +290,22 @@ def _weight(plan: Plan, gaps: Sequence[float]) -> ValidityNumber:
         if density is not None
         else "not judged, liquid.density [kg/m3] is not given",
         source="rho g V over the force, or over 0.3 gamma V^(1/3) where that is larger",
+    )
+
+
+def _printed_neck(
+    prepared: PreparedScene[SeparationScene], gaps: Sequence[float]
+) -> ValidityNumber:
+    from .meniscus_sphere import printed_neck
+
+    known = [neck for neck in printed_neck(prepared, gaps).tolist() if math.isfinite(neck)]
+    return ValidityNumber(
+        name="radius of the neck in Eq. (3.12) over that of the arc",
+        value=min(known, default=None),
+        low=0.0,
+        detail="where it is zero, the printed force is infinite, and below zero the circle of the "
+        "arc reaches beyond the axis; MeniscusForce() has neither",
+        source="x_c - r1 over r1",
     )
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...errors import ConvergenceError, InfeasibleError
 from ...numerics.cubic_spline import cubic_spline
+from ...numerics.roots import bracketed_root
+from ...scene.loading import ImposedForce
 from .base import ForceLaw
 
 if TYPE_CHECKING:
@@ -17,9 +19,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
     from ...scene.scenes import SeparationScene
+    from .film_shape import FilmShape
     from .prepared import PreparedScene
 
-__all__ = ["contact_radius", "exact_end", "sphere_law"]
+__all__ = ["contact_radius", "exact_end", "printed_neck", "sphere_law"]
 
 _DEGREES = 24, 48, 96  # of the polynomials
 _CLOSE = 1e-3  # of a curve, a stretch at its end that is not divided further
@@ -27,16 +30,18 @@ _MAX_NODES = 4097  # of one of its stretches
 
 
 class _Bridges(NamedTuple):
-    """Force over surface tension [m] of one meniscus at gaps [m], up to an end.
+    """Bridges at gaps [m], up to an end.
 
-    `thin` is a gap below which the force hardly depends on it. What is tabulated is the force
-    times `left`, a known factor that takes a pole away.
+    A curve goes through `solved`: their force over surface tension [m], or the radius of their
+    contact circle [m], from which `force` then gives the former at a gap in closed form. `thin` is
+    a gap below which they hardly depend on it, and at `poles` the force is infinite.
     """
 
-    force: Callable[[Floats], Floats]
+    solved: Callable[[Floats], Floats]
     end: float
     thin: float
-    left: Callable[[Any], Any] = lambda gap: 1.0
+    force: Callable[[float, float], float] = lambda gap, found: found
+    poles: tuple[float, ...] = ()
 
 
 def sphere_law(prepared: PreparedScene[SeparationScene], profile: str) -> ForceLaw:
@@ -47,16 +52,16 @@ def sphere_law(prepared: PreparedScene[SeparationScene], profile: str) -> ForceL
     """
     scene, tension = prepared.scene, prepared.liquid.surface_tension
     n = scene.meniscus.count
-    bridges = _exact(prepared) if profile == "exact" else _arcs(prepared, profile == "as-published")
+    bridges = _BRIDGES[profile](prepared)
     known_to = bridges.end if math.isfinite(bridges.end) else 2.0 * scene.loading.final_gap
     top = min(known_to, bridges.end * (1.0 - 1e-9))
     curve = _curve(bridges, top, 0.1 * prepared.accuracy.time_rtol)
 
     def law(gap: float, speed: float) -> float:
         gap = min(max(gap, 0.0), top)
-        return n * tension * curve(gap) / float(bridges.left(gap))
+        return n * tension * bridges.force(gap, curve(gap))
 
-    return ForceLaw(law, end=bridges.end, known_to=known_to)
+    return ForceLaw(law, end=bridges.end, known_to=known_to, poles=bridges.poles)
 
 
 def _fixed(prepared: PreparedScene[SeparationScene]) -> tuple[float, float, float, float]:
@@ -104,8 +109,9 @@ def _exact(prepared: PreparedScene[SeparationScene]) -> _Bridges:
     if pressure is None:
         from ...capillary.exact.bridge import bridge
 
-        thin = 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
-        return _Bridges(lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, thin)
+        return _Bridges(
+            lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, _thin(film)
+        )
     from ...capillary.exact.at_pressure import bridge_at_pressure
 
     over = pressure / prepared.liquid.surface_tension
@@ -114,32 +120,106 @@ def _exact(prepared: PreparedScene[SeparationScene]) -> _Bridges:
     )
 
 
-def _arcs(prepared: PreparedScene[SeparationScene], as_published: bool) -> _Bridges:
-    from ...as_published.printed import common as published
+def _arcs(prepared: PreparedScene[SeparationScene]) -> _Bridges:
     from ...capillary.arc import sphere as arc_sphere
 
-    film, fixed = prepared.film, _fixed(prepared)
-    profile = "parabola" if as_published else "sphere"
-    end = float(arc_sphere.zero_neck_gap(film.volume, *fixed, profile=profile))
+    volume, fixed = prepared.film.volume, _fixed(prepared)
+    end = float(arc_sphere.zero_neck_gap(volume, *fixed))
+    return _Bridges(
+        lambda gap: arc_sphere.solve(gap, volume, *fixed).force, end, _thin(prepared.film)
+    )
 
-    # The printed force grows without bound as the neck closes; a curve of it would ring. What is
-    # tabulated is the force times 1 - gap/end.
-    def left(gap: Any) -> Any:
-        return 1.0 - gap / end if as_published else 1.0
 
-    def force(gap: Floats) -> Floats:
-        state = arc_sphere.solve(gap, film.volume, *fixed, profile=profile)
-        if as_published:
-            return published.meniscus_sphere_3_12(state, 1.0, fixed[1]) * left(gap)  # type: ignore[no-any-return]
-        return state.force
+def _printed(prepared: PreparedScene[SeparationScene]) -> _Bridges:
+    """Eq. (3.12): closed in the contact circle of the arc, so that only this is tabulated.
 
-    # Length of the film: where it is thinner than this, the force hardly depends on the gap.
-    thin = 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
-    return _Bridges(force, end, thin, left)
+    The force itself has a pole where the printed radius of the neck is zero, and no curve follows
+    that.
+    """
+    from ...as_published.printed.common import meniscus_of_circle_3_12
+    from ...capillary.arc import sphere as arc_sphere
+
+    volume, fixed = prepared.film.volume, _fixed(prepared)
+    lower, upper, _, bend = fixed
+    end = float(arc_sphere.zero_neck_gap(volume, *fixed, profile="parabola"))
+    poles = _poles(prepared, end)
+
+    def circle(gap: Floats) -> Floats:
+        return arc_sphere.solve(gap, volume, *fixed, profile="parabola").radius_upper
+
+    def force(gap: float, x: float) -> float:
+        slope = math.atan(bend * x)
+        inverse = (math.cos(lower) + math.cos(upper + slope)) / (gap + 0.5 * bend * x * x)
+        return float(meniscus_of_circle_3_12(x, slope, inverse, upper))
+
+    return _Bridges(circle, end, _thin(prepared.film), force, poles)
+
+
+def printed_neck(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]) -> Floats:
+    """Radius of the neck in Eq. (3.12) at gaps [m], times the curvature of the arc [-].
+
+    The printed force is infinite where it is zero. Positive for an arc that bulges; nan without
+    an arc.
+    """
+    import numpy as np
+
+    from ...as_published.printed.common import neck_by_curvature_3_12
+    from ...capillary.arc import sphere as arc_sphere
+
+    volume, fixed = prepared.film.volume, _fixed(prepared)
+    arc = arc_sphere.solve(np.array(gaps), volume, *fixed, profile="parabola")
+    inverse = arc.inverse_arc_radius
+    neck = neck_by_curvature_3_12(arc.radius_upper, arc.slope_upper, inverse, fixed[1])
+    found: Floats = np.where(inverse < 0.0, np.abs(neck), neck)
+    return found
+
+
+def _poles(prepared: PreparedScene[SeparationScene], end: float) -> tuple[float, ...]:
+    """Gaps [m] at which the printed force is infinite.
+
+    Raises
+    ------
+    InfeasibleError
+        If a pull, or a vibration, would move the sphere through one.
+    """
+    import numpy as np
+
+    loading = prepared.scene.loading
+    last = end if math.isfinite(end) else loading.final_gap
+    gaps = np.append(0.0, np.geomspace(1e-4, 1.0 - 1e-9, 400) * last)
+    sign = np.sign(printed_neck(prepared, gaps.tolist()))
+    found = [
+        bracketed_root(
+            lambda gap: float(printed_neck(prepared, [gap])[0]), float(gaps[i]), float(gaps[i + 1])
+        )
+        for i in np.flatnonzero(sign[1:] * sign[:-1] < 0.0).tolist()
+    ]
+    moves = isinstance(loading, ImposedForce) or getattr(loading, "vibration", None) is not None
+    for pole in found:
+        if moves and loading.smallest_gap <= pole <= loading.final_gap:
+            raise InfeasibleError(
+                f"Eq. (3.12) as printed is infinite at a gap of {pole:.3g} m, between initial_gap "
+                f"= {loading.initial_gap:g} m and final_gap = {loading.final_gap:g} m: there the "
+                f"circle of the arc reaches the axis, x_c = r1, and no force moves the sphere "
+                f"through; take MeniscusForce() or MeniscusForce(profile='arc'), or impose a speed"
+            )
+    return tuple(found)
+
+
+def _thin(film: FilmShape) -> float:
+    """A tenth of the height of the film [m]: where the gap is smaller, little depends on it."""
+    return 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
+
+
+_BRIDGES: Mapping[str, Callable[[PreparedScene[SeparationScene]], _Bridges]] = {
+    "exact": _exact,
+    "arc": _arcs,
+    "as-published": _printed,
+}
 
 
 def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], float]:
-    """Curve through a force: polynomials through some dozens of bridges, as a spline.
+    """Curve through bridges: polynomials through some dozens of them, as a spline.
 
     It runs in the root of the logarithm of the gap's distance to the end, in which a force that
     ends in a fold, with an infinite slope, is smooth too: polynomials converge exponentially.
@@ -149,7 +229,7 @@ def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], floa
     InfeasibleError
         If there is no bridge at a gap on the way.
     ConvergenceError
-        If the force is not smooth enough for a curve.
+        If the bridges are on no smooth curve.
     """
     import numpy as np
 
@@ -159,7 +239,7 @@ def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], floa
 
     def force(x: Floats) -> Floats:
         gaps = np.clip((end + thin) * np.exp(-x * x) - thin, 0.0, top)
-        f = bridges.force(gaps)
+        f = bridges.solved(gaps)
         if not np.all(np.isfinite(f)):
             missing = float(gaps[~np.isfinite(f)][0])
             raise InfeasibleError(f"no meniscus spans a gap of {missing:g} m on the way")
@@ -197,8 +277,8 @@ def _stretches(
             continue
         if tail > 1e-6:
             raise ConvergenceError(
-                f"the meniscus force on the sphere is rough: {tail:.1e} off a curve; give less "
-                f"liquid, or take MeniscusForce(profile='arc')"
+                f"bridges on the sphere do not lie on one curve of the gap, {tail:.1e} off it: "
+                f"give less liquid, whose film is thin against the sphere"
             )
         found.append((a, b, series))
     return found

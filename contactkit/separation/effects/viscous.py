@@ -25,6 +25,7 @@ from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
 from .film_validity import film_numbers
 from .meniscus import MeniscusForce
+from .published_film import published_film
 
 if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
@@ -140,8 +141,10 @@ class ViscousForce(SeparationForce):
         given volume is flooded and stays full to the rim); or keeps the radius it has at
         the start. ``"as-published"``: Eqs. (3.19) and (3.34) between flats, which keep the
         radius though the volume is given, and Eq. (3.26) under a sphere; for reproduction only,
-        with what is wrong in ``result.errata``.
-
+        with what is wrong in ``result.errata``. Their radius x_n0 and their height s_0 are then
+        those of the arc of the source, which ``MeniscusForce(profile="as-published")`` has as
+        well, and not those of an upright rim: of ``Meniscus.from_radius(profile="arc")`` the
+        radius that is given. That is up to 5 % of the force at a radius of 50 gaps.
     damping : DampingLaw, optional
         Law c(h) of a face that is no plain disc: a ring, a rectangle, a recess, any planform or gap
         map, made once by `contactkit.lubrication.reynolds` (in a file: ``damping = { face =
@@ -211,7 +214,15 @@ class ViscousForce(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
-        return needs_extent(scene) if self.damping is None else _needs_of_face(scene)
+        if self.damping is not None:
+            return _needs_of_face(scene)
+        missing: tuple[str, ...] = ()
+        if scene.liquid_pressure is not None and self.closure != "volume-conserving":
+            missing += (
+                f"interface.meniscus.volume [m3] with closure={self.closure!r}: at a fixed "
+                f'pressure the rim keeps its height (or closure="volume-conserving")',
+            )
+        return missing + needs_extent(scene)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
         """See `SeparationForce.prepare`."""
@@ -282,7 +293,10 @@ def _law(prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
     effect = prepared.scene.effect(ViscousForce)
     if effect is not None and effect.damping is not None:
         return _face_law(effect.damping, prepared.liquid.viscosity)
-    film, viscosity = viscous_film(prepared), prepared.liquid.viscosity
+    return _law_of(viscous_film(prepared), prepared.liquid.viscosity)
+
+
+def _law_of(film: FilmShape, viscosity: float) -> ViscousLaw:
     kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
     if math.isinf(film.sphere_radius):
         return _disc_law(film, viscosity, kinks)
@@ -572,15 +586,19 @@ def keeps_radius(scene: SeparationScene) -> bool:
 
 def viscous_film(prepared: PreparedScene[SeparationScene]) -> FilmShape:
     """Shape of the film as the viscous force of a scene takes it."""
-    if not keeps_radius(prepared.scene):
+    scene = prepared.scene
+    viscous = scene.effect(ViscousForce)
+    if viscous is not None and viscous.takes_printed():
+        return published_film(prepared)
+    if not keeps_radius(scene):
         return prepared.film
-    return film_shape(prepared.scene, prepared.liquid, constant_radius=True)
+    return film_shape(scene, prepared.liquid, constant_radius=True)
 
 
 def _erratum(plan: Plan) -> PublishedValue:
     from ...as_published.lookup import published
 
-    prepared, film, loading = plan.prepared, plan.prepared.film, plan.scene.loading
+    prepared, film, loading = plan.prepared, viscous_film(plan.prepared), plan.scene.loading
     start, count, is_flat = loading.initial_gap, film.menisci, plan.scene.interface.is_flat
     # Over a time of one second, so that the number is the impulse.
     given = {
@@ -596,11 +614,12 @@ def _erratum(plan: Plan) -> PublishedValue:
     else:
         shape = {"sphere_radius": film.sphere_radius, "film_height": film.height(start)}
         made = published("3.26", **shape, **given).times(count)
-    if is_flat and math.isinf(film.volume):
-        by = "as printed, right for a flooded film"
-        made = made._replace(corrected=made.value, corrected_by=by)
+    right, by = made.value, "as printed, right for a flooded film"
+    if math.isfinite(prepared.film.volume):
+        law = _law_of(prepared.film, prepared.liquid.viscosity)
+        right, by = law.impulse(start, given["gap_end"]), "film of constant volume, upright rim"
     name = f"{ViscousForce.name}, {made.name}, times the separation time"
-    return made._replace(name=name, unit="N.s")
+    return made._replace(name=name, unit="N.s", corrected=right, corrected_by=by)
 
 
 def _validity(

@@ -103,7 +103,7 @@ def test_a_meniscus_of_a_humidity_has_the_pressure_of_its_own_liquid():
 def test_a_volume_of_a_coverage_is_that_of_upright_rims():
     water = ck.load_liquid("water")
     made = ck.Meniscus.from_coverage(
-        liquid=water, coverage=0.4, area=1e-12, gap=2e-9, count=50, contact_angle_lower=1.0
+        liquid=water, coverage=0.4, area=1e-12, at_gap=2e-9, count=50, contact_angle_lower=1.0
     )
     assert (made.volume, made.count) == (pytest.approx(8e-22, rel=1e-15), 50)
     assert (made.contact_angle_lower, made.contact_angle_upper) == (1.0, 0.0)
@@ -120,16 +120,16 @@ REFUSED = [
     ),
     (lambda w: ck.Meniscus(liquid=w, relative_humidity=math.nan), "between 0 and 1"),
     (
-        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=1.1, area=1.0, gap=1.0),
+        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=1.1, area=1.0, at_gap=1.0),
         r"from_coverage\(coverage\) must lie above 0 and not above 1",
     ),
     (
-        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=0.0, gap=1.0),
+        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=0.0, at_gap=1.0),
         r"from_coverage\(area\) must be positive and finite \[m2\]",
     ),
     (
-        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=1.0, gap=math.inf),
-        r"from_coverage\(gap\) must be positive and finite \[m\]",
+        lambda w: ck.Meniscus.from_coverage(liquid=w, coverage=0.5, area=1.0, at_gap=math.inf),
+        r"from_coverage\(at_gap\) must be positive and finite \[m\]",
     ),
     (
         lambda w: ck.Liquid(name="water", molar_mass=18.015),

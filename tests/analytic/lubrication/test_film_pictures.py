@@ -8,6 +8,9 @@ import pytest
 from contactkit.errors import DescriptionError
 from contactkit.lubrication import reynolds
 
+# Their tensions and grids are chosen for the numbers, not for a liquid.
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 film_plot = pytest.importorskip("contactkit.plot.film")
 R = 3.175e-3
 

@@ -20,6 +20,9 @@ from tests.analytic.lubrication.reynolds_cases import (
     strip,
 )
 
+# Their tensions and grids are chosen for the numbers, not for a liquid.
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 DISC = reynolds.Disc(radius=R)
 
 

@@ -20,6 +20,9 @@ from tests.analytic.lubrication.reynolds_cases import (
     squeeze,
 )
 
+# Their tensions and grids are chosen for the numbers, not for a liquid.
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 DISC = reynolds.Disc(radius=R)
 LAWS = {
     "disc": reynolds.disc_damping(R),
@@ -89,6 +92,57 @@ def test_recess_and_dome_meet_their_limits():
     flat = reynolds.dome_damping(R, 1e6)
     assert flat.coefficient(1e-5) == pytest.approx(disc.coefficient(1e-5), rel=1e-5)
     assert flat.onset(1e-5) == pytest.approx(disc.onset(1e-5), rel=1e-5)
+
+
+HOLLOW = reynolds.dome_damping(R, -2.0)
+
+
+@pytest.mark.parametrize("rim_gap", [1e-6, 1e-5, 1e-3])
+def test_a_hollow_face_has_the_pressure_of_its_profile(rim_gap):
+    """Reynolds' equation once integrated is p' = -6 eta v r/h^3; the rest by quadrature."""
+    depth = R**2 / 4.0
+    gap = rim_gap + depth
+
+    def slope(r):
+        return 6.0 * r / (gap - r**2 / 4.0) ** 3
+
+    force = quad(lambda r: math.pi * r**2 * slope(r), 0.0, R, epsabs=0.0, epsrel=1e-12)[0]
+    assert HOLLOW.coefficient(gap) == pytest.approx(force, rel=1e-9)
+    assert HOLLOW.onset(gap) == pytest.approx(
+        quad(slope, 0.0, R, epsabs=0.0, epsrel=1e-12)[0], rel=1e-9
+    )
+    for end in (1.0 + 1e-6, 1.3, 1e4):
+        last = depth + end * rim_gap
+        area = quad(
+            lambda x: math.exp(x) * HOLLOW.coefficient(depth + math.exp(x)),
+            math.log(rim_gap),
+            math.log(end * rim_gap),
+            epsabs=0.0,
+            epsrel=1e-12,
+        )[0]
+        assert HOLLOW.impulse(gap, last) == pytest.approx(area, rel=1e-9)
+        assert HOLLOW.impulse(last, gap) == -HOLLOW.impulse(gap, last)
+    by = 1e-6 * gap
+    fall = math.log(HOLLOW.coefficient(gap - by) / HOLLOW.coefficient(gap + by))
+    assert HOLLOW.exponent(gap) == pytest.approx(fall / math.log((gap + by) / (gap - by)), rel=1e-4)
+
+
+def test_a_hollow_face_is_met_by_the_grid_and_ends_at_its_rim():
+    face = quarter_disc(R, 65)
+    gap = 1.2e-5 - (face.x**2 + face.y**2) / 4.0  # 2.5 um deep
+    state = squeeze(face, np.maximum(gap, 5e-6))
+    assert 4.0 * state.force == pytest.approx(HOLLOW.force(1.2e-5, 1e-3, OIL), rel=1e-3)
+    far = HOLLOW.impulse(1e-5, math.inf)
+    assert far == pytest.approx(HOLLOW.impulse(1e-5, 1e-2) + 0.5e4 * 1.5 * math.pi * R**4, rel=1e-3)
+    shallow = reynolds.dome_damping(R, -1e6)
+    assert shallow.impulse(1e-5, 2e-5) == pytest.approx(LAWS["disc"].impulse(1e-5, 2e-5), rel=1e-5)
+    for ask in (HOLLOW.coefficient, HOLLOW.onset, HOLLOW.exponent):
+        with pytest.raises(DescriptionError, match=r"gap must exceed 2\.52016e-06.*rim is closed"):
+            ask(2.52e-6)
+    with pytest.raises(DescriptionError, match="have the sign of curvature_radius"):
+        reynolds.DomeDamping(area=1.0, curvature_radius=-1.0, rise=1e-6)
+    with pytest.raises(DescriptionError, match="curvature_radius must be positive and finite"):
+        reynolds.dome_damping(R, 0.0)
 
 
 def test_a_table_of_a_dome():

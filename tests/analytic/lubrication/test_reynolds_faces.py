@@ -20,6 +20,9 @@ from tests.analytic.lubrication.reynolds_cases import (
     strip,
 )
 
+# Their tensions and grids are chosen for the numbers, not for a liquid.
+pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+
 DISC = reynolds.Disc(radius=R)
 PLANFORMS = {
     "disc": (DISC, ()),
@@ -210,6 +213,47 @@ def test_reservoirs_at_their_pressures():
     film = reynolds.Film(face=shifted, viscosity=OIL, ambient=1e5)
     force = reynolds.solve_pressure(film, 1e-5, 1e-3).force
     assert force == pytest.approx(squeeze(reynolds.rasterise(DISC, 32)).force, rel=1e-9)
+
+
+def test_a_hydrostatic_pad_has_the_force_and_the_flow_of_its_closed_form():
+    """ln-shaped pressure from a recess at p_r: what the recess lifts counts as well."""
+    recess, pressure, gap = 0.4 * R, 5e5, 2e-5
+    log = math.log(R / recess)
+    lift = math.pi * pressure * (R**2 - recess**2) / (2.0 * log)
+    flow = math.pi * gap**3 * pressure / (6.0 * OIL * log)
+    hole = reynolds.Hole(shape=reynolds.Disc(radius=recess), pressure=pressure)
+    whole = squeeze(reynolds.rasterise(DISC, 128, holes=[hole]), gap, 0.0)
+    (found,) = whole.holes
+    assert found.area == pytest.approx(math.pi * recess**2, rel=1e-14)
+    assert found.force == pytest.approx(-pressure * math.pi * recess**2, rel=1e-14)
+    assert whole.pad_force == whole.force + found.force
+    assert whole.pad_force == pytest.approx(-lift, rel=2e-3)
+    assert found.flow == pytest.approx(flow, rel=2e-3)
+    window = (0.0, R, 0.0, R)  # a quarter has a quarter of each
+    part = squeeze(reynolds.rasterise(DISC, 65, holes=[hole], window=window), gap, 0.0)
+    assert 4.0 * part.pad_force == pytest.approx(-lift, rel=2e-3)
+    assert 4.0 * part.holes[0].flow == pytest.approx(flow, rel=3e-3)
+    assert 4.0 * part.holes[0].area == pytest.approx(math.pi * recess**2, rel=1e-4)
+
+
+def test_each_hole_has_its_flow():
+    """A feed and a square drain in one face; a pin hole in a corner."""
+    feed = reynolds.Hole(shape=reynolds.Disc(radius=2e-4, centre=(1e-3, 0.0)), pressure=4e5)
+    square = reynolds.Rectangle(length=4e-4, width=4e-4, centre=(-1e-3, 0.0))
+    drain = reynolds.Hole(shape=square, pressure=-1e5)
+    state = squeeze(reynolds.rasterise(DISC, 97, holes=[feed, drain]), rate=0.0)
+    found = state.holes
+    assert [hole.pressure for hole in found] == [4e5, -1e5]
+    assert found[0].flow > 0.0 > found[1].flow
+    assert found[1].area == pytest.approx(1.6e-7, rel=1e-3)
+    assert abs(state.inflow) < 1e-9 * found[0].flow  # what enters leaves, by a hole or the rim
+    still = squeeze(reynolds.rasterise(DISC, 97, holes=[feed]), rate=0.0)
+    assert found[0].flow > still.holes[0].flow  # the drain draws more out of the feed
+    pin = reynolds.Hole(shape=reynolds.Disc(radius=1e-6), pressure=1e5)
+    quarter = reynolds.rasterise(DISC, 33, holes=[pin], window=(0.0, R, 0.0, R))
+    assert quarter.holes[0].area == pytest.approx(0.25 * math.pi * 1e-12, rel=1e-12)
+    assert squeeze(reynolds.rasterise(reynolds.Ring(radius=R, hole_radius=1e-3), 33)).holes == ()
+    assert reynolds.at_rest(reynolds.Film(face=quarter, viscosity=OIL), 1e-5).holes[0].flow == 0.0
 
 
 def test_periodic_films_do_not_know_where_they_begin():

@@ -195,7 +195,7 @@ def test_the_time_of_a_small_sphere_is_as_exact_as_that_of_a_large_one(film_scen
 
 def test_a_sphere_held_by_its_meniscus_takes_longer_or_for_ever(film_scene):
     scene = film_scene(
-        LAPLACE,
+        ck.MeniscusForce(profile="as-published"),
         ck.ViscousForce(),
         upper=ck.Sphere(radius=1e-3),
         film={"volume": 1e-15},
