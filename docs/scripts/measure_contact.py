@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from contact_effort import best_of, fast_table, ratio_table, solver_table
 from measured_blocks import measure
-from stress_tables import depth_table, reading_table, stress_cost_table
+from stress_tables import depth_table, distance_table, reading_table, stress_cost_table
 from validation_tables import grid
 
 import contactkit as ck
@@ -243,6 +243,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "area": area_table,
     "pixels": pixels_table,
     "readings": reading_table,
+    "distances": distance_table,
     "depths": depth_table,
     "stress-cost": stress_cost_table,
     "solver": solver_table,
