@@ -19,6 +19,7 @@ from .effects.plasticity import HardnessLimit
 from .pixel_edges import EDGE_EXCESS, pixel_edges
 from .result import ContactResult
 from .solve import solve_unwarned
+from .validity import PIXELS_PER_SPOT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,11 +27,12 @@ if TYPE_CHECKING:
 __all__ = ["DiscretisationError", "discretisation_error"]
 
 _SAFETY = 1.25  # of a grid convergence index from three grids (Roache)
-_ORDERS = (1.0, 2.0)  # of numbers of a rough contact: its area is of the first, an integral higher
+_ORDERS = (1.0, 1.5)  # of numbers of a rough contact: an area is of the first, an integral higher
 _SINGULAR = {  # largest at the edge of the contact, where stress grows as the root of the distance
     "max_tension": (0.5, 0.5),
     "max_sigma_xz": (0.5, 0.5),
 }
+_OF_A_SPOT = 6.0  # error of a peak times the cube of the pixels across a spot, see the coverage
 _LEAST = 8  # pixels along each side of the coarsest companion, over four
 
 
@@ -70,10 +72,11 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
     .. math:: e = 1.25 \max\left(\frac{d_2}{2^q - 1}, \frac{d_4}{4^q - 1}\right), \quad
               q = \log_2(d_4/d_2 - 1)
 
-    where the order q is taken from 1 to 2, and is 1/2 for tension and shear stress, which peak at
-    the edge of the contact. To the approach and the largest displacement it adds the
-    rise of the highest point over the highest pixel, and areas have at least 1.25 times the excess
-    that pixels cut by their edge have on average (half of it where that is taken off).
+    where the order q is taken from 1 to 1.5, and is 1/2 for tension and shear stress, which peak at
+    the edge of the contact. To the approach and the largest displacement it adds the rise of the
+    highest point over the highest pixel. Areas have at least 1.25 times the excess that pixels cut
+    by their edge have on average (half of it where that is taken off), maxima of pressure and
+    stress at least :math:`6/d^3`, d the pixels across a contact spot.
 
     Parameters
     ----------
@@ -134,8 +137,10 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
         relative = error / abs(value)
         if name in ("approach", "max_displacement"):
             relative += floors["first_touch"] / abs(value)
-        disc = _of_disc(value, result.plan.grid.pixel_area) if unit == "m2" else 0.0
-        errors[name] = max(relative, floors.get(name, disc))
+        least = _of_disc(value, result.plan.grid.pixel_area) if unit == "m2" else 0.0
+        if name.startswith("max_") and unit == "Pa":
+            least = floors["peak"]
+        errors[name] = max(relative, floors.get(name, least))
     _note_yield(result, errors)
     return DiscretisationError(
         FrozenDict({k: e for k, e in errors.items() if e > 0.0 or units[k][0]}),
@@ -169,10 +174,12 @@ def _index(
 
 
 def _floors(result: ContactResult) -> dict[str, float]:
-    """Least errors of areas over them [-], and the rise of the first touch [m]."""
+    """Least errors of areas and peaks over them [-], and the rise of the first touch [m]."""
     grid = result.plan.grid
     contact = _cut(result.contact, result)
+    across = next(one.value for one in result.validity if one.name == PIXELS_PER_SPOT) or math.inf
     found = {
+        "peak": _OF_A_SPOT / across**3,
         "first_touch": rise_between_pixels(_open(result), grid.repeats),
         "contact_area": contact,
         "contact_fraction": contact,
@@ -181,6 +188,8 @@ def _floors(result: ContactResult) -> dict[str, float]:
     if result.has(HardnessLimit):
         plastic = _cut(result.of(HardnessLimit).is_plastic, result)
         found |= {"plastic_area": plastic, "plastic_fraction": plastic}
+        if plastic > 0.0:
+            found["max_pressure"] = 0.0  # it is the hardness
     return found
 
 

@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["check_contact"]
+__all__ = ["PIXELS_PER_SPOT", "check_contact"]
+
+PIXELS_PER_SPOT = "pixels across a contact spot"
+"""Name of the number that says how well the spots are resolved."""
 
 _FEWEST_PER_WAVE = 8.0
 _FEWEST_PER_SPOT = 4.0
@@ -88,7 +91,7 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
         16.0 / math.pi * area / edges.total if edges.total else math.inf
     )
     return ValidityNumber(
-        name="pixels across a contact spot",
+        name=PIXELS_PER_SPOT,
         value=diameter if area else None,
         low=_FEWEST_PER_SPOT,
         detail="below, area and maximum pressure of the spots are those of the grid: more than a "

@@ -72,11 +72,11 @@ NAMES = (
 def stated():
     """True error, what is stated, and the change to every second pixel, of each number.
 
-    Of twelve contacts, against four times finer pixels.
+    Of nine contacts, against four times finer pixels.
     """
     found = []
     for solid, effects in KINDS.values():
-        for per_wave in (2.2, 4, 8, 12):
+        for per_wave in (2.2, 4, 8):
             heights = band_limited(1, per_wave)
             result = pressed(heights, PIXEL, effects, solid=solid)
             of = discretisation_error(result)
@@ -93,7 +93,7 @@ def stated():
 
 def test_the_true_error_seldom_exceeds_the_stated_one():
     true, error, _ = stated()
-    assert true.size > 50
+    assert true.size > 40
     assert (true > error).mean() <= 0.05
     assert (true > 2.0 * error).mean() <= 0.01
     assert np.median(true / error) > 0.1  # nor is it ten times as large
@@ -134,13 +134,13 @@ def test_it_covers_the_error_of_a_sphere(grid):
 
 
 def test_it_is_the_grid_convergence_index_of_four_companions():
-    heights = band_limited(3, 8)
-    result = pressed(heights, PIXEL, (*HALF, ck.SubsurfaceStress()))
+    heights, load = band_limited(3, 8), 400e6
+    result = pressed(heights, PIXEL, (*HALF, ck.SubsurfaceStress(depths=(0.0, 1e-8))), load)
     found = discretisation_error(result)
-    twice = [pressed(heights[i::2, i::2], 2 * PIXEL).max_pressure for i in (0, 1)]
-    wider = [pressed(heights[i::4, i::4], 4 * PIXEL).max_pressure for i in (0, 2)]
+    twice = [pressed(heights[i::2, i::2], 2 * PIXEL, HALF, load).max_pressure for i in (0, 1)]
+    wider = [pressed(heights[i::4, i::4], 4 * PIXEL, HALF, load).max_pressure for i in (0, 2)]
     near, far = (max(abs(p - result.max_pressure) for p in of) for of in (twice, wider))
-    order = min(max(math.log2(far / near - 1.0), 1.0), 2.0)
+    order = min(max(math.log2(far / near - 1.0), 1.0), 1.5)
     index = 1.25 * max(near / (2.0**order - 1.0), far / (4.0**order - 1.0))
     assert found.errors["max_pressure"] == pytest.approx(index / result.max_pressure, rel=1e-4)
     assert found.orders["max_pressure"] == pytest.approx(order, rel=1e-4)
