@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["DiscretisationError", "discretisation_error"]
 
+_Numbers = Mapping[str, tuple[float, str]]
+
 _SAFETY = 1.25  # of a grid convergence index from three grids (Roache)
 _ORDERS = (1.0, 1.5)  # of numbers of a rough contact: an area is of the first, an integral higher
 _SINGULAR = {  # largest at the edge of the contact, where stress grows as the root of the distance
@@ -33,6 +35,7 @@ _SINGULAR = {  # largest at the edge of the contact, where stress grows as the r
     "max_sigma_xz": (0.5, 0.5),
 }
 _OF_A_SPOT = 6.0  # error of a peak times the cube of the pixels across a spot, see the coverage
+_LOOSE = 1e-5  # tolerance of the companions: half the work of 1e-8, far below what is estimated
 _LEAST = 8  # pixels along each side of the coarsest companion, over four
 
 
@@ -124,11 +127,12 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
     """
     twice = [_companion(result, 2, first) for first in (0, 1)]
     wider = _wider(result)
-    floors, units = _floors(result), result.scalars()
+    numbers = [[one.scalars() for one in group] for group in (twice, wider)]
+    floors, own, left_out = _floors(result), result.scalars(), _left_out(result)
     errors, orders = dict[str, float](), dict[str, float]()
-    for name, (value, unit) in units.items():
-        changes = [_changes(name, value, group) for group in (twice, wider)]
-        if not changes[0] or not math.isfinite(value) or name in _left_out(result):
+    for name, (value, unit) in own.items():
+        changes = [_changes(name, value, group) for group in numbers]
+        if not changes[0] or not math.isfinite(value) or name.endswith(left_out):
             continue
         error, orders[name] = _index(*changes, *_SINGULAR.get(name, _ORDERS))
         if value == 0.0:
@@ -143,7 +147,7 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
         errors[name] = max(relative, floors.get(name, least))
     _note_yield(result, errors)
     return DiscretisationError(
-        FrozenDict({k: e for k, e in errors.items() if e > 0.0 or units[k][0]}),
+        FrozenDict({k: e for k, e in errors.items() if e > 0.0 or own[k][0]}),
         twice[0],
         FrozenDict(orders),
         (*twice, *wider),
@@ -151,15 +155,14 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
 
 
 def _left_out(result: ContactResult) -> tuple[str, ...]:
+    """Ends of the names of imposed numbers, of places, and of errors, which have no error."""
     imposed = ("approach",) if result.plan.mean_pressure is None else ("load", "mean_pressure")
-    return imposed
+    return ("_layer", "_error", "residual", *imposed)
 
 
-def _changes(name: str, value: float, companions: Sequence[ContactResult]) -> list[float]:
-    """Change of a number to each companion; names of places and of errors have none."""
-    if name.endswith(("_layer", "_error", "residual")):
-        return []
-    found = [one.scalars()[name][0] for one in companions if name in one.scalars()]
+def _changes(name: str, value: float, companions: Sequence[_Numbers]) -> list[float]:
+    """Change of a number to each companion that has it."""
+    found = [one[name][0] for one in companions if name in one]
     return [abs(one - value) for one in found if math.isfinite(one)]
 
 
@@ -242,7 +245,10 @@ def _wider(result: ContactResult) -> list[ContactResult]:
 
 def _companion(result: ContactResult, factor: int, first: int) -> ContactResult:
     """The contact solved on every second or fourth pixel from a first one on."""
-    plan = coarser(result.plan, result.heights, factor, first=first)
+    accuracy = result.plan.accuracy
+    if not result.has(Adhesion):  # whose branch may depend on the tolerance
+        accuracy = evolve(accuracy, rtol=max(accuracy.rtol, _LOOSE))
+    plan = coarser(result.plan, result.heights, factor, accuracy, first)
     if not result.has(Adhesion):
         return solve_unwarned(plan)
     taken = (slice(first, None, factor), slice(first, None, factor))

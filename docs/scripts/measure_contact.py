@@ -210,7 +210,7 @@ def _rough(pressure: float, pixels: int) -> ck.ContactResult:
 
 
 def pixels_table() -> str:
-    """Estimated and true error over pixels to the shortest wave, in per cent, at two loads."""
+    """Stated and true error over pixels to the shortest wave, in per cent, at two loads."""
     shown = {
         "max_pressure": "maximum pressure",
         "contact_area": "pixel count of the area",
