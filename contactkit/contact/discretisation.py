@@ -134,7 +134,7 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
         changes = [_changes(name, value, group) for group in numbers]
         if not changes[0] or not math.isfinite(value) or name.endswith(left_out):
             continue
-        error, orders[name] = _index(*changes, *_SINGULAR.get(name, _ORDERS))
+        error, orders[name] = _index(changes[0], changes[1], _SINGULAR.get(name, _ORDERS))
         if value == 0.0:
             errors[name] = math.inf if error > 0.0 else 0.0
             continue
@@ -167,9 +167,10 @@ def _changes(name: str, value: float, companions: Sequence[_Numbers]) -> list[fl
 
 
 def _index(
-    twice: Sequence[float], wider: Sequence[float], least: float, most: float
+    twice: Sequence[float], wider: Sequence[float], orders: tuple[float, float]
 ) -> tuple[float, float]:
     """Error of a number, and its order of convergence, from its changes to wider pixels."""
+    least, most = orders
     near, far = max(twice), max(wider, default=0.0)
     ratio = far / near - 1.0 if near > 0.0 else 0.0
     order = min(max(math.log2(ratio), least), most) if ratio > 0.0 else least

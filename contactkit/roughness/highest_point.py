@@ -77,15 +77,13 @@ def _highest_of(patch: Map, place: tuple[int, int]) -> float:
     """Largest value of the spline within a pixel of a place."""
     from scipy.interpolate import RectBivariateSpline
 
-    axes = [np.arange(n, dtype=float) for n in patch.shape]
-    if min(patch.shape) < 2:
-        return float(patch[place])
-    orders = [min(5, n - 1) for n in patch.shape]
+    ny, nx = patch.shape
     base = float(patch[place])
-    spline = RectBivariateSpline(*axes, patch - base, kx=orders[0], ky=orders[1])
+    if min(ny, nx) < 2:
+        return base
+    y, x = np.arange(float(ny)), np.arange(float(nx))
+    spline = RectBivariateSpline(y, x, patch - base, kx=min(5, ny - 1), ky=min(5, nx - 1))
     steps = np.linspace(-1.0, 1.0, 2 * _FINER + 1)
-    at = [
-        np.unique(np.clip(one + steps, 0.0, n - 1.0))
-        for one, n in zip(place, patch.shape, strict=True)
-    ]
-    return base + float(spline(*at).max())
+    down = np.unique(np.clip(place[0] + steps, 0.0, ny - 1.0))
+    across = np.unique(np.clip(place[1] + steps, 0.0, nx - 1.0))
+    return base + float(spline(down, across).max())
