@@ -32,12 +32,18 @@ class ValidityNumber:
         """Whether the value is in its range; None if it is not known."""
         return None if self.value is None else self.low <= self.value <= self.high
 
+    @property
+    def bounds(self) -> str:
+        """The range as text: at least, at most, or from one to the other."""
+        if math.isfinite(self.low) and math.isfinite(self.high):
+            return f"{self.low:g} to {self.high:g}"
+        return f"at most {self.high:g}" if math.isfinite(self.high) else f"at least {self.low:g}"
+
     def __str__(self) -> str:
-        bounds = f"at most {self.high:g}" if math.isfinite(self.high) else f"at least {self.low:g}"
         if self.value is None:
             return f"{self.name}: not evaluated, {self.detail}"
         verdict = "ok" if self.is_valid else "OUT OF RANGE"
-        return f"{self.name} = {self.value:.3g} ({bounds}): {verdict}; {self.detail}"
+        return f"{self.name} = {self.value:.3g} ({self.bounds}): {verdict}; {self.detail}"
 
 
 def warn(found: Iterable[ValidityNumber], stacklevel: int = 3) -> None:

@@ -13,6 +13,7 @@ from ..contact.result import ContactResult
 from ..errors import DescriptionError
 from ..frozen import FrozenDict
 from ..roughness import contact_theories
+from ..roughness.contact_theories import RANGES, Range, in_range
 from ..roughness.statistics import Summits, SurfaceStatistics, summits, surface_statistics
 
 if TYPE_CHECKING:
@@ -33,7 +34,10 @@ class AreaOverLoad(NamedTuple):
     corrected: Floats
     """The same, edge-corrected [-] (`ContactResult.corrected_contact_area`)."""
     theories: Mapping[str, Floats]
-    """Fractions [-] by the names of `contact_theories.RANGES`, at the same pressures."""
+    """Fractions [-] by the names of `ranges`, at the same pressures, also outside of them.
+
+    nan where a theory gives more than 1, which is no fraction.
+    """
     contact_modulus: float
     """Contact modulus E* [Pa]."""
     statistics: SurfaceStatistics
@@ -42,12 +46,22 @@ class AreaOverLoad(NamedTuple):
     """Their summits."""
 
     @property
+    def ranges(self) -> Mapping[str, Range]:
+        """Fractions [-] between which each theory holds, and how well, by its name."""
+        return FrozenDict({name: RANGES[name] for name in self.theories})
+
+    @property
+    def theories_in_range(self) -> Mapping[str, Floats]:
+        """Fractions [-] of the theories, nan outside the range of each."""
+        return FrozenDict({name: in_range(name, one) for name, one in self.theories.items()})
+
+    @property
     def reduced_pressure(self) -> Floats:
         """Mean pressure over E* h' [-]."""
         return np.asarray(self.mean_pressure / (self.contact_modulus * self.statistics.rms_slope))
 
     def fractions_at(self, reduced_pressure: Floats) -> Mapping[str, Floats]:
-        """Fractions [-] of the theories at other pressures over E* h' [-]."""
+        """Fractions [-] of the theories at other pressures over E* h' [-], as `theories`."""
         scale = self.contact_modulus * self.statistics.rms_slope
         return _theories(reduced_pressure * scale, self.contact_modulus, self)
 
@@ -69,7 +83,8 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
     Notes
     -----
     The theories are of elastic half-spaces without adhesion; each holds in its range,
-    `contact_theories.RANGES`. With a `HardnessLimit` solved areas are larger.
+    `AreaOverLoad.ranges`: compare with `AreaOverLoad.theories_in_range`. With a `HardnessLimit`
+    solved areas are larger.
 
     Examples
     --------
@@ -154,4 +169,4 @@ def _theories(pressure: Floats, modulus: float, made: AreaOverLoad) -> Mapping[s
         found["Greenwood and Williamson"] = contact_theories.greenwood_williamson_area(
             pressure, modulus, made.summits
         )
-    return FrozenDict(found)
+    return FrozenDict({k: np.where(one > 1.0, np.nan, one) for k, one in found.items()})

@@ -7,10 +7,11 @@ plan           Plan of a contact: checked and prepared.
 solve          Solve a planned contact, and run the effects that observe it.
 chain          Chain of solves, each from those before it, loads downwards.
 validity       Ranges of validity: resolution, small slopes, small strains.
+plausible      Plausible sizes, which a mistaken unit puts out of their range.
 pixel_edges    Edges between the pixels in and out of contact.
 patches        Connected spots of a contact, and the distribution of their sizes.
 companion      A coarser companion of a contact, on fewer pixels.
-discretisation Error of the grid, estimated from a coarser companion.
+discretisation Error of the grid, estimated from companions on wider pixels.
 friction_loop  Displacement caused by friction, until it agrees with the pressure.
 hardness_loop  Hardness that depends on the displacement, until they agree.
 slip_loop      Partial slip of dissimilar bodies, until pressure and tractions agree.

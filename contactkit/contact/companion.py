@@ -24,7 +24,11 @@ __all__ = ["coarser", "largest_factor"]
 
 
 def coarser(
-    plan: ContactPlan, heights: Map, factor: int = 2, accuracy: Accuracy | None = None
+    plan: ContactPlan,
+    heights: Map,
+    factor: int = 2,
+    accuracy: Accuracy | None = None,
+    first: int = 0,
 ) -> ContactPlan:
     """Return the plan of the same contact on pixels `factor` times as wide.
 
@@ -38,6 +42,8 @@ def coarser(
         Width of a pixel of the companion over that of the plan.
     accuracy : Accuracy, optional
         Tolerances of the companion; those of the plan if not given.
+    first : int
+        Row and column of the first pixel that is taken, below the factor.
 
     Raises
     ------
@@ -53,7 +59,8 @@ def coarser(
             f"{factor} times as wide",
         )
     lower, upper = plan.scene.interface.bodies
-    given = plan.prepared.open(heights)[::factor, ::factor]
+    taken = slice(first, None, factor)
+    given = plan.prepared.open(heights)[taken, taken]
     surface = Heights(heights=given, pixel_size=(factor * dy, factor * dx))
     scene = evolve(
         plan.scene,
@@ -63,7 +70,7 @@ def coarser(
             meniscus=plan.scene.interface.meniscus,
         ),
         window=Window(periodic=plan.grid.edges),
-        effects=tuple(_thinned(effect, factor) for effect in plan.scene.effects),
+        effects=tuple(_thinned(effect, taken) for effect in plan.scene.effects),
     )
     return unprepared_plan(scene, evolve(accuracy or plan.accuracy, grid=None))
 
@@ -76,9 +83,9 @@ def largest_factor(plan: ContactPlan, fewest: int) -> int:
     return factor
 
 
-def _thinned(effect: Any, factor: int) -> Any:
+def _thinned(effect: Any, taken: slice) -> Any:
     """Take an effect with the map that it may hold on the pixels of the companion."""
     if isinstance(effect, HardnessLimit) and isinstance(effect.hardness, HardnessMap):
-        values = effect.hardness.values[::factor, ::factor]
+        values = effect.hardness.values[taken, taken]
         return evolve(effect, hardness=HardnessMap(values))
     return effect

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -11,7 +12,13 @@ if TYPE_CHECKING:
 
     from ..scene.window import Edges
 
-__all__ = ["PixelEdges", "pixel_edges"]
+__all__ = ["EDGE_EXCESS", "PixelEdges", "pixel_edges"]
+
+EDGE_EXCESS = (math.pi - 1.0 + math.log(2.0)) / 24.0
+"""Mean excess of a pixel count for each edge, over the area of a pixel [-].
+
+Over the directions of a smooth edge (Yastrebov, Anciaux and Molinari 2017).
+"""
 
 
 class PixelEdges(NamedTuple):

@@ -19,7 +19,7 @@ from ..scene.validity import ValidityNumber
 from .effects.base import Attraction, ContactEffect
 from .effects.plasticity import HardnessLimit
 from .grid import holes_of
-from .pixel_edges import pixel_edges
+from .pixel_edges import EDGE_EXCESS, pixel_edges
 from .plan import ContactPlan
 from .scales import contact_scales
 from .work import ContactWork
@@ -132,8 +132,7 @@ class ContactResult(Result):
         """
         touching, (dy, dx) = self.contact, self.plan.grid.pixel_size
         edges = pixel_edges(touching, self.plan.grid.edges).total
-        excess = (math.pi - 1.0 + math.log(2.0)) / 24.0 * edges * dx * dy
-        return max(self.contact_area - excess, 0.0)
+        return max(self.contact_area - EDGE_EXCESS * edges * dx * dy, 0.0)
 
     @property
     def contact_fraction(self) -> float:

@@ -13,6 +13,7 @@ from .effects.base import Contact, ContactEffect
 from .effects.elasticity import contact_modulus
 from .grid import short_waves
 from .pixel_edges import pixel_edges
+from .plausible import FLATTEST, LIGHTEST_PEAK, check_sizes, is_even
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,13 +22,17 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["check_contact"]
+__all__ = ["PIXELS_PER_SPOT", "check_contact"]
+
+PIXELS_PER_SPOT = "pixels across a contact spot"
+"""Name of the number that says how well the spots are resolved."""
 
 _FEWEST_PER_WAVE = 8.0
 _FEWEST_PER_SPOT = 4.0
 _HIGHEST_PRESSURE = 0.2
 _STEEPEST = 0.3
 _HIGHEST_JUMP = 2.0
+_FEW = 4  # pixels in contact
 _LINES = 64
 
 
@@ -51,8 +56,9 @@ def check_contact(
     found = [
         _pixels_per_wave(contact),
         _pixels_per_spot(contact),
-        _peak_pressure(contact),
-        _slope(contact, steps),
+        _peak_pressure(contact, is_even(heights)),
+        _slope(contact, steps, is_even(heights)),
+        *check_sizes(contact, heights),
     ]
     if contact.grid.edges:
         found.append(_jump(heights, contact.grid.edges))
@@ -85,15 +91,23 @@ def _pixels_per_spot(contact: Contact) -> ValidityNumber:
         16.0 / math.pi * area / edges.total if edges.total else math.inf
     )
     return ValidityNumber(
-        name="pixels across a contact spot",
+        name=PIXELS_PER_SPOT,
         value=diameter if area else None,
         low=_FEWEST_PER_SPOT,
         detail="below, area and maximum pressure of the spots are those of the grid: more than a "
-        "tenth off; use a finer Accuracy.grid, or a smaller window"
+        f"tenth off{_light(area)}; use a finer Accuracy.grid, or a smaller window"
         if area
         else "there is no contact",
         source="16/pi x area/edges; measured, docs/accuracy.md, Pixels per wave",
     )
+
+
+def _light(n_touching: int) -> str:
+    """Remark on a contact of so few pixels that a mistaken load may be the reason."""
+    if n_touching > _FEW:
+        return ""
+    carried = "one pixel carries" if n_touching == 1 else f"{n_touching} pixels carry"
+    return f"; {carried} the load, is its unit right (1 MPa is 1e6 Pa)?"
 
 
 def _width(touching: NDArray[np.bool_], edges: Edges) -> float | None:
@@ -126,13 +140,20 @@ def _through(touching: NDArray[np.bool_], axis: str, edges: Edges) -> float | No
     return 2.0 * int(strip.sum()) / crossed if crossed else None
 
 
-def _peak_pressure(contact: Contact) -> ValidityNumber:
-    modulus = contact_modulus(contact.scene)
+def _peak_pressure(contact: Contact, even: bool) -> ValidityNumber:
+    modulus, peak = contact_modulus(contact.scene), float(contact.pressure.max())
+    # Under attraction, or between even faces, the lightest pressures are possible.
+    any_low = even or peak <= 0.0 or contact.attracted is not None
+    is_low = not any_low and peak < LIGHTEST_PEAK * modulus
     return ValidityNumber(
         name="peak pressure over E*",
-        value=float(contact.pressure.max()) / modulus,
+        value=peak / modulus,
+        low=-math.inf if any_low else LIGHTEST_PEAK,
         high=_HIGHEST_PRESSURE,
-        detail=f"linear elasticity takes strains to be small; E* = {modulus:.3g} Pa; check the "
+        detail=f"{peak:.3g} Pa on E* = {modulus:.3g} Pa hardly deforms a ball or a rough surface; "
+        "check the units of load, modulus, heights and pixel size: 1 MPa is 1e6 Pa"
+        if is_low
+        else f"linear elasticity takes strains to be small; E* = {modulus:.3g} Pa; check the "
         "units of heights and load, lower the load, or list HardnessLimit",
         source="Johnson 1985, sections 4.1 and 6.1",
     )
@@ -156,13 +177,21 @@ def _steps(heights: Map) -> _Steps:
     return _Steps(np.sqrt(np.concatenate(along_y) / nx), np.sqrt(along_x / ny))
 
 
-def _slope(contact: Contact, steps: _Steps) -> ValidityNumber:
+def _slope(contact: Contact, steps: _Steps, even: bool) -> ValidityNumber:
     pairs = zip(steps, contact.grid.pixel_size, strict=True)
+    slope = math.hypot(*(math.sqrt(float(np.square(s).mean())) / size for s, size in pairs))
+    pixel = max(contact.grid.pixel_size)
     return ValidityNumber(
         name="rms slope",
-        value=math.hypot(*(math.sqrt(float(np.square(s).mean())) / size for s, size in pairs)),
+        value=None if even else slope,
+        low=FLATTEST,
         high=_STEEPEST,
-        detail="a half-space takes slopes to be small; check the units of heights and pixel size",
+        detail="the surfaces are flat"
+        if even
+        else f"flatter than an optical flat, on pixels of {pixel:.3g} m; check the units of "
+        "heights and pixel size: 1 um is 1e-6 m"
+        if slope < FLATTEST
+        else "a half-space takes slopes to be small; check the units of heights and pixel size",
         source="Johnson 1985, section 4.1",
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from ..analyses.area_over_load import AreaOverLoad
 from ..analyses.heights import SurfaceHeights
 from ..contact.patches import ContactPatches, patch_density
-from ..roughness.contact_theories import RANGES
+from ..roughness.contact_theories import in_range
 from ..roughness.spectra import Spectrum
 from ..roughness.statistics import BearingCurve
 from .axis_units import axis_unit
@@ -40,7 +40,7 @@ def area_and_theories(found: AreaOverLoad, axes: Sequence[Axes] | None = None) -
     """Draw the area of solved contacts over the load beside the theories, and their ranges.
 
     Left the fraction of area over the load, right their ratio, which spreads the theories out. A
-    theory is drawn as a thick line in its range (`contact_theories.RANGES`), dotted outside.
+    theory is drawn as a thick line in its range (`AreaOverLoad.ranges`), dotted outside, up to 1.
 
     Parameters
     ----------
@@ -54,12 +54,10 @@ def area_and_theories(found: AreaOverLoad, axes: Sequence[Axes] | None = None) -
     p = np.geomspace(min(0.5 * float(solved.min()), 2e-3), max(1.5 * float(solved.max()), 1.5), 400)
     theories = found.fractions_at(p)
     for name in (one for one in _THEORIES if one in theories):
-        fraction, (low, high, _) = theories[name], RANGES[name]
-        label = f"{name}, {_range(low, high)}"
-        inside = np.ma.masked_where((fraction < low) | (fraction > high), fraction)
-        possible = np.ma.masked_greater(fraction, 1.0)
+        fraction, (low, high, _) = theories[name], found.ranges[name]
+        label, inside = f"{name}, {_range(low, high)}", in_range(name, fraction)
         for ax, scale in ((left, 1.0), (right, p)):
-            ax.plot(p, possible / scale, ":", color=_THEORIES[name], lw=1.2)
+            ax.plot(p, fraction / scale, ":", color=_THEORIES[name], lw=1.2)
             ax.plot(p, inside / scale, color=_THEORIES[name], lw=3.2, alpha=0.85, label=label)
     for ax, scale in ((left, 1.0), (right, solved)):
         ax.plot(solved, found.corrected / scale, "ko", ms=4.5, label="solved, edge-corrected")

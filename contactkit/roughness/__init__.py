@@ -9,5 +9,6 @@ instrument_files     Formats of instruments, read by SurfaceTopography in a proc
 instrument_channels  One channel of such a file: what the process does.
 spectra              Power spectral densities of maps and profiles; moments.
 statistics           Roughness parameters, summits, bearing curve, autocorrelation.
+highest_point        Highest point of a surface between its pixels.
 contact_theories     Area over load: Persson; Bush, Gibson and Thomas; Greenwood and Williamson.
 """

@@ -41,6 +41,7 @@ __all__ = [
     "bush_gibson_thomas",
     "greenwood_williamson",
     "greenwood_williamson_area",
+    "in_range",
     "interpolated_area",
     "persson_area",
     "persson_pressures",
@@ -67,6 +68,25 @@ RANGES = {
     "fit of slope 2": Range(0.1, 1.0, "within a tenth of solved self-affine contacts"),
 }
 """Where each theory holds."""
+
+
+def in_range(theory: str, fraction: ArrayLike) -> Array:
+    """Fractions of area by a theory [-], nan outside its range.
+
+    Parameters
+    ----------
+    theory : str
+        A name of `RANGES`.
+    fraction : array_like (...)
+        What the theory gives [-].
+
+    Examples
+    --------
+    >>> in_range("Bush, Gibson and Thomas", [0.005, 0.2, 2.9]).tolist()
+    [0.005, nan, nan]
+    """
+    found, (low, high, _) = np.asarray(fraction, dtype=np.float64), RANGES[theory]
+    return np.where((found >= low) & (found <= high), found, np.nan)
 
 
 def persson_area(pressure: ArrayLike, contact_modulus: float, rms_slope: float) -> Array:

@@ -26,6 +26,7 @@ __all__ = [
     "changed",
     "check_apart",
     "combinations",
+    "joined",
     "paths_of",
     "read_value",
     "value_at",
@@ -48,8 +49,12 @@ class Axis(NamedTuple):
     units: tuple[str, ...]
 
 
-Vary = Mapping[str, Iterable[Any]]
-"""Values by path; rows of values where a key is several paths, separated by commas."""
+Vary = (
+    Mapping[str, Iterable[Any]]
+    | Mapping[tuple[str, ...], Iterable[Any]]
+    | Mapping[str | tuple[str, ...], Iterable[Any]]
+)
+"""Values by path; rows of values where a key is several paths, a tuple or separated by commas."""
 
 
 class _Owner(NamedTuple):
@@ -68,11 +73,11 @@ def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
         The scene that the paths refer to.
     accuracy : Accuracy
         The settings that paths beginning with ``accuracy.`` refer to.
-    vary : mapping of str to sequence
+    vary : mapping of str or tuple of str to sequence
         Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index for an
         item of a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name).
-        Quantities may be texts with a unit. Several paths, separated by commas, vary together:
-        each of their values is a row with one for each path.
+        Quantities may be texts with a unit. Several paths, a tuple or one text with commas, vary
+        together: each of their values is a row with one for each path.
 
     Raises
     ------
@@ -94,10 +99,25 @@ def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
     """
     if not isinstance(vary, Mapping) or not vary:
         raise DescriptionError("vary", vary, "name at least one field and its values")
-    found = tuple(_axis(scene, accuracy, key, values) for key, values in vary.items())
+    found = tuple(_axis(scene, accuracy, joined(key, "vary"), v) for key, v in vary.items())
     check_limit("POINTS", math.prod(len(axis.values) for axis in found), "the study", "vary")
     check_apart([path for axis in found for path in axis.paths], "vary")
     return found
+
+
+def joined(key: object, origin: str) -> str:
+    """Key of what varies as text: paths that vary together may also be given as a tuple.
+
+    Raises
+    ------
+    DescriptionError
+        Of the field `origin`, if the key is neither.
+    """
+    paths = key if isinstance(key, tuple) and key else (key,)
+    for path in paths:
+        if not isinstance(path, str):
+            raise DescriptionError(origin, key, "be named by a path, or by a tuple of paths")
+    return ", ".join(paths)
 
 
 def check_apart(paths: Sequence[str], origin: str) -> None:

@@ -20,7 +20,7 @@ from ..scene.description import value_text
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..scene.tabular import Contents, Quantity, Tabular
 from ..units import quantity_text
-from .paths import axes, changed, value_at
+from .paths import axes, changed, joined, value_at
 from .study import Study, study
 
 if TYPE_CHECKING:
@@ -224,7 +224,7 @@ def _first(one: Influence) -> list[str]:
 
 def sensitivity(
     scene: Any,
-    ranges: Mapping[str, Range | tuple[Any, Any]],
+    ranges: Mapping[Any, Range | tuple[Any, Any]],
     answer: str | Callable[[Any], float],
     accuracy: Accuracy | None = None,
     *,
@@ -239,10 +239,10 @@ def sensitivity(
     ----------
     scene : ContactScene, SeparationScene or SlidingScene, or that of a device
         The scene as it is.
-    ranges : mapping of str to Range
+    ranges : mapping of str or tuple of str to Range
         Plausible range by the dotted path of the assumption, as in `study`: ``loading.mass``,
-        ``effects.tension-limit.strength``. Paths that vary together are one key, separated by
-        commas, with tuples as ends. A pair ``(low, high)`` is a range without a reason.
+        ``effects.tension-limit.strength``. Paths that vary together are one key, a tuple or one
+        text with commas, with tuples as ends. A pair ``(low, high)`` is a range without a reason.
     answer : str or callable
         The number that is asked for: the name of one of the result, such as ``peak_force``; or a
         function of a scene that returns it, nan where there is none, which also takes the scenes
@@ -347,7 +347,7 @@ def _collected(
     return Sensitivity(*named, base, tuple(found))
 
 
-def _checked(ranges: Mapping[str, Range | tuple[Any, Any]], n: int) -> dict[str, Range]:
+def _checked(ranges: Mapping[Any, Range | tuple[Any, Any]], n: int) -> dict[str, Range]:
     if isinstance(n, bool) or not isinstance(n, int) or n < 2:
         raise DescriptionError("n", n, "be a whole number of at least 2: the ends of a range")
     if not isinstance(ranges, Mapping) or not ranges:
@@ -356,7 +356,7 @@ def _checked(ranges: Mapping[str, Range | tuple[Any, Any]], n: int) -> dict[str,
     for path, given in ranges.items():
         if not isinstance(given, tuple | list) or not 2 <= len(given) <= 3:
             raise DescriptionError(f"ranges[{path!r}]", given, "be a Range, or a pair (low, high)")
-        found[path] = Range(*given)
+        found[joined(path, "ranges")] = Range(*given)
     return found
 
 

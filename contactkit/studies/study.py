@@ -113,12 +113,13 @@ def study(
     ----------
     scene : ContactScene, SeparationScene or SlidingScene
         The scene, with its constant parameters.
-    vary : mapping of str to sequence
+    vary : mapping of str or tuple of str to sequence
         Values by the dotted path of a field: ``loading.pressure``,
         ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
-        library. Paths that vary together are one key, separated by commas, with a row of values
-        for each step: ``"loading.pressure, accuracy.rtol": [("1 MPa", 1e-8), ("2 MPa", 1e-9)]``.
+        library. Paths that vary together are one key, a tuple or one text with commas, with a row
+        of values for each step: ``("loading.pressure", "accuracy.rtol"): [("1 MPa", 1e-8), ("2
+        MPa", 1e-9)]``.
         Along the last key each contact starts from the solutions before it, and reuses heights and
         compliance where these are equal: choose the load, in steps of less than a half, because an
         initial guess from further away does not help. Loads are solved downwards, as in

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from contact_effort import best_of, fast_table, ratio_table, solver_table
 from measured_blocks import measure
-from stress_tables import depth_table, reading_table, stress_cost_table
+from stress_tables import depth_table, distance_table, reading_table, stress_cost_table
 from validation_tables import grid
 
 import contactkit as ck
@@ -210,7 +210,7 @@ def _rough(pressure: float, pixels: int) -> ck.ContactResult:
 
 
 def pixels_table() -> str:
-    """Estimated and true error over pixels to the shortest wave, in per cent, at two loads."""
+    """Stated and true error over pixels to the shortest wave, in per cent, at two loads."""
     shown = {
         "max_pressure": "maximum pressure",
         "contact_area": "pixel count of the area",
@@ -243,6 +243,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "area": area_table,
     "pixels": pixels_table,
     "readings": reading_table,
+    "distances": distance_table,
     "depths": depth_table,
     "stress-cost": stress_cost_table,
     "solver": solver_table,

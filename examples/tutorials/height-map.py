@@ -110,8 +110,9 @@ plt.show()
 # %% [markdown]
 # ## Is the map fine enough?
 #
-# `discretisation_error` solves the contact again on every second pixel. What that changes is an
-# estimate of what a finer scan would change.
+# `discretisation_error` solves the contact again on every second and every fourth pixel. From what
+# that changes it estimates the error of each number against a finer scan of the same waves: few
+# numbers in a hundred are further off than stated, most are several times closer.
 
 # %%
 with warnings.catch_warnings():

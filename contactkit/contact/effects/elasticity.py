@@ -23,6 +23,7 @@ __all__ = ["HalfSpace", "LayeredHalfSpace", "bodies_of", "contact_modulus", "lay
 
 _ROUND_OFF = 1e-9  # of the eigenvalues of a compliance
 _DEEPEST = 0.1  # displacement over thickness
+_THICKEST = 1e4  # layer over window: coatings are thinner, a sheet of 1 mm may have one of 1 um
 _FREE = "Love 1929, square patch on a half-space"
 _BASE = "layers on a rigid base: Sneddon 1951; Johnson 1985, section 5.8"
 _SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
@@ -99,6 +100,8 @@ class LayeredHalfSpace(Compliance):
         thinnest = min(layers, key=lambda layer: layer.thickness, default=None)
         if thinnest is None:
             return ()
+        thickest = max(layers, key=lambda layer: layer.thickness)
+        side = max(n * d for n, d in zip(contact.grid.shape, contact.grid.pixel_size, strict=True))
         depths = [stack.depths[-1] for stack in stacks if stack.base]
         return (
             *([_indentation(contact, min(depths))] if depths else ()),
@@ -109,6 +112,13 @@ class LayeredHalfSpace(Compliance):
                 detail=f"the pressure under a pixel cannot follow {thinnest.material.name} of "
                 f"{thinnest.thickness:g} m: it acts on long waves only; use a finer Accuracy.grid, "
                 "or a smaller window",
+            ),
+            ValidityNumber(
+                name="layer thickness over the window",
+                value=thickest.thickness / side,
+                high=_THICKEST,
+                detail=f"{thickest.material.name} of {thickest.thickness:g} m is a half-space for "
+                f"a window of {side:.3g} m; check its unit: 1 nm is 1e-9 m",
             ),
         )
 

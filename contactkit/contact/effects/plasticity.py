@@ -23,6 +23,7 @@ from .base import (
     Scalar,
     VaryingHardness,
 )
+from .elasticity import contact_modulus
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from .base import Map
 
 _MOST_PLASTIC = 0.5
+_SOFTEST, _HARDEST = 1e-5, 1.0  # hardness over E*: single crystals; five times that of glasses
 AT_HARDNESS = 1.0 - 1e-6
 """Pressure over hardness from which on a pixel is plastic [-]: one that is loaded again to where it
 was left is back at the hardness to the tolerance of the solver."""
@@ -249,7 +251,26 @@ class HardnessLimit(PressureBound[PlasticPart]):
                 if touching
                 else "there is no contact",
             ),
+            _relative_hardness(contact, part.hardness),
         )
+
+
+def _relative_hardness(contact: Contact, hardness: Map | float) -> ValidityNumber:
+    """Hardness over E*, the smallest or, where that is too large, the largest."""
+    import numpy as np
+
+    modulus, given = contact_modulus(contact.scene), np.asarray(hardness)
+    high = float(given.max()) / modulus
+    low = float(given[given > 0.0].min(initial=math.inf)) / modulus  # 0 where nothing is carried
+    return ValidityNumber(
+        name="hardness over E*",
+        value=high if high > _HARDEST else low,
+        low=_SOFTEST,
+        high=_HARDEST,
+        detail=f"E* = {modulus:.3g} Pa; metals have 1e-3 to 0.03, glasses and ceramics up to 0.15; "
+        "check the unit of the hardness: 7 GPa are 7e9 Pa",
+        source="Johnson 1985, section 6.1; Tabor 1951",
+    )
 
 
 def _constant(hardness: float | HardnessMap, grid: Grid) -> FixedHardness:

@@ -41,14 +41,10 @@ def _measured(kind: type) -> dict[str, Any]:
     own = [one for one in result.validity if one.name not in shared]
     effect = next(e for e in entry.scene.effects if isinstance(e, kind))
     return found | {
-        "validity": [f"{one.name} ({_bounds(one)})" for one in own],
+        "validity": [f"{one.name} ({one.bounds})" for one in own],
         "sources": list(effect.cites(entry.scene)),
         "scenes": _uses(kind),
     }
-
-
-def _bounds(one: Any) -> str:
-    return f"at most {one.high:g}" if one.high < float("inf") else f"at least {one.low:g}"
 
 
 def lists(path: Path, kind: Any) -> bool:

@@ -218,7 +218,7 @@ def test_a_narrow_population_is_identical_and_a_wide_one_a_mean_of_spheres():
 # A solved contact ---------------------------------------------------------------------------
 
 
-@pytest.mark.filterwarnings("ignore:pixels across:contactkit.errors.ValidityWarning")
+@pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")  # a rigid ball, nearly
 def test_a_smooth_ball_in_contact_is_one_island_with_the_bridge_of_its_sphere():
     solid = ck.Material(young_modulus=1e15, poisson_ratio=0.3)
     radius = 2e-6

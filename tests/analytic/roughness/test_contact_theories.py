@@ -101,6 +101,23 @@ def test_solved_areas_lie_between_the_theories_and_meet_persson_at_full_contact(
 
 
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+def test_a_theory_ends_where_it_holds():
+    surface = heights(32)
+    found = area_over_load([ck.press(surface, 1e-9, SOLID, x * 1e8) for x in (0.02, 0.2, 1.4)])
+    assert found.ranges == {name: theories.RANGES[name] for name in found.theories}
+    small = found.theories["Bush, Gibson and Thomas"]
+    assert small[:2] == pytest.approx(math.sqrt(2.0 * math.pi) * np.array([0.02, 0.2]), rel=1e-9)
+    assert math.isnan(small[2])  # 3.5 of the area
+    for name, fractions in found.theories_in_range.items():
+        low, high, _ = theories.RANGES[name]
+        kept = ~np.isnan(fractions)
+        assert ((low <= fractions[kept]) & (fractions[kept] <= high)).all()
+        np.testing.assert_array_equal(fractions[kept], found.theories[name][kept])
+    persson = found.theories_in_range["Persson"]
+    assert np.isnan(persson).tolist() == [True, True, False]
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 def test_other_contacts_have_no_theory_beside_them():
     surface = heights(32)
     one = ck.press(surface, 1e-9, SOLID, 1e6)

@@ -100,6 +100,14 @@ def test_what_has_no_answer_comes_first_and_says_why(film):
     assert "too far" in got.table()
 
 
+def test_assumptions_that_vary_together_may_be_a_tuple(film):
+    ends = ((1e-4, 5e-6), (1e-2, 6e-6))
+    ranges = {("loading.speed", "loading.initial_gap"): ends}
+    got = ck.sensitivity(film, ranges, lambda scene: scene.loading.initial_gap, unit="m")
+    assert got.influences[0].path == "loading.speed, loading.initial_gap"
+    assert got.influences[0].answers == (5e-6, 6e-6)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

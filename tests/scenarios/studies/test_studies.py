@@ -155,6 +155,19 @@ def test_values_that_belong_together_are_set_together():
     assert study.results[0].plan.scene.interface.upper.surface.rolloff == 5e-7
 
 
+def test_paths_that_vary_together_may_be_a_tuple(film_scene):
+    keys = ("loading.initial_gap", "loading.speed")
+    rows = [(4e-6, 1e-8), ("5 um", "20 nm/s")]
+    given = film_scene(ck.ViscousForce())
+    study, of_text = (
+        ck.study(given, {key: rows}, ck.Accuracy.draft) for key in (keys, ", ".join(keys))
+    )
+    assert study.paths == of_text.paths == (keys,)
+    assert [tuple(p.values.values()) for p in study.points] == [(4e-6, 1e-8), (5e-6, 2e-8)]
+    np.testing.assert_array_equal(study.column("peak_force"), of_text.column("peak_force"))
+    assert ck.plan_study(given, {keys: rows}, ck.Accuracy.draft, trials=1).n_points == 2
+
+
 def test_a_separation_may_be_studied_too(film_scene):
     viscous = ck.ViscousForce()
     study = ck.study(film_scene(viscous), {"loading.speed": ["10 nm/s", 2e-8]}, ck.Accuracy.draft)

@@ -1,0 +1,97 @@
+"""Plausible sizes of a contact: numbers that a mistaken unit puts out of their range.
+
+A mistaken prefix is a factor of a thousand or more. Each bound lies well beyond what is built or
+measured, so that it is passed by a slip of a unit and hardly by a contact.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..scene.loading import Pressing
+from ..scene.validity import ValidityNumber
+from .effects.base import Attraction, Contact
+from .effects.elasticity import contact_modulus
+from .solver.optimality import ROUNDED
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
+
+__all__ = ["FLATTEST", "LIGHTEST_PEAK", "check_sizes", "is_even"]
+
+FLATTEST = 1e-6
+"""Rms slope [-]: optical flats and lenses under a light load have ten times as much."""
+LIGHTEST_PEAK = 1e-6
+"""Peak pressure over E* [-]: that of a ball is 2/pi times contact radius over radius."""
+_LIGHTEST = 1e-9  # mean pressure over E* [-]: 200 Pa on steel, the weight of a plate of 3 mm
+_SOFTEST, _STIFFEST = 1e3, 2e12  # Young's modulus [Pa]: gelatine, twice diamond
+_NARROWEST, _WIDEST = 1e-9, 1.0  # side of the window [m]: some atoms, a machine's face
+
+
+def is_even(heights: Map) -> bool:
+    """Whether heights (ny, nx) [m] are a plane parallel to that of contact, but for round-off."""
+    spread, largest = float(np.ptp(heights)), float(np.abs(heights).max(initial=0.0))
+    return spread <= ROUNDED * largest
+
+
+def check_sizes(contact: Contact, heights: Map) -> tuple[ValidityNumber, ...]:
+    """Evaluate the sizes of a solved contact that its slope and peak pressure do not show.
+
+    Parameters
+    ----------
+    contact : Contact
+        The solved contact.
+    heights : ndarray (ny, nx)
+        Heights of both bodies together [m].
+    """
+    found = [_modulus(contact), _window(contact)]
+    loading = contact.scene.loading
+    is_pressed = isinstance(loading, Pressing) and float(contact.pressure.sum()) > 0.0
+    # A load on an isolated window is one over no area, and even faces may rest on each other.
+    pulled = contact.scene.effect(Attraction) is not None
+    if is_pressed and contact.grid.edges and not pulled and not is_even(heights):
+        found.append(_mean_pressure(contact))
+    return tuple(found)
+
+
+def _modulus(contact: Contact) -> ValidityNumber:
+    materials = [m for stack in contact.scene.interface.stacks for m in stack.materials]
+    softest = min(materials, key=lambda one: one.young_modulus)
+    stiffest = max(materials, key=lambda one: one.young_modulus)
+    one = stiffest if stiffest.young_modulus > _STIFFEST else softest
+    return ValidityNumber(
+        name="Young's modulus [Pa]",
+        value=one.young_modulus,
+        low=_SOFTEST,
+        high=_STIFFEST,
+        detail=f"of {one.name!r}; from gelatine to twice that of diamond; check its unit: 210 GPa "
+        "are 210e9 Pa",
+    )
+
+
+def _window(contact: Contact) -> ValidityNumber:
+    sides = [n * d for n, d in zip(contact.grid.shape, contact.grid.pixel_size, strict=True)]
+    pixel = max(contact.grid.pixel_size)
+    return ValidityNumber(
+        name="side of the window [m]",
+        value=max(sides) if max(sides) > _WIDEST else min(sides),
+        low=_NARROWEST,
+        high=_WIDEST,
+        detail=f"its pixels are {pixel:.3g} m; from some atoms to the face of a machine; check the "
+        "unit of the window or the pixel size: 1 um is 1e-6 m",
+    )
+
+
+def _mean_pressure(contact: Contact) -> ValidityNumber:
+    modulus, mean = contact_modulus(contact.scene), float(contact.pressure.mean())
+    return ValidityNumber(
+        name="mean pressure over E*",
+        value=mean / modulus,
+        low=_LIGHTEST,
+        detail=f"{mean:.3g} Pa on E* = {modulus:.3g} Pa is less than a thin plate weighs; check "
+        "the unit of the load: 1 MPa is 1e6 Pa",
+    )
