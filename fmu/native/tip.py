@@ -12,7 +12,7 @@ from attrs import evolve
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
-from ..framework.ports import Port, Value, start_value
+from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value, start_value
 from ..slaves.tip_contact import PORTS, TipContact, check_tip, tip_scene
 from .build import chosen_platforms, target, write_native
 from .description import CATEGORIES
@@ -69,7 +69,7 @@ def build_native_tip(
     if curve is not None:
         given["curve"] = curve
     site = bake("tip-contact", given).get("curve")
-    values: dict[str, Value] = TipContact.start_values()
+    values: dict[str, Value] = TipContact.start_values() | {STEP_LIMIT: NATIVE_STEPS}
     values |= {name: start_value(PORTS, name, value) for name, value in given.items()}
     check_tip(values, has_curve=site is not None)
     scene = tip_scene(values)
@@ -104,6 +104,8 @@ def _ports(film: FilmNumbers) -> tuple[Port, ...]:
 def _port(port: Port, names: set[str], lowest: float) -> Port:
     if port.name == "h0":
         return evolve(port, exclusive=False, minimum=lowest)
+    if port.name == STEP_LIMIT:
+        return evolve(port, start=NATIVE_STEPS)
     if port.depends_on is None:
         return port
     return evolve(port, depends_on=tuple(name for name in port.depends_on if name in names))

@@ -35,7 +35,16 @@ from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, restored_state, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
+from ..framework.ports import (
+    PYTHON_STEPS,
+    Port,
+    grouped,
+    input_port,
+    output_port,
+    size_port,
+    step_limit,
+    tolerance,
+)
 from ..framework.slave import PortSlave
 from .tension import TENSIONS, tension_limit, tension_values
 
@@ -62,7 +71,7 @@ _GROUPS = {
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m", "v0", "k_s", "h_rel", "h_min"),
     "limits": (*TENSIONS, "tau_lim"),
-    "numerics": ("rtol",),
+    "numerics": ("rtol", "max_steps"),
 }
 
 _PORTS = (
@@ -150,6 +159,7 @@ _PORTS = (
     ),
     size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     tolerance(1e-8),
+    step_limit(PYTHON_STEPS),
 )
 
 PORTS = grouped(_PORTS, _GROUPS)
@@ -321,7 +331,10 @@ class StictionMass(PortSlave):
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
-        self.plan = plan(scene_of(self.values), Accuracy(time_rtol=self.values["rtol"]))
+        values = self.values
+        self.plan = plan(
+            scene_of(values), Accuracy(time_rtol=values["rtol"], max_steps=values["max_steps"])
+        )
         self.state = start(self.plan)
         self._show(0.0)
 

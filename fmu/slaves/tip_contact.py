@@ -54,7 +54,16 @@ from ...separation.effects.registry import (
 from ...separation.motion.state import restored_state
 from ...separation.plan import Plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
+from ..framework.ports import (
+    PYTHON_STEPS,
+    Port,
+    grouped,
+    input_port,
+    output_port,
+    size_port,
+    step_limit,
+    tolerance,
+)
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
 
@@ -85,7 +94,7 @@ _GROUPS = {
     "liquid": ("V", "eta", "gamma", "theta1", "theta2", "profile"),
     "solids": ("A_H", "d_stop"),
     "motion": ("m", "k", "c"),
-    "numerics": ("rtol",),
+    "numerics": ("rtol", "max_steps"),
 }
 
 _PORTS = (
@@ -187,6 +196,7 @@ _PORTS = (
     ),
     size_port("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),
+    step_limit(PYTHON_STEPS),
 )
 
 PORTS = grouped(_PORTS, _GROUPS)
@@ -333,7 +343,8 @@ class TipContact(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         values = self.values
-        self.plan = tip_plan(tip_scene(values), Accuracy(time_rtol=values["rtol"]))
+        accuracy = Accuracy(time_rtol=values["rtol"], max_steps=values["max_steps"])
+        self.plan = tip_plan(tip_scene(values), accuracy)
         check_tip(values, has_curve="curve" in self.data)
         self.stop = self._site()
         if values["z"] <= 0.0:

@@ -212,10 +212,11 @@ class ValveDrive(PortSlave):
         _check_switchings(valve.profile, step)
         # Counted from the begin of the step: late in a run the clock is coarse.
         marks = [mark - time for mark in law.switching_times(valve.profile, time, end)]
+        steps = law.StepCount()  # of the whole step: 1 to 2 s at most
         for start, stop in pairwise([0.0, *(mark for mark in marks if mark < step), step]):
             applied = law.voltage(valve.profile, time + 0.5 * (start + stop))
             here = gap + speed * start
-            flux = law.advance_flux(valve.coil, flux, here, speed, applied, stop - start)
+            flux = law.advance_flux(valve.coil, flux, here, speed, applied, stop - start, steps)
         values["flux"], values["F_mag"] = flux, law.magnet_force(valve.coil, flux)
         values["u"] = law.voltage(valve.profile, end)
         self._follow_gap(gap + speed * step, speed)
