@@ -46,7 +46,7 @@ def numbers() -> dict[str, float]:
 
 
 class Film:
-    """A disc of liquid that tears, quasi-static; edges as squares of radii over that of the disc."""
+    """A disc of liquid that tears; edges are squares of radii over that of the disc."""
 
     def __init__(self, p: Mapping[str, float]) -> None:
         self.eta, self.drop, self.square = p["eta"], p["dp_hold"], p["R"] ** 2
@@ -286,7 +286,9 @@ def delays() -> str:
     }
     lines = ["| master | step 5 us | step 1 us |", "|---|---|---|"]
     for name, text in rows.items():
-        one, five = (f"{1e9 * (time - reference()):.2g} ns" for time in releases()[name][:2])
+        one, five = (
+            f"{float(f'{1e9 * (time - reference()):.2g}'):g} ns" for time in releases()[name][:2]
+        )
         lines.append(f"| {text} | {five} | {one} |")
     return "\n".join(lines)
 

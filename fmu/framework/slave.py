@@ -57,6 +57,8 @@ class PortSlave(PortAccess):
         ``startTime``, ``stopTime``, ``stepSize``, ``tolerance`` to suggest to a tool.
     build : str
         Hash of the FMU this class was built for.
+    made_with : str
+        Version of contactkit that built it.
     baked : mapping
         Start values that replace those of the ports.
     values : dict
@@ -73,6 +75,7 @@ class PortSlave(PortAccess):
     places: ClassVar[Mapping[str, Place]] = {}
     experiment: ClassVar[Mapping[str, float]] = {}
     build: ClassVar[str] = "0" * 64
+    made_with: ClassVar[str] = ""  # pythonfmu has a `version` of its own
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -353,5 +356,7 @@ class PortSlave(PortAccess):
                 start=self.start_values(),
                 log_categories=self.log_categories,
                 experiment=self.experiment,
+                version=self.made_with,
+                needs_python=True,
             )
         )

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from attrs import evolve
 
+from ... import __version__
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
@@ -84,6 +85,7 @@ def build_native_tip(
         summary=TipContact.summary.partition(" (")[0],
         log_categories=CATEGORIES,
         experiment=TipContact.experiment,
+        version=__version__,
     )
     faces = [0.0] if site is None else stop_numbers(LoadDisplacementCurve.from_data(site))
     tables = [*film.numbers, *faces]

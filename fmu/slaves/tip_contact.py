@@ -132,13 +132,29 @@ _PORTS = (
     output_port(
         "state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus
     ),
-    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     output_port(
-        "t_free", "s", "time at which the tips were free for the last time, -1 before", start=-1.0
+        "t_break",
+        "s",
+        "time of the latest rupture, -1 before",
+        start=-1.0,
+        nominal=1e-6,
     ),
-    output_port("t_land", "s", "time of the latest landing, -1 before", start=-1.0),
-    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
-    output_port("n_land", "-", "number of landings so far", kind="integer"),
+    output_port(
+        "t_free",
+        "s",
+        "time at which the tips were free for the last time, -1 before",
+        start=-1.0,
+        nominal=1e-6,
+    ),
+    output_port(
+        "t_land",
+        "s",
+        "time of the latest landing, -1 before",
+        start=-1.0,
+        nominal=1e-6,
+    ),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
+    output_port("n_land", "-", "number of landings so far", kind="integer", minimum=0),
     output_port(
         "d",
         "m",
@@ -148,7 +164,13 @@ _PORTS = (
         nominal=1e-9,
     ),
     output_port(
-        "d_max", "m", "largest approach of a tip so far; 0 if rigid", _SITE, display_unit="nm"
+        "d_max",
+        "m",
+        "largest approach of a tip so far; 0 if rigid",
+        _SITE,
+        display_unit="nm",
+        minimum=0.0,
+        nominal=1e-9,
     ),
     output_port(
         "F_max",
@@ -156,6 +178,8 @@ _PORTS = (
         "largest force of the site on a tip so far; 0 if rigid",
         _SITE,
         display_unit="nN",
+        minimum=0.0,
+        nominal=1e-7,
     ),
     output_port(
         "W_plastic", "J", "work that yielding took, of all tips", (*_SITE, "N"), nominal=1e-17
