@@ -90,9 +90,7 @@ def test_every_description_is_complete(described):
         is_real = "unit" in attributes or attributes["name"] == "coupling_error"
         if attributes["causality"] in ("input", "output") and is_real and attributes["name"] != "u":
             assert float(attributes["nominal"]) > 0.0, attributes["name"]
-    assert {n for n in NEVER_NEGATIVE[name] if float(found[n]["min"]) == 0.0} == NEVER_NEGATIVE[
-        name
-    ]
+    assert {float(found[n]["min"]) for n in NEVER_NEGATIVE[name]} == {0.0}
 
 
 @pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
