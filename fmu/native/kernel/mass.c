@@ -13,7 +13,7 @@ static const char *apply(ck_model *model) {
     if (v[CK_H_MIN] > v[CK_H0]) return ck_wrong(model, CK_H_MIN, "not exceed", CK_H0, "m");
     scene->mass = v[CK_M], scene->initial_speed = v[CK_V0];
     scene->stiffness = v[CK_K_S], scene->release_gap = v[CK_H_REL], scene->rest_gap = v[CK_H_MIN];
-    scene->rtol = v[CK_RTOL], scene->max_steps = (int)v[CK_MAX_STEPS];
+    scene->rtol = v[CK_RTOL], scene->max_steps = ck_step_limit(model);
     return problem;
 }
 

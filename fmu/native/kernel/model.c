@@ -219,6 +219,11 @@ const char *ck_common_parameters(ck_model *model) {
     return NULL;
 }
 
+int ck_step_limit(const ck_model *model) {
+    double most = model->state.values[CK_MAX_STEPS];
+    return most >= 1.0 && most <= 1e9 ? (int)most : 1; /* a file may say anything */
+}
+
 /* Start from the parameters; the message says what is wrong with them. */
 const char *ck_model_prepare(ck_model *model) {
     const ck_kind *kind = ck_model_kind(model);

@@ -201,6 +201,7 @@ int ck_model_is_in(ck_model *model, int phase, const char *call);
 const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);
 const char *ck_common_parameters(ck_model *model);
+int ck_step_limit(const ck_model *model); /* parameter max_steps */
 /* What a parameter must do to another one of its unit, with the values of both. */
 const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit);
 void ck_model_follow(ck_model *model);                           /* outputs nobody has read yet */

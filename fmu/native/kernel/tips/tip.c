@@ -75,7 +75,7 @@ static const char *apply(ck_model *model) {
     double critical = 2.0 * sqrt(v[CK_K] * v[CK_M]);
     scene->mass = v[CK_M], scene->stiffness = v[CK_K], scene->initial_speed = 0.0;
     scene->release_gap = v[CK_H_FREE], scene->rest_gap = v[CK_H0], scene->rtol = v[CK_RTOL];
-    scene->max_steps = (int)v[CK_MAX_STEPS];
+    scene->max_steps = ck_step_limit(model);
     scene->pauses = 0; /* the root follows its inputs, whatever the tips do */
     if (v[CK_H_FREE] <= v[CK_H0]) return ck_wrong(model, CK_H_FREE, "exceed", CK_H0, "m");
     if (problem) return problem;
