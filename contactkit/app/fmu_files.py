@@ -15,6 +15,9 @@ from .settings import assignments, with_settings
 __all__ = ["Order", "build_fmu", "check_order"]
 
 
+_FILMS = ("stiction-mass", "stiction-force")
+
+
 class Order(NamedTuple):
     """An FMU to build: of what, with which values set, where to, in which form."""
 
@@ -59,9 +62,13 @@ def check_order(order: Order) -> None:
             "stiction-force has no mass, so it cannot be built with --model stiction-mass; build "
             "stiction-mass"
         )
-    if order.what == "valve-drive" and order.model not in (None, "valve-drive"):
+    alone = ("valve-drive", "tip-contact", "contact-stop")
+    if order.model not in (None, order.what) and (
+        order.what in alone or (order.what in _FILMS and order.model in alone)
+    ):
+        lacks = "film" if order.what in ("valve-drive", "contact-stop") else order.model
         raise PlanError(
-            f"valve-drive has no film, so it cannot be built with --model {order.model}; leave "
+            f"{order.what} has no {lacks}, so it cannot be built with --model {order.model}; leave "
             f"out --model, or give a scene"
         )
 
@@ -100,11 +107,25 @@ def _build_native(order: Order, opened: OpenedScene | None, given: Mapping[str, 
         values = given if what == "valve-drive" else _drive_start(what, scene)
         build_native_drive(order.out, start=values, fmi=fmi)
         return f"valve-drive, native, FMI {fmi}.0"
-    if what == "contact-stop" or isinstance(scene, ContactScene):
+    by_scene = {"contact-stop": ContactScene, "tip-contact": MicromirrorScene}
+    if model in by_scene and model != what and not isinstance(scene, by_scene[model]):
+        raise PlanError(
+            f"{what} is no scene of a {model}; a {by_scene[model].__name__} is, such as "
+            f"{'contact-stop' if model == 'contact-stop' else 'micromirror'}; leave out --model"
+        )
+    if (
+        what == "contact-stop"
+        or model == "contact-stop"
+        or (model is None and isinstance(scene, ContactScene))
+    ):
         values = given if opened is None else opened.fmu_start().values
         build_native_stop(order.out, start=values, fmi=fmi)
         return f"contact-stop, native, FMI {fmi}.0"
-    if model is None and (what == "tip-contact" or isinstance(scene, MicromirrorScene)):
+    if (
+        what == "tip-contact"
+        or model == "tip-contact"
+        or (model is None and isinstance(scene, MicromirrorScene))
+    ):
         values = given if opened is None else opened.fmu_start().values
         build_native_tip(order.out, start=values, fmi=fmi)
         return f"tip-contact, native, FMI {fmi}.0"

@@ -13,13 +13,13 @@ from .terminal import print_files, say, timed
 
 __all__ = ["fmu"]
 
-_MODELS = ("stiction-mass", "stiction-force", "valve-drive")
+_MODELS = ("stiction-mass", "stiction-force", "valve-drive", "tip-contact", "contact-stop")
 
 
 def _fmu_names() -> Iterable[str]:
     from ..models.library import bundled_scenes
 
-    return sorted({*_MODELS, "tip-contact", "contact-stop", *bundled_scenes()})
+    return sorted({*_MODELS, *bundled_scenes()})
 
 
 @click.group(cls=options.Group, no_args_is_help=False)
@@ -35,7 +35,8 @@ def fmu() -> None:
 @click.option(
     "--model",
     type=click.Choice(_MODELS),
-    help="Model of a native FMU: a mass with its film, the film alone, or the valve.",
+    help="Model of a native FMU of a scene: a mass with its film, the film alone, its valve, its "
+    "tips, or the stop of its faces.",
 )
 @click.option("--fmi", type=click.Choice(("2", "3")), default="2", help="Version of FMI.")
 @options.overwrite

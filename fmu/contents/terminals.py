@@ -2,7 +2,8 @@
 
 A terminal says which variables belong together, so that a tool draws one line where there are
 four connections. Terminals are of FMI 3.0: inside an FMU of FMI 2.0 the file, whose version is that
-of FMI 3.0, is a fatal error for FMILibrary 3 and all that is built on it.
+of FMI 3.0, is a fatal error for FMILibrary 3 and all that is built on it. There the description of
+the model has the same element in an annotation, which other tools pass over.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from attrs import frozen
 from ..framework.ports import Port
 from .icon import icon_png, icon_svg
 
-__all__ = ["Flange", "flange_of", "terminal_files", "terminals_xml"]
+__all__ = ["Flange", "annotate_terminal", "flange_of", "terminal_files", "terminals_xml"]
 
 _PLACE = "terminalsAndIcons/"
 
@@ -27,6 +28,25 @@ class Flange:
     kind: str
     description: str
     members: dict[str, str]
+
+    def xml(self) -> Element:
+        """Terminal, by the schema of FMI 3.0."""
+        terminal = Element(
+            "Terminal",
+            name="flange",
+            matchingRule="plug",
+            terminalKind=f"contactkit.{self.kind}",
+            description=self.description,
+        )
+        for member, variable in self.members.items():
+            SubElement(
+                terminal,
+                "TerminalMemberVariable",
+                variableName=variable,
+                memberName=member,
+                variableKind="signal",
+            )
+        return terminal
 
 
 _PULLED = {"gap": "h", "speed": "v", "force": "F_ext", "force_rate": "dF_ext"}
@@ -63,25 +83,20 @@ def terminals_xml(ports: Sequence[Port]) -> bytes:
     SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
     SubElement(picture, "Icon", corners)
     if flange is not None:
-        terminal = SubElement(
-            SubElement(root, "Terminals"),
-            "Terminal",
-            name="flange",
-            matchingRule="plug",
-            terminalKind=f"contactkit.{flange.kind}",
-            description=flange.description,
-        )
-        for member, variable in flange.members.items():
-            SubElement(
-                terminal,
-                "TerminalMemberVariable",
-                variableName=variable,
-                memberName=member,
-                variableKind="signal",
-            )
+        SubElement(root, "Terminals").append(flange.xml())
     indent(root)
     text: bytes = tostring(root, encoding="utf-8", xml_declaration=True)
     return text + b"\n"
+
+
+def annotate_terminal(root: Element, ports: Sequence[Port]) -> None:
+    """Put the terminal into the model description of an FMU of FMI 2.0, before its variables."""
+    flange = flange_of(ports)
+    if flange is None:
+        return
+    notes = Element("VendorAnnotations")
+    SubElement(notes, "Tool", name="contactkit").append(flange.xml())
+    root.insert([child.tag for child in root].index("ModelVariables"), notes)
 
 
 def terminal_files(ports: Sequence[Port], *, fmi: str = "2") -> dict[str, bytes]:

@@ -21,6 +21,7 @@ from ...units import parse_unit
 from .ports import TOLERANCE, Kind, Port, Value, display_conversion
 
 __all__ = [
+    "HELD",
     "Description",
     "details",
     "enumerations",
@@ -29,6 +30,7 @@ __all__ = [
     "model_description",
     "unit_definitions",
     "value_references",
+    "variability",
 ]
 
 _TAGS = {
@@ -37,6 +39,13 @@ _TAGS = {
     "boolean": "Boolean",
     "enumeration": "Enumeration",
 }
+
+
+HELD = ("t_break", "t_release", "t_free", "t_land", "u")
+"""Real outputs that change at events only."""
+
+_AUTHOR = "The contactkit authors"
+_COPYRIGHT = "Copyright (c) 2026, the contactkit authors"
 
 
 @frozen(kw_only=True)
@@ -51,6 +60,8 @@ class Description:
     start: Mapping[str, Value]
     log_categories: Mapping[str, str]
     experiment: Mapping[str, float] = field(factory=dict)
+    version: str = ""
+    needs_python: bool = False
 
 
 def value_references(ports: Sequence[Port]) -> dict[str, int]:
@@ -60,7 +71,7 @@ def value_references(ports: Sequence[Port]) -> dict[str, int]:
 
 def model_description(about: Description) -> Element:
     """Root element of ``modelDescription.xml``."""
-    able = _capabilities(about.identifier)
+    able = _capabilities(about)
     root = frame(about, "2.0", able, unit_definitions(about.ports), _types(about.ports))
     variables = SubElement(root, "ModelVariables")
     references = value_references(about.ports)
@@ -79,10 +90,14 @@ def frame(
         "modelName": about.identifier,
         "guid" if version == "2.0" else "instantiationToken": about.guid,
         "description": about.summary,
+        "author": _AUTHOR,
+        "copyright": _COPYRIGHT,
         "license": "BSD-3-Clause",
         "generationTool": about.tool,
         "variableNamingConvention": "structured",
     }
+    if about.version:
+        attributes["version"] = about.version
     epoch = os.environ.get("SOURCE_DATE_EPOCH")
     if epoch:  # without it no date is written: the same sources give the same file
         date = datetime.datetime.fromtimestamp(int(epoch), datetime.UTC)
@@ -103,9 +118,10 @@ def frame(
     return root
 
 
-def _capabilities(identifier: str) -> dict[str, str]:
+def _capabilities(about: Description) -> dict[str, str]:
     return {
-        "modelIdentifier": identifier,
+        "modelIdentifier": about.identifier,
+        "needsExecutionTool": _text(about.needs_python, "boolean"),
         "canHandleVariableCommunicationStepSize": "true",
         "canBeInstantiatedOnlyOncePerProcess": "false",
         "canNotUseMemoryManagementFunctions": "true",
@@ -159,10 +175,10 @@ def _variable(port: Port, references: Mapping[str, int], start: Mapping[str, Val
         "valueReference": str(references[port.name]),
         "description": port.label,
         "causality": port.causality,
-        "variability": "continuous" if port.kind == "real" else "discrete",
+        "variability": variability(port),
     }
     if is_parameter:
-        attributes |= {"variability": "fixed", "initial": "exact"}
+        attributes["initial"] = "exact"
     elif is_output:
         attributes["initial"] = "calculated"
     node = Element("ScalarVariable", attributes)
@@ -171,6 +187,13 @@ def _variable(port: Port, references: Mapping[str, int], start: Mapping[str, Val
         tool = SubElement(SubElement(node, "Annotations"), "Tool", name="contactkit")
         SubElement(tool, "Dialog", group=port.group)
     return node
+
+
+def variability(port: Port) -> str:
+    """When a variable may change, in the words of both versions of FMI."""
+    if port.causality == "parameter":
+        return "fixed"
+    return "discrete" if port.kind != "real" or port.name in HELD else "continuous"
 
 
 def details(

@@ -7,7 +7,7 @@ after all others, and says of each output whether it may change between events.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from .description import (
@@ -18,6 +18,7 @@ from .description import (
     items,
     unit_definitions,
     value_references,
+    variability,
 )
 from .ports import Port
 
@@ -46,29 +47,20 @@ _UNABLE = (
 )
 
 
-def model_description3(about: Description, discrete: Collection[str] = ()) -> Element:
-    """Root element of ``modelDescription.xml`` for FMI 3.0, co-simulation.
-
-    Parameters
-    ----------
-    about : Description
-        What it says.
-    discrete : collection of str
-        Names of real outputs that change at events only.
-    """
+def model_description3(about: Description) -> Element:
+    """Root element of ``modelDescription.xml`` for FMI 3.0, co-simulation."""
     able = {"modelIdentifier": about.identifier} | dict.fromkeys(_ABLE, "true")
     able |= dict.fromkeys(_UNABLE, "false")
     root = frame(about, "3.0", able, _units(about.ports), _types(about.ports))
     variables = SubElement(root, "ModelVariables")
     references = value_references(about.ports)
     for port in about.ports:
-        changes = "discrete" if port.kind != "real" or port.name in discrete else "continuous"
         attributes = {
             "name": port.name,
             "valueReference": str(references[port.name]),
             "description": port.label,
             "causality": port.causality,
-            "variability": "fixed" if port.causality == "parameter" else changes,
+            "variability": variability(port),
         }
         if port.causality != "input":
             attributes["initial"] = "exact" if port.causality == "parameter" else "calculated"

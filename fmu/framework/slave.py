@@ -26,13 +26,12 @@ from ...errors import ContactkitError
 from .access import PortAccess
 from .description import Description, model_description
 from .places import Place, in_parameters
-from .ports import TOLERANCE
+from .ports import STEP_LIMIT, TOLERANCE
 from .state import Phase, Snapshot, check_state, from_bytes, plain, to_bytes
 
 __all__ = ["PortSlave"]
 
 _CURE = "reset the FMU, or go back to an earlier state"
-_MORE_STEPS = " or raise Accuracy.max_steps"  # which no parameter stands for
 _STEPPING = Phase.STEPPING  # looked up once
 _CLOCK = 16.0 * sys.float_info.epsilon  # fraction of the time by which two clocks may differ
 _REST = 1e-9  # fraction of a step up to which another is put off, as masters end with round-off
@@ -58,6 +57,8 @@ class PortSlave(PortAccess):
         ``startTime``, ``stopTime``, ``stepSize``, ``tolerance`` to suggest to a tool.
     build : str
         Hash of the FMU this class was built for.
+    made_with : str
+        Version of contactkit that built it.
     baked : mapping
         Start values that replace those of the ports.
     values : dict
@@ -74,6 +75,7 @@ class PortSlave(PortAccess):
     places: ClassVar[Mapping[str, Place]] = {}
     experiment: ClassVar[Mapping[str, float]] = {}
     build: ClassVar[str] = "0" * 64
+    made_with: ClassVar[str] = ""  # pythonfmu has a `version` of its own
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -150,10 +152,18 @@ class PortSlave(PortAccess):
         return None
 
     def _explain(self, error: BaseException) -> str:
-        """Message of an error: its own words if it is ours, else with a traceback."""
+        """Message of an error: its own words if it is ours, else with a traceback.
+
+        Numbers that leave the range of floats are no defect: Python raises where C has inf.
+        """
         if isinstance(error, ContactkitError):
             text = in_parameters(self.places, str(error))
-            return text.replace("Accuracy.time_rtol", TOLERANCE).replace(_MORE_STEPS, "")
+            if TOLERANCE not in self.values:  # what is integrated has a tolerance of its own
+                text = text.replace("; loosen Accuracy.time_rtol", "")
+            text = text.replace("Accuracy.time_rtol", TOLERANCE)
+            return text.replace("Accuracy.max_steps", STEP_LIMIT)
+        if isinstance(error, ArithmeticError):
+            return f"the forces are no finite numbers ({error}); give less extreme values"
         trace = "".join(traceback.format_exception(error))
         return f"unexpected {type(error).__name__}: {error}\n{trace}"
 
@@ -263,7 +273,7 @@ class PortSlave(PortAccess):
             return True
         if (error := self._try(self.advance, current_time, length)) is not None:
             reason = f"step of {length!r} s from t = {time!r} s: {self._explain(error)}"
-            if isinstance(error, ContactkitError):
+            if isinstance(error, ContactkitError | ArithmeticError):
                 return self._discard(f"{reason}; or take shorter steps from there")
             self._fail(f"{reason}; {_CURE}")
             return False
@@ -346,5 +356,7 @@ class PortSlave(PortAccess):
                 start=self.start_values(),
                 log_categories=self.log_categories,
                 experiment=self.experiment,
+                version=self.made_with,
+                needs_python=True,
             )
         )

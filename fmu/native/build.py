@@ -15,6 +15,7 @@ from typing import Any, Literal, NamedTuple
 
 from attrs import evolve
 
+from ... import __version__
 from ...errors import DescriptionError, PlanError
 from ...scene.scenes import ContactScene, SeparationScene
 from ...separation.effects.prepared import prepare_scene
@@ -127,6 +128,7 @@ def build_native(
         summary=_SUMMARIES[model] + title,
         log_categories=CATEGORIES,
         experiment=_SLAVES[model].experiment,
+        version=__version__,
     )
     names = chosen_platforms(platforms)
     return write_native(model, about, film.numbers, place, fmi, names, compiler, scene)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ..contents.terminals import annotate_terminal
 from ..framework.description import Description, model_description
 from ..framework.description3 import build_description, model_description3
 
@@ -17,7 +18,6 @@ CATEGORIES = {
     "logStatusError": "Why the FMU refuses to go on, and what to do about it.",
     "logAll": "Everything.",
 }
-_HELD = ("t_break", "t_release", "t_free", "t_land", "u")  # real outputs that change at events only
 
 
 def description_files(
@@ -40,14 +40,14 @@ def description_files(
     """
     compiled = sorted(name for name in files if name.endswith(".c"))
     if fmi == 3:
-        root = model_description3(about, _HELD)
+        root = model_description3(about)
         _able(root, gives_rates)
         build = build_description(about.identifier, compiled)
         return {"modelDescription.xml": _text(root), "sources/buildDescription.xml": _text(build)}
     root = model_description(about)
+    annotate_terminal(root, about.ports)
     kind = _able(root, gives_rates)
     kind.attrib |= {
-        "needsExecutionTool": "false",
         "canInterpolateInputs": str(takes_rate).lower(),
         "providesDirectionalDerivative": "true",
     }

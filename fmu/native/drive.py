@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
+from ... import __version__
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
@@ -124,4 +125,5 @@ def _description(name: str, slave: type[PortSlave], given: Mapping[str, Any]) ->
         summary=slave.summary,
         log_categories=CATEGORIES,
         experiment=slave.experiment,
+        version=__version__,
     )

@@ -121,7 +121,6 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         float(scene.meniscus.count),
         float(reynolds),
         fraction,
-        float(max(accuracy.max_steps, 1)),
         float(len(fractions)),
     ]
     for one in fractions:

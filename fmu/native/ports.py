@@ -18,7 +18,7 @@ from ...separation.effects.prepared import PreparedScene
 from ...separation.effects.registry import AdhesiveContact, TensionLimit, ViscousForce
 from ...separation.effects.viscous import keeps_radius
 from ..framework.places import read
-from ..framework.ports import Port, Value
+from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
 from ..slaves.stiction_force import PORTS as FORCE_PORTS
 from ..slaves.stiction_mass import PLACES, with_numbers
 from ..slaves.stiction_mass import PORTS as MASS_PORTS
@@ -62,7 +62,8 @@ def native_ports(
     """Variables of the FMU of a scene whose tables begin at a gap [m], with a typical force [N]."""
     own = MODELS[model]
     there = {port.name for port in own} & set(IDENTIFIERS) - _absent(prepared, model)
-    start, sizes = start_of(prepared, model), _sizes(prepared.scene, abs(force))
+    start = start_of(prepared, model) | {STEP_LIMIT: NATIVE_STEPS}
+    sizes = _sizes(prepared.scene, abs(force))
     ports = []
     for port in own:
         if port.name not in there:

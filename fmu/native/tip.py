@@ -9,10 +9,11 @@ from typing import Any, Literal
 
 from attrs import evolve
 
+from ... import __version__
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
-from ..framework.ports import Port, Value, start_value
+from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value, start_value
 from ..slaves.tip_contact import PORTS, TipContact, check_tip, tip_scene
 from .build import chosen_platforms, target, write_native
 from .description import CATEGORIES
@@ -69,7 +70,7 @@ def build_native_tip(
     if curve is not None:
         given["curve"] = curve
     site = bake("tip-contact", given).get("curve")
-    values: dict[str, Value] = TipContact.start_values()
+    values: dict[str, Value] = TipContact.start_values() | {STEP_LIMIT: NATIVE_STEPS}
     values |= {name: start_value(PORTS, name, value) for name, value in given.items()}
     check_tip(values, has_curve=site is not None)
     scene = tip_scene(values)
@@ -84,6 +85,7 @@ def build_native_tip(
         summary=TipContact.summary.partition(" (")[0],
         log_categories=CATEGORIES,
         experiment=TipContact.experiment,
+        version=__version__,
     )
     faces = [0.0] if site is None else stop_numbers(LoadDisplacementCurve.from_data(site))
     tables = [*film.numbers, *faces]
@@ -104,6 +106,8 @@ def _ports(film: FilmNumbers) -> tuple[Port, ...]:
 def _port(port: Port, names: set[str], lowest: float) -> Port:
     if port.name == "h0":
         return evolve(port, exclusive=False, minimum=lowest)
+    if port.name == STEP_LIMIT:
+        return evolve(port, start=NATIVE_STEPS)
     if port.depends_on is None:
         return port
     return evolve(port, depends_on=tuple(name for name in port.depends_on if name in names))

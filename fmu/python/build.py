@@ -17,12 +17,14 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree.ElementTree import fromstring, indent, tostring
 
+from ... import __version__
 from ...errors import ContactkitError, DescriptionError
 from ...extras import require
 from ..contents.document import Page, external_dependencies, index_page, license_text
 from ..contents.packing import write_archive
-from ..contents.terminals import terminal_files
+from ..contents.terminals import annotate_terminal, terminal_files
 from ..framework.ports import Value, start_value
 from ..native.ports import MODELS, check_start
 from ..slaves.valve_drive import check_drive
@@ -58,6 +60,7 @@ class {class_name}(Model):
     """The model with the start values of this build."""
 
     build = {build!r}
+    made_with = {version!r}
     baked = {baked!r}
 
     # The class needs a method of its own: pythonfmu 0.7 gives back a reference to this module's
@@ -125,6 +128,10 @@ def build(
         fmu = _pack(slave, name, dict(sorted(baked.items())), Path(folder), data)
         with zipfile.ZipFile(fmu) as packed:
             files = {path: packed.read(path) for path in packed.namelist()}
+    root = fromstring(files["modelDescription.xml"])
+    annotate_terminal(root, slave.ports)
+    indent(root)
+    files["modelDescription.xml"] = tostring(root, encoding="utf-8", xml_declaration=True)
     return write_archive(protect(files) | terminal_files(slave.ports), target)
 
 
@@ -159,6 +166,7 @@ def _pack(
     record = {
         "fmu": name,
         "class": slave.__name__,
+        "version": __version__,
         "start": baked,
         "data": data,
         "script": _SCRIPT,
@@ -173,6 +181,7 @@ def _pack(
         module=module,
         class_name=slave.__name__,
         build=identity,
+        version=__version__,
         baked=dict(baked),
     )
     main = f"{module}_{identity[:12]}.py"

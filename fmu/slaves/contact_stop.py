@@ -47,16 +47,44 @@ _GROUPS = {
 _PORTS = (
     input_port("h", "m", "gap, at the end of the step to come", display_unit="um", nominal=1e-5),
     input_port("v", "m/s", "opening speed there", nominal=0.1),
-    output_port("F", "N", "force that pushes out of the stop, never negative", _ALL, nominal=100.0),
     output_port(
-        "F_el", "N", "the same without damping: what the tables give", _STATIC, nominal=100.0
+        "F",
+        "N",
+        "force that pushes out of the stop, never negative",
+        _ALL,
+        minimum=0.0,
+        nominal=100.0,
+    ),
+    output_port(
+        "F_el",
+        "N",
+        "the same without damping: what the tables give",
+        _STATIC,
+        minimum=0.0,
+        nominal=100.0,
     ),
     output_port("k", "N/m", "stiffness: growth of F_el with the approach", _STATIC, nominal=1e8),
     output_port(
         "c", "N.s/m", "damping: growth of F with the speed of approach", _ALL, nominal=100.0
     ),
-    output_port("contact_area", "m2", "area of contact", _STATIC, display_unit="mm2"),
-    output_port("plastic_area", "m2", "area that has yielded so far", _STATIC, display_unit="mm2"),
+    output_port(
+        "contact_area",
+        "m2",
+        "area of contact",
+        _STATIC,
+        display_unit="mm2",
+        minimum=0.0,
+        nominal=1e-8,
+    ),
+    output_port(
+        "plastic_area",
+        "m2",
+        "area that has yielded so far",
+        _STATIC,
+        display_unit="mm2",
+        minimum=0.0,
+        nominal=1e-8,
+    ),
     output_port(
         "d",
         "m",
@@ -74,7 +102,13 @@ _PORTS = (
         nominal=1e-7,
     ),
     output_port(
-        "d_res", "m", "approach at which they detach after it", ("d_max0",), display_unit="um"
+        "d_res",
+        "m",
+        "approach at which they detach after it",
+        ("d_max0",),
+        display_unit="um",
+        minimum=0.0,
+        nominal=1e-7,
     ),
     output_port("W", "J", "work dissipated by plasticity since the start", nominal=1e-6),
     output_port("W_d", "J", "work dissipated by damping since the start", nominal=1e-6),
@@ -87,7 +121,9 @@ _PORTS = (
         enumeration=Branch,
         start=Branch.FREE,
     ),
-    output_port("n_beyond", "-", "number of steps that ended beyond the tables", kind="integer"),
+    output_port(
+        "n_beyond", "-", "number of steps that ended beyond the tables", kind="integer", minimum=0
+    ),
     size_port("h_touch", "m", "gap at which the faces touch", 25e-6, display_unit="um"),
     Port(
         "side",

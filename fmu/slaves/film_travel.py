@@ -33,6 +33,7 @@ _MOST = 200  # panels of a way, but for kinks and ruptures: of a gap ratio of 1e
 _PANELS = 4  # at least, to look for limits on the way
 _NEAR = 1e-4  # panel over gap at the end of the film
 _NEAR_ONSET = 1e-4  # of a panel, to the onset of a limit: the force is smooth to first order there
+_MOST_STEPS = 5000  # of a cavity: some seconds where values are hostile, and a pull takes some 250
 _VOID = 1e-9  # error of the void in a step of time, over the volume of the film
 _GAUSS = tuple(zip(*gauss_legendre(3), strict=True))
 # The ends of Lobatto's rule are those of the panels next to it, and known there.
@@ -104,7 +105,8 @@ def _with_memory(
         return begin + speed * time, speed
 
     is_whole = cavity.phase is Phase.FULL and not is_torn_by(law, cavity, begin, speed)
-    for point in along_path(law, cavity, place, 0.0, length, _VOID):
+    path = along_path(law, cavity, place, 0.0, length, _VOID, most_steps=_MOST_STEPS)
+    for point in path:
         after, cavity = place(point.time)[0], point.cavity
         total += film.newtonian_impulse(gap, after) if point.impulse is None else point.impulse
         if is_whole is not (cavity.phase is Phase.FULL):

@@ -90,17 +90,25 @@ _PORTS = (
         _VISCOUS,
         nominal=10.0,
     ),
-    output_port("c", "N.s/m", "damping dF/dv", _VISCOUS, nominal=1e8),
+    output_port("c", "N.s/m", "damping dF/dv", _VISCOUS, minimum=0.0, nominal=1e8),
     output_port("k", "N/m", "stiffness dF/dh", _ALL, nominal=1e7),
     output_port("J", "N.s", "viscous impulse since the start", nominal=1e-2),
     output_port("J_m", "N.s", "meniscus impulse since the start", nominal=1e-2),
     output_port("F_mean", "N", "mean of F over the last step", nominal=10.0),
-    output_port("coupling_error", "-", "what F_mean differs by from F, over what moves the mass"),
+    output_port(
+        "coupling_error",
+        "-",
+        "what F_mean differs by from F, over what moves the mass",
+        minimum=0.0,
+        nominal=0.1,
+    ),
     output_port(
         "H_stable",
         "s",
         "longest communication step for exchanging forces: m_ref/c",
         (*_VISCOUS, "m_ref"),
+        minimum=0.0,
+        nominal=1e-6,
     ),
     output_port(
         "in_doubt",
@@ -108,7 +116,7 @@ _PORTS = (
         "last step longer than H_stable, or coupling_error above 0.2",
         kind="boolean",
     ),
-    output_port("n_doubt", "-", "number of steps in doubt so far", kind="integer"),
+    output_port("n_doubt", "-", "number of steps in doubt so far", kind="integer", minimum=0),
     output_port(
         "state",
         "-",
@@ -133,6 +141,8 @@ _PORTS = (
         "next gap above at which a force is not smooth; 0: none",
         _MENISCUS,
         display_unit="um",
+        minimum=0.0,
+        nominal=1e-6,
     ),
     output_port(
         "h_below",
@@ -140,11 +150,21 @@ _PORTS = (
         "next gap below at which a force is not smooth; 0: none",
         _MENISCUS,
         display_unit="um",
+        minimum=0.0,
+        nominal=1e-6,
     ),
-    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
-    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
-    output_port("r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", nominal=1e-3),
-    output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
+    output_port(
+        "t_break",
+        "s",
+        "time of the latest rupture, -1 before",
+        start=-1.0,
+        nominal=1e-3,
+    ),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
+    output_port(
+        "r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", minimum=0.0, nominal=1e-3
+    ),
+    output_port("V_void", "m3", "void in the film", display_unit="mm3", minimum=0.0, nominal=1e-10),
     size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
     Port(
         "exchange",
@@ -180,7 +200,7 @@ class StictionForce(PortSlave):
     experiment: ClassVar[Mapping[str, float]] = {
         "startTime": 0.0,
         "stopTime": 1e-3,
-        "stepSize": 1e-8,
+        "stepSize": 1e-6,
         "tolerance": 1e-4,
     }
 

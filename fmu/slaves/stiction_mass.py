@@ -35,7 +35,16 @@ from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, restored_state, start
 from ...separation.plan import Plan, plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
+from ..framework.ports import (
+    PYTHON_STEPS,
+    Port,
+    grouped,
+    input_port,
+    output_port,
+    size_port,
+    step_limit,
+    tolerance,
+)
 from ..framework.slave import PortSlave
 from .tension import TENSIONS, tension_limit, tension_values
 
@@ -62,7 +71,7 @@ _GROUPS = {
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m", "v0", "k_s", "h_rel", "h_min"),
     "limits": (*TENSIONS, "tau_lim"),
-    "numerics": ("rtol",),
+    "numerics": ("rtol", "max_steps"),
 }
 
 _PORTS = (
@@ -102,13 +111,27 @@ _PORTS = (
         enumeration=LimitKind,
         start=LimitKind.NONE,
     ),
-    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
-    output_port("t_release", "s", "time of the latest release, at h_rel, -1 before", start=-1.0),
-    output_port("F_peak", "N", "largest force of the film so far", nominal=10.0),
-    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
-    output_port("n_release", "-", "number of releases so far", kind="integer"),
-    output_port("r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", nominal=1e-3),
-    output_port("V_void", "m3", "void in the film", display_unit="mm3", nominal=1e-10),
+    output_port(
+        "t_break",
+        "s",
+        "time of the latest rupture, -1 before",
+        start=-1.0,
+        nominal=1e-3,
+    ),
+    output_port(
+        "t_release",
+        "s",
+        "time of the latest release, at h_rel, -1 before",
+        start=-1.0,
+        nominal=1e-3,
+    ),
+    output_port("F_peak", "N", "largest force of the film so far", minimum=0.0, nominal=10.0),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
+    output_port("n_release", "-", "number of releases so far", kind="integer", minimum=0),
+    output_port(
+        "r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", minimum=0.0, nominal=1e-3
+    ),
+    output_port("V_void", "m3", "void in the film", display_unit="mm3", minimum=0.0, nominal=1e-10),
     size_port("m", "kg", "moving mass", 0.02, "g", exclusive=True),
     size_port("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),
     Port("v0", "m/s", causality="parameter", label="opening speed at the start", start=0.0),
@@ -150,6 +173,7 @@ _PORTS = (
     ),
     size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     tolerance(1e-8),
+    step_limit(PYTHON_STEPS),
 )
 
 PORTS = grouped(_PORTS, _GROUPS)
@@ -321,7 +345,10 @@ class StictionMass(PortSlave):
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
-        self.plan = plan(scene_of(self.values), Accuracy(time_rtol=self.values["rtol"]))
+        values = self.values
+        self.plan = plan(
+            scene_of(values), Accuracy(time_rtol=values["rtol"], max_steps=values["max_steps"])
+        )
         self.state = start(self.plan)
         self._show(0.0)
 

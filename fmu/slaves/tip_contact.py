@@ -54,7 +54,16 @@ from ...separation.effects.registry import (
 from ...separation.motion.state import restored_state
 from ...separation.plan import Plan
 from ..framework.places import Place, differences, read, write
-from ..framework.ports import Port, grouped, input_port, output_port, size_port, tolerance
+from ..framework.ports import (
+    PYTHON_STEPS,
+    Port,
+    grouped,
+    input_port,
+    output_port,
+    size_port,
+    step_limit,
+    tolerance,
+)
 from ..framework.slave import PortSlave
 from .stiction_mass import with_numbers
 
@@ -85,7 +94,7 @@ _GROUPS = {
     "liquid": ("V", "eta", "gamma", "theta1", "theta2", "profile"),
     "solids": ("A_H", "d_stop"),
     "motion": ("m", "k", "c"),
-    "numerics": ("rtol",),
+    "numerics": ("rtol", "max_steps"),
 }
 
 _PORTS = (
@@ -123,13 +132,29 @@ _PORTS = (
     output_port(
         "state", "-", "what the tips do", ("z",), kind="enumeration", enumeration=TipStatus
     ),
-    output_port("t_break", "s", "time of the latest rupture, -1 before", start=-1.0),
     output_port(
-        "t_free", "s", "time at which the tips were free for the last time, -1 before", start=-1.0
+        "t_break",
+        "s",
+        "time of the latest rupture, -1 before",
+        start=-1.0,
+        nominal=1e-6,
     ),
-    output_port("t_land", "s", "time of the latest landing, -1 before", start=-1.0),
-    output_port("n_break", "-", "number of ruptures so far", kind="integer"),
-    output_port("n_land", "-", "number of landings so far", kind="integer"),
+    output_port(
+        "t_free",
+        "s",
+        "time at which the tips were free for the last time, -1 before",
+        start=-1.0,
+        nominal=1e-6,
+    ),
+    output_port(
+        "t_land",
+        "s",
+        "time of the latest landing, -1 before",
+        start=-1.0,
+        nominal=1e-6,
+    ),
+    output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
+    output_port("n_land", "-", "number of landings so far", kind="integer", minimum=0),
     output_port(
         "d",
         "m",
@@ -139,7 +164,13 @@ _PORTS = (
         nominal=1e-9,
     ),
     output_port(
-        "d_max", "m", "largest approach of a tip so far; 0 if rigid", _SITE, display_unit="nm"
+        "d_max",
+        "m",
+        "largest approach of a tip so far; 0 if rigid",
+        _SITE,
+        display_unit="nm",
+        minimum=0.0,
+        nominal=1e-9,
     ),
     output_port(
         "F_max",
@@ -147,6 +178,8 @@ _PORTS = (
         "largest force of the site on a tip so far; 0 if rigid",
         _SITE,
         display_unit="nN",
+        minimum=0.0,
+        nominal=1e-7,
     ),
     output_port(
         "W_plastic", "J", "work that yielding took, of all tips", (*_SITE, "N"), nominal=1e-17
@@ -187,6 +220,7 @@ _PORTS = (
     ),
     size_port("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),
+    step_limit(PYTHON_STEPS),
 )
 
 PORTS = grouped(_PORTS, _GROUPS)
@@ -333,7 +367,8 @@ class TipContact(PortSlave):
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         values = self.values
-        self.plan = tip_plan(tip_scene(values), Accuracy(time_rtol=values["rtol"]))
+        accuracy = Accuracy(time_rtol=values["rtol"], max_steps=values["max_steps"])
+        self.plan = tip_plan(tip_scene(values), accuracy)
         check_tip(values, has_curve="curve" in self.data)
         self.stop = self._site()
         if values["z"] <= 0.0:

@@ -82,10 +82,15 @@ _PORTS = (
         "F_ext", "N", "net pull on the spool, > 0 opens", ("h", "v", *_SPRING, *_STOP), nominal=40.0
     ),
     output_port("dF_ext", "N/s", "mean slope of F_ext in the last step", nominal=1e5),
-    output_port("F_mag", "N", "force of the magnet, > 0 opens", nominal=40.0),
+    output_port("F_mag", "N", "force of the magnet, > 0 opens", minimum=0.0, nominal=40.0),
     output_port("F_spring", "N", "force of the spring, > 0 closes", ("h", *_SPRING), nominal=10.0),
     output_port(
-        "F_stop", "N", "force of the opposite stop, > 0 closes", ("h", "v", *_STOP), nominal=100.0
+        "F_stop",
+        "N",
+        "force of the opposite stop, > 0 closes",
+        ("h", "v", *_STOP),
+        minimum=0.0,
+        nominal=100.0,
     ),
     output_port("i", "A", "current", ("h",), nominal=1.0),
     output_port(
@@ -104,7 +109,7 @@ _PORTS = (
         ),
         nominal=10.0,
     ),
-    output_port("flux", "Wb", "flux linkage", nominal=1e-3, display_unit="mWb"),
+    output_port("flux", "Wb", "flux linkage", minimum=0.0, nominal=1e-3, display_unit="mWb"),
     size_port("R_coil", "ohm", "resistance of the circuit", 1.0, exclusive=True),
     Port(
         "N_turns",
@@ -212,10 +217,11 @@ class ValveDrive(PortSlave):
         _check_switchings(valve.profile, step)
         # Counted from the begin of the step: late in a run the clock is coarse.
         marks = [mark - time for mark in law.switching_times(valve.profile, time, end)]
+        steps = law.StepCount()  # of the whole step: 1 to 2 s at most
         for start, stop in pairwise([0.0, *(mark for mark in marks if mark < step), step]):
             applied = law.voltage(valve.profile, time + 0.5 * (start + stop))
             here = gap + speed * start
-            flux = law.advance_flux(valve.coil, flux, here, speed, applied, stop - start)
+            flux = law.advance_flux(valve.coil, flux, here, speed, applied, stop - start, steps)
         values["flux"], values["F_mag"] = flux, law.magnet_force(valve.coil, flux)
         values["u"] = law.voltage(valve.profile, end)
         self._follow_gap(gap + speed * step, speed)

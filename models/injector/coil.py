@@ -26,6 +26,7 @@ from ...validators import count, optional, positive
 
 __all__ = [
     "Coil",
+    "StepCount",
     "advance_flux",
     "current",
     "field_energy",
@@ -36,7 +37,7 @@ __all__ = [
 
 _MU0 = 4e-7 * math.pi  # [N/A2]
 _KNEE = 8  # how sharply the iron saturates
-_MOST_STEPS = 100_000  # some seconds of steady voltage; then the motion given is no motion
+MOST_STEPS = 100_000  # some seconds of steady voltage; then the motion given is no motion
 _FLUX_RTOL = 1e-11  # far below what the extrapolated gap of a co-simulation is worth
 
 
@@ -150,8 +151,21 @@ def _runge_kutta(
     return flux + step * (k1 + 2.0 * (k2 + k3) + k4) / 6.0
 
 
+class StepCount:
+    """Steps taken by several calls of `advance_flux`, which share what they may take."""
+
+    def __init__(self, most: int = MOST_STEPS) -> None:
+        self.left = most
+
+
 def advance_flux(
-    coil: Coil, flux: float, gap: float, speed: float, applied: float, duration: float
+    coil: Coil,
+    flux: float,
+    gap: float,
+    speed: float,
+    applied: float,
+    duration: float,
+    steps: StepCount | None = None,
 ) -> float:
     """Flux linkage [Wb] after a time under constant voltage, while the gap moves at a speed.
 
@@ -164,6 +178,8 @@ def advance_flux(
         Voltage [V].
     duration : float
         Length of the time [s].
+    steps : StepCount, optional
+        What it may take, shared with other calls; 100 000 without it.
 
     Notes
     -----
@@ -173,7 +189,7 @@ def advance_flux(
     Raises
     ------
     ConvergenceError
-        If the end is not reached in 100 000 steps, as of a motion that leads out of all bounds.
+        If the end is not reached in that many steps, as of a motion that leads out of all bounds.
     """
     if flux <= 0.0 and applied <= 0.0:
         return 0.0
@@ -189,7 +205,9 @@ def advance_flux(
             return math.nan
 
     scale = _FLUX_RTOL * (flux + abs(applied) * duration)
-    for _ in range(_MOST_STEPS):
+    count = steps or StepCount()
+    while count.left > 0:
+        count.left -= 1
         if time >= duration:
             return flux
         length = min(length, duration - time)

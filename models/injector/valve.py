@@ -23,7 +23,16 @@ from ...errors import DescriptionError
 from ...units import si
 from ...validators import count, finite, non_negative, optional, part, positive, refuse
 from ..end_stop.faces import StopFaces
-from .coil import Coil, advance_flux, current, field_energy, flux_rate, inductance, magnet_force
+from .coil import (
+    Coil,
+    StepCount,
+    advance_flux,
+    current,
+    field_energy,
+    flux_rate,
+    inductance,
+    magnet_force,
+)
 
 __all__ = [
     "Coil",
@@ -31,6 +40,7 @@ __all__ = [
     "Spring",
     "Stop",
     "Valve",
+    "StepCount",
     "advance_flux",
     "current",
     "energising_times",

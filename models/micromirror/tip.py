@@ -33,7 +33,7 @@ from attrs import evolve
 from ...accuracy import Accuracy
 from ...errors import ConvergenceError, DescriptionError
 from ...scene.scenes import SeparationScene
-from ...separation.motion.advance import internal_step
+from ...separation.motion.advance import internal_step, step_cost
 from ...separation.motion.state import MotionState, acting_film, outputs
 from ...separation.plan import Plan, plan
 from .flight import Flight, Root, landing_time
@@ -167,7 +167,7 @@ def pressed(stop: TipStop, state: TipState, depth: float, largest: float) -> Tip
     return state._replace(depth=depth, residual=residual, largest=largest, peak=peak)
 
 
-_MOST_PIECES = 100_000
+_PIECE = 3  # cost of a piece of the motion beside its steps, in internal steps
 
 
 def advance_tip(
@@ -208,13 +208,14 @@ def advance_tip(
         raise DescriptionError("advance_tip(dt)", dt, "be zero or positive, and finite", unit="s")
     root = root._replace(time=state.time)
     end = state.time + dt
-    for _ in range(_MOST_PIECES):
-        left = end - state.time
+    cost = 0
+    while cost <= plan.accuracy.max_steps:
+        left, before = end - state.time, state
         if left <= 1e-13 * max(abs(end), dt):
             return state._replace(motion=state.motion._replace(time=end))
         over = root._replace(height=root.height + state.residual)  # over the residual indentation
         if stop is not None and state.touching:
-            state = _strike(plan, stop, state, root, end)
+            state = _strike(plan, stop, state, root, end, plan.accuracy.max_steps + 1 - cost)
         elif stop is not None and state.motion.in_contact:
             state = _rest(plan, stop, state, root, _one(plan, state, over, end))
         elif state.free:
@@ -222,11 +223,22 @@ def advance_tip(
             state = _fly(plan, damping, state, there, left, stop is not None)
         else:
             state = _one(plan, state, over, end, stop is not None)
+        cost += _cost(plan, before, state)
     raise ConvergenceError(
-        f"{_MOST_PIECES} internal steps led from {root.time:g} s to {state.time:g} s, not to "
-        f"{end:g} s; loosen Accuracy.time_rtol",
+        f"{plan.accuracy.max_steps} internal steps led from {root.time:g} s to {state.time:g} s, "
+        f"not to {end:g} s; loosen Accuracy.time_rtol or raise Accuracy.max_steps",
         state,
     )
+
+
+def _cost(plan: Plan, before: TipState, after: TipState) -> float:
+    """Cost of a piece of the motion, in internal steps: a swing of a free tip is one."""
+    if before.free:
+        loading = plan.scene.imposed_force
+        frequency = math.sqrt(loading.stiffness / loading.moving_mass) / (2.0 * math.pi)
+        return _PIECE + (after.time - before.time) * frequency
+    steps = after.motion.n_steps - before.motion.n_steps  # of an impact, or one
+    return _PIECE + steps + step_cost(before.motion, after.motion)
 
 
 def _one(plan: Plan, state: TipState, root: Root, end: float, gives: bool = False) -> TipState:
@@ -330,14 +342,21 @@ def _touch(plan: Plan, state: TipState, gives: bool) -> TipState:
     return _landed(state, loss, motion.time)._replace(motion=moved, free=False, touching=gives)
 
 
-def _strike(plan: Plan, stop: TipStop, state: TipState, root: Root, end: float) -> TipState:
+def _strike(
+    plan: Plan, stop: TipStop, state: TipState, root: Root, end: float, most_steps: float
+) -> TipState:
     """Follow an impact until it is over, or the step."""
     motion = state.motion
     begin = Impact(motion.time, state.depth, -motion.speed, state.largest, peak=state.peak)
     rtol = plan.accuracy.time_rtol
-    found = follow_impact(contact_of(plan, stop, state, root), begin, end, rtol)
+    contact = contact_of(plan, stop, state, root)
+    found = follow_impact(contact, begin, end, rtol, math.ceil(most_steps))
     moved = motion._replace(
-        time=found.time, speed=-found.speed, in_contact=found.end is ImpactEnd.REST, step=0.0
+        time=found.time,
+        speed=-found.speed,
+        in_contact=found.end is ImpactEnd.REST,
+        step=0.0,
+        n_steps=motion.n_steps + found.n_steps,
     )
     return state._replace(
         motion=moved,

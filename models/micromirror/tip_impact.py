@@ -37,7 +37,6 @@ __all__ = [
     "rebound_work",
 ]
 
-_MOST_STEPS = 20_000
 _CONTROL = StepSize(order=5, grow=5.0, unsolved=0.1)
 _OUT_PIECES = 30  # halvings of an unloading curve, in which its work is summed
 
@@ -107,10 +106,13 @@ class Impact(NamedTuple):
     """By plasticity, damping and ringing [J]."""
     peak: float = 0.0
     """Largest force of the site [N]."""
+    n_steps: int = 0
 
 
-def follow_impact(contact: Contact, begin: Impact, end: float, rtol: float) -> Impact:
-    """Follow an impact from a state until it is over, or to a time [s].
+def follow_impact(
+    contact: Contact, begin: Impact, end: float, rtol: float, most_steps: int = 20_000
+) -> Impact:
+    """Follow an impact from a state until it is over, or to a time [s], in at most so many steps.
 
     Raises
     ------
@@ -120,7 +122,7 @@ def follow_impact(contact: Contact, begin: Impact, end: float, rtol: float) -> I
         If no step meets the tolerance.
     """
     here, length = begin._replace(end=ImpactEnd.TIME), _first_length(contact, begin)
-    for _ in range(_MOST_STEPS):
+    for _ in range(most_steps):
         left = end - here.time
         if left <= 1e-15 * abs(end) or here.end is not ImpactEnd.TIME:
             return here
@@ -129,9 +131,10 @@ def follow_impact(contact: Contact, begin: Impact, end: float, rtol: float) -> I
         length, reached, following = _accepted(rates, here.time, start, min(length, left), rtol)
         length, reached = _shortened(contact, rates, here, length, reached)
         here, length = _moved(contact, here, length, reached), following
+        here = here._replace(n_steps=here.n_steps + 1)
     raise ConvergenceError(
-        f"{_MOST_STEPS} steps did not end an impact of a tip at {here.time:g} s; loosen "
-        "Accuracy.time_rtol",
+        f"{most_steps} steps did not end an impact of a tip at {here.time:g} s; loosen "
+        "Accuracy.time_rtol or raise Accuracy.max_steps",
         here,
     )
 

@@ -49,7 +49,7 @@ static int use(const char *folder, const char *guid) {
     double value;
     model->say = hear;
     opened = ck_model_open(model, folder, guid);
-    if (opened && model->data.scene.max_steps <= 100000) {
+    if (opened && model->state.values[CK_MAX_STEPS] <= 100000) {
         ck_model_setup(model, 0.0, NULL, NULL), ck_model_initialize(model);
         ck_model_set(model, 1, CK_REAL, 1e-5), ck_model_set(model, 2, CK_REAL, 1.0);
         ck_model_step(model, 0.0, 1e-12);

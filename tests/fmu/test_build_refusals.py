@@ -44,6 +44,10 @@ def test_a_file_that_cannot_be_written_is_named_and_no_part_of_it_stays(tmp_path
     [
         (["stiction-mass", "--model", "stiction-force"], "add --native, or build stiction-force"),
         (["stiction-force", "--native", "--model", "stiction-mass"], "has no mass"),
+        (["valve-drive", "--native", "--model", "stiction-mass"], "valve-drive has no film"),
+        (["contact-stop", "--native", "--model", "tip-contact"], "contact-stop has no"),
+        (["fuel-injector", "--native", "--model", "tip-contact"], "no scene of a tip-contact"),
+        (["micromirror", "--native", "--model", "contact-stop"], "no scene of a contact-stop"),
     ],
 )
 def test_options_that_contradict_each_other_build_nothing(words, said, tmp_path, capsys):

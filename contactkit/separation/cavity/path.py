@@ -30,7 +30,7 @@ Place = Callable[[float], tuple[float, float]]
 _CONTROL = StepSize(order=3)
 _FIRST = 1e-3  # of the way, the first step
 _EVENT = 1e-10
-_MOST_STEPS = 100_000
+MOST_STEPS = 100_000
 
 
 class PathPoint(NamedTuple):
@@ -65,6 +65,7 @@ def along_path(
     end: float,
     rtol: float,
     step: float = 0.0,
+    most_steps: int = MOST_STEPS,
 ) -> Iterator[PathPoint]:
     """Steps of a cavity along an imposed path, which is smooth from one time [s] to another.
 
@@ -82,15 +83,17 @@ def along_path(
         Error of the void in a step, over the volume of the film, that is accepted.
     step : float
         Length of the first step to try [s]; 0: a thousandth of the way.
+    most_steps : int
+        What the way may take.
 
     Raises
     ------
     ConvergenceError
-        If no step meets the tolerance.
+        If no step meets the tolerance, or there are more of them than that.
     """
     time, planned = begin, step or _FIRST * (end - begin)
     cavity = after_jump(law, cavity, *place(begin))
-    for _ in range(_MOST_STEPS):
+    for _ in range(most_steps):
         here = place(time)
         if is_torn_by(law, cavity, *here):
             cavity = after_event(law, cavity, *here)
@@ -114,7 +117,7 @@ def along_path(
             cavity = after_event(law, cavity, *(taken.end if length > 0.0 else taken.begin))
         yield PathPoint(time, cavity, impulse, planned)
     raise ConvergenceError(
-        f"{_MOST_STEPS} steps of the cavity led from {begin:g} s to {time:g} s, not to {end:g} s; "
+        f"{most_steps} steps of the cavity led from {begin:g} s to {time:g} s, not to {end:g} s; "
         "loosen Accuracy.time_rtol",
         None,
     )

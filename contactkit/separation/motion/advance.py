@@ -32,7 +32,7 @@ from .cavity import after, cavity_film, cut_at_event, cut_before_step
 from .events import SAME, apply_event, next_event
 from .state import MotionState, Pull, PullLaw, acting_film
 
-__all__ = ["advance", "internal_step"]
+__all__ = ["advance", "internal_step", "step_cost"]
 
 _CONTROL = StepSize(order=4)  # of the estimate
 _NO_GAP = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
@@ -40,6 +40,7 @@ _FOOT = 1e-6  # sum of the forces over the pull to come, at the foot of a ramp
 _NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
 _AT_REST = 1e-30  # fraction of the gap over which the film stops a mass at rest
 _EVENT = 1e-13  # relative distance of a gap from an event that is met
+_TORN_COST = 20  # of a step of a torn film, over that of a whole one
 _TOO_LONG = 16.0  # error of a step that is to be cut in half
 _VISCOUS = ViscousForce.column.impulse.name
 
@@ -70,10 +71,12 @@ def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionS
         raise DescriptionError("advance(dt)", dt, "be zero or positive, and finite", unit="s")
     end = state.time + dt
     nothing = 1e-13 * max(abs(end), dt)
-    for _ in range(plan.accuracy.max_steps + 1):
+    cost = 0
+    while cost <= plan.accuracy.max_steps:
         if end - state.time <= nothing:
             return state if state.time == end else state._replace(time=end)
-        state = internal_step(plan, state, pull, end)
+        before, state = state, internal_step(plan, state, pull, end)
+        cost += step_cost(before, state)
     cure = "loosen Accuracy.time_rtol or raise Accuracy.max_steps"
     if (
         state.n_releases and plan.scene.imposed_force.stiffness > 0.0
@@ -87,6 +90,12 @@ def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionS
         f"not to {end:g} s; {cure}",
         state,
     )
+
+
+def step_cost(before: MotionState, after: MotionState) -> int:
+    """Cost of an internal step, in steps of a film that is whole."""
+    is_whole = before.cavity.phase is Phase.FULL is after.cavity.phase
+    return (1 + after.n_rejected - before.n_rejected) * (1 if is_whole else _TORN_COST)
 
 
 def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:

@@ -193,7 +193,6 @@ static void read_scene(stream *s, ck_scene *scene) {
     scene->menisci = positive(s);
     scene->reynolds = whole(s, 0, 1);
     scene->rewetting = number(s);
-    scene->max_steps = whole(s, 1, 1000000000);
     scene->film_count = whole(s, 1, CK_FILMS);
     for (i = 0; s->fine && i < scene->film_count; i++) read_film(s, &scene->films[i]);
 }
@@ -211,7 +210,7 @@ static FILE *open_file(const char *path) {
 static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
     char magic[8];
     uint64_t head[2];
-    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM04", 8) != 0)
+    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM05", 8) != 0)
         return "it is no file of this FMU";
     if (fread(head, 8, 2, file) != 2 || fread(data->guid, 1, 40, file) != 40)
         return "it is cut short";

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define MU0 (4e-7 * 3.141592653589793)
-#define MOST_STEPS 10000000 /* of the flux, in one step of the host */
+#define MOST_STEPS 250000 /* of the flux, in one step of the host: 0.1 to 0.2 s */
 #define MOST_SWITCHINGS 100000
 #define CLOSE 1e-12         /* fraction of a step before which no pause is made */
 

@@ -64,7 +64,8 @@ fmi3Instance fmi3InstantiateCoSimulation(
     own->logger = logger, own->environment = environment;
     own->wanted = logs ? CK_LOG_ALL : CK_LOG_ERROR; /* why it refuses is no debugging */
     own->model.say = say, own->model.host = own;
-    own->model.event_mode = event_mode, own->model.pauses = event_mode && early;
+    own->model.event_mode = event_mode, own->model.early = early;
+    own->model.pauses = event_mode && early;
     if (!name || !*name) lack(own, "the instance needs a name");
     else if (intermediate_count > 0) lack(own, "intermediate updates are not provided; ask for none");
     else if (!token || !resources || !ck_folder_of(resources, folder, sizeof folder))
@@ -165,7 +166,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
     *last = own->model.state.time;
     if (status != CK_OK) return own->model.state.failed ? fmi3Error : fmi3Discard;
     *event = own->model.state.event != 0;
-    *early = *last < time + step && ck_model_pends(&own->model);
+    *early = *last < time + step && (ck_model_pends(&own->model) || own->model.state.cut);
     return fmi3OK;
 }
 

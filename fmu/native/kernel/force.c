@@ -13,6 +13,7 @@
 #define DOUBT 0.2  /* coupling error beyond which the flag is raised */
 #define VOID 1e-9  /* error of the void in a step of time, over the volume of the film */
 #define MOST_STOPS 1000
+#define MOST_STEPS 5000 /* of a cavity, in one step of the host: 20 to 40 us each where values are hostile */
 
 enum { EXCHANGE_FORCE = 1 };
 
@@ -172,16 +173,18 @@ static void apply_event(ck_model *model, double gap, int rising, double time) {
 }
 
 /* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
-   stretch at which it tore or was whole again last. nan if there is no way. */
+   stretch at which it tore or was whole again last. nan if there is no way, or it is too long: `left`
+   are the steps that it may take. */
 static double with_memory(ck_model *model, const ck_acting *acting, double from, double to, double length,
-                          double *changed) {
+                          int *left, double *changed) {
     ck_cavity *cavity = &model->state.memory.cavity;
     ck_place at = {from, (to - from) / length};
-    int was = cavity->phase == CK_WHOLE && !ck_is_torn_by(acting->law, cavity, at), full, found;
+    int was = cavity->phase == CK_WHOLE && !ck_is_torn_by(acting->law, cavity, at), full;
+    int found = CK_PATH_STEP;
     double total = 0.0, part, gap = from;
     ck_path path;
     ck_path_begin(&path, acting->law, cavity, at, length, VOID, 0.0);
-    while ((found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
+    while ((*left)-- > 0 && (found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
         double after = path.time == length ? to : path.first + path.speed * path.time;
         total += full && after != gap
                      ? ck_along(acting, gap, after, (after - gap) / path.speed).viscous
@@ -194,7 +197,8 @@ static double with_memory(ck_model *model, const ck_acting *acting, double from,
 
 /* Integrate over the motion of the step, from kink to kink; `changed` is when the film tore last, or
    was whole again. */
-static ck_impulse go(ck_model *model, double time, double step, double target, double *changed) {
+static ck_impulse go(ck_model *model, double time, double step, double target, int *left,
+                     double *changed) {
     ck_memory *memory = &model->state.memory;
     double begin = memory->gap, gap = begin, pace = step / (target - begin);
     int rising = target > begin, i;
@@ -214,7 +218,7 @@ static ck_impulse go(ck_model *model, double time, double step, double target, d
         }
         if (acting.any && acting.law && (begin == target || next != gap)) {
             double length = begin == target ? step : (next - gap) * pace, since = -1.0;
-            part.viscous = with_memory(model, &acting, gap, next, length, &since);
+            part.viscous = with_memory(model, &acting, gap, next, length, left, &since);
             if (since >= 0.0) *changed = time + (begin == target ? 0.0 : (gap - begin) * pace) + since;
         }
         sum.viscous += part.viscous, sum.fixed += part.fixed;
@@ -280,7 +284,8 @@ static int step(ck_model *model, double time, double length) {
     ck_state before = *state;
     double *v = state->values;
     double changed = time;
-    ck_impulse done = go(model, time, length, v[CK_H], &changed);
+    int left = MOST_STEPS;
+    ck_impulse done = go(model, time, length, v[CK_H], &left, &changed);
     double elapsed = state->memory.pending ? state->end - time : length;
     ck_acting acting;
     ck_forces found;
@@ -288,8 +293,9 @@ static int step(ck_model *model, double time, double length) {
         char message[200];
         *state = before;
         snprintf(message, sizeof message,
-                 "the forces are no finite numbers between a gap of %.6g m and %.6g m; take shorter "
-                 "steps, with a gap nearer to the first",
+                 "%s between a gap of %.6g m and %.6g m; take shorter steps, with a gap nearer to the "
+                 "first",
+                 left < 0 ? "the cavity takes too many internal steps" : "the forces are no finite numbers",
                  state->memory.gap, v[CK_H]);
         return ck_model_discard(model, message);
     }

@@ -13,7 +13,7 @@ static const char *apply(ck_model *model) {
     if (v[CK_H_MIN] > v[CK_H0]) return ck_wrong(model, CK_H_MIN, "not exceed", CK_H0, "m");
     scene->mass = v[CK_M], scene->initial_speed = v[CK_V0];
     scene->stiffness = v[CK_K_S], scene->release_gap = v[CK_H_REL], scene->rest_gap = v[CK_H_MIN];
-    scene->rtol = v[CK_RTOL];
+    scene->rtol = v[CK_RTOL], scene->max_steps = ck_step_limit(model);
     return problem;
 }
 
@@ -47,16 +47,32 @@ static int show(ck_model *model) {
     return 1;
 }
 
-static int no_step(ck_model *model, int trouble, const ck_motion *where) {
+static int no_step(ck_model *model, const ck_motion *where) {
     char message[400];
     const char *cure = "take shorter steps, or loosen rtol";
     if (where->gap < 1e-12)
         cure = "the bodies are pressed together; give h_min [m], where asperities carry";
     snprintf(message, sizeof message,
-             "%s from %.9g s, gap %.6g m, speed %.6g m/s; %s",
-             trouble == CK_NO_STEP ? "no step of time can be taken" : "too many internal steps led",
+             "no step of time can be taken from %.9g s, gap %.6g m, speed %.6g m/s; %s",
              clock_at(model, where->time), where->gap, where->speed, cure);
     return ck_model_discard(model, message);
+}
+
+/* A step that costs too much: it ends where it has got to if the host allows that, else it is
+   discarded. */
+static int too_long(ck_model *model, double length, const ck_motion *before, const ck_motion *reached) {
+    double gone = reached->time - before->time;
+    int ends = model->early && gone > 0.0;
+    char message[500];
+    snprintf(message, sizeof message,
+             "a step of %.6g s from %.9g s takes too many internal steps, as max_steps = %d led to "
+             "%.9g s, gap %.6g m, speed %.6g m/s; %s, loosen rtol, or raise max_steps",
+             length, clock_at(model, before->time), model->scene.max_steps,
+             clock_at(model, reached->time), reached->gap, reached->speed,
+             ends ? "it ends there: go on from there" : "take shorter steps");
+    if (!ends) return ck_model_discard(model, message);
+    model->say(model->host, CK_WARNING, "logStatusWarning", message);
+    return CK_OK;
 }
 
 static void tell(ck_model *model, const ck_motion *before) {
@@ -100,14 +116,21 @@ static int step(ck_model *model, double time, double length) {
     pull.force = state->values[CK_F_EXT], pull.time = now->time;
     pull.rate = state->values[CK_DF_EXT] + state->rate, pull.bend = 0.0;
     trouble = ck_advance(&model->scene, now, &pull, length);
-    if (trouble || !isfinite(now->gap + now->speed + now->work)) {
+    if (trouble == CK_NO_STEP || !isfinite(now->gap + now->speed + now->work)) {
         ck_motion where = *now;
         *now = before;
-        return no_step(model, trouble ? trouble : CK_NO_STEP, &where);
+        return no_step(model, &where);
+    }
+    if (trouble) {
+        ck_motion where = *now;
+        *now = before;
+        trouble = too_long(model, length, &before, &where);
+        if (trouble) return trouble;
+        *now = where, state->cut = 1;
     }
     state->pull = ck_pull_at(&pull, now->time);
     state->end = time + (now->time - before.time);
-    if (now->pending && state->end < time + length) /* a ramp goes on from where it is */
+    if ((now->pending || state->cut) && state->end < time + length) /* a ramp goes on from where it is */
         state->values[CK_F_EXT] = state->pull;
     state->shown = 0; /* outputs are made once they are read */
     tell(model, &before);

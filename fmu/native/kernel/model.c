@@ -30,7 +30,7 @@ static const char *const NAMES[CK_VARIABLES] = {
     "h_touch", "side", "scale", "k_body", "d_max0",
     "z", "vz", "az", "F_film", "W_visc", "W_land", "t_free", "t_land", "n_land", "F_max", "W_plastic",
     "N", "h_free",
-    "r_cav", "V_void", "dp_tear", "dp_hold"};
+    "r_cav", "V_void", "dp_tear", "dp_hold", "max_steps"};
 
 const char *ck_name(int id) { return NAMES[id]; }
 
@@ -219,6 +219,11 @@ const char *ck_common_parameters(ck_model *model) {
     return NULL;
 }
 
+int ck_step_limit(const ck_model *model) {
+    double most = model->state.values[CK_MAX_STEPS];
+    return most >= 1.0 && most <= 1e9 ? (int)most : 1; /* a file may say anything */
+}
+
 /* Start from the parameters; the message says what is wrong with them. */
 const char *ck_model_prepare(ck_model *model) {
     const ck_kind *kind = ck_model_kind(model);
@@ -374,10 +379,11 @@ int ck_model_step(ck_model *model, double time, double step) {
     length = fabs(lag) > clock ? step + lag : step;
     if (length <= nothing) return put_off(model, time, step);
     ck_events_lift(model, seen);
+    state->cut = 0;
     status = ck_model_kind(model)->step(model, time, length);
     ck_events_hold(model, seen);
     if (status != CK_OK) return status;
-    state->time = ck_model_pends(model) ? state->end : time + step;
+    state->time = ck_model_pends(model) || state->cut ? state->end : time + step;
     state->last_step = length, state->rate = 0.0;
     if (model->event_mode) {
         ck_model_follow(model);

@@ -44,7 +44,7 @@ enum {
     CK_H_TOUCH, CK_SIDE, CK_SCALE, CK_K_BODY, CK_D_MAX0,
     CK_Z, CK_VZ, CK_AZ, CK_F_FILM, CK_W_VISC, CK_W_LAND, CK_T_FREE, CK_T_LAND, CK_N_LAND, CK_F_MAX,
     CK_W_PLASTIC, CK_N, CK_H_FREE,
-    CK_R_CAV, CK_V_VOID, CK_DP_TEAR, CK_DP_HOLD,
+    CK_R_CAV, CK_V_VOID, CK_DP_TEAR, CK_DP_HOLD, CK_MAX_STEPS,
     CK_VARIABLES
 };
 
@@ -116,6 +116,7 @@ typedef struct {
     ck_stopped stopped; /* of contact-stop */
     ck_tip tip; /* of tip-contact */
     int phase, failed, stale, shown, event;
+    int cut; /* the last step ended before its end, as it would have cost too much */
     int has_rtol; /* the host has set `rtol`: its tolerance does not stand for it any more */
 } ck_state;
 
@@ -128,7 +129,7 @@ typedef struct {
     ck_state state;
     ck_say say;
     void *host;
-    int event_mode, pauses; /* of FMI 3: whether it is used, and a step may end at an event */
+    int event_mode, early, pauses; /* of FMI 3: whether it is used, a step may end early, and at an event */
     char wrong[200];        /* what is wrong with parameters */
 } ck_model;
 
@@ -200,6 +201,7 @@ int ck_model_is_in(ck_model *model, int phase, const char *call);
 const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);
 const char *ck_common_parameters(ck_model *model);
+int ck_step_limit(const ck_model *model); /* parameter max_steps */
 /* What a parameter must do to another one of its unit, with the values of both. */
 const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit);
 void ck_model_follow(ck_model *model);                           /* outputs nobody has read yet */

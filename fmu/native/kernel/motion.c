@@ -473,6 +473,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         length *= error < HUGE_VAL ? ck_larger(0.1, 0.9 * pow(error, -0.25)) : 0.25;
         if (!(length >= 1e-15 * ck_larger(fabs(state->time), 1e-15)) || rejected > 60) return CK_NO_STEP;
     }
+    state->cost += p.cavity ? CK_TORN_COST * rejected : rejected;
     following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
     event = next_event(scene, &acting, state, taken.stages[2].gap);
@@ -499,6 +500,7 @@ int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     if (state->in_contact) rest_once(scene, state, pull, end);
     else trouble = step_once(scene, state, pull, end);
     now = state->cavity.phase;
+    state->cost += was == CK_WHOLE && now == CK_WHOLE ? 1 : CK_TORN_COST;
     if (was == CK_WHOLE && now != CK_WHOLE) state->tear_time = state->time, state->tears++;
     if (was != CK_WHOLE && now == CK_WHOLE && !state->broken)
         state->heal_time = state->time, state->heals++;
@@ -508,8 +510,9 @@ int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pul
 /* Advance by a time under a pull, however stiff the film; less if the motion pauses. */
 int ck_advance(const ck_scene *scene, ck_motion *state, const ck_pull *pull, double dt) {
     double end = state->time + dt;
-    int i, trouble;
-    for (i = 0; i <= scene->max_steps; i++) {
+    int trouble;
+    state->cost = 0;
+    while (state->cost <= scene->max_steps) {
         if (end - state->time <= 1e-13 * ck_larger(fabs(end), dt)) {
             state->time = end;
             return CK_DONE;

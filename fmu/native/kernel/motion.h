@@ -7,7 +7,8 @@
 
 #include <stdint.h>
 
-/* A scene with its parameters in; `films[1]` is what is there when the bodies return. */
+/* A scene with its parameters in; `films[1]` is what is there when the bodies return, `max_steps`
+   bounds the cost of a step of the host. */
 typedef struct {
     int film_count, is_sphere, reynolds, max_steps;
     int pauses; /* whether a motion ends where the film breaks or wets the bodies again */
@@ -27,6 +28,7 @@ typedef struct {
     int film, broken, in_contact, armed, detached, breaks, releases;
     int pending; /* what happens here, and has not yet where the motion pauses for it */
     int64_t steps, iterations; /* internal ones, and iterations in them */
+    int64_t cost;              /* of this step of the host, in internal steps without a cavity */
     ck_forces here;        /* forces at this gap and speed, and the exponent of the viscous one */
     double exponent;
     int64_t known; /* whether the last step told them */
@@ -37,6 +39,9 @@ typedef struct {
 
 enum { CK_NONE = 0, CK_RUPTURE = 1, CK_REWETTING = 2 };
 enum { CK_DONE = 0, CK_NO_STEP = 1, CK_TOO_MANY_STEPS = 2 };
+/* Cost of a step of a torn film over that of a whole one: 20 to 40 us against 1 to 2 us where values
+   are hostile. */
+enum { CK_TORN_COST = 20 };
 enum { CK_CONTACT = 1, CK_STUCK = 2, CK_FULL = 3, CK_BRIDGE = 4, CK_BROKEN = 5 };
 
 void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */

@@ -178,9 +178,9 @@ def test_omsimulator_releases_case_a(fmu, tmp_path, kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS[:2])
+@pytest.mark.parametrize("kind", KINDS[1:2])
 def test_pyfmi_releases_case_a(fmu, kind):
-    """It has no co-simulation of FMI 3."""
+    """It has no co-simulation of FMI 3, and refuses FMUs that need a tool, as Python is."""
     pyfmi = pytest.importorskip("pyfmi")
     model = pyfmi.load_fmu(str(fmu(kind, "stiction-mass")))
     model.setup_experiment(start_time=0.0)

@@ -478,7 +478,7 @@ def test_the_pressure_around_limits_a_liquid_that_boils():
 def test_messages_name_the_parameters_of_the_fmu():
     slave = StictionMass(instance_name="direct")
     said = {
-        "loosen Accuracy.time_rtol or raise Accuracy.max_steps": "loosen rtol",
+        "loosen Accuracy.time_rtol or raise Accuracy.max_steps": "loosen rtol or raise max_steps",
         "give loading.rest_gap [m], where they carry": "give h_min [m], where they carry",
         "ImposedForce.final_gap must exceed 1 m": "h_rel must exceed 1 m",
         "Liquid.viscosity must be positive": "eta must be positive",

@@ -49,20 +49,21 @@ static double first(const ck_flight *flight, const ck_root *root, double low, do
     return high;
 }
 
-double ck_landing_time(const ck_flight *flight, const ck_root *root, double left) {
+double ck_landing_time(const ck_flight *flight, const ck_root *root, double left, int64_t *swings) {
     double swing = sqrt(flight->cosine * flight->cosine + flight->sine * flight->sine), near = 1e-16 * left;
-    double last = root->speed + root->acceleration * left, low = 0.0, speed, gap, lowest = 0.0, swings;
+    double last = root->speed + root->acceleration * left, low = 0.0, speed, gap, lowest = 0.0, count;
     int pieces, sinking, i;
     if (root->speed < lowest) lowest = root->speed;
     if (last < lowest) lowest = last;
     if (root->height + lowest * left + flight->rest > swing) return -1.0;
     /* A sixteenth of a swing at a time: between two of them there is at most one lowest point. */
-    swings = left * flight->frequency / (2.0 * PI);
-    if (!(swings <= CK_MOST_SWINGS)) return HUGE_VAL;
-    pieces = swings > 0.0625 ? (int)ceil(16.0 * swings) : 1;
+    count = left * flight->frequency / (2.0 * PI);
+    if (!(count <= CK_MOST_SWINGS)) return HUGE_VAL;
+    pieces = count > 0.0625 ? (int)ceil(16.0 * count) : 1;
     gap = over(flight, root, 0.0, &speed);
     sinking = speed < 0.0;
     for (i = 1; i <= pieces; i++) {
+        *swings += i % 16 == 0;
         double high = left * i / pieces, there = over(flight, root, high, &speed);
         if (there <= 0.0 && (gap > 0.0 || sinking)) return first(flight, root, low, high, near, 1);
         if (sinking && !(speed < 0.0)) { /* the lowest point lies between */

@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-#define MOST_STEPS 20000
 #define PARTS 30 /* halvings of an unloading curve, in which its work is summed */
 #define SAME 1e-12
 #define SAME_FRACTION 1e-13 /* of a step */
@@ -211,12 +210,12 @@ static int moved(const ck_site *site, ck_impact *here, double length, const doub
     return CK_HIT;
 }
 
-int ck_follow_impact(const ck_site *site, ck_impact *here, double end, double rtol) {
+int ck_follow_impact(const ck_site *site, ck_impact *here, double end, double rtol, int64_t most) {
     double length, following = 0.0, reached[UNKNOWNS];
-    int i, trouble;
+    int trouble;
     here->end = CK_GOES_ON;
     length = first_length(site, here);
-    for (i = 0; i < MOST_STEPS; i++) {
+    for (here->steps = 0; here->steps < most; here->steps++) {
         double left = end - here->time;
         if (left <= 1e-15 * fabs(end) || here->end != CK_GOES_ON) return CK_HIT;
         length = accepted(site, here, smaller(length, left), rtol, reached, &following);

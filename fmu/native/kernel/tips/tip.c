@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_PIECES 100000 /* of a step */
+#define PIECE 3 /* cost of a piece of the motion beside its steps, in internal steps of 1 to 2 us */
 
 enum { LANDED = 1, HELD = 2, FREE = 3 }; /* of `state` */
 enum { TOO_MANY_SWINGS = 10, TOO_MANY_PIECES = 11, IMPACT = 20 }; /* troubles; and those of impacts */
@@ -75,6 +75,7 @@ static const char *apply(ck_model *model) {
     double critical = 2.0 * sqrt(v[CK_K] * v[CK_M]);
     scene->mass = v[CK_M], scene->stiffness = v[CK_K], scene->initial_speed = 0.0;
     scene->release_gap = v[CK_H_FREE], scene->rest_gap = v[CK_H0], scene->rtol = v[CK_RTOL];
+    scene->max_steps = ck_step_limit(model);
     scene->pauses = 0; /* the root follows its inputs, whatever the tips do */
     if (v[CK_H_FREE] <= v[CK_H0]) return ck_wrong(model, CK_H_FREE, "exceed", CK_H0, "m");
     if (problem) return problem;
@@ -197,7 +198,7 @@ static int fly(ck_model *model, const ck_root *root, double left) {
     flight.rest = -scene->mass * root->acceleration / scene->stiffness;
     flight.cosine = motion->gap - scene->initial_gap - root->height - flight.rest;
     flight.sine = (motion->speed - root->speed + flight.decay * flight.cosine) / flight.frequency;
-    lands = ck_landing_time(&flight, root, left);
+    lands = ck_landing_time(&flight, root, left, &motion->cost);
     if (!(lands < HUGE_VAL)) return TOO_MANY_SWINGS;
     elapsed = lands < 0.0 ? left : lands;
     bend = ck_flight_at(&flight, elapsed, &rate), there = ck_root_after(root, elapsed);
@@ -214,7 +215,9 @@ static int strike(ck_model *model, const ck_root *root, double end) {
     ck_tip *tip = &model->state.tip;
     ck_site site = site_of(model, root);
     ck_impact hit = {motion->time, tip->depth, -motion->speed, tip->largest, 0.0, 0.0, tip->peak, 0, 0};
-    int trouble = ck_follow_impact(&site, &hit, end, model->scene.rtol);
+    int64_t left = model->scene.max_steps + 1 - motion->cost;
+    int trouble = ck_follow_impact(&site, &hit, end, model->scene.rtol, left);
+    motion->cost += hit.steps;
     motion->time = hit.time, motion->speed = -hit.speed, motion->in_contact = hit.end == CK_AT_REST;
     motion->step = 0.0, motion->known = 0;
     tip->touching = hit.end == CK_GOES_ON;
@@ -253,14 +256,16 @@ static int advance(ck_model *model, const ck_root *root, double dt) {
     ck_motion *motion = &model->state.motion;
     const ck_tip *tip = &model->state.tip;
     double end = motion->time + dt;
-    int trouble = CK_DONE, i;
-    for (i = 0; i < MOST_PIECES && !trouble; i++) {
+    int trouble = CK_DONE;
+    motion->cost = 0;
+    while (motion->cost <= model->scene.max_steps && !trouble) {
         double left = end - motion->time;
         ck_root raised = *root, there;
         if (left <= 1e-13 * ck_larger(fabs(end), dt)) {
             motion->time = end;
             return CK_DONE;
         }
+        motion->cost += PIECE;
         raised.height += tip->residual; /* over the residual indentation */
         there = ck_root_after(&raised, motion->time - root->time);
         if (gives(model) && tip->touching) trouble = strike(model, root, end);
@@ -317,7 +322,8 @@ static int show(ck_model *model) {
     v[CK_N_BREAK] = motion->breaks, v[CK_N_LAND] = tip->landings;
     v[CK_D] = tip->depth, v[CK_D_MAX] = tip->largest, v[CK_F_MAX] = tip->peak;
     v[CK_W_PLASTIC] = gives(model) ? n * ck_faces_dissipated(&model->data.faces, tip->largest) : 0.0;
-    return 1;
+    /* of all tips, which may be too much where that of one is not */
+    return isfinite(v[CK_J] + v[CK_W_VISC] + v[CK_W_LAND] + v[CK_W_PLASTIC]);
 }
 
 /* Steps ----------------------------------------------------------------------------------------- */
@@ -342,7 +348,9 @@ static int no_step(ck_model *model, int trouble, double length, const ck_motion 
                  model->scene.rtol, time);
     else if (trouble == IMPACT + CK_TOO_MANY_HIT_STEPS || trouble == TOO_MANY_PIECES)
         snprintf(message, sizeof message,
-                 "too many internal steps led to %.9g s; loosen rtol, or take shorter steps", time);
+                 "a step of %.6g s takes too many internal steps, as max_steps = %d led to %.9g s; take "
+                 "shorter steps, loosen rtol, or raise max_steps",
+                 length, model->scene.max_steps, time);
     else
         snprintf(message, sizeof message,
                  "no step of time can be taken from %.9g s, gap %.6g m, speed %.6g m/s; loosen rtol, "

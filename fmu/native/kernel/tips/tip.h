@@ -8,6 +8,8 @@
 
 #include "drive.h"
 
+#include <stdint.h>
+
 /* Height and speed of the root at a time, under a steady acceleration. */
 typedef struct {
     double height, speed, acceleration, time;
@@ -27,8 +29,8 @@ double ck_flight_at(const ck_flight *flight, double time, double *rate);
 #define CK_MOST_SWINGS 62500 /* that are followed in one flight */
 
 /* Time, at most `left`, after which the tip first lands; -1 if it does not, HUGE_VAL if it swings too
-   often to tell. */
-double ck_landing_time(const ck_flight *flight, const ck_root *root, double left);
+   often to tell. The swings it followed are added to `swings`. */
+double ck_landing_time(const ck_flight *flight, const ck_root *root, double left, int64_t *swings);
 
 /* A tip in contact: site with its damping over force, attraction, spring and mass of the tip. */
 typedef struct {
@@ -38,17 +40,18 @@ typedef struct {
 } ck_site;
 
 /* An impact. `speed` is that of approach, `largest` the largest approach at a turning point,
-   `peak` the largest force of the site. */
+   `peak` the largest force of the site, `steps` those taken. */
 typedef struct {
     double time, depth, speed, largest, impulse, dissipated, peak;
-    int end, padding;
+    int end, steps;
 } ck_impact;
 
 enum { CK_GOES_ON = 1, CK_OFF = 2, CK_AT_REST = 3 };
 enum { CK_HIT = 0, CK_NO_HIT_STEP = 1, CK_TOO_MANY_HIT_STEPS = 2, CK_TOO_DEEP = 3 };
 
-/* Follow an impact until it is over, or to a time: CK_HIT, or what is wrong with the state reached. */
-int ck_follow_impact(const ck_site *site, ck_impact *state, double end, double rtol);
+/* Follow an impact until it is over, or to a time, in at most so many steps: CK_HIT, or what is wrong
+   with the state reached. */
+int ck_follow_impact(const ck_site *site, ck_impact *state, double end, double rtol, int64_t most);
 
 /* Approach of a tip that is pressed slowly; beyond the end of the curve what it would be. */
 double ck_rest_depth(const ck_site *site, double largest, double time);
