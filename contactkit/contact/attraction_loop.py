@@ -44,7 +44,11 @@ __all__ = ["solve_attracted"]
 
 _MAX_ITERATIONS = 3000
 _INNER = 0.1  # tolerance of a contact over the change of its gap that the tension last had
+_LEAST_INNER = 1e-3
+_TIGHTER = 0.3  # factor of that ratio where the change no longer falls
+_PATIENCE = 5  # iterations without a smaller change after which contacts are solved more tightly
 _LOOSEST = 1e-3
+_FINEST = 1e-12  # below, the violation of the contact conditions is round-off
 _SLOWEST = 1e-3  # 1 - rate of convergence that the estimate of the error assumes at least
 _MEMORY = 5  # estimates of the rate of which the slowest counts
 _SMOOTH = 0.1  # change of the tension over its maximum, from one state to the next without a jump
@@ -53,12 +57,17 @@ _MAX_HALVINGS = 20
 
 
 class _Pulled(NamedTuple):
-    """A contact under a given tension, and the tension of its gap."""
+    """A contact under a given tension, and the tension of its gap.
+
+    A change of the tension over its maximum below `floor` is that of contacts which are not solved
+    any better.
+    """
 
     solution: Solution
     touching: NDArray[np.bool_]
     displacement: Map
     tension: Map
+    floor: float
 
 
 class _Settled(NamedTuple):
@@ -80,7 +89,6 @@ class _ContactMap:
         self.law = attraction.prepare(self.solver.self_influence)
         hardness = plan.hardness
         self.hardness = hardness.value if isinstance(hardness, FixedHardness) else None
-        self.unit = max(float(plan.heights.std()) / self.law.reach, 1.0)
         self.n_contacts = 0
 
     def under(self, load: float) -> _ContactMap:
@@ -114,20 +122,24 @@ class _ContactMap:
         return np.zeros_like(found) if is_round_off else found
 
     def at(self, tension: Map, start: Map | None, change: float) -> _Pulled:
-        """Solve the contact, as well as a change of the tension over its maximum calls for."""
-        plan, target = self.plan, self.target
+        """Solve the contact, its tension to an accuracy of `change` times its maximum."""
+        plan, target, accuracy = self.plan, self.target, self.plan.accuracy
         pulled = self.pulled(tension)
         load = target.mean_pressure
-        rtol = _INNER * change / self.unit
+        heights = plan.heights + pulled
+        # Change of the tension over its maximum at an error of the gap of the rms height. A slope
+        # much narrower than the range, as the end of a Dugdale law on a stiff film, asks for more.
+        unit = max(float(heights.std()) * self.law.steepest / self.law.strength, 1.0)
+        finest = max(min(0.1 * accuracy.rtol, _INNER * accuracy.outer_rtol / unit), _FINEST)
         solution = self.solver.solve(
-            plan.heights + pulled,
+            heights,
             mean_pressure=None if load is None else load + float(tension.mean()),
             rigid_approach=target.rigid_approach,
             bound=None if self.hardness is None else self.hardness + tension,
-            rtol=float(np.clip(rtol, 0.1 * plan.accuracy.rtol, _LOOSEST)),
+            rtol=float(np.clip(change / unit, finest, _LOOSEST)),
             start=start if start is not None and start.any() else None,
-            max_iterations=plan.accuracy.max_iterations,
-            method=plan.accuracy.method,
+            max_iterations=accuracy.max_iterations,
+            method=accuracy.method,
         )
         self.counter.add(solution)
         self.n_contacts += 1
@@ -136,7 +148,7 @@ class _ContactMap:
         gap = displacement - plan.heights - solution.rigid_approach
         gap[touching] = 0.0
         np.maximum(gap, 0.0, out=gap)
-        return _Pulled(solution, touching, displacement, self.law.tension(gap))
+        return _Pulled(solution, touching, displacement, self.law.tension(gap), 3.0 * finest * unit)
 
 
 def solve_attracted(
@@ -232,15 +244,13 @@ def _settled(
     None if the load pulls the bodies off.
     """
     tolerance, strength = contacts.plan.accuracy.outer_rtol, contacts.law.strength
-    # Below, a change of the tension is that of contacts which are solved to a tenth of `rtol`.
-    floor = min(0.3 * contacts.plan.accuracy.rtol * contacts.unit, tolerance)
-    before, age, change = tension, 0, 1.0
+    before, age, change, forcing = tension, 0, 1.0, _Forcing()
     rates: list[float] = []
     last: tuple[Map, Map] | None = None
     for _ in range(_MAX_ITERATIONS):
         if not contacts.carries(tension):
             return None
-        state = contacts.at(tension, pressure, change)
+        state = contacts.at(tension, pressure, forcing.ratio(change) * change)
         pressure = state.solution.pressure
         residual = state.tension - tension
         change = float(np.abs(residual).max()) / strength
@@ -249,7 +259,7 @@ def _settled(
         is_exact = state.solution.kkt <= contacts.plan.accuracy.rtol
         if not (state.solution.converged or is_exact):
             return _Settled(state, tension, _inner_problem(contacts, state.solution))
-        if change <= max(tolerance * min(rates, default=1.0), floor):
+        if change <= max(tolerance * min(rates, default=1.0), min(state.floor, tolerance)):
             if is_exact:
                 return _Settled(state, tension, "")
             change = 0.0  # the tension has settled in a contact that was solved loosely
@@ -260,12 +270,26 @@ def _settled(
         before = state.tension
         ahead = max(age - 1, 0) / (age + 2.0) if has_momentum else 0.0
         tension = np.clip(before + ahead * step, 0.0, strength)
-    problem = (
-        f"the tension still changes by {change:.2g} of its maximum after {_MAX_ITERATIONS} "
-        "iterations, next to a jump of the contact; change the approach or load a little, or "
-        "raise Accuracy.rtol"
-    )
-    return _Settled(state, tension, problem)
+    return _Settled(state, tension, _unsettled(contacts, change))
+
+
+class _Forcing:
+    """Tolerance of a contact over the last change of its tension, which must fall.
+
+    Under a stiff film errors of a contact reach far beyond it and come back larger: the change then
+    swings instead of falling, until contacts are solved more tightly.
+    """
+
+    def __init__(self) -> None:
+        self.inner, self.least, self.age = _INNER, np.inf, 0
+
+    def ratio(self, change: float) -> float:
+        """Return the ratio after a change of the tension over its maximum."""
+        self.age = 0 if change < self.least else self.age + 1
+        self.least = min(change, self.least)
+        if self.age >= _PATIENCE:
+            self.inner, self.age = max(_TIGHTER * self.inner, _LEAST_INNER), 0
+        return self.inner
 
 
 def _decay(step: Map, change: Map) -> float:
@@ -273,6 +297,15 @@ def _decay(step: Map, change: Map) -> float:
     square = float(np.einsum("ij,ij->", step, step))
     found = -float(np.einsum("ij,ij->", step, change)) / square if square > 0.0 else 1.0
     return min(max(found, _SLOWEST), 1.0)
+
+
+def _unsettled(contacts: _ContactMap, change: float) -> str:
+    cure = f"{contacts.law.cure}, " if contacts.law.cure else ""
+    return (
+        f"the tension still changes by {change:.2g} of its maximum after {_MAX_ITERATIONS} "
+        f"iterations, next to a jump of the contact; {cure}change the approach or load a little, "
+        "or raise Accuracy.rtol"
+    )
 
 
 def _inner_problem(contacts: _ContactMap, solution: Solution) -> str:

@@ -18,7 +18,7 @@ from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
 from .film_estimate import self_consistent_force
-from .film_loop import pulled_together
+from .film_loop import pulled_together, to_last_pixel
 from .friction_loop import Target
 from .hardness_loop import Solved, contact_of, solve_with_hardness
 from .plan import ContactPlan
@@ -160,7 +160,8 @@ def _solve_all(
     term, load = plan.scene.effect(LoadTerm), plan.mean_pressure
     if term is not None and term.self_consistent and load is not None:
         begun = time.perf_counter()
-        solved, contact, parts[type(term)] = pulled_together(plan, term, load, target, counter)
+        tight = to_last_pixel(plan)
+        solved, contact, parts[type(term)] = pulled_together(tight, term, load, target, counter)
         counter.clock(term.name, begun)
     elif (attraction := plan.scene.effect(Attraction)) is not None:
         from .attraction_loop import solve_attracted

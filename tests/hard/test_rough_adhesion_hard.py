@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import contactkit as ck
 
@@ -99,6 +100,82 @@ def test_layers_of_any_stiffness(ratio, periodic):
     film = ck.Material(young_modulus=ratio * 1e9, poisson_ratio=0.3)
     stack = ck.Stack(layers=(ck.Layer(material=film, thickness=4e-9),), substrate=SOLID)
     assert solved(WEAK, solid=stack, periodic=periodic, approach=1e-9).status == "converged"
+
+
+def waves(n, rms):
+    """Heights of a rough map without waves shorter than six pixels [m]."""
+    x = 2.0 * math.pi * np.arange(n) / n
+    rng = np.random.default_rng(45)
+    found = np.zeros((n, n))
+    for ky in range(-n // 6 + 1, n // 6):
+        for kx in range(n // 6):
+            if (k := math.hypot(kx, ky)) >= 1.0:
+                phase = ky * x[:, None] + kx * x + rng.uniform(0.0, 2.0 * math.pi)
+                found += k**-1.8 * rng.normal() * np.cos(phase)
+    return rms / found.std() * found
+
+
+def on_stiff_film(end_width=None, *, ratio=100.0, pixels=3.0, periodic=True, load=0.0):
+    """State of a Dugdale attraction, whose end the grid makes r/75 wide, on a stiff film."""
+    solid = ck.Material(young_modulus=8e9, poisson_ratio=0.3)
+    film = ck.Material(young_modulus=ratio * 8e9, poisson_ratio=0.3)
+    layer = ck.Layer(material=film, thickness=pixels * 2e-8)
+    stack = ck.Stack(layers=(layer,), substrate=solid)
+    law = ck.DugdaleAttraction(work_of_adhesion=0.24, range=1.2e-9, end_width=end_width)
+    loading = ck.Pressing(pressure=load * 2e8)
+    heights = waves(36, 2e-9)
+    return solved(law, solid=stack, periodic=periodic, loading=loading, heights=heights)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("load", [0.0, 1.0])
+@pytest.mark.parametrize(("ratio", "pixels"), [(100.0, 3.0), (800.0, 1.5)])
+def test_the_steep_end_of_a_law_settles_on_a_stiff_film(ratio, pixels, load, periodic):
+    result = on_stiff_film(ratio=ratio, pixels=pixels, periodic=periodic, load=load)
+    part = result.of(ck.Adhesion)
+    law = result.plan.scene.demand(ck.Adhesion).prepare(part.self_influence)
+    assert law.numbers[2] < 0.1 * law.reach
+    assert part.tension / law.strength == pytest.approx(
+        law.tension(result.gap) / law.strength, abs=1e-6
+    )
+    assert part.n_contacts < 60
+
+
+def test_the_end_of_the_grid_is_that_of_narrower_and_wider_ones_on_a_stiff_film():
+    found = [on_stiff_film(width, load=0.5) for width in (None, 4e-12, 6e-11)]
+    areas = [one.contact_area for one in found]
+    assert found[0].of(ck.Adhesion).trapping_number == pytest.approx(0.5, rel=2e-3)
+    assert areas == pytest.approx([areas[0]] * 3, rel=0.01)
+    approaches = [one.approach for one in found]
+    assert approaches == pytest.approx([approaches[0]] * 3, rel=2e-3)
+
+
+def test_the_end_of_a_law_is_no_narrower_than_matters():
+    law = ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-9)
+    assert law.on_grid(1e-30).numbers[2] == pytest.approx(1e-12)
+
+
+def test_what_does_not_settle_names_the_width_of_the_end(monkeypatch):
+    monkeypatch.setattr("contactkit.contact.attraction_loop._MAX_ITERATIONS", 3)
+    with pytest.raises(ck.ConvergenceError, match=r"end_width = 2\.4e-10 m, now") as caught:
+        on_stiff_film()
+    monkeypatch.undo()
+    assert "raise Accuracy.rtol" in str(caught.value)
+    assert on_stiff_film(2.4e-10).status == "converged"
+
+
+@pytest.mark.parametrize("end_width", [1e-11, 1e-9])
+def test_the_cure_of_a_steep_end_helps(end_width):
+    law = ck.DugdaleAttraction(work_of_adhesion=0.01, range=1e-9, end_width=end_width)
+    text = law.cure_of_trapping(2.0, 0.5)
+    value = float(text.split(" m")[0].split()[-1])
+    steepest = law.on_grid(1.0).steepest
+    cured = (
+        evolve(law, end_width=value)
+        if "at least" in text
+        else evolve(law, range=value, end_width=value)
+    )
+    assert cured.on_grid(1.0).steepest == pytest.approx(0.25 * steepest, rel=0.01)
 
 
 def test_a_flat_pulls_with_the_tension_of_its_gap():

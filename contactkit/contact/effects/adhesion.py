@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from operator import attrgetter
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
@@ -203,16 +202,14 @@ class Adhesion(Attraction[AdhesionPart]):
 
     def validity(self, contact: Contact, part: AdhesionPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
-        scaled = self.law.range * math.sqrt(part.trapping_number / _MOST_TRAPPING)
+        cure = self.law.cure_of_trapping(part.trapping_number, _MOST_TRAPPING)
         found = [
             ValidityNumber(
                 name="trapping number of the attraction",
                 value=part.trapping_number,
                 high=_MOST_TRAPPING,
                 detail="above, the edge of a contact hangs on single pixels and the hysteresis is "
-                f"that of the grid; use a finer Accuracy.grid, or scale the range up to "
-                f"{scaled:.3g} m (pull-off of soft contacts hardly depends on it, jump-in and "
-                "hysteresis do)",
+                f"that of the grid; use a finer Accuracy.grid, or {cure}",
                 source="max|dtension/dgap| x influence of a pixel on itself; measured",
             ),
             ValidityNumber(

@@ -25,12 +25,17 @@ __all__ = [
 ]
 
 
+_NARROWEST = 1e-3  # end width over the range: narrower, it asks for accuracy that changes nothing
+_GENTLE = 0.2  # end width over the range at which iterations on stiff films settle at once
+
+
 class TensionLaw(NamedTuple):
     """A law on a grid: its name as a kernel, and its numbers.
 
     `strength` is the largest tension [Pa], `reach` the gap [m] up to which pixels count as
     attracted, `steepest` the largest fall of the tension with the gap [Pa/m], and `numbers` what
-    the kernels of `contactkit.adhesion.attraction` take after the gap.
+    the kernels of `contactkit.adhesion.attraction` take after the gap. `cure` says what else to
+    change where the tension does not settle.
     """
 
     kernel: str
@@ -38,6 +43,7 @@ class TensionLaw(NamedTuple):
     strength: float
     reach: float
     steepest: float
+    cure: str = ""
 
     def tension(self, gap: Map) -> Map:
         """Tension [Pa] at a gap [m], (ny, nx) each."""
@@ -83,6 +89,13 @@ class AttractionLaw(Described, abc.ABC):
     @abc.abstractmethod
     def on_grid(self, self_influence: float) -> TensionLaw:
         """Return the law on a grid whose pixels have an influence on themselves of [m/Pa]."""
+
+    def cure_of_trapping(self, number: float, highest: float) -> str:
+        """Say how to lower a trapping number to the highest that is in its range."""
+        return (
+            f"scale the range up to {self.range * math.sqrt(number / highest):.3g} m (pull-off of "
+            "soft contacts hardly depends on it, jump-in and hysteresis do)"
+        )
 
     def _made(
         self, kernel: str, peak: float, slope: float, reach: float, more: tuple[float, ...] = ()
@@ -133,7 +146,8 @@ class DugdaleAttraction(AttractionLaw):
         Range r [m].
     end_width : float, optional
         Half-width b of the slope [m]: the tension falls linearly from the gap r - b to r + b.
-        None: the least that the grid needs, so that the trapping number is 0.5, but at most r.
+        None: the least that the grid needs, so that the trapping number is 0.5, between r/1000 and
+        r. Wider ends change the branches: 0.2 r closes small hysteresis loops.
 
     Examples
     --------
@@ -158,8 +172,24 @@ class DugdaleAttraction(AttractionLaw):
         w, r = self.work_of_adhesion, self.range
         b = self.end_width
         if b is None:
-            b = min(1.001 * w / r * self_influence, r)
-        return self._made("dugdale", 1.0, 0.5 * r / b, r, (b,))
+            b = min(max(1.001 * w / r * self_influence, _NARROWEST * r), r)
+        made = self._made("dugdale", 1.0, 0.5 * r / b, r, (b,))
+        if b >= _GENTLE * r:
+            return made
+        gentle = f"give DugdaleAttraction.end_width = {_GENTLE * r:.3g} m, now {b:.3g} m"
+        return made._replace(cure=gentle)
+
+    def cure_of_trapping(self, number: float, highest: float) -> str:
+        """See `AttractionLaw.cure_of_trapping`."""
+        needed = 1.001 * (self.end_width or math.inf) * number / highest
+        if needed <= self.range:
+            return f"leave DugdaleAttraction.end_width out, or give at least {needed:.3g} m"
+        if self.end_width is None or self.end_width >= self.range:
+            return super().cure_of_trapping(number, highest)
+        # The widest end, that of the range, leaves a number that falls with the range squared.
+        return "leave DugdaleAttraction.end_width out, and " + super().cure_of_trapping(
+            number * self.end_width / self.range, highest
+        )
 
     @classmethod
     def from_meniscus(

@@ -158,13 +158,15 @@ class Balance(NamedTuple):
 
     `force` [N] adds to the load, `relative_force` is its ratio to the load [-]. `equilibria` are
     the loads [N] on the contact that balance, the smallest first; `imbalance` is what remains at
-    the first of them, over the load [-].
+    the first of them, over the load [-], and `balance_error` the range of loads that balance up to
+    steps of single pixels, over the load [-].
     """
 
     force: float
     relative_force: float
     equilibria: tuple[float, ...]
     imbalance: float
+    balance_error: float
 
 
 class Scalar(NamedTuple):

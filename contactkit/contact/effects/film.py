@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from ...scene.scenes import ContactScene
 
+_AMBIGUOUS = 0.02  # range of balances over the load: force and area are off by about as much
 _WEAK = 0.1  # force over load up to which a film does not change the contact much
 
 __all__ = ["FilmMeniscus", "FilmPart"]
@@ -31,7 +32,9 @@ class FilmPart(NamedTuple):
     without a load. `equilibria` are the loads [N] on the contact at which load, film and elastic
     bodies are in balance: one where the force does not act back on the contact or does so mildly;
     with more, the bodies snap in beyond the second. `imbalance` is the imbalance over the load [-]
-    that remains at a step of the force, which is a sum over pixels. `self_consistent_force` [N] is
+    that remains at a step of the force, which is a sum over pixels. `balance_error` is the range of
+    the loads that balance up to such steps, over the load [-]: what load, force and area may be off
+    by as the grid is no finer; zero unless `self_consistent`. `self_consistent_force` [N] is
     an estimate of what the film would pull with if it added to the load, where it pulls so hard
     that this matters; else None.
     """
@@ -44,12 +47,23 @@ class FilmPart(NamedTuple):
     equilibria: tuple[float, ...] = ()
     imbalance: float = 0.0
     self_consistent_force: float | None = None
+    balance_error: float = 0.0
 
 
 def _size(part: FilmPart, force: float) -> str:
     """A force [N], alone and over the load."""
     (load,) = part.equilibria
     return f"{force:.2g} N" + (f", {force / load:.2g} times the load" if load > 0.0 else "")
+
+
+def _balance(part: FilmPart) -> ValidityNumber:
+    return ValidityNumber(
+        name="range of the film balance",
+        value=part.balance_error,
+        high=_AMBIGUOUS,
+        detail="loads that balance up to steps of single pixels, over the load: load, force and "
+        "area may be off by as much; use a finer Accuracy.grid or a smaller window",
+    )
 
 
 def _is_only_reported(effect: FilmMeniscus, contact: Contact) -> bool:
@@ -95,6 +109,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         Scalar("n_menisci", "-", attrgetter("n_menisci")),
         Scalar("n_equilibria", "-", lambda part: len(part.equilibria)),
         Scalar("self_consistent_force", "N", attrgetter("self_consistent_force")),
+        Scalar("balance_error", "-", attrgetter("balance_error")),
     )
 
     film_thickness: float = field(validator=positive, metadata=si("m"))
@@ -157,6 +172,8 @@ class FilmMeniscus(LoadTerm[FilmPart]):
 
     def validity(self, contact: Contact, part: FilmPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
+        if self.self_consistent:
+            return (_balance(part),)
         if not _is_only_reported(self, contact):
             return ()
         estimate = part.self_consistent_force
