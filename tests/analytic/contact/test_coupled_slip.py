@@ -1,6 +1,7 @@
 """Partial slip of dissimilar bodies: pressure and tractions that displace each other's surfaces."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -175,12 +176,21 @@ def test_more_steps_of_pressing_change_less():
     assert pressed(pressing_steps=1)[1].coupling.step_error is None
 
 
-def test_the_steps_of_pressing_are_chosen_by_their_error():
-    _, part = pressed(nu=0.3, coefficient=0.3, grid=16, pressing_rtol=0.1)
-    _, tighter = pressed(nu=0.3, coefficient=0.3, grid=16, pressing_rtol=0.02)
-    assert part.coupling.step_error <= 0.1
-    assert tighter.coupling.step_error <= 0.02
-    assert part.coupling.pressing_steps < tighter.coupling.pressing_steps <= 40
+@pytest.mark.parametrize(("rtol", "steps"), [(0.1, 16), (0.02, 16), (0.01, 33), (0.001, 256)])
+def test_the_steps_of_pressing_are_chosen_by_their_error(monkeypatch, rtol, steps):
+    """Tractions that err by 0.3 over the number of steps, as they do."""
+
+    def pressed_in(run, n, last=0.0):
+        state = SimpleNamespace(traction=np.full((2, 1, 1), 0.5**0.5 * (1.0 + 0.3 / n)))
+        return SimpleNamespace(taken=SimpleNamespace(state=state, bound=np.ones(1)), problem="")
+
+    monkeypatch.setattr(slip_loop, "_pressed", pressed_in)
+    effect = ck.PartialSlip(
+        coefficient=0.3, path=REST, components=2, coupled=True, pressing_rtol=rtol
+    )
+    found = slip_loop._press(None, effect)
+    assert found.steps == steps
+    assert found.error == pytest.approx(0.3 / steps)
 
 
 @pytest.mark.slow
