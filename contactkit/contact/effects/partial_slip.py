@@ -169,12 +169,16 @@ class PartialSlip(Observer[PartialSlipPart]):
 
     >>> from attrs import evolve
     >>> at_rest = ck.PartialSlip(
-    ...     coefficient=0.2, path=(ck.TangentialStep(force=0.0),), components=2, coupled=True
+    ...     coefficient=0.2,
+    ...     path=(ck.TangentialStep(force=0.0),),
+    ...     components=2,
+    ...     coupled=True,
+    ...     pressing_rtol=0.1,
     ... )
     >>> pressed = evolve(scene, effects=(ck.HalfSpace(), at_rest))
-    >>> part = ck.solve(ck.plan(pressed, ck.Accuracy(grid=32))).of(ck.PartialSlip)
+    >>> part = ck.solve(ck.plan(pressed, ck.Accuracy(grid=24))).of(ck.PartialSlip)
     >>> f"{part.stick_fraction[0]:.2f} sticks, {part.coupling.pressure_change:.2f} more pressure"
-    '0.47 sticks, 0.09 more pressure'
+    '0.48 sticks, 0.08 more pressure'
     """
 
     name: ClassVar[str] = "partial-slip"
