@@ -14,6 +14,7 @@ from .units import parse_quantity
 
 __all__ = [
     "LARGEST",
+    "LARGEST_FRICTION",
     "Described",
     "angle",
     "as_pair",
@@ -24,6 +25,7 @@ __all__ = [
     "count",
     "finite",
     "fraction",
+    "friction_coefficient",
     "non_negative",
     "optional",
     "part",
@@ -117,6 +119,17 @@ def fraction(owner: object, attribute: Attribute[Any], value: Any) -> None:
     """Refuse anything outside 0 to 1."""
     if not (_is_number(value) and 0.0 <= value <= 1.0):
         raise refuse(owner, attribute, value, "lie between 0 and 1")
+
+
+LARGEST_FRICTION = 1e3  # clean metals in vacuum seize at some ten; this holds any contact
+
+
+def friction_coefficient(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything outside 0 to 1000: rubber has above 1."""
+    if not (_is_number(value) and 0.0 <= value <= LARGEST_FRICTION):
+        is_large = _is_number(value) and value > 0.0
+        hint = f"{LARGEST_FRICTION:g} holds wherever there is pressure" if is_large else ""
+        raise refuse(owner, attribute, value, f"lie between 0 and {LARGEST_FRICTION:g}", hint)
 
 
 def angle(owner: object, attribute: Attribute[Any], value: Any) -> None:

@@ -13,7 +13,7 @@ from ..export.contents import Contents
 from ..numerics.roots import bracketed_root
 from ..scene.tabular import Tabular, curve_contents
 from ..units import si
-from ..validators import Described, fraction, non_negative, optional, positive, refuse
+from ..validators import Described, friction_coefficient, non_negative, optional, positive, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -36,7 +36,7 @@ class SpringSlider(Described):
     load : float
         Normal load on the block [N].
     static_coefficient : float
-        Coefficient of friction at rest [-], 0 to 1.
+        Coefficient of friction at rest [-], 0 to 1000; rubber has above 1.
     kinetic_coefficient : float
         Coefficient of friction in motion [-], at most the static one.
     stiffness : float
@@ -66,8 +66,8 @@ class SpringSlider(Described):
     """
 
     load: float = field(validator=positive, metadata=si("N"))
-    static_coefficient: float = field(validator=fraction, metadata=si("-"))
-    kinetic_coefficient: float = field(validator=fraction, metadata=si("-"))
+    static_coefficient: float = field(validator=friction_coefficient, metadata=si("-"))
+    kinetic_coefficient: float = field(validator=friction_coefficient, metadata=si("-"))
     stiffness: float = field(validator=positive, metadata=si("N/m"))
     speed: float = field(validator=positive, metadata=si("m/s"))
     mass: float = field(default=0.0, validator=non_negative, metadata=si("kg"))

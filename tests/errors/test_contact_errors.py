@@ -120,7 +120,14 @@ ELSEWHERE = {
     # See test_partial_slip_errors.py.
     *(
         ("PartialSlip", name)
-        for name in ("coefficient", "direction", "components", "rtol", "pressing_steps")
+        for name in (
+            "coefficient",
+            "direction",
+            "components",
+            "rtol",
+            "pressing_steps",
+            "pressing_rtol",
+        )
     ),
 }
 OF_A_SEPARATION = {"time_rtol", "points", "max_steps"}

@@ -55,7 +55,16 @@ def test_a_step_has_one_target(given, expected):
         ({"path": HALF, "components": 3}, "components must be 1 or 2"),
         ({"path": HALF, "components": 2.0}, "components must be 1 or 2, got 2.0"),
         ({"path": HALF, "guided": "no"}, "guided must be a bool, got 'no'"),
-        ({"path": HALF, "coefficient": -0.1}, "coefficient must be zero or positive"),
+        (
+            {"path": HALF, "coefficient": -0.1},
+            r"coefficient must lie between 0 and 1000, got -0\.1$",
+        ),
+        (
+            {"path": HALF, "coefficient": 2e3},
+            "must lie between 0 and 1000, got 2000.0; 1000 holds wherever there is pressure",
+        ),
+        ({"path": HALF, "pressing_rtol": 0.2}, "pressing_rtol must be at most 0.1, .* few press"),
+        ({"path": HALF, "pressing_rtol": 0.0}, "pressing_rtol must be positive"),
         ({"path": HALF, "pressing_steps": 0}, "pressing_steps must be"),
         ({"path": HALF, "rtol": 0.0}, "rtol must be positive"),
         ({"path": HALF, "rtol": 0.1}, "rtol must be at most 0.001, got 0.1"),

@@ -118,7 +118,7 @@ EFFECTS = {
         steps=st.integers(1, 9),
     ),
     ck.FrictionTraction: st.builds(
-        ck.FrictionTraction, coefficient=st.floats(0.0, 1.0), direction=st.floats(-4.0, 4.0)
+        ck.FrictionTraction, coefficient=st.floats(0.0, 1e3), direction=st.floats(-4.0, 4.0)
     ),
     ck.FrictionCoupling: st.builds(ck.FrictionCoupling),
     ck.PartialSlip: st.builds(
@@ -129,7 +129,8 @@ EFFECTS = {
         direction=st.floats(-4.0, 4.0),
         guided=st.booleans(),
         coupled=st.booleans(),
-        pressing_steps=st.integers(1, 9),
+        pressing_steps=st.none() | st.integers(1, 9),
+        pressing_rtol=st.floats(1e-4, 0.1),
     ),
     ck.SubsurfaceStress: st.builds(
         ck.SubsurfaceStress,

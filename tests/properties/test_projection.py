@@ -151,3 +151,18 @@ def test_every_occupied_cell_has_one_pixel_of_its_own(shape):
         assert np.all(cells.level[np.searchsorted(at, who)] >= n)
         assert table.size == ny * nx
     assert np.sum(cells.level == len(sizes) - 1) == (at.size > 0)
+
+
+def test_a_step_costs_what_is_held_not_what_is_in_contact():
+    """A wide contact, few pixels of which leave their bounds."""
+    shape = (24, 24)
+    inverse = inverse_of(plate(shape, True), shape, True)
+    inverse.prepare(np.arange(24 * 24))
+    x = np.ones(24 * 24, np.float32)
+    x[:12] = -2.0
+    low, high = np.full(x.size, -1.0, np.float32), np.full(x.size, np.inf, np.float32)
+    projection = Projection(inverse.factor, low, high, False)
+    found = projection(x)
+    assert projection.steps > 0
+    assert 12 <= np.count_nonzero(found.side) < 60
+    assert 0.0 < projection.work < 0.2 * projection.steps

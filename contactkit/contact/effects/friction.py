@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 from attrs import field, frozen
 
 from ...units import si
-from ...validators import finite, fraction
+from ...validators import finite, friction_coefficient
 from .base import Array, Contact, DisplacementTerm, FrictionalContact, Observer, Scalar
 from .elasticity import bodies_of
 
@@ -68,7 +68,7 @@ class FrictionTraction(Observer[FrictionPart]):
     Parameters
     ----------
     coefficient : float
-        Coefficient of friction [-], 0 to 1.
+        Coefficient of friction [-], 0 to 1000; rubber has above 1.
     direction : float
         Direction in which the upper body slides, from the x axis towards y [rad].
     """
@@ -84,7 +84,7 @@ class FrictionTraction(Observer[FrictionPart]):
     )
     scalars: ClassVar[tuple[Scalar, ...]] = (Scalar("friction_force", "N", attrgetter("force")),)
 
-    coefficient: float = field(validator=fraction, metadata=si("-"))
+    coefficient: float = field(validator=friction_coefficient, metadata=si("-"))
     direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
 
     @property

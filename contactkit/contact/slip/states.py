@@ -32,9 +32,10 @@ class SlipCoupling(NamedTuple):
     `displacement` (ny, nx) is the normal displacement by the tractions at the end of the path [m].
     `pressure_change` is the largest change of the pressure by them over its maximum [-],
     `area_change` the change of the contact area over that without them [-]. `step_error` is the
-    change of the tractions after pressing, rms over that of their bound, if the load is applied in
-    half as many steps [-]; None for a single one. `contacts` counts the contacts solved,
-    `applications` those of the coupling between normal and tangential displacements.
+    error of the tractions after pressing by its steps, rms over that of their bound, estimated by
+    fewer of them [-]; None for a single one. `contacts` counts the contacts solved, `applications`
+    those of the coupling between normal and tangential displacements, `pressing_steps` the steps in
+    which the bodies were pressed together (None in files of earlier versions).
     """
 
     displacement: Map
@@ -43,6 +44,7 @@ class SlipCoupling(NamedTuple):
     step_error: float | None
     contacts: int
     applications: int
+    pressing_steps: int | None = None
 
 
 class PartialSlipPart(NamedTuple):

@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .loops_numpy import dot
 from .nested_grids import Grid
 from .problem import Problem, clip_to_load, fit
 from .projection import TOLERANCE, Projection
@@ -87,7 +88,7 @@ class ProjectedSet(State):
     def _search_line(self, at: Indices, p: Floats, g: Floats) -> float:
         """Go to the minimum of the energy between two feasible maps unless it is near the end."""
         d, turn = self.p[at] - p, self.g[at] - g[at]
-        slope, curvature = float((self.approach - g[at]) @ d), float(d @ turn)
+        slope, curvature = dot(self.approach - g[at], d), dot(d, turn)
         length = slope / curvature if curvature > 0.0 else 1.0
         self.n_short = self.n_short + 1 if length < SHORT else 0
         if self.source == "metric":
@@ -134,13 +135,13 @@ class ProjectedSet(State):
             self.n_short = 0
             self.source = "solved"
             y = self._projected(at, p, self._solved(at, r), bound)
-            if float(r @ (y - p)) > 0.0:
+            if dot(r, y - p) > 0.0:
                 return y
         self.source = "metric"
         self._prepare(at)
         x = self.fraction * self._preconditioned(r)
         y = self._projected(at, p, x, bound)
-        if not float(r @ (y - p)) > 0.0:
+        if not dot(r, y - p) > 0.0:
             return self._downhill(p, r, bound)
         return self._on_face(at, p, y, r, bound) if self.is_cut else y
 
@@ -161,7 +162,7 @@ class ProjectedSet(State):
         better = y.copy()
         x = self._solved(inside, rest)
         better[free] = self._projected(inside, y[free], x, bound[free])
-        return better if float(r @ (better - p)) > 0.0 else y
+        return better if dot(r, better - p) > 0.0 else y
 
     def _solved(self, at: Indices, r: Floats) -> NDArray[Any]:
         system = ReducedSystem(self.grid, at, self.load_fixed, displaces=False)

@@ -1,6 +1,7 @@
 """Partial slip of dissimilar bodies: pressure and tractions that displace each other's surfaces."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -26,7 +27,9 @@ def pressed(nu=0.2, coefficient=0.2, force=1.0, grid=32, path=REST, **choices):
     """A rigid sphere on a half-space."""
     solid = ck.Material(young_modulus=70 * GPa, poisson_ratio=nu)
     radius = (0.75 * force * RADIUS / solid.plane_strain_modulus) ** (1.0 / 3.0)
-    choices = {"components": 2, "coupled": True, "pressing_steps": 4} | choices
+    choices = {"components": 2, "coupled": True} | choices
+    if choices["coupled"] and "pressing_rtol" not in choices:
+        choices.setdefault("pressing_steps", 4)
     scene = ck.ContactScene(
         interface=ck.Interface(
             lower=ck.Body(solid=solid), upper=ck.Body(surface=ck.Paraboloid(radius=RADIUS))
@@ -171,6 +174,53 @@ def test_more_steps_of_pressing_change_less():
     errors = [pressed(pressing_steps=n)[1].coupling.step_error for n in (2, 4, 8)]
     assert errors[0] > 2.0 * errors[1] > 3.0 * errors[2]
     assert pressed(pressing_steps=1)[1].coupling.step_error is None
+
+
+@pytest.mark.parametrize(("rtol", "steps"), [(0.1, 16), (0.02, 16), (0.01, 33), (0.001, 256)])
+def test_the_steps_of_pressing_are_chosen_by_their_error(monkeypatch, rtol, steps):
+    """Tractions that err by 0.3 over the number of steps, as they do."""
+
+    def pressed_in(run, n, last=0.0):
+        state = SimpleNamespace(traction=np.full((2, 1, 1), 0.5**0.5 * (1.0 + 0.3 / n)))
+        return SimpleNamespace(taken=SimpleNamespace(state=state, bound=np.ones(1)), problem="")
+
+    monkeypatch.setattr(slip_loop, "_pressed", pressed_in)
+    effect = ck.PartialSlip(
+        coefficient=0.3, path=REST, components=2, coupled=True, pressing_rtol=rtol
+    )
+    found = slip_loop._press(None, effect)
+    assert found.steps == steps
+    assert found.error == pytest.approx(0.3 / steps)
+
+
+@pytest.mark.slow
+def test_the_stated_error_of_pressing_is_no_less_than_the_true_one():
+    for mu, nu in ((0.1, 0.45), (0.3, 0.3)):
+        result, part = pressed(nu=nu, coefficient=mu, grid=32, pressing_rtol=0.03)
+        _, fine = pressed(nu=nu, coefficient=mu, grid=32, pressing_steps=64)
+        change = np.hypot(part.traction_x - fine.traction_x, part.traction_y - fine.traction_y)
+        error = float(np.linalg.norm(change)) / float(np.linalg.norm(mu * result.pressure))
+        assert error <= part.coupling.step_error <= 4.0 * error
+
+
+@pytest.mark.slow
+def test_a_sphere_pressed_by_default_sticks_as_far_as_spence_has_it():
+    """Tractions hardly change the pressure here; eight steps, given, are 5 % off."""
+    beta = (1.0 - 2.0 * 0.45) / (2.0 * (1.0 - 0.45))
+    _, part = pressed(nu=0.45, coefficient=0.1, grid=48, pressing_rtol=0.01)
+    assert part.coupling.step_error <= 0.01
+    assert math.sqrt(part.stick_fraction[0]) == pytest.approx(spence(0.1 / beta), rel=0.01)
+    _, coarse = pressed(nu=0.45, coefficient=0.1, grid=48, pressing_steps=8)
+    assert coarse.coupling.pressing_steps == 8
+    assert math.sqrt(coarse.stick_fraction[0]) < 0.96 * spence(0.1 / beta)
+    assert coarse.coupling.step_error > 0.03
+
+
+def test_steps_of_pressing_that_nothing_uses_are_refused():
+    with pytest.raises(ck.PlanError, match="coupled=True for pressing_steps"):
+        pressed(coupled=False, pressing_steps=8)
+    with pytest.raises(ck.PlanError, match="either pressing_steps or pressing_rtol"):
+        pressed(pressing_steps=8, pressing_rtol=0.02)
 
 
 def test_the_direction_of_the_load_turns_the_tractions():
