@@ -182,6 +182,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         # Where no force acts yet, a film still has a scale: differences of speed count.
         scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
         remembered=torn.remembered if torn is not None else None,
+        taken=abs(state.impulses.get(_VISCOUS, 0.0)),
     )
 
 

@@ -136,6 +136,7 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->net = drive - spring - first->fixed - first->viscous;
     p->net_by_gap = -scene->stiffness - first->fixed_by_gap - first->viscous_by_gap;
     p->net_by_speed = -first->viscous_by_speed;
+    p->viscous = first->viscous, p->taken = fabs(state->viscous_impulse);
 }
 
 /* Measure errors against a force that is still to come: at the foot of a ramp nothing acts yet, and
