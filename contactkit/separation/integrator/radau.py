@@ -29,7 +29,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from ...numerics.three import Three, solved_three
-from .tableau import BACK, ERROR, GAMMA, NODES, STAGES
+from .tableau import BACK, BACK_SLOPE, ERROR, GAMMA, NODES, STAGES
 
 __all__ = [
     "Forces",
@@ -49,9 +49,10 @@ _E1, _E2, _E3 = ERROR
 _MOST_ITERATIONS = 12
 _LINEAR = 1e-4  # relative change over which the slopes at the start are good enough
 _FAR = 0.5  # change of the coordinate beyond which they give no useful guess
-# By how much more the speed bends at the end of a step than where the estimate sees it. Of 300 pulls
-# the speeds were off by up to 5 tolerances with 1, by up to 2 with 3, which costs 5 % more steps.
+# By how much more the speed bends at the end of a step than where the estimate sees it. Speeds of
+# 300 pulls were off by up to 5 tolerances with 1, by up to 2 with 3, which costs 5 % more steps.
 _RISING = 3.0
+_LEFT = 0.1 / _RISING  # fraction of what is left of a transient that counts
 _TRAVEL = 1e-2  # fraction of the gap; the impulse of less is not known to the tolerance
 _IMPULSE = 0.1  # of an estimate that is 20 to 2000 times the error of the viscous impulse
 _ROUND_OFF = 1e-6  # change of the rates below which an iteration that stalls has converged
@@ -352,30 +353,34 @@ def _finished(
         # The second estimate, from where the first one leads, ignores what decays at once.
         net = _net_near(problem, pulled, place[0], v0 + ev)
         eq, ev = estimate((v0 + ev) / place[1], net / mass)
-    # The coordinate grows along with the gap: an error of it at the end counts with the slope there.
-    eq *= stages[2][3] / h3
-    ev = _speed_error(problem, dt, (v1, v2, v3), f3, problem.net(pulled, h0, first) / mass + zv)
+    eq *= stages[2][3] / h3  # of the gap: at the end it grows faster with q than at the start
+    ev = _speed_error(problem, dt, (v1, v2, v3), f3, problem.net(pulled, h0, first) / mass, zv)
     if not math.isfinite(eq + ev):
         return None
     return Step(points, (f1, f2, f3), (q1, q2, q3), s, abs(eq), ev, evaluations)
 
 
 def _speed_error(
-    problem: Problem, dt: float, speeds: Three, end: Forces, acceleration: float
+    problem: Problem, dt: float, speeds: Three, end: Forces, a0: float, zv: float
 ) -> float:
     """Error of the speed at the end of a step [m/s]: the smaller of two estimates, each safe.
 
-    Both say how far the start is from a parabola through the stages: `acceleration` [m/s2] that of
-    the accelerations, the other one that of the speeds. The film at the *end* holds the mass
-    against it: where the gap multiplies within a step it is softer by orders of magnitude than at
-    the start, and it is the end at which inertia comes back. The first is the sharper one, but a
-    transient of a film, m/c, is all it sees where one was stepped over. What is left of that at
-    the end, 3 m/(c dt), and the lag of a mass that a film leads are in the second.
+    Both say how far the start is from a parabola through the stages: the first one that of the
+    accelerations (`a0` at the start), the other one that of the `speeds`. The film at the *end*
+    holds the mass against it: where the gap multiplies within a step, it is softer there by orders
+    of magnitude than at the start, and it is there that inertia comes back. The first estimate is
+    sharper, but where a transient of length m/c was stepped over, that is all it sees. The second
+    one starts where the transient ends: on the balance of film, other forces and inertia. What is
+    left of the transient, 3 m/(c dt) of its change of speed, decays in the next step likewise; a
+    tenth of it counts, or each change of a pull would be followed through its transient.
     """
     held = _held(problem, dt, end)
-    first = dt * abs(acceleration) / held
-    second = 3.0 * abs(problem.begin.speed - _back(speeds)) / held
-    return min(first, second)
+    first, damping = dt * abs(a0 + zv) / held, problem.first.viscous_by_speed
+    if not damping * dt > problem.mass:
+        return first
+    off = problem.begin.speed - _parabola(BACK, speeds)
+    led = off + problem.mass / damping * (a0 - _parabola(BACK_SLOPE, speeds) / dt)
+    return min(first, 3.0 * max(abs(led), _LEFT * abs(off)) / held)
 
 
 def _held(problem: Problem, dt: float, end: Forces) -> float:
@@ -383,9 +388,9 @@ def _held(problem: Problem, dt: float, end: Forces) -> float:
     return GAMMA + dt * max(end.viscous_by_speed, 0.0) / (_RISING * problem.mass)
 
 
-def _back(stages: Sequence[float]) -> float:
-    """Value at the start of a parabola through the stages."""
-    return BACK[0] * stages[0] + BACK[1] * stages[1] + BACK[2] * stages[2]
+def _parabola(weights: Three, stages: Sequence[float]) -> float:
+    """Value, or slope, at the start of a parabola through the stages."""
+    return weights[0] * stages[0] + weights[1] * stages[1] + weights[2] * stages[2]
 
 
 def _moved(forces: Forces, before: _Stage, after: _Stage) -> Forces:
@@ -440,7 +445,7 @@ def _impulse_error(problem: Problem, taken: Step, length: float) -> float:
     if not damping > 0.0:
         return 0.0
     forces = [one.viscous for one in taken.forces]
-    wrong = length * abs(problem.first.viscous - _back(forces))
+    wrong = length * abs(problem.first.viscous - _parabola(BACK, forces))
     grown = length * (abs(forces[0]) + abs(forces[1]) + abs(forces[2])) / 3.0
     # It is zero again where a mass comes back to where it was.
     least = _TRAVEL * damping * begin.gap

@@ -13,7 +13,8 @@
 #define MOST_ITERATIONS 12
 #define LINEAR 1e-4 /* relative change over which the slopes at the start are good enough */
 #define FAR 0.5     /* change of the coordinate over which they are no guess any more */
-#define RISING 3.0  /* these three as in radau.py, where the reasons are */
+#define RISING 3.0  /* these four as in radau.py, where the reasons are */
+#define LEFT (0.1 / RISING)
 #define TRAVEL 1e-2
 #define IMPULSE 0.1
 
@@ -26,8 +27,9 @@ const double ck_stages[3][3] = {
 /* 3 + 3^(2/3) - 3^(1/3), and the weights of the stage increments */
 const double ck_gamma = 3.6378342527444957;
 const double ck_estimate[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0};
-/* weights of the stages in what a parabola through them is at the start */
+/* weights of the stages in what a parabola through them is at the start, and in its slope */
 static const double BACK[3] = {(2.0 + 3.0 * R6) / 6.0, (2.0 - 3.0 * R6) / 6.0, 1.0 / 3.0};
+static const double BACK_SLOPE[3] = {(8.0 - 13.0 * R6) / 6.0, (8.0 + 13.0 * R6) / 6.0, -8.0 / 3.0};
 
 typedef struct {
     double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
@@ -212,14 +214,20 @@ static double held_by(const ck_problem *p, double dt, const ck_forces *end) {
     return ck_gamma + dt * ck_larger(end->viscous_by_speed, 0.0) / (RISING * p->mass);
 }
 
-/* Error of the speed at the end of a step: the smaller of two estimates, each of them safe, of how
-   far the start is from a parabola through the stages, in accelerations (`first`) and in speeds.
-   See radau.py. */
-static double speed_error(const ck_problem *p, double dt, const ck_step *taken, double first) {
-    double held = held_by(p, dt, &taken->forces[2]), off = p->begin.speed;
+/* Error of the speed at the end of a step, `zv` of the increments of the stages: the smaller of two
+   estimates, each of them safe, of how far the start is from a parabola through the stages. See
+   radau.py. */
+static double speed_error(const ck_problem *p, double dt, const ck_step *taken, double zv) {
+    double held = held_by(p, dt, &taken->forces[2]), a0 = p->net / p->mass, slope = 0.0, led;
+    double first = dt * fabs(a0 + zv) / held, off = p->begin.speed;
     int i;
-    for (i = 0; i < 3; i++) off -= BACK[i] * taken->stages[i].speed;
-    return ck_smaller(dt * fabs(first), 3.0 * fabs(off)) / held;
+    if (!(-p->net_by_speed * dt > p->mass)) return first;
+    for (i = 0; i < 3; i++) {
+        off -= BACK[i] * taken->stages[i].speed;
+        slope += BACK_SLOPE[i] * taken->stages[i].speed / dt;
+    }
+    led = off - p->mass / p->net_by_speed * (a0 - slope);
+    return ck_smaller(first, 3.0 * ck_larger(fabs(led), LEFT * fabs(off)) / held);
 }
 
 /* Estimate the error of stages that are found. `were` is where the forces were asked for. */
@@ -247,7 +255,7 @@ static int finish(const ck_problem *p, double dt, double s, const double rates[3
     taken->exponent = s;
     /* The coordinate grows along with the gap: an error of it counts with the slope at the end. */
     taken->gap_error = fabs(error[0] * at[2].first / at[2].at.gap);
-    taken->speed_error = speed_error(p, dt, taken, p->net / p->mass + z[1]);
+    taken->speed_error = speed_error(p, dt, taken, z[1]);
     return isfinite(taken->gap_error) && isfinite(taken->speed_error);
 }
 
