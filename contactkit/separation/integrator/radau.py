@@ -29,7 +29,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from ...numerics.three import Three, solved_three
-from .tableau import BACK, BACK_SLOPE, ERROR, GAMMA, NODES, STAGES
+from .tableau import BACK, BACK_SLOPE, END_SLOPE, ERROR, GAMMA, NODES, STAGES
 
 __all__ = [
     "Forces",
@@ -52,6 +52,7 @@ _FAR = 0.5  # change of the coordinate beyond which they give no useful guess
 # By how much more the speed bends at the end of a step than where the estimate sees it. Speeds of
 # 300 pulls were off by up to 5 tolerances with 1, by up to 2 with 3, which costs 5 % more steps.
 _RISING = 3.0
+_FAST = 2.0  # growth of the gap in a step above which the lag of its end is looked at by itself
 _LEFT = 0.1 / _RISING  # fraction of what is left of a transient that counts
 _TRAVEL = 1e-2  # fraction of the gap; the impulse of less is not known to the tolerance
 _IMPULSE = 0.1  # of an estimate that is 20 to 2000 times the error of the viscous impulse
@@ -354,14 +355,14 @@ def _finished(
         net = _net_near(problem, pulled, place[0], v0 + ev)
         eq, ev = estimate((v0 + ev) / place[1], net / mass)
     eq *= stages[2][3] / h3  # of the gap: at the end it grows faster with q than at the start
-    ev = _speed_error(problem, dt, (v1, v2, v3), f3, problem.net(pulled, h0, first) / mass, zv)
+    ev = _speed_error(problem, dt, h3, (v1, v2, v3), f3, problem.net(pulled, h0, first) / mass, zv)
     if not math.isfinite(eq + ev):
         return None
     return Step(points, (f1, f2, f3), (q1, q2, q3), s, abs(eq), ev, evaluations)
 
 
 def _speed_error(
-    problem: Problem, dt: float, speeds: Three, end: Forces, a0: float, zv: float
+    problem: Problem, dt: float, gap: float, speeds: Three, end: Forces, a0: float, zv: float
 ) -> float:
     """Error of the speed at the end of a step [m/s]: the smaller of two estimates, each safe.
 
@@ -380,7 +381,30 @@ def _speed_error(
         return first
     off = problem.begin.speed - _parabola(BACK, speeds)
     led = off + problem.mass / damping * (a0 - _parabola(BACK_SLOPE, speeds) / dt)
-    return min(first, 3.0 * max(abs(led), _LEFT * abs(off)) / held)
+    found = min(first, 3.0 * max(abs(led), _LEFT * abs(off)) / held)
+    if gap < _FAST * problem.begin.gap:
+        return found
+    acceleration = (_parabola(END_SLOPE, speeds) - 3.0 * led) / dt
+    return max(found, _lag_error(problem, dt, acceleration, speeds[2], end))
+
+
+def _lag_error(
+    problem: Problem, dt: float, acceleration: float, speed: float, end: Forces
+) -> float:
+    """Error of a speed [m/s] by that of the acceleration at the end of a step [m/s2].
+
+    A film that leads a mass accelerates it as the balance of the other forces says: c v' = F' -
+    (k + dF/dh) v. The mass lags behind by a fraction m v'/(c v), and its acceleration by some
+    three times that, for which five are taken off.
+    """
+    damping, time = end.viscous_by_speed, problem.begin.time
+    if not damping > 0.0 or end.limit is not None or not speed:
+        return 0.0
+    rate = (problem.pull(time + dt) - problem.pull(time + _C2 * dt)) / ((1.0 - _C2) * dt)
+    by_gap = problem.stiffness + end.static_by_gap + end.viscous_by_gap
+    led = (rate - by_gap * speed) / damping
+    lag = problem.mass / damping * led
+    return problem.mass / damping * abs(acceleration - led) - 5.0 * lag * lag / abs(speed)
 
 
 def _held(problem: Problem, dt: float, end: Forces) -> float:

@@ -13,8 +13,9 @@
 #define MOST_ITERATIONS 12
 #define LINEAR 1e-4 /* relative change over which the slopes at the start are good enough */
 #define FAR 0.5     /* change of the coordinate over which they are no guess any more */
-#define RISING 3.0  /* these four as in radau.py, where the reasons are */
+#define RISING 3.0  /* these five as in radau.py, where the reasons are */
 #define LEFT (0.1 / RISING)
+#define FAST 2.0
 #define TRAVEL 1e-2
 #define IMPULSE 0.1
 
@@ -27,9 +28,10 @@ const double ck_stages[3][3] = {
 /* 3 + 3^(2/3) - 3^(1/3), and the weights of the stage increments */
 const double ck_gamma = 3.6378342527444957;
 const double ck_estimate[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0};
-/* weights of the stages in what a parabola through them is at the start, and in its slope */
+/* weights of the stages in what a parabola through them is at the start, and in its slopes */
 static const double BACK[3] = {(2.0 + 3.0 * R6) / 6.0, (2.0 - 3.0 * R6) / 6.0, 1.0 / 3.0};
 static const double BACK_SLOPE[3] = {(8.0 - 13.0 * R6) / 6.0, (8.0 + 13.0 * R6) / 6.0, -8.0 / 3.0};
+static const double END_SLOPE[3] = {-2.0 + 7.0 * R6 / 6.0, -2.0 - 7.0 * R6 / 6.0, 4.0};
 
 typedef struct {
     double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
@@ -214,20 +216,35 @@ static double held_by(const ck_problem *p, double dt, const ck_forces *end) {
     return ck_gamma + dt * ck_larger(end->viscous_by_speed, 0.0) / (RISING * p->mass);
 }
 
+/* Error of a speed by that of the acceleration at the end of a step. A film that leads a mass
+   accelerates it as the balance of the other forces says; it lags a little behind. See radau.py. */
+static double lag_error(const ck_problem *p, const ck_step *taken, double acceleration) {
+    const ck_forces *end = &taken->forces[2];
+    double damping = end->viscous_by_speed, speed = taken->stages[2].speed, rate, led, lag;
+    if (!(damping > 0.0) || end->limit || speed == 0.0) return 0.0;
+    rate = p->pull.rate + 2.0 * p->pull.bend * (taken->stages[2].time - p->pull.time);
+    led = (rate - (p->spring + end->fixed_by_gap + end->viscous_by_gap) * speed) / damping;
+    lag = p->mass / damping * led;
+    return p->mass / damping * fabs(acceleration - led) - 5.0 * lag * lag / fabs(speed);
+}
+
 /* Error of the speed at the end of a step, `zv` of the increments of the stages: the smaller of two
    estimates, each of them safe, of how far the start is from a parabola through the stages. See
    radau.py. */
 static double speed_error(const ck_problem *p, double dt, const ck_step *taken, double zv) {
     double held = held_by(p, dt, &taken->forces[2]), a0 = p->net / p->mass, slope = 0.0, led;
-    double first = dt * fabs(a0 + zv) / held, off = p->begin.speed;
+    double first = dt * fabs(a0 + zv) / held, off = p->begin.speed, ahead = 0.0, found;
     int i;
     if (!(-p->net_by_speed * dt > p->mass)) return first;
     for (i = 0; i < 3; i++) {
         off -= BACK[i] * taken->stages[i].speed;
         slope += BACK_SLOPE[i] * taken->stages[i].speed / dt;
+        ahead += END_SLOPE[i] * taken->stages[i].speed / dt;
     }
     led = off - p->mass / p->net_by_speed * (a0 - slope);
-    return ck_smaller(first, 3.0 * ck_larger(fabs(led), LEFT * fabs(off)) / held);
+    found = ck_smaller(first, 3.0 * ck_larger(fabs(led), LEFT * fabs(off)) / held);
+    if (taken->stages[2].gap < FAST * p->begin.gap) return found;
+    return ck_larger(found, lag_error(p, taken, ahead - 3.0 * led / dt));
 }
 
 /* Estimate the error of stages that are found. `were` is where the forces were asked for. */

@@ -28,8 +28,7 @@ def errors(pull, right, rtol):
     )
 
 
-# Where a tolerance of 1e-4, 1e-6, 1e-8 or 1e-10 left 0.8 % of the speed, or an impulse 35 tolerances
-# off; and pulls with each of a rise time and a spring.
+# Where some tolerance once left 0.8 % of the speed, or 35 tolerances of the impulse; and any others.
 CASES = [
     Pulled(3, 8.816e-6, 2.335, 0.0, 0.0),
     Pulled(3, 1.11e-5, 1.702, 0.0, 0.0),
@@ -57,12 +56,11 @@ def test_a_release_is_right_to_its_tolerance(pull):
 def test_a_thousand_releases_are_right_to_their_tolerance():
     """Time within one tolerance, impulse within a fifth, speed within one but for few."""
     worse = 0
-    for pull in pulls(1000):
-        right = exact(pull)
-        for rtol in (1e-4, 1e-6, 1e-8, 1e-10):
-            time, speed, impulse, _ = errors(pull, right, rtol)
-            assert time <= rtol + 3.0 * REFERENCE, (pull, rtol)
-            assert speed <= 5.0 * rtol + 3.0 * REFERENCE, (pull, rtol)
-            assert impulse <= 0.2 * rtol, (pull, rtol)
-            worse += speed > rtol + REFERENCE
-    assert worse <= 80  # of 4000
+    for i, pull in enumerate(pulls(1000)):
+        rtol = (1e-4, 1e-6, 1e-8, 1e-10)[i % 4]
+        time, speed, impulse, _ = errors(pull, exact(pull), rtol)
+        assert time <= rtol + 3.0 * REFERENCE, (pull, rtol)
+        assert speed <= 5.0 * rtol + 3.0 * REFERENCE, (pull, rtol)
+        assert impulse <= 0.2 * rtol, (pull, rtol)
+        worse += speed > rtol + REFERENCE
+    assert worse <= 20
