@@ -28,7 +28,7 @@ def errors(pull, right, rtol):
     )
 
 
-# Where some tolerance once left 0.8 % of the speed, or 35 tolerances of the impulse; and any others.
+# Where a tolerance once left 0.8 % of the speed, or 35 tolerances of the impulse; and others.
 CASES = [
     Pulled(3, 8.816e-6, 2.335, 0.0, 0.0),
     Pulled(3, 1.11e-5, 1.702, 0.0, 0.0),
