@@ -271,8 +271,8 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
             f"stuck: the spring of {loading.stiffness:.4g} N/m balances the pull of "
             f"{loading.force:.4g} N at a gap of {balance:.4g} m, and the mass lacks "
             f"{lacking:.3g} J to reach loading.final_gap = {loading.final_gap:g} m; pull with "
-            f"more than stiffness*(final_gap - initial_gap) = {most:.4g} N, or give a softer spring "
-            "or a smaller final_gap",
+            f"more than stiffness*(final_gap - initial_gap) = {most:.4g} N, or give a softer "
+            "spring or a smaller final_gap",
         )
     held = outputs(plan, last, pull).static
     what = " and ".join(column.label for column in plan.film.static_columns)
