@@ -109,11 +109,9 @@ def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) ->
     problem = None
     while states[-1].n_releases == 0 and states[-1].time < loading.time_limit:
         if len(states) > plan.accuracy.max_steps:
-            problem = (
-                f"not released after {plan.accuracy.max_steps} steps; raise Accuracy.max_steps"
-            )
+            problem = _too_many_steps(plan)
             break
-        if _is_stuck(plan, states, pull):
+        if _is_stuck(plan, states, pull) or _spring_holds(plan, states, pull):
             break
         try:
             states.append(_one_step(plan, states[-1], pull))
@@ -126,6 +124,14 @@ def _motion(plan: Plan, begun: float, throw: bool, progress: Progress | None) ->
     if problem is not None and throw:
         raise ConvergenceError(problem, result)
     return result
+
+
+def _too_many_steps(plan: Plan) -> str:
+    """Sentence for a motion that takes more steps than allowed."""
+    found = f"not released after {plan.accuracy.max_steps} steps; raise Accuracy.max_steps"
+    if plan.scene.imposed_force.stiffness > 0.0:
+        found += ", or, as the mass may swing on its spring for good, lower loading.time_limit [s]"
+    return found
 
 
 def _one_step(plan: Plan, state: MotionState, pull: Callable[[float], float]) -> MotionState:
@@ -149,6 +155,39 @@ def _is_stuck(plan: Plan, states: list[MotionState], pull: Callable[[float], flo
         return False
     held = film.static_force(state.gap) + loading.stiffness * (state.gap - loading.initial_gap)
     return pull(state.time) <= held and state.speed <= 0.0 and state.gap <= loading.initial_gap
+
+
+def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float], float]) -> bool:
+    """Whether a spring keeps the mass from `final_gap` for good: its energy does not reach there.
+
+    Films and contacts only take energy. Left out are what may give some: a pull that still rises,
+    forces that push the bodies apart, and a film that wets them again in between.
+    """
+    state, loading = states[-1], plan.scene.imposed_force
+    k, force = loading.stiffness, loading.force
+    if k == 0.0 or len(states) < 2 or abs(force - pull(state.time)) > 1e-9 * abs(force):
+        return False
+    if plan.film.static_columns and (
+        plan.scene.meniscus.rewetting > 0.0 or _pushes(plan, loading.final_gap)
+    ):
+        return False
+    return _energy_left(plan, state) < -1e-6 * abs(force) * (loading.final_gap - state.gap)
+
+
+def _energy_left(plan: Plan, state: MotionState) -> float:
+    """Energy of mass, pull and spring at the final gap if nothing else takes any [J]."""
+    loading = plan.scene.imposed_force
+    begin, end = (gap - loading.initial_gap for gap in (state.gap, loading.final_gap))
+    moving = 0.5 * (loading.mass or 0.0) * state.speed**2
+    given = loading.force - 0.5 * loading.stiffness * (begin + end)
+    return moving + given * (loading.final_gap - state.gap)
+
+
+def _pushes(plan: Plan, final_gap: float) -> bool:
+    """Whether a film, or solids, push the bodies apart at a gap on the way."""
+    gap = min(plan.scene.imposed_force.initial_gap, 0.5 * final_gap)
+    ratio = (final_gap / gap) ** (1.0 / 32.0)
+    return any(plan.film.static_force(gap * ratio**i) < 0.0 for i in range(33))
 
 
 def _motion_result(
@@ -191,6 +230,19 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
         return (
             "time limit",
             f"not released within loading.time_limit = {limit:g} s; gap {last.gap:g} m",
+        )
+    loading = plan.scene.imposed_force
+    lacking = -_energy_left(plan, last)
+    if loading.stiffness > 0.0 and lacking > 0.0 and last.gap > loading.initial_gap:
+        most = loading.stiffness * (loading.final_gap - loading.initial_gap)
+        balance = loading.initial_gap + loading.force / loading.stiffness
+        return (
+            "stuck",
+            f"stuck: the spring of {loading.stiffness:.4g} N/m balances the pull of "
+            f"{loading.force:.4g} N at a gap of {balance:.4g} m, and the mass lacks "
+            f"{lacking:.3g} J to reach loading.final_gap = {loading.final_gap:g} m; pull with "
+            f"more than stiffness*(final_gap - initial_gap) = {most:.4g} N, or give a softer "
+            "spring or a smaller final_gap",
         )
     held = outputs(plan, last, pull).static
     what = " and ".join(column.label for column in plan.film.static_columns)

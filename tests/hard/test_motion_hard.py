@@ -86,6 +86,70 @@ def test_a_pull_that_grows_is_waited_for(release_scene):
     assert result.status in ("released", "time limit")
 
 
+# Held by the spring ------------------------------------------------------------------------------
+
+
+def sprung(force, **changes):
+    """A disc of 1 um on a spring of 27.5 kN/m: 275 uN hold it at the final gap."""
+    given = {"mass": 1e-9, "rise_time": 0.0, "rupture": None} | changes
+    rupture = given.pop("rupture")
+    face = ck.Flat(radius=1e-6)
+    oil = ck.Liquid(name="oil", viscosity=0.01)
+    loading = ck.ImposedForce(
+        initial_gap=1e-9, final_gap=1.1e-8, force=force, stiffness=27.5e3, **given
+    )
+    return ck.SeparationScene(
+        interface=ck.Interface(lower=face, upper=face, meniscus=ck.Meniscus(liquid=oil)),
+        loading=loading,
+        effects=(VISCOUS, *([ck.Rupture(gap=rupture)] if rupture else [])),
+    )
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-8])
+@pytest.mark.parametrize(
+    ("force", "changes"),
+    [
+        (17.5e-6, {"rupture": 1.2e-9}),  # swings about 1.6 nm for good, without a film
+        (17.5e-6, {}),
+        (0.9 * 275e-6, {}),  # creeps to its equilibrium
+        (0.9 * 275e-6, {"mass": None}),
+        (0.9 * 275e-6, {"rise_time": 1e-3}),
+    ],
+)
+def test_a_spring_that_holds_the_mass_ends_the_run(force, changes, rtol):
+    result = run(sprung(force, **changes), ck.Accuracy(time_rtol=rtol))
+    assert result.status == "stuck"
+    assert result.work.n_steps < 500
+    assert "the spring of 2.75e+04 N/m balances the pull" in result.message
+    assert "more than stiffness*(final_gap - initial_gap) = 0.000275 N" in result.message
+
+
+@pytest.mark.parametrize(
+    ("force", "changes"),
+    [
+        (1.01 * 275e-6, {}),  # what the message asks for
+        (0.6 * 275e-6, {"rupture": 1.2e-9}),  # momentum carries it beyond its equilibrium
+        (0.4 * 275e-6, {"rupture": 1.2e-9, "mass": 1e-6, "initial_speed": 0.1}),
+    ],
+)
+def test_a_mass_that_reaches_the_final_gap_on_its_spring_is_released(force, changes):
+    assert run(sprung(force, **changes)).status == "released"
+
+
+def test_a_massless_pull_of_absurd_strength_is_followed():
+    """139 mN on a disc of 106 nm: transients of 1e-28 s."""
+    face = ck.Flat(radius=1.06e-7)
+    oil = ck.Liquid(name="oil", viscosity=0.01)
+    scene = ck.SeparationScene(
+        interface=ck.Interface(lower=face, upper=face, meniscus=ck.Meniscus(liquid=oil)),
+        loading=ck.ImposedForce(initial_gap=1e-8, final_gap=1.1e-8, force=0.139),
+        effects=(VISCOUS,),
+    )
+    needed = squeeze.disc_impulse_flooded(1.06e-7, 1e-8, 1.1e-8, 0.01) / 0.139
+    for rtol in (1e-4, 1e-8):
+        assert run(scene, ck.Accuracy(time_rtol=rtol)).state.release_time == approx(needed, rtol)
+
+
 # Division of time ---------------------------------------------------------------------------
 
 

@@ -41,6 +41,10 @@ _NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
 _AT_REST = 1e-30  # fraction of the gap over which the film stops a mass at rest
 _EVENT = 1e-13  # relative distance of a gap from an event that is met
 _TORN_COST = 20  # of a step of a torn film, over that of a whole one
+# A film of 1e-14 s has transients of 1e-28 s, and a first step may be the time limit of a run: at
+# time 0 nothing but the range of a float bounds a step.
+_NO_TIME = 1e-280
+_MOST_REJECTED = 300
 _TOO_LONG = 16.0  # error of a step that is to be cut in half
 _VISCOUS = ViscousForce.column.impulse.name
 
@@ -191,6 +195,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         # Where no force acts yet, a film still has a scale: differences of speed count.
         scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
         remembered=torn.remembered if torn is not None else None,
+        taken=abs(state.impulses.get(_VISCOUS, 0.0)),
     )
 
 
@@ -242,7 +247,7 @@ def _stepped(
                 break
         rejected += 1
         length = _CONTROL.shorter(length, error)
-        if length < 1e-15 * max(abs(state.time), 1e-15) or rejected > 60:
+        if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
             raise _no_step(state, problem.rtol)
     is_cut = not rejected and length < state.step
     following = _CONTROL.following(length, error, state.step if is_cut else 0.0)

@@ -10,6 +10,8 @@
 #define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts */
 #define FOOT 1e-6       /* sum of the forces over the pull to come, at the foot of a ramp */
 #define TURN 1e-11    /* what an event of a cavity may be missed by, over its scale */
+#define NO_TIME 1e-280    /* at time 0 the range of a float bounds a step, as in advance.py */
+#define MOST_REJECTED 300
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
 static ck_place place_of(const ck_motion *state) { return (ck_place){state->gap, state->speed}; }
@@ -136,6 +138,7 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->net = drive - spring - first->fixed - first->viscous;
     p->net_by_gap = -scene->stiffness - first->fixed_by_gap - first->viscous_by_gap;
     p->net_by_speed = -first->viscous_by_speed;
+    p->viscous = first->viscous, p->taken = fabs(state->viscous_impulse);
 }
 
 /* Measure errors against a force that is still to come: at the foot of a ramp nothing acts yet, and
@@ -471,7 +474,8 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         if (error <= 1.0) break;
         rejected++;
         length *= error < HUGE_VAL ? ck_larger(0.1, 0.9 * pow(error, -0.25)) : 0.25;
-        if (!(length >= 1e-15 * ck_larger(fabs(state->time), 1e-15)) || rejected > 60) return CK_NO_STEP;
+        if (!(length >= ck_larger(1e-15 * fabs(state->time), NO_TIME)) || rejected > MOST_REJECTED)
+            return CK_NO_STEP;
     }
     state->cost += p.cavity ? CK_TORN_COST * rejected : rejected;
     following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));

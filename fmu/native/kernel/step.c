@@ -13,6 +13,11 @@
 #define MOST_ITERATIONS 12
 #define LINEAR 1e-4 /* relative change over which the slopes at the start are good enough */
 #define FAR 0.5     /* change of the coordinate over which they are no guess any more */
+#define RISING 3.0  /* these five as in radau.py, where the reasons are */
+#define LEFT (0.1 / RISING)
+#define FAST 2.0
+#define TRAVEL 1e-2
+#define IMPULSE 0.1
 
 const double ck_nodes[3] = {(4.0 - R6) / 10.0, (4.0 + R6) / 10.0, 1.0};
 const double ck_weights[3] = {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0};
@@ -23,6 +28,10 @@ const double ck_stages[3][3] = {
 /* 3 + 3^(2/3) - 3^(1/3), and the weights of the stage increments */
 const double ck_gamma = 3.6378342527444957;
 const double ck_estimate[3] = {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0};
+/* weights of the stages in what a parabola through them is at the start, and in its slopes */
+static const double BACK[3] = {(2.0 + 3.0 * R6) / 6.0, (2.0 - 3.0 * R6) / 6.0, 1.0 / 3.0};
+static const double BACK_SLOPE[3] = {(8.0 - 13.0 * R6) / 6.0, (8.0 + 13.0 * R6) / 6.0, -8.0 / 3.0};
+static const double END_SLOPE[3] = {-2.0 + 7.0 * R6 / 6.0, -2.0 - 7.0 * R6 / 6.0, 4.0};
 
 typedef struct {
     double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
@@ -202,6 +211,42 @@ static double net_near(const ck_problem *p, double gap, double speed) {
     return net_of(p, &there, &found);
 }
 
+/* How much an error is reduced by the estimate and by the film at the end of a step. */
+static double held_by(const ck_problem *p, double dt, const ck_forces *end) {
+    return ck_gamma + dt * ck_larger(end->viscous_by_speed, 0.0) / (RISING * p->mass);
+}
+
+/* Error of a speed by that of the acceleration at the end of a step. A film that leads a mass
+   accelerates it as the balance of the other forces says; it lags a little behind. See radau.py. */
+static double lag_error(const ck_problem *p, const ck_step *taken, double acceleration) {
+    const ck_forces *end = &taken->forces[2];
+    double damping = end->viscous_by_speed, speed = taken->stages[2].speed, rate, led, lag;
+    if (!(damping > 0.0) || end->limit || speed == 0.0) return 0.0;
+    rate = p->pull.rate + 2.0 * p->pull.bend * (taken->stages[2].time - p->pull.time);
+    led = (rate - (p->spring + end->fixed_by_gap + end->viscous_by_gap) * speed) / damping;
+    lag = p->mass / damping * led;
+    return p->mass / damping * fabs(acceleration - led) - 5.0 * lag * lag / fabs(speed);
+}
+
+/* Error of the speed at the end of a step, `zv` of the increments of the stages: the smaller of two
+   estimates, each of them safe, of how far the start is from a parabola through the stages. See
+   radau.py. */
+static double speed_error(const ck_problem *p, double dt, const ck_step *taken, double zv) {
+    double held = held_by(p, dt, &taken->forces[2]), a0 = p->net / p->mass, slope = 0.0, led;
+    double first = dt * fabs(a0 + zv) / held, off = p->begin.speed, ahead = 0.0, found;
+    int i;
+    if (!(-p->net_by_speed * dt > p->mass)) return first;
+    for (i = 0; i < 3; i++) {
+        off -= BACK[i] * taken->stages[i].speed;
+        slope += BACK_SLOPE[i] * taken->stages[i].speed / dt;
+        ahead += END_SLOPE[i] * taken->stages[i].speed / dt;
+    }
+    led = off - p->mass / p->net_by_speed * (a0 - slope);
+    found = ck_smaller(first, 3.0 * ck_larger(fabs(led), LEFT * fabs(off)) / held);
+    if (taken->stages[2].gap < FAST * p->begin.gap) return found;
+    return ck_larger(found, lag_error(p, taken, ahead - 3.0 * led / dt));
+}
+
 /* Estimate the error of stages that are found. `were` is where the forces were asked for. */
 static int finish(const ck_problem *p, double dt, double s, const double rates[3],
                   const stage were[3], ck_step *taken) {
@@ -225,9 +270,10 @@ static int finish(const ck_problem *p, double dt, double s, const double rates[3
         estimate(p, ck_gamma / dt, s, speed / where[1], net_near(p, where[0], speed) / p->mass, z, error);
     }
     taken->exponent = s;
-    taken->gap_error = fabs(error[0]);
-    taken->speed_error = fabs(error[1]);
-    return isfinite(error[0]) && isfinite(error[1]);
+    /* The coordinate grows along with the gap: an error of it counts with the slope at the end. */
+    taken->gap_error = fabs(error[0] * at[2].first / at[2].at.gap);
+    taken->speed_error = speed_error(p, dt, taken, z[1]);
+    return isfinite(taken->gap_error) && isfinite(taken->speed_error);
 }
 
 /* First guess of the rates: the stages of the problem that is linear at the start. Returns how far
@@ -300,16 +346,29 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
     return 0;
 }
 
-/* Error of a step over its tolerance: of the gap, and of the momentum delivered so far. What the
-   nodes miss of the impulse of the pull is nothing, as that is linear in time. */
+/* Error of the viscous impulse over what it is so far. */
+static double impulse_error(const ck_problem *p, const ck_step *taken, double length) {
+    double wrong = p->viscous, grown = 0.0, least = -TRAVEL * p->net_by_speed * p->begin.gap;
+    int i;
+    if (!(p->net_by_speed < 0.0)) return 0.0;
+    for (i = 0; i < 3; i++) {
+        wrong -= BACK[i] * taken->forces[i].viscous;
+        grown += length * fabs(taken->forces[i].viscous) / 3.0;
+    }
+    return length * fabs(wrong) / (held_by(p, length, &taken->forces[2]) * (p->taken + grown + least));
+}
+
+/* Error of a step over its tolerance: of the gap, of the momentum delivered so far, of the speed
+   and of the viscous impulse. What the nodes miss of the impulse of the pull is nothing, as that is linear in time. */
 double ck_error(const ck_problem *p, const ck_step *taken, double length) {
     double end = fabs(taken->stages[2].speed), wrong, speed;
     double momentum = p->mass * end + p->delivered + p->size * length, worst;
     wrong = ck_larger(p->mass * taken->speed_error,
                       -p->net_by_speed * p->begin.gap * taken->gap_error);
-    /* A mass that the film leads has no momentum to speak of; its speed is still asked for. */
+    /* A mass that the film leads has no momentum to speak of; its speed is an output all the same. */
     speed = taken->speed_error / (end + p->scale);
     worst = ck_larger(taken->gap_error, wrong / momentum);
     if (p->cavity) worst = ck_larger(worst, taken->hollow.error);
-    return ck_larger(worst, 0.1 * speed) / p->rtol;
+    worst = ck_larger(worst, IMPULSE * impulse_error(p, taken, length));
+    return ck_larger(worst, speed) / p->rtol;
 }

@@ -22,7 +22,8 @@ typedef struct {
     double mass, spring, rest, rtol; /* of the spring: where it is slack */
     ck_point begin;
     double exponent, size, delivered, scale;
-    double net, net_by_gap, net_by_speed; /* at the start */
+    double net, net_by_gap, net_by_speed, viscous; /* at the start */
+    double taken; /* impulse that the film took so far */
     const ck_cavity *cavity; /* of the film at the start, or NULL */
     ck_spot spot;            /* where its edge is */
 } ck_problem;
