@@ -94,7 +94,7 @@ def folder_page(folder: Path, record: Record) -> str:
 
 
 def _page(title: str, sections: Sequence[str], source: str) -> str:
-    from .. import __version__
+    from .._version import __version__
 
     made_by = f"contactkit {__version__}"
     return page(title, sections, generator=made_by, foot=f"{made_by}; {source}")

@@ -27,8 +27,6 @@ from .work import ContactWork
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..plot.accessors.contact import ContactFigures
-
     Map = NDArray[np.float64]
 
 __all__ = ["ContactResult"]
@@ -183,19 +181,6 @@ class ContactResult(Result):
     def plastic_area(self) -> float:
         """Area at the hardness [m2]; raises without `HardnessLimit`."""
         return self.of(HardnessLimit).area
-
-    @property
-    def plot(self) -> ContactFigures:
-        """Figures of maps, sections and effects as methods: ``result.plot.pressure(ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.contact import ContactFigures
-
-        return ContactFigures(self)
 
     def contents(self) -> Contents:
         """Return maps over y and x, what each effect adds, and the numbers; nan in holes."""

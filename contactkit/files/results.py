@@ -141,7 +141,7 @@ def from_bytes(data: bytes) -> AnyResult:
 
 
 def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
-    from .. import __version__
+    from .._version import __version__
 
     if isinstance(result, ContactResult):
         header, columns = pack_contact(result)

@@ -104,12 +104,14 @@ class FilmMeniscus(LoadTerm[FilmPart]):
     connectivity: Literal[4, 8] = field(default=8, validator=_connectivity, metadata=si("-"))
     self_consistent: bool = field(default=False, validator=part(bool))
 
+    def liquid_needs(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `Effect.liquid_needs`."""
+        return ("surface_tension",)
+
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         return ("meniscus force of a thin film, Eq. (2.43) (Tian and Bhushan 1996)",)
-
-    liquid_needs: ClassVar[tuple[str, ...]] = ("surface_tension",)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
