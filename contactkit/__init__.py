@@ -32,6 +32,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ._lazy import lazy_names
+from ._version import __version__ as __version__
 
 if TYPE_CHECKING:
     from .accuracy import Accuracy
@@ -129,7 +130,6 @@ if TYPE_CHECKING:
     from .studies.study import study
     from .studies.study_file import StudyFile
 
-__version__ = "0.1.0"
 
 # Every name is imported at its first use, so that `import contactkit` is fast.
 _HOMES = {

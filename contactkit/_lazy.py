@@ -1,4 +1,4 @@
-"""Names of a package that are imported when they are first asked for (PEP 562)."""
+"""Names imported when they are first asked for: of a package (PEP 562), and of rooms above."""
 
 from __future__ import annotations
 
@@ -6,7 +6,24 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-__all__ = ["lazy_names"]
+__all__ = ["ABOVE", "above", "lazy_names"]
+
+ABOVE = {"figures_of": "plot.accessors.base", "save_result": "files.results"}
+"""Functions of rooms above that a result offers as a property or a method, with their modules.
+
+`result.plot` and `result.save` are for users; a room that computes knows neither figures nor files.
+"""
+
+
+def above(name: str) -> Any:
+    """Return a function of a room above, one of `ABOVE`; its module is imported at the first call.
+
+    Examples
+    --------
+    >>> above("save_result").__name__
+    'save_result'
+    """
+    return getattr(import_module(f"{__package__}.{ABOVE[name]}"), name)
 
 
 def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:

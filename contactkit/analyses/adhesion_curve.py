@@ -19,7 +19,6 @@ from ..separation.effects.registry import AdhesiveContact
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..plot.accessors.analyses import AdhesionFigures
     from ..separation.effects.adhesion import AdhesionNumbers
 
     Curve = NDArray[np.float64]
@@ -49,19 +48,6 @@ class AdhesionCurve(Tabular):
     contact_radius: Curve = field(repr=False)
     cohesive_radius: Curve = field(repr=False)
     numbers: AdhesionNumbers
-
-    @property
-    def plot(self) -> AdhesionFigures:
-        """Figures of the curves as methods: ``curve.plot.curves("name", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.analyses import AdhesionFigures
-
-        return AdhesionFigures(self)
 
     def contents(self) -> Contents:
         """Return approach and radii over the load."""

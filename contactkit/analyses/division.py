@@ -22,7 +22,6 @@ from .division_laws import SOURCES, DivisionLaw, Name, law_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..plot.accessors.analyses import DivisionFigures
     from ..separation.effects.base import SeparationForce
 
     Floats = NDArray[np.float64]
@@ -70,19 +69,6 @@ class DivisionResult(Tabular):
     contact_radius: Floats = field(repr=False)
     _meniscus_force: Floats | None = field(repr=False)
     _viscous_force: Floats | None = field(repr=False)
-
-    @property
-    def plot(self) -> DivisionFigures:
-        """Figures of the curves as methods: ``curve.plot.curves("name", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.analyses import DivisionFigures
-
-        return DivisionFigures(self)
 
     def contents(self) -> Contents:
         """Return the curves over the number of menisci, of the forces that the scene lists."""

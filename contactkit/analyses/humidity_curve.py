@@ -26,8 +26,6 @@ from ..separation.effects.prepared import prepare_scene
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..plot.accessors.analyses import HumidityFigures
-
     Floats = NDArray[np.float64]
 
 __all__ = ["HumidityCurve", "humidity_curve"]
@@ -77,19 +75,6 @@ class HumidityCurve(Tabular):
     _circles: Floats | None = field(repr=False)
     _largest: Floats | None = field(repr=False)
     _area: float | None = field(repr=False)
-
-    @property
-    def plot(self) -> HumidityFigures:
-        """Figures of the curves as methods: ``curve.plot.curves("name", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.analyses import HumidityFigures
-
-        return HumidityFigures(self)
 
     def contents(self) -> Contents:
         """Return the arrays over the humidity, those that the law knows."""

@@ -18,13 +18,11 @@ from ..export.contents import Contents
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..scene.tabular import Tabular, curve_contents
-from ..scene.validity import warn
 from ..units import si
+from ..validity import warn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from ..plot.accessors.analyses import LoadCurveFigures
 
     Floats = NDArray[np.float64]
     Counts = NDArray[np.int64]
@@ -72,19 +70,6 @@ class LoadCurve(Tabular):
     columns: Mapping[str, Floats] = field(repr=False)
     units: Mapping[str, str] = field(repr=False)
     _results: tuple[ContactResult, ...] | None = field(repr=False)
-
-    @property
-    def plot(self) -> LoadCurveFigures:
-        """Figures of the curves as methods: ``curve.plot.curves("name", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.analyses import LoadCurveFigures
-
-        return LoadCurveFigures(self)
 
     def contents(self) -> Contents:
         """Return all columns along the load, in the order given, with the cost of each point."""

@@ -18,12 +18,10 @@ from ..export.contents import Contents, Quantity
 from ..scene.loading import Approach
 from ..scene.plan import check_plan
 from ..scene.tabular import Tabular
-from ..scene.validity import ValidityNumber, warn
+from ..validity import ValidityNumber, warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-
-    from ..plot.accessors.analyses import PullOffFigures
 
     Floats = NDArray[np.float64]
 
@@ -116,19 +114,6 @@ class PullOffCurve(Tabular):
     jumps: tuple[Jump, ...]
     plan: ContactPlan = field(repr=False)
     validity: tuple[ValidityNumber, ...] = field(repr=False)
-
-    @property
-    def plot(self) -> PullOffFigures:
-        """Figures of the curves as methods: ``curve.plot.curves("name", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.analyses import PullOffFigures
-
-        return PullOffFigures(self)
 
     def contents(self) -> Contents:
         """Return both branches, one after the other: ``separating`` marks the second."""

@@ -18,8 +18,6 @@ from ..validators import Described, friction_coefficient, non_negative, optional
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..plot.accessors.analyses import StickSlipFigures
-
     Curve = NDArray[np.float64]
 
 __all__ = ["SlipEvent", "SpringSlider", "StickSlip", "stick_slip"]
@@ -173,19 +171,6 @@ class StickSlip(Tabular):
     stick_time: float
     slip_time: float
     largest_force: float
-
-    @property
-    def plot(self) -> StickSlipFigures:
-        """Figures of the curves as methods: ``curve.plot.curves("name", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.analyses import StickSlipFigures
-
-        return StickSlipFigures(self)
 
     def contents(self) -> Contents:
         """Return force and displacement along the points of the curve."""

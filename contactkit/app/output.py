@@ -334,7 +334,7 @@ def _text(value: Any) -> str:
 
 
 def _write_record(path: Path, record: Record) -> None:
-    from .. import __version__
+    from .._version import __version__
 
     table = {
         "contactkit": __version__,

@@ -16,7 +16,7 @@ from ..files.scenes import write_whole
 from .output import RECORD, Printed, Record, read_record
 
 if TYPE_CHECKING:
-    from ..scene.validity import ValidityNumber
+    from ..validity import ValidityNumber
 
 __all__ = ["PAGE", "folder_page", "report_page", "result_page", "validity_rows", "write_page"]
 
@@ -94,7 +94,7 @@ def folder_page(folder: Path, record: Record) -> str:
 
 
 def _page(title: str, sections: Sequence[str], source: str) -> str:
-    from .. import __version__
+    from .._version import __version__
 
     made_by = f"contactkit {__version__}"
     return page(title, sections, generator=made_by, foot=f"{made_by}; {source}")

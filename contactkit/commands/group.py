@@ -28,7 +28,7 @@ __all__ = ["contactkit"]
 def contactkit(context: click.Context, version: bool) -> int:
     """Contact of rough layered surfaces, and the forces that resist separating wetted ones."""
     if version:
-        from .. import __version__
+        from .._version import __version__
 
         click.echo(__version__)
         return 0

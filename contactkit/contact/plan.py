@@ -12,6 +12,7 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..liquids.liquid import LiquidState
 from ..scene.effect import EffectRegistry, check_listed
+from ..scene.figures import Drawn
 from ..scene.loading import Approach, ContactLoading, Pressing
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene
@@ -27,6 +28,7 @@ from .effects.base import (
     LoadTerm,
     PressureBound,
     VaryingHardness,
+    effects_of,
 )
 from .effects.friction import FrictionTraction
 from .effects.registry import CONTACT_EFFECTS
@@ -36,8 +38,6 @@ from .prepared import Once, PreparedInterface, interface_key
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-    from ..plot.accessors.contact import ContactPlanFigures
 
     Map = NDArray[np.float64]
 
@@ -70,13 +70,13 @@ def _coupling(plan: ContactPlan) -> Once[Callable[[Map], Map]] | None:
 
 def _liquid(plan: ContactPlan) -> LiquidState | None:
     scene = plan.scene
-    if not any(effect.liquid_needs for effect in scene.effects):
+    if not any(effect.liquid_needs(scene) for effect in scene.effects):
         return None
     return scene.meniscus.liquid.at(scene.temperature)
 
 
 @frozen(eq=False)
-class ContactPlan(ScenePlan):
+class ContactPlan(Drawn, ScenePlan):
     """A checked contact scene on its grid, with everything prepared that the load does not change.
 
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
@@ -135,19 +135,6 @@ class ContactPlan(ScenePlan):
     def heights(self) -> Map:
         """Heights of both bodies together [m], (ny, nx), read-only."""
         return self.prepared.heights
-
-    @property
-    def plot(self) -> ContactPlanFigures:
-        """Figures of heights and layers as methods: ``plan.plot.heights()``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.contact import ContactPlanFigures
-
-        return ContactPlanFigures(self)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -335,7 +322,7 @@ def _check_liquid(made: ContactPlan) -> None:
         f"{type(effect).__name__} needs interface.meniscus.{item}"
         for effect in made.scene.effects
         if made.liquid is not None
-        for item in made.liquid.missing(*effect.liquid_needs)
+        for item in made.liquid.missing(*effect.liquid_needs(made.scene))
     ]
     if problems:
         raise PlanError("; ".join(problems))
@@ -348,7 +335,7 @@ def _check_holes(scene: ContactScene) -> None:
     problems = [
         f"{type(effect).__name__} needs the gap at every pixel, and the surface has holes; fill "
         "them, or leave it out"
-        for effect in scene.effects
+        for effect in effects_of(scene)
         if not effect.takes_holes
     ]
     if problems:
@@ -361,7 +348,7 @@ def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
     problems = [
         f"{type(effect).__name__} needs RigidBase(bonded=True) below a sheet in a window that does "
         "not repeat along both axes: nothing else holds it; bond it, or use Window(periodic=True)"
-        for effect in scene.effects
+        for effect in effects_of(scene)
         if is_free and not grid.periodic and not effect.takes_free_sheets
     ]
     if problems:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..scene.loading import Pressing
-from ..scene.validity import ValidityNumber
+from ..validity import ValidityNumber
 from .effects.base import Attraction, Contact
 from .effects.elasticity import contact_modulus
 from .solver.optimality import ROUNDED

@@ -15,9 +15,9 @@ from ..scene.materials import Material, Stack
 from ..scene.rough_surfaces import Heights
 from ..scene.scenes import ContactScene
 from ..scene.topography import Topography, as_surface, is_topography
-from ..scene.validity import warn
 from ..scene.window import Edges, Window
 from ..units import parse_quantity
+from ..validity import warn
 from .effects.base import ContactEffect
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
 from .effects.plasticity import HardnessLimit, HardnessMap

@@ -15,7 +15,7 @@ from ..frozen import FrozenDict
 from ..scene.result import Result
 from ..scene.scales import Scales
 from ..scene.tabular import pixel_axes
-from ..scene.validity import ValidityNumber
+from ..validity import ValidityNumber
 from .effects.base import Attraction, ContactEffect
 from .effects.plasticity import HardnessLimit
 from .grid import holes_of
@@ -26,8 +26,6 @@ from .work import ContactWork
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from ..plot.accessors.contact import ContactFigures
 
     Map = NDArray[np.float64]
 
@@ -182,19 +180,6 @@ class ContactResult(Result):
     def plastic_area(self) -> float:
         """Area at the hardness [m2]; raises without `HardnessLimit`."""
         return self.of(HardnessLimit).area
-
-    @property
-    def plot(self) -> ContactFigures:
-        """Figures of maps, sections and effects as methods: ``result.plot.pressure(ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.contact import ContactFigures
-
-        return ContactFigures(self)
 
     def contents(self) -> Contents:
         """Return maps over y and x, what each effect adds, and the numbers; nan in holes."""

@@ -12,8 +12,8 @@ import numpy as np
 from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
-from ..scene.validity import warn
-from .effects.base import AttractedContact, Attraction, Contact, ContactEffect, LoadTerm
+from ..validity import warn
+from .effects.base import AttractedContact, Attraction, Contact, ContactEffect, LoadTerm, effects_of
 from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
@@ -179,7 +179,7 @@ def _solve_all(
         solved = solve_with_hardness(plan, target, counter)
         contact = contact_of(plan, solved)
     _check_fits(plan, contact, solved.solution.energy)
-    for effect in plan.scene.effects:
+    for effect in effects_of(plan.scene):
         begun = time.perf_counter()
         if type(effect) not in parts and (part := effect.observe(contact)) is not None:
             if isinstance(effect, LoadTerm) and effect.needs_balance(contact, part):

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..scene.validity import ValidityNumber
-from .effects.base import Contact, ContactEffect
+from ..validity import ValidityNumber
+from .effects.base import Contact, ContactEffect, effects_of
 from .effects.elasticity import contact_modulus
 from .grid import short_waves
 from .pixel_edges import pixel_edges
@@ -62,7 +62,7 @@ def check_contact(
     ]
     if contact.grid.edges:
         found.append(_jump(heights, contact.grid.edges))
-    effects = contact.scene.effects
+    effects = effects_of(contact.scene)
     own = [one for e in effects for one in e.validity(contact, parts.get(type(e)))]
     return (*found, *own)
 

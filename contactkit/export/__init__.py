@@ -4,5 +4,6 @@ contents  Quantities over named axes, with units and labels.
 datasets  Datasets of xarray.
 frames    Data frames of pandas.
 html      Tables and lists as HTML.
+lines     A description in lines, as text and pages show it.
 pages     Pages of HTML that hold all they show.
 """

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from html import escape
-from typing import TYPE_CHECKING
 
 from ..units import quantity_text
-
-if TYPE_CHECKING:
-    from ..scene.description import Line
+from .lines import Line
 
 __all__ = ["effects_table", "nested_list", "numbers_table", "table"]
 

@@ -20,7 +20,6 @@ from ..reading.arrays import read_arrays
 from ..reading.texts import from_json
 from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
-from ..scene.validity import ValidityNumber
 from ..separation.curve_result import Work
 from ..separation.motion.state import restored_state
 from ..separation.plan import Plan, plan
@@ -29,6 +28,7 @@ from ..separation.sliding.plan import plan_sliding
 from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding
 from ..separation.validity import check
+from ..validity import ValidityNumber
 from .contact_results import pack_contact, unpack_contact
 from .csv_rows import csv_line
 from .scenes import structure, unstructure, write_whole
@@ -143,7 +143,7 @@ def from_bytes(data: bytes) -> AnyResult:
 
 
 def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
-    from .. import __version__
+    from .._version import __version__
 
     if isinstance(result, ContactResult):
         header, columns = pack_contact(result)

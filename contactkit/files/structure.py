@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin
+from typing import Any, Literal, NamedTuple, TypeVar, get_args
 
 import attrs
 import cattrs
@@ -27,6 +27,7 @@ from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
 from ..scene.materials import Material, RigidBase, Stack
 from ..scene.meniscus import Meniscus
+from ..scene.scenes import ContactScene, Scene
 from ..scene.surfaces import Surface
 from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
@@ -175,9 +176,13 @@ def field_value(kind: type, name: str, value: Any) -> Any:
 
 def _resolved(kind: type) -> None:
     """Resolve the types of the fields of a class, also those imported for type checkers only."""
-    effects = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect}
-    names: dict[str, Any] = effects | {"Map": Any, "Mask": Any}
-    attrs.resolve_types(kind, localns=names)
+    attrs.resolve_types(kind, localns={"Map": Any, "Mask": Any})
+
+
+def _effects(kind: type[Scene]) -> Callable[[Any, Any], Any]:
+    """Structure the effects of a scene: those that its kind of scene may list."""
+    listed = ContactEffect if issubclass(kind, ContactScene) else SeparationEffect
+    return lambda value, _: _CONVERTER.structure(value, tuple[listed, ...])  # type: ignore[valid-type]
 
 
 def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any], Any]:
@@ -191,6 +196,8 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
         for a in attrs.fields(kind)
         if "unit" in a.metadata
     }
+    if issubclass(kind, Scene):
+        hooks["effects"] = override(struct_hook=_effects(kind))
     inner: Callable[[Any, Any], Any] = make_dict_structure_fn(kind, _CONVERTER, **hooks)  # type: ignore[arg-type]
     known = [a.alias for a in attrs.fields(kind) if a.init]
 
@@ -316,11 +323,6 @@ def _carrier(value: Any, _: Any) -> Material | RigidBase:
     return _material(value, Material)
 
 
-def _is_contact_effect(kind: Any) -> bool:
-    """Whether a type is the base class of the effects of contacts, of any kind of part."""
-    return kind is ContactEffect or get_origin(kind) is ContactEffect
-
-
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
@@ -338,7 +340,7 @@ for _matches, _hook in (
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is AttractionLaw, _tagged("law", ATTRACTION_KINDS)),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (_is_contact_effect, _tagged("effect", CONTACT_EFFECTS)),
+    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these use for their fields.

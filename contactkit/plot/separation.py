@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import NotSimulatedError
 from ..scene.column import Column
 from ..separation.columns import COLUMNS
-from ..separation.effects.base import LIMIT
+from ..separation.effects.base import LIMIT, effects_of
 from ..separation.results import SeparationResult
 from ..separation.sliding.result import SlidingResult
 from .axis_units import axis_label, readable, scaled
@@ -67,7 +67,7 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     """
     drawn = [
         column
-        for effect in result.plan.scene.effects
+        for effect in effects_of(result.plan.scene)
         for column in effect.curves()
         if column.unit == "N" and column.name in result.columns
     ]

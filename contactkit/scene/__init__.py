@@ -15,8 +15,8 @@ scenes               Contact, separation and sliding: interface, loading and eff
 plan                 Base class of all plans.
 result               Base class of all results.
 scales               Reference scales of a result.
+figures              Figures of a result as methods, which the room that draws fills in.
 tabular              Results as tables: quantities with axes, units and labels.
 description          A scene in words, with units that read well.
 column               Name, unit, label and line of a quantity.
-validity             Numbers that state whether a model is in its range.
 """

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 from attrs import NOTHING, Attribute, fields, has
 
+from ..export.lines import Line
 from ..units import celsius, quantity_text
 
-__all__ = ["Line", "described", "value_text"]
+__all__ = ["described", "value_text"]
 
 _NAMED = ("Material", "Liquid")  # parts that have names of their own
 _PLAIN = ("Interface", "Body", "Layer", "Meniscus", "Window")  # whose field says what they are
-
-
-class Line(NamedTuple):
-    """A part of a scene: its name, what it is, and its own parts."""
-
-    name: str
-    text: str
-    parts: tuple[Line, ...] = ()
-
-    def indented(self, indent: int = 0) -> list[str]:
-        """Lines of text, parts below what they belong to."""
-        head = f"{'  ' * indent}{self.name}" + (f"  {self.text}" if self.text else "")
-        return [head, *(line for part in self.parts for line in part.indented(indent + 1))]
 
 
 def described(part: Any, name: str = "") -> Line:

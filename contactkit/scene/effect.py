@@ -38,6 +38,10 @@ class Effect(Described, abc.ABC):
         """Sources of what this choice computes for a scene; all of them, unless it depends."""
         return self.sources
 
+    def liquid_needs(self, scene: Any) -> tuple[str, ...]:
+        """Properties of the liquid that the effect uses in a scene."""
+        return ()
+
     def lacks(self, scene: Any) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
         return ()

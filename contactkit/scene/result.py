@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from attrs import fields
 
+from .._lazy import above
 from ..errors import DescriptionError
 from ..export.contents import Quantity
 from .effect import Effect
@@ -179,10 +180,8 @@ class Result(Tabular):
 
     def save(self, path: str | Path) -> Path:
         """Write the result to an npz file without pickle; `load_result` reads it."""
-        # The one import of a room above: `save` is `save_result` as a method.
-        from ..files.results import save_result
-
-        return save_result(self, path)
+        written: Path = above("save_result")(self, path)
+        return written
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the fields; arrays are read-only again in the copy."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TypeVar
 
 from attrs import field, frozen
 
@@ -22,10 +22,6 @@ from .loading import (
 )
 from .meniscus import Meniscus
 from .window import Window
-
-if TYPE_CHECKING:
-    from ..contact.effects.base import ContactEffect
-    from ..separation.effects.base import SeparationEffect
 
 __all__ = ["ContactScene", "InWords", "Scene", "SeparationScene", "SlidingScene"]
 
@@ -124,7 +120,7 @@ class ContactScene(Scene):
 
     window: Window = field(factory=Window, validator=part(Window))
     loading: ContactLoading = field(validator=part(*CONTACT_LOADINGS))
-    effects: tuple[ContactEffect[Any], ...] = field(converter=as_tuple)
+    effects: tuple[Effect, ...] = field(converter=as_tuple)
 
     @property
     def run_by(self) -> str:
@@ -151,7 +147,7 @@ class SeparationScene(Scene):
     """
 
     loading: SeparationLoading = field(validator=part(*SEPARATION_LOADINGS))
-    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
+    effects: tuple[Effect, ...] = field(converter=as_tuple)
 
     @property
     def initial_gap(self) -> float:
@@ -187,7 +183,7 @@ class SlidingScene(Scene):
     """
 
     loading: Sliding = field(validator=part(Sliding))
-    effects: tuple[SeparationEffect, ...] = field(converter=as_tuple)
+    effects: tuple[Effect, ...] = field(converter=as_tuple)
 
     @property
     def initial_gap(self) -> float:

@@ -7,26 +7,20 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..export.contents import Contents, Quantity
+from .figures import Drawn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from pandas import DataFrame
     from xarray import Dataset
 
-    from ..plot.accessors.base import Figures
-
 __all__ = ["Contents", "Quantity", "Tabular", "curve_contents", "pixel_axes"]
 
 
-class Tabular(abc.ABC):
+class Tabular(Drawn, abc.ABC):
     """A result that xarray, pandas and notebooks can show: `contents` states what it holds."""
 
     __slots__ = ()
-
-    @property
-    @abc.abstractmethod
-    def plot(self) -> Figures[Any]:
-        """Figures as methods, each of which takes ``ax=`` and returns the axes."""
 
     @abc.abstractmethod
     def contents(self) -> Contents:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import PlanError
 from ..scene.surfaces import Flat, Sphere
-from .effects.base import SeparationEffect
+from .effects.base import SeparationEffect, effects_of
 
 if TYPE_CHECKING:
     from ..scene.scenes import SeparationScene, SlidingScene
@@ -61,7 +61,7 @@ def check_rim(prepared: PreparedScene[SeparationScene]) -> None:
     interface, gap = scene.interface, prepared.scene.loading.smallest_gap
     if interface.is_flat or math.isinf(rim):
         return
-    radii = {type(e).__name__: e.rimless_radius(prepared, gap) for e in scene.effects}
+    radii = {type(e).__name__: e.rimless_radius(prepared, gap) for e in effects_of(scene)}
     beyond = {name: radius for name, radius in radii.items() if radius > rim}
     if not beyond:
         return

@@ -17,13 +17,21 @@ from ..scene.effect import EffectRegistry, check_listed
 from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
-from ..scene.validity import ValidityNumber
 from ..units import nm, quantity_text
+from ..validity import ValidityNumber
 from .bodies import check_bodies, check_rim
 from .cavity.law import CavityLaw
 from .columns import COLUMNS
 from .effects.as_published import mixed
-from .effects.base import FilmEnd, FilmLimit, ForceLaw, Limiter, LimitKind, SeparationForce
+from .effects.base import (
+    FilmEnd,
+    FilmLimit,
+    ForceLaw,
+    Limiter,
+    LimitKind,
+    SeparationForce,
+    effects_of,
+)
 from .effects.prepared import PreparedScene, prepare_scene, with_fraction
 from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .effects.viscous import ViscousForce
@@ -175,7 +183,7 @@ class Plan(ScenePlan):
                 detail="below about 2 nm a liquid is not a continuum",
                 source="Chan and Horn 1985",
             ),
-            *(number for effect in self.scene.effects for number in effect.validity(self, path)),
+            *(one for effect in effects_of(self.scene) for one in effect.validity(self, path)),
         )
 
     @property
@@ -194,7 +202,7 @@ class Plan(ScenePlan):
             found.append("no mass: speeds are those at which the film balances the pull")
         if isinstance(loading, ImposedForce):
             found.append(closing_note(loading, self.film))
-        own = (note for effect in self.scene.effects for note in effect.notes(self.scene))
+        own = (note for effect in effects_of(self.scene) for note in effect.notes(self.scene))
         return tuple(filter(None, (*found, *own)))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -237,7 +245,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
 
 
 def _columns(scene: SeparationScene) -> Mapping[str, Column]:
-    own = {column.name: column for effect in scene.effects for column in effect.curves()}
+    own = {column.name: column for effect in effects_of(scene) for column in effect.curves()}
     return MappingProxyType({**COLUMNS, **own})
 
 
@@ -252,14 +260,14 @@ def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: Liquid
         raise PlanError(f"{' and '.join(ends)} both say where the film breaks; keep one of them")
     problems = [
         f"{type(effect).__name__} needs {item}"
-        for effect in scene.effects
+        for effect in effects_of(scene)
         for item in (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
     ]
     if scene.liquid_pressure is not None:
         problems += [
             f"{type(e).__name__} needs interface.meniscus.volume [m3] in place of its pressure: it "
             "has no law at a fixed pressure"
-            for e in scene.effects
+            for e in effects_of(scene)
             if not e.takes_pressure
         ]
     problems += _lacks_of_limits(scene, kinds)

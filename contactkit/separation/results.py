@@ -12,9 +12,9 @@ from attrs import field, frozen
 from ..errors import NotSimulatedError
 from ..scene.loading import ImposedTime
 from ..scene.scales import Scales
-from ..scene.validity import ValidityNumber
+from ..validity import ValidityNumber
 from .curve_result import CurveResult, LateColumns, Work
-from .effects.base import RunCurves, SeparationEffect
+from .effects.base import RunCurves, SeparationEffect, effects_of
 from .effects.viscous import ViscousForce
 from .motion.state import MotionState
 from .plan import Plan
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..as_published.arguments import PublishedValue
-    from ..plot.accessors.separation import SeparationFigures
 
     Curve = NDArray[np.float64]
 
@@ -144,27 +143,14 @@ class SeparationResult(CurveResult):
     @property
     def errata(self) -> tuple[PublishedValue, ...]:
         """Printed equations this run took: value at the start, what is wrong, and the right one."""
-        return tuple(one for e in self.plan.scene.effects for one in e.errata(self.plan))
-
-    @property
-    def plot(self) -> SeparationFigures:
-        """Figures of motion and forces as methods: ``result.plot.forces(ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.separation import SeparationFigures
-
-        return SeparationFigures(self)
+        return tuple(one for e in effects_of(self.plan.scene) for one in e.errata(self.plan))
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
         found = {name: (value, "N.s") for name, value in self.impulses.items()}
         if isinstance(self.plan.scene.loading, ImposedTime) and self.has(ViscousForce):
             found["mean_viscous_force"] = (self.mean_viscous_force, "N")
-        for effect in self.plan.scene.effects:
+        for effect in effects_of(self.plan.scene):
             found |= effect.scalars(self)
         if self.state is not None:
             found |= _numbers_of_motion(self.plan, self.state)
@@ -196,7 +182,7 @@ def with_late_curves(
     """
     late = {
         column.name: partial(_late_curves, plan, effect, columns, volume_fraction)
-        for effect in plan.scene.effects
+        for effect in effects_of(plan.scene)
         for column in effect.late
     }
     return LateColumns(columns, late)

@@ -10,8 +10,8 @@ from typing import overload
 from ..errors import ConvergenceError, InfeasibleError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..scene.plan import check_plan
-from ..scene.validity import warn
 from ..units import quantity_text
+from ..validity import warn
 from .curve_result import Work
 from .effects.registry import ViscousForce
 from .first_closing import closed_first

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..scene.loading import ImposedTime
-from ..scene.validity import ValidityNumber
+from ..validity import ValidityNumber
 from .effects.base import FilmStatus
 from .plan import Plan
 

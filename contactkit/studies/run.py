@@ -21,8 +21,8 @@ from ..errors import ContactkitError, ConvergenceError, InfeasibleError
 from ..files.results import AnyResult, to_bytes
 from ..planning import plan
 from ..scene.scenes import ContactScene
-from ..scene.validity import warn
 from ..separation.simulate import simulate
+from ..validity import warn
 from .paths import Scene, changed
 from .store import Store, StudyPoint
 

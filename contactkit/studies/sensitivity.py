@@ -8,7 +8,7 @@ from functools import partial
 from html import escape
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from attrs import field, frozen
@@ -22,9 +22,6 @@ from ..scene.tabular import Contents, Quantity, Tabular
 from ..units import quantity_text
 from .paths import axes, changed, joined, value_at
 from .study import Study, study
-
-if TYPE_CHECKING:
-    from ..plot.accessors.studies import SensitivityFigures
 
 __all__ = ["Influence", "Range", "Sensitivity", "sensitivity"]
 
@@ -163,19 +160,6 @@ class Sensitivity(Tabular):
     def _repr_html_(self) -> str:
         """The table in a notebook."""
         return f"<pre>{escape(self.table())}</pre>"
-
-    @property
-    def plot(self) -> SensitivityFigures:
-        """The tornado figure as a method: ``found.plot.tornado(ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.studies import SensitivityFigures
-
-        return SensitivityFigures(self)
 
     def contents(self) -> Contents:
         """Return assumptions, their ranges as text and the answers at the ends and extremes."""

@@ -82,7 +82,7 @@ class StudyPoint:
 
 def scene_key(scene: Scene, accuracy: Accuracy) -> str:
     """Key of a point: a hash of all that its results depend on."""
-    from .. import __version__
+    from .._version import __version__
 
     tables = unstructure(scene, {}, for_key=True)
     tables.pop("name", None)  # a title does not change results

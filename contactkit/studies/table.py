@@ -25,8 +25,6 @@ from .store import StudyPoint
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..plot.accessors.studies import StudyFigures
-
 
 __all__ = ["Study", "StudyLine", "as_text", "study_contents"]
 
@@ -132,19 +130,6 @@ class Study(Tabular, Generic[R_co]):
             raise DescriptionError(
                 "column", name, "be one of the study", hint=nearest(name, list(self.units))
             )
-
-    @property
-    def plot(self) -> StudyFigures:
-        """Figures of the numbers as methods: ``study.plot.number("contact_area", ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ..plot.accessors.studies import StudyFigures
-
-        return StudyFigures(self)
 
     def contents(self) -> Contents:
         """Return all columns over the parameters, each an axis with its shortest name.

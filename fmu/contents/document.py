@@ -10,7 +10,7 @@ from typing import Any
 
 from attrs import field, fields, frozen, has
 
-from ... import __version__
+from ..._version import __version__
 from ...errors import ContactkitError
 from ...scene.effect import choices
 from ...scene.scenes import SeparationScene

@@ -22,7 +22,7 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
-from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect
+from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect, effects_of
 from ...separation.effects.prepared import PreparedScene, prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
@@ -295,7 +295,7 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     rim = Flat(radius=interface.rim_radius)
     is_exact = film is not None and film.profile == "exact"
     effects: list[SeparationEffect] = []
-    for effect in scene.effects:
+    for effect in effects_of(scene):
         if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
             effects.append(evolve(effect, pulled="lower", radius="arc"))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself

@@ -119,8 +119,7 @@ def has_number(annotation):
 def resolved(kind):
     """Fields of a class with their types; attrs resolves these once, for the converter too."""
     # What modules import for checkers alone; a map of numbers is an Array, with its unit.
-    names = {"SeparationEffect": SeparationEffect, "ContactEffect": ContactEffect}
-    names |= dict.fromkeys(("Map", "Mask"), typing.Any)
+    names = dict.fromkeys(("Map", "Mask"), typing.Any)
     return attrs.fields(attrs.resolve_types(kind, localns=names))
 
 

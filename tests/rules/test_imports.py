@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from contactkit._lazy import ABOVE
+
 ROOT = Path(__file__).parents[2]
 FOLDERS = {
     "contactkit": "contactkit",
@@ -18,7 +20,7 @@ FOLDERS = {
 
 # From the ground up. Rooms on one floor do not know each other.
 FLOORS = [
-    ["reference", "errors", "frozen", "_lazy"],
+    ["reference", "errors", "frozen", "_lazy", "_version"],
     ["units", "extras", "validity"],
     ["validators", "work_precision", "numerics", "export", "reading"],
     ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],
@@ -30,7 +32,8 @@ FLOORS = [
     ["effects", "planning"],
     ["files"],
     ["analyses", "shortcuts"],
-    ["studies", "plot"],
+    ["studies"],
+    ["plot"],
     ["models"],
     ["fmu"],
     ["app"],
@@ -40,26 +43,12 @@ FLOORS = [
     ["__main__"],
 ]
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-# What has a `plot`, by the module of its figures.
-DRAWN = {
-    "contact": ("contact.plan", "contact.result"),
-    "separation": ("separation.results", "separation.sliding.result"),
-    "analyses": (
-        "analyses.adhesion_curve",
-        "analyses.division",
-        "analyses.humidity_curve",
-        "analyses.load_curve",
-        "analyses.load_displacement.curve",
-        "analyses.pull_off",
-        "analyses.stick_slip",
-    ),
-    "studies": ("studies.sensitivity", "studies.table"),
-}
-# A method for users that stands for a function of a room above, imported when it is called.
-CALLED_FROM_BELOW = {"contactkit.scene.result": {"contactkit.files.results"}} | {
-    f"contactkit.{name}": {f"contactkit.plot.accessors.{figures}"}
-    for figures, names in DRAWN.items()
-    for name in names
+# Names of packages, the figures of a room, an optional package, what an FMU carries.
+IMPORT_BY_NAME = {
+    "contactkit._lazy",
+    "contactkit.plot.accessors.base",
+    "contactkit.numerics.fft",
+    "contactkit.fmu.python.build",
 }
 ONE_IMPORTER = {"matplotlib": "plot", "mpl_toolkits": "plot"}
 
@@ -80,8 +69,12 @@ def room(name):
     return name.split(".")[1] if "." in name else ""
 
 
-def imports(name, source, known=MODULES):
-    """Modules that a module imports at run time, at its head or later; full names."""
+def is_for_types(node):
+    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+
+
+def imports(name, source, known=MODULES, with_types=True):
+    """Modules that a module imports, at its head, later, or for types alone; full names."""
     is_package = name in known and known[name].name == "__init__.py"
     parents = name.split(".") if is_package else name.split(".")[:-1]
 
@@ -96,18 +89,18 @@ def imports(name, source, known=MODULES):
                 yield full if full in known else base
         if isinstance(node, ast.expr):
             return
-        is_for_types = isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
-        for child in node.orelse if is_for_types else ast.iter_child_nodes(node):
-            yield from visit(child)
+        for child in ast.iter_child_nodes(node):
+            if with_types or not is_for_types(node) or child in node.orelse:
+                yield from visit(child)
 
     return set(visit(ast.parse(source)))
 
 
 @functools.cache
-def all_imports():
-    """What each module imports at run time."""
+def all_imports(with_types=True):
+    """What each module imports."""
     return {
-        name: imports(name, path.read_text("utf-8")) - CALLED_FROM_BELOW.get(name, set())
+        name: imports(name, path.read_text("utf-8"), with_types=with_types)
         for name, path in MODULES.items()
     }
 
@@ -149,12 +142,20 @@ def test_there_are_no_circles():
 
 def test_a_package_lists_its_modules_and_imports_nothing():
     """An FMU carries what is imported; only names that come later, when asked for, are offered."""
+    allowed = {"__future__", "typing", "contactkit._lazy", "contactkit._version"}
     wrong = {
-        name: sorted(all_imports()[name] - {"__future__", "typing", "contactkit._lazy"})
+        name: sorted(all_imports(with_types=False)[name] - allowed)
         for name, path in MODULES.items()
         if path.name == "__init__.py" and name != "contactkit.fmu.python.guard"
     }
     assert {name: targets for name, targets in wrong.items() if targets} == {}
+
+
+def test_rooms_above_are_called_by_name_in_one_place():
+    """`_lazy.ABOVE` lists what a room below offers of one above, so that no import is hidden."""
+    by_name = {n for n, path in MODULES.items() if "import_module(" in path.read_text("utf-8")}
+    assert by_name == IMPORT_BY_NAME
+    assert {f"contactkit.{module}" for module in ABOVE.values()} <= set(MODULES)
 
 
 def test_nobody_inside_imports_from_a_package():
@@ -210,7 +211,11 @@ def test_one_room_draws_and_one_speaks_fmi():
         ("contactkit.contact.plan", "import contactkit.plot", ["contactkit.plot"]),
         ("contactkit.contact.plan", "from .solve import solve", []),
         ("contactkit.contact.plan", "from ..scene.interface import Interface", []),
-        ("contactkit.scene.scenes", "if TYPE_CHECKING:\n    from ..contact.plan import x", []),
+        (
+            "contactkit.scene.scenes",
+            "if TYPE_CHECKING:\n    from ..contact.plan import x",
+            ["contactkit.contact.plan"],
+        ),
         (
             "contactkit.scene.scenes",
             "if TYPE_CHECKING:\n    pass\nelse:\n    from ..contact.plan import x",

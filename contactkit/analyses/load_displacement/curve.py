@@ -16,7 +16,7 @@ from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from attrs import evolve, field, fields, frozen
 
@@ -27,9 +27,6 @@ from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import bracketed_root
 from ...scene.tabular import Tabular, curve_contents
 from ...units import si
-
-if TYPE_CHECKING:
-    from ...plot.accessors.analyses import LoadDisplacementFigures
 
 __all__ = [
     "HERTZ",
@@ -319,19 +316,6 @@ class LoadDisplacementCurve(Tabular):
             )
         found += [normalized(one) for one in self.unloading]
         return tuple(found)
-
-    @property
-    def plot(self) -> LoadDisplacementFigures:
-        """Figures of the curve as methods: ``curve.plot.force(ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ...plot.accessors.analyses import LoadDisplacementFigures
-
-        return LoadDisplacementFigures(self)
 
     def contents(self) -> Contents:
         """Return force and areas of first loading over the approach."""

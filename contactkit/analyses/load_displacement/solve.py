@@ -33,7 +33,7 @@ from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanE
 from ...numerics.monotone_cubic import power_curve
 from ...scene.plan import check_scene
 from ...scene.scenes import ContactScene
-from ...scene.validity import warn
+from ...validity import warn
 from .curve import HERTZ, LoadDisplacementCurve, Unloading
 
 if TYPE_CHECKING:

@@ -150,7 +150,7 @@ def digest(script: Script, draft: bool) -> str:
 
     What only draws or checks can change without a new computation.
     """
-    from ... import __version__
+    from ..._version import __version__
 
     code = "\n".join(sorted(_reached(script.path, "compute", set())))
     text = f"{__version__} {'draft' if draft else 'full'}\n{code}"

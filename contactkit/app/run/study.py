@@ -13,6 +13,7 @@ import numpy as np
 from attrs import evolve
 
 from ...accuracy import Accuracy
+from ...contact.effects.base import effects_of
 from ...contact.effects.film import FilmMeniscus
 from ...contact.effects.stress import SubsurfaceStress
 from ...errors import PlanError, ValidityWarning
@@ -268,7 +269,7 @@ def _of_effects(scene: AnyScene) -> tuple[str, ...]:
         return ()
     return tuple(
         one.name
-        for effect in scene.effects
+        for effect in effects_of(scene)
         for one in effect.scalars
         if not any(each.name in _OF_CONTACTS for each in effect.scalars)
     )

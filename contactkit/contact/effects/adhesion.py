@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from attrs import field, frozen
 
-from ...scene.validity import ValidityNumber
 from ...validators import part
+from ...validity import ValidityNumber
 from .attraction_laws import AttractionLaw, TensionLaw
-from .base import Array, AttractedContact, Attraction, Contact, Scalar
+from .base import Array, AttractedContact, Attraction, Contact, Scalar, effects_of
 from .elasticity import contact_modulus
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ class Adhesion(Attraction[AdhesionPart]):
         missing = [
             f"no {type(effect).__name__} beside it, which takes pressures to be positive: leave "
             "one of them out"
-            for effect in scene.effects
+            for effect in effects_of(scene)
             if not effect.takes_tension
         ]
         highest = _MOST_TENSION * contact_modulus(scene)

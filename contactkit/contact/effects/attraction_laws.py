@@ -13,7 +13,10 @@ from ...units import si
 from ...validators import Described, finite, optional, positive, refuse
 
 if TYPE_CHECKING:
-    from .base import Map
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
 
 __all__ = [
     "ATTRACTION_LAWS",

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar, cast
 
 from attrs import frozen
 
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.loading import ContactLoading
     from ...scene.scenes import ContactScene
-    from ...scene.validity import ValidityNumber
     from ...scene.window import Grid
+    from ...validity import ValidityNumber
     from .attraction_laws import TensionLaw
 
     Map = NDArray[np.float64]
@@ -51,6 +51,7 @@ __all__ = [
     "PressureBound",
     "Scalar",
     "VaryingHardness",
+    "effects_of",
 ]
 
 Part = TypeVar("Part")
@@ -208,8 +209,6 @@ class ContactEffect(Effect, Generic[Part]):
         """Sources of what this choice computes for a scene; all of them, unless it depends."""
         return self.sources
 
-    liquid_needs: ClassVar[tuple[str, ...]] = ()
-    """Properties of the liquid that this effect uses."""
     takes_tension: ClassVar[bool] = True
     """Whether it holds beside an `Attraction`, where the pressure may be negative."""
 
@@ -345,3 +344,8 @@ class Observer(ContactEffect[Part]):
     @abc.abstractmethod
     def observe(self, contact: Contact) -> Part:
         """Return what this effect adds to the result."""
+
+
+def effects_of(scene: ContactScene) -> tuple[ContactEffect[Any], ...]:
+    """Return the effects of a scene with their type here; a scene itself knows an `Effect` only."""
+    return cast("tuple[ContactEffect[Any], ...]", scene.effects)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from attrs import frozen
 
 from ...errors import DescriptionError
-from ...scene.validity import ValidityNumber
+from ...validity import ValidityNumber
 from .base import Compliance
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import optional, part, positive, refuse
+from ...validity import ValidityNumber
 from .base import Array, Balance, Contact, LoadTerm, Scalar
 
 if TYPE_CHECKING:
@@ -119,12 +119,14 @@ class FilmMeniscus(LoadTerm[FilmPart]):
     connectivity: Literal[4, 8] = field(default=8, validator=_connectivity, metadata=si("-"))
     self_consistent: bool = field(default=False, validator=part(bool))
 
+    def liquid_needs(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `Effect.liquid_needs`."""
+        return ("surface_tension",)
+
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         return ("meniscus force of a thin film, Eq. (2.43) (Tian and Bhushan 1996)",)
-
-    liquid_needs: ClassVar[tuple[str, ...]] = ("surface_tension",)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""

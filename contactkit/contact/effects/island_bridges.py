@@ -12,9 +12,9 @@ from attrs import Attribute, field, frozen
 from ...capillary import island_bridges as kernel
 from ...capillary.film_islands import islands, meniscus_area
 from ...capillary.kelvin import meniscus_height
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, positive, refuse
+from ...validity import ValidityNumber
 from .base import Array, Contact, Observer, Scalar
 
 if TYPE_CHECKING:
@@ -149,6 +149,10 @@ class IslandBridges(Observer[IslandPart]):
     )
     connectivity: Literal[4, 8] = field(default=8, validator=_connectivity, metadata=si("-"))
 
+    def liquid_needs(self, scene: ContactScene) -> tuple[str, ...]:
+        """See `Effect.liquid_needs`."""
+        return ("surface_tension",)
+
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
@@ -156,8 +160,6 @@ class IslandBridges(Observer[IslandPart]):
             "islands of a film on a rough contact, section 2.2 (Tian and Bhushan 1996)",
             "exact bridge on a sphere (Young-Laplace) on each, Orr, Scriven and Rivas 1975",
         )
-
-    liquid_needs: ClassVar[tuple[str, ...]] = ("surface_tension",)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 from attrs import Attribute, field, frozen
 
 from ...scene.loading import TangentialStep
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import (
     as_tuple,
@@ -22,6 +21,7 @@ from ...validators import (
     positive,
     refuse,
 )
+from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
 from .base import Array, Contact, LoadHistory, LoadTerm, Observer, Scalar
 from .elasticity import bodies_of, contact_modulus, layers_of

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 from attrs import Attribute, field, frozen
 
 from ...scene.loading import Approach, ContactLoading, Pressing
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import as_tuple, as_whole, count, non_negative
+from ...validity import ValidityNumber
 from .base import Array, Compliance, Contact, LoadHistory, Observer, PressureBound, Scalar
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 from attrs import Attribute, field, frozen
 
 from ...errors import DescriptionError
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, non_negative, positive
+from ...validity import ValidityNumber
 from .base import (
     Array,
     BoundedContact,

@@ -11,7 +11,7 @@ from ...analyses.pull_off import PullOffCurve
 from ...analyses.stick_slip import StickSlip
 from .. import adhesion, load_displacement, slip
 from ..style import Axes
-from .base import CurveFigures
+from .base import CurveFigures, registered_figures
 
 __all__ = [
     "AdhesionFigures",
@@ -24,6 +24,7 @@ __all__ = [
 ]
 
 
+@registered_figures.register(LoadCurve)
 class LoadCurveFigures(CurveFigures[LoadCurve]):
     """Figures of a load curve."""
 
@@ -40,6 +41,7 @@ class LoadCurveFigures(CurveFigures[LoadCurve]):
         return self.curves("load", over="approach", ax=ax)
 
 
+@registered_figures.register(HumidityCurve)
 class HumidityFigures(CurveFigures[HumidityCurve]):
     """Figures of a humidity curve."""
 
@@ -48,6 +50,7 @@ class HumidityFigures(CurveFigures[HumidityCurve]):
         return self.curves("force", ax=ax)
 
 
+@registered_figures.register(AdhesionCurve)
 class AdhesionFigures(CurveFigures[AdhesionCurve]):
     """Figures of an adhesive contact of a sphere."""
 
@@ -60,6 +63,7 @@ class AdhesionFigures(CurveFigures[AdhesionCurve]):
         return self.curves("load", over="approach", ax=ax)
 
 
+@registered_figures.register(DivisionResult)
 class DivisionFigures(CurveFigures[DivisionResult]):
     """Figures of a film divided into menisci."""
 
@@ -69,6 +73,7 @@ class DivisionFigures(CurveFigures[DivisionResult]):
         return self.curves(*names, ax=ax)
 
 
+@registered_figures.register(LoadDisplacementCurve)
 class LoadDisplacementFigures(CurveFigures[LoadDisplacementCurve]):
     """Figures of a load-displacement curve."""
 
@@ -77,6 +82,7 @@ class LoadDisplacementFigures(CurveFigures[LoadDisplacementCurve]):
         return load_displacement.force(self._owner, ax)
 
 
+@registered_figures.register(PullOffCurve)
 class PullOffFigures(CurveFigures[PullOffCurve]):
     """Figures of a contact under adhesion that is approached and separated."""
 
@@ -89,6 +95,7 @@ class PullOffFigures(CurveFigures[PullOffCurve]):
         return adhesion.contact_area(self._owner, ax)
 
 
+@registered_figures.register(StickSlip)
 class StickSlipFigures(CurveFigures[StickSlip]):
     """Figures of stick-slip."""
 

@@ -1,7 +1,9 @@
-"""Base classes of figures as methods: those that can be drawn are listed."""
+"""Figures of an object: which class has which, and the base classes that list those to be drawn."""
 
 from __future__ import annotations
 
+from functools import singledispatch
+from importlib import import_module
 from inspect import isfunction
 from typing import Any, Generic, TypeVar
 
@@ -9,10 +11,37 @@ from ...scene.tabular import Tabular
 from ..curves import curve_names, curves
 from ..style import Axes
 
-__all__ = ["CurveFigures", "Figures", "of_absent_effects"]
+__all__ = ["CurveFigures", "Figures", "figures_of", "of_absent_effects", "registered_figures"]
+
+_ROOMS = ("analyses", "contact", "separation", "studies")  # each with a module of figures here
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Tabular)
+
+
+@singledispatch
+def registered_figures(owner: Any) -> Figures[Any]:
+    """Return the figures of an object: a registry by its class (`functools.singledispatch`).
+
+    A result of one's own joins with ``registered_figures.register(OwnResult, OwnFigures)``.
+    """
+    raise TypeError(
+        f"no figures are known for a {type(owner).__name__}: register a class of figures with "
+        "contactkit.plot.accessors.base.registered_figures.register"
+    )
+
+
+def figures_of(owner: Any) -> Figures[Any]:
+    """Return the figures of an object; what `scene.figures.Drawn.plot` calls.
+
+    The figures of a room register when one of its objects is drawn first, so that a film draws
+    without contacts being imported.
+    """
+    for kind in type(owner).__mro__:
+        names = kind.__module__.split(".")
+        if names[0] == "contactkit" and len(names) > 1 and names[1] in _ROOMS:
+            import_module(f"contactkit.plot.accessors.{names[1]}")
+    return registered_figures(owner)
 
 
 class Figures(Generic[T]):

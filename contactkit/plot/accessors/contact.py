@@ -13,7 +13,7 @@ from .. import maps, plastic_history, slip, stress, view3d
 from ..explore import Explorer, explore
 from ..roughness import heights_map
 from ..style import Axes
-from .base import Figures, of_absent_effects
+from .base import Figures, of_absent_effects, registered_figures
 
 if TYPE_CHECKING:
     from pyvista import Plotter
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["ContactFigures", "ContactPlanFigures"]
 
 
+@registered_figures.register(ContactResult)
 class ContactFigures(Figures[ContactResult]):
     """Figures of a contact; those of an effect are there where the scene lists it."""
 
@@ -100,6 +101,7 @@ class ContactFigures(Figures[ContactResult]):
         return plastic_history.residual_depth(self._owner, ax)
 
 
+@registered_figures.register(ContactPlan)
 class ContactPlanFigures(Figures[ContactPlan]):
     """Figures of a contact before it is solved."""
 

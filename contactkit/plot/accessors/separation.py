@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+from ...separation.effects.base import effects_of
 from ...separation.results import SeparationResult
 from ...separation.sliding.result import SlidingResult
 from .. import separation
 from ..style import Axes
-from .base import CurveFigures, of_absent_effects
+from .base import CurveFigures, of_absent_effects, registered_figures
 
 __all__ = ["SeparationFigures", "SlidingFigures"]
 
 
+@registered_figures.register(SeparationResult)
 class SeparationFigures(CurveFigures[SeparationResult]):
     """Figures of a separation; those of what the run does not determine are not there."""
 
     def _hidden(self) -> frozenset[str]:
         columns, plan = self._owner.columns, self._owner.plan
-        known = {c.name for effect in plan.scene.effects for c in effect.curves() if c.unit == "N"}
+        known = {
+            c.name for effect in effects_of(plan.scene) for c in effect.curves() if c.unit == "N"
+        }
         needs = {
             "gap": {"time", "gap"} <= set(columns),
             "forces": bool((known | {"pull"}) & set(columns)),
@@ -41,6 +45,7 @@ class SeparationFigures(CurveFigures[SeparationResult]):
         return separation.over_scales(self._owner, names, ax, over)
 
 
+@registered_figures.register(SlidingResult)
 class SlidingFigures(CurveFigures[SlidingResult]):
     """Figures of a sliding."""
 

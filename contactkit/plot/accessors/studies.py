@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...errors import DescriptionError
+from ...studies.sensitivity import Sensitivity
+from ...studies.table import Study
 from ..axis_units import axis_label, readable
 from ..study import study_curves
 from ..style import Axes, figure, legend
 from ..tornado import tornado
-from .base import Figures
-
-if TYPE_CHECKING:
-    from ...studies.sensitivity import Sensitivity
-    from ...studies.table import Study
+from .base import Figures, registered_figures
 
 __all__ = ["SensitivityFigures", "StudyFigures"]
 
 
-class StudyFigures(Figures["Study[Any]"]):
+@registered_figures.register(Study)
+class StudyFigures(Figures[Study[Any]]):
     """Figures of the numbers of a study over its parameters."""
 
     def number(self, name: str, *, over: str | None = None, ax: Axes | None = None) -> Axes:
@@ -58,7 +57,8 @@ class StudyFigures(Figures["Study[Any]"]):
         return ax
 
 
-class SensitivityFigures(Figures["Sensitivity"]):
+@registered_figures.register(Sensitivity)
+class SensitivityFigures(Figures[Sensitivity]):
     """Figures of what the assumptions of a scene do to an answer."""
 
     def tornado(

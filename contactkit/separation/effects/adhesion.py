@@ -14,17 +14,16 @@ from ...adhesion.parameters import cohesive_stress
 from ...errors import InfeasibleError
 from ...scene.column import Column
 from ...scene.loading import ImposedSpeed
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, positive
+from ...validity import ValidityNumber
 from .base import ForceLaw, ForcePart, SeparationForce
 from .viscous import ViscousForce
 
 if TYPE_CHECKING:
     from ...scene.interface import Interface
     from ...scene.scenes import SeparationScene
-    from ..plan import Plan
-    from ..results import SeparationResult
+    from .base import PlanView, RunView
     from .prepared import PreparedScene
 
 __all__ = [
@@ -194,7 +193,7 @@ class AdhesiveContact(SeparationForce):
         return (model, *wet) if self.work_of_adhesion == "capillary" else (model,)
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`."""
+        """See `Effect.liquid_needs`."""
         return ("surface_tension",) if self.work_of_adhesion == "capillary" else ()
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -267,7 +266,7 @@ class AdhesiveContact(SeparationForce):
         return cohesive_radius(self.numbers(prepared), gap)
 
     def validity(
-        self, plan: Plan, path: Sequence[tuple[float, float]]
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
     ) -> tuple[ValidityNumber, ...]:
         """See `SeparationEffect.validity`: the attraction is as sharp, or as far, as assumed."""
         if self.model == "maugis-dugdale":  # right for all
@@ -285,11 +284,11 @@ class AdhesiveContact(SeparationForce):
         )
         return (number,)
 
-    def part(self, result: SeparationResult) -> AdhesionPart:
+    def part(self, result: RunView) -> AdhesionPart:
         """See `SeparationEffect.part`."""
         return AdhesionPart(result, self.column, self.numbers(result.plan.prepared))
 
-    def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
+    def scalars(self, result: RunView) -> dict[str, tuple[float, str]]:
         """See `SeparationEffect.scalars`."""
         one = self.numbers(result.plan.prepared)
         found = {

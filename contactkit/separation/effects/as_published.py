@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .base import effects_of
+
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from .base import SeparationEffect
@@ -17,7 +19,7 @@ __all__ = ["mixed"]
 
 def mixed(scene: SeparationScene) -> str:
     """Say which effects of a scene mix the two; empty if none do."""
-    modes = {effect: effect.equations(scene) for effect in scene.effects}
+    modes = {effect: effect.equations(scene) for effect in effects_of(scene)}
     printed = [effect for effect, found in modes.items() if found == "as-published"]
     right = [effect for effect, found in modes.items() if found == "consistent"]
     if not (printed and right):

@@ -11,9 +11,9 @@ from attrs import field, frozen
 from ...capillary.many_menisci import MAX_COVERAGE
 from ...scene.asperity_population import AsperityPopulation
 from ...scene.column import Column
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, optional, part, positive
+from ...validity import ValidityNumber
 from .base import ForceLaw, ForcePart, SeparationForce
 
 if TYPE_CHECKING:
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
     from ...capillary.asperities import AsperitySum
     from ...scene.scenes import SeparationScene
-    from ..plan import Plan
-    from ..results import SeparationResult
+    from .base import PlanView, RunView
     from .prepared import PreparedScene
 
 __all__ = ["AsperityMenisci", "AsperityPart"]
@@ -107,7 +106,7 @@ class AsperityMenisci(SeparationForce):
         return (f"{population[self.law]}; {bridge[self.profile]}",)
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`."""
+        """See `Effect.liquid_needs`."""
         return ("surface_tension",)
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -181,7 +180,7 @@ class AsperityMenisci(SeparationForce):
         return laws.greenwood_williamson(gap, population.rms_height, *given)
 
     def validity(
-        self, plan: Plan, path: Sequence[tuple[float, float]]
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
     ) -> tuple[ValidityNumber, ...]:
         """See `SeparationEffect.validity`."""
         number = ValidityNumber(
@@ -193,7 +192,7 @@ class AsperityMenisci(SeparationForce):
         )
         return (number,)
 
-    def part(self, result: SeparationResult) -> AsperityPart:
+    def part(self, result: RunView) -> AsperityPart:
         """See `SeparationEffect.part`."""
         import numpy as np
 

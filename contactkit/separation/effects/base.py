@@ -12,7 +12,7 @@ from __future__ import annotations
 import abc
 from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, cast
 
 from attrs import field, frozen
 
@@ -25,11 +25,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...as_published.arguments import PublishedValue
-    from ...scene.scenes import SeparationScene
-    from ...scene.validity import ValidityNumber
+    from ...scene.scenes import SeparationScene, SlidingScene
+    from ...validity import ValidityNumber
     from ..cavity.law import CavityLaw
-    from ..plan import Plan
-    from ..results import SeparationResult
     from .prepared import PreparedScene
 
     Curve = NDArray[np.float64]
@@ -39,14 +37,18 @@ __all__ = [
     "FilmEnd",
     "FilmLimit",
     "FilmStatus",
+    "FilmView",
     "ForceLaw",
     "ForcePart",
     "LimitKind",
     "LimitPart",
     "Limiter",
+    "PlanView",
     "RunCurves",
+    "RunView",
     "SeparationEffect",
     "SeparationForce",
+    "effects_of",
 ]
 
 _INF = float("inf")
@@ -81,13 +83,70 @@ CAVITY = (
 """Curves of a film that tears and remembers it."""
 
 
+class FilmView(Protocol):
+    """Forces of a film as they are prepared."""
+
+    @property
+    def laws(self) -> Mapping[type[SeparationForce], ForceLaw]:
+        """Law of each force."""
+
+    @property
+    def end(self) -> float:
+        """Gap at which the film ends [m]."""
+
+
+class PlanView(Protocol):
+    """Plan of a separation as an effect sees it: its scene, what is prepared, and the forces."""
+
+    @property
+    def scene(self) -> SeparationScene:
+        """The scene that is planned."""
+
+    @property
+    def prepared(self) -> PreparedScene[SeparationScene]:
+        """Liquid, geometry and settings, computed once."""
+
+    @property
+    def film(self) -> FilmView:
+        """Forces of the film."""
+
+    def film_with(self, fraction: float) -> FilmView:
+        """Return the forces with a fraction of the volume of the liquid."""
+
+    def has(self, kind: type[Effect]) -> bool:
+        """Whether the scene lists an effect."""
+
+
+class RunView(Protocol):
+    """Run of a plan as an effect sees it: its curves and impulses."""
+
+    @property
+    def plan(self) -> PlanView:
+        """The plan of the run."""
+
+    @property
+    def impulses(self) -> Mapping[str, float]:
+        """Impulses [N.s] by their names."""
+
+    @property
+    def gap(self) -> NDArray[np.float64]:
+        """Gap along the run [m]."""
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Time along the run [s]."""
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a curve by its name."""
+
+
 class RunCurves(NamedTuple):
     """Curves of a run, from which others follow.
 
     `gap` [m], whether the film is `whole` there, and the volume of the film over that of the scene.
     """
 
-    plan: Plan
+    plan: PlanView
     gap: Curve
     whole: NDArray[np.bool_]
     volume_fraction: Curve
@@ -117,7 +176,7 @@ class ForceLaw:
 class ForcePart:
     """Force of an effect along a run, and its impulse."""
 
-    result: SeparationResult = field(repr=False)
+    result: RunView = field(repr=False)
     column: Column
 
     @property
@@ -184,10 +243,6 @@ class SeparationEffect(Effect):
         """
         return False
 
-    def liquid_needs(self, scene: Any) -> tuple[str, ...]:
-        """Names of the properties of the liquid that `prepare` reads."""
-        return ()
-
     def equations(self, scene: SeparationScene) -> str:
         """``as-published``, ``consistent``, or empty where this effect is the same in both."""
         return "as-published" if self.takes_printed() else ""
@@ -196,7 +251,7 @@ class SeparationEffect(Effect):
         """Whether a printed equation is asked for that is known to be wrong."""
         return getattr(self, self.published_choice, "") == "as-published"
 
-    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+    def errata(self, plan: PlanView) -> tuple[PublishedValue, ...]:
         """Printed equations that a plan takes: value at the start, what is wrong, the right one."""
         return ()
 
@@ -208,7 +263,7 @@ class SeparationEffect(Effect):
         return 0.0
 
     def validity(
-        self, plan: Plan, path: Sequence[tuple[float, float]]
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
     ) -> tuple[ValidityNumber, ...]:
         """Whether the models are in their range along pairs of gap [m] and speed [m/s]."""
         return ()
@@ -217,7 +272,7 @@ class SeparationEffect(Effect):
         """Part of a result that `SeparationResult.of` returns."""
         raise NotSimulatedError(f"{type(self).__name__} has no curve of its own; see result.state")
 
-    def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
+    def scalars(self, result: RunView) -> dict[str, tuple[float, str]]:
         """Numbers that this effect adds to those of a result, with their units."""
         return {}
 
@@ -249,7 +304,7 @@ class SeparationForce(SeparationEffect):
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """Do the work that depends on neither gap nor speed."""
 
-    def part(self, result: SeparationResult) -> ForcePart:
+    def part(self, result: RunView) -> ForcePart:
         """See `SeparationEffect.part`."""
         return ForcePart(result, self.column)
 
@@ -274,7 +329,7 @@ class FilmLimit(SeparationEffect):
         """Film that tears, for a limit with a memory; it then has no `Limiter`."""
         return None
 
-    def part(self, result: SeparationResult) -> LimitPart:
+    def part(self, result: RunView) -> LimitPart:
         """See `SeparationEffect.part`."""
         acts = result[LIMIT.name] == self.limit
         when = result.time[acts]
@@ -292,3 +347,8 @@ class FilmEnd(SeparationEffect):
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Gap at which the film breaks [m]; inf for never."""
+
+
+def effects_of(scene: SeparationScene | SlidingScene) -> tuple[SeparationEffect, ...]:
+    """Return the effects of a scene with their type here; a scene itself knows an `Effect` only."""
+    return cast("tuple[SeparationEffect, ...]", scene.effects)

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...lubrication import dimensionless as numbers
-from ...scene.validity import ValidityNumber
+from ...validity import ValidityNumber
 
 if TYPE_CHECKING:
     from ...scene.interface import Interface

@@ -13,8 +13,8 @@ from ...errors import ConvergenceError, InfeasibleError
 from ...lubrication import dimensionless as numbers
 from ...scene.column import Column
 from ...scene.surfaces import Sphere
-from ...scene.validity import ValidityNumber
 from ...validators import choice
+from ...validity import ValidityNumber
 from .base import ForceLaw, RunCurves, SeparationForce
 from .film_shape import needs_extent
 from .meniscus_flat import arc_law, exact_law, printed_law, printed_radius
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
-    from ..plan import Plan
+    from .base import PlanView
     from .prepared import PreparedScene
 
 __all__ = ["MeniscusForce"]
@@ -113,7 +113,7 @@ class MeniscusForce(SeparationForce):
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`."""
+        """See `Effect.liquid_needs`."""
         return ("surface_tension",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
@@ -161,7 +161,8 @@ class MeniscusForce(SeparationForce):
 
     def late_curves(self, run: RunCurves) -> Mapping[str, Curve]:
         """See `SeparationEffect.late_curves`: the shape of the meniscus."""
-        return shape_curves(self, run)
+        is_disc = self.takes_printed() and self.radius == "disc"
+        return shape_curves(type(self), self.profile, run, is_disc=is_disc)
 
     def notes(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.notes`: what pulls where no amount of liquid is given."""
@@ -184,12 +185,12 @@ class MeniscusForce(SeparationForce):
         """See `SeparationEffect.equations`."""
         return "as-published" if self.takes_printed() else "consistent"
 
-    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+    def errata(self, plan: PlanView) -> tuple[PublishedValue, ...]:
         """See `SeparationEffect.errata`: the force of all menisci."""
         return (_erratum(plan, self),) if self.takes_printed() else ()
 
     def validity(
-        self, plan: Plan, path: Sequence[tuple[float, float]]
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
     ) -> tuple[ValidityNumber, ...]:
         """See `SeparationEffect.validity`."""
         gaps = [gap for gap, _ in path]
@@ -212,7 +213,7 @@ class MeniscusForce(SeparationForce):
         return tuple(found)
 
 
-def _erratum(plan: Plan, effect: MeniscusForce) -> PublishedValue:
+def _erratum(plan: PlanView, effect: MeniscusForce) -> PublishedValue:
     from ...as_published.lookup import published
 
     prepared, gap = plan.prepared, plan.scene.loading.initial_gap
@@ -270,7 +271,7 @@ def _bond(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]) -> Va
     )
 
 
-def _weight(plan: Plan, gaps: Sequence[float]) -> ValidityNumber:
+def _weight(plan: PlanView, gaps: Sequence[float]) -> ValidityNumber:
     """Weight of all menisci over their force, which it changes by a part of itself."""
     film, law = plan.prepared.film, plan.film.laws[MeniscusForce]
     density, tension = plan.prepared.liquid.given("density"), plan.prepared.liquid.surface_tension
@@ -309,7 +310,7 @@ def _printed_neck(
     )
 
 
-def _lateral(plan: Plan, gaps: Sequence[float]) -> ValidityNumber:
+def _lateral(plan: PlanView, gaps: Sequence[float]) -> ValidityNumber:
     """Whether a bridge on a sphere stays in its middle: it does as long as it attracts."""
     law, radius = plan.film.laws[MeniscusForce], plan.scene.interface.sphere_radius
     least = min(law.force(gap, 0.0) for gap in gaps)

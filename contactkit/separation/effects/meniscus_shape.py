@@ -13,8 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...scene.scenes import SeparationScene
-    from .base import RunCurves
-    from .meniscus import MeniscusForce
+    from .base import RunCurves, SeparationForce
     from .prepared import PreparedScene
 
     Curve = NDArray[np.float64]
@@ -44,11 +43,12 @@ class MeniscusShape(NamedTuple):
 
 
 def meniscus_shape(
-    prepared: PreparedScene[SeparationScene], effect: MeniscusForce, gaps: Curve
+    prepared: PreparedScene[SeparationScene], profile: str, gaps: Curve, *, is_disc: bool = False
 ) -> MeniscusShape:
     """Shape of one meniscus at gaps [m] that it spans, by the profile of its force.
 
-    nan where the shape of a bridge is not found.
+    With `is_disc` the printed law between flats is that of an upright disc. nan where the shape of
+    a bridge is not found.
     """
     import numpy as np
 
@@ -57,14 +57,16 @@ def meniscus_shape(
         if pressure is not None:
             return _at_pressure(prepared, pressure, gaps)
         if prepared.scene.interface.is_flat:
-            return _between_flats(prepared, effect, gaps)
-        return _on_sphere(prepared, effect.profile, gaps)
+            return _between_flats(prepared, profile, gaps, is_disc)
+        return _on_sphere(prepared, profile, gaps)
     except ConvergenceError:
         return MeniscusShape(*(np.full(gaps.shape, np.nan) for _ in MeniscusShape._fields))
 
 
-def shape_curves(effect: MeniscusForce, run: RunCurves) -> dict[str, Curve]:
-    """Curves of `SHAPE_COLUMNS` along a run; nan where the film has broken."""
+def shape_curves(
+    force: type[SeparationForce], profile: str, run: RunCurves, *, is_disc: bool
+) -> dict[str, Curve]:
+    """Curves of `SHAPE_COLUMNS` along a run, of the meniscus of a force; nan where it broke."""
     import numpy as np
 
     plan = run.plan
@@ -72,9 +74,11 @@ def shape_curves(effect: MeniscusForce, run: RunCurves) -> dict[str, Curve]:
     for fraction in np.unique(run.volume_fraction[run.whole]).tolist():
         here = run.whole & (run.volume_fraction == fraction)
         film = plan.film_with(fraction)
-        ends = film.laws[type(effect)].end
+        ends = film.laws[force].end
         gaps = np.minimum(run.gap[here], ends * _JUST_BELOW)
-        found = meniscus_shape(with_fraction(plan.prepared, fraction), effect, gaps)
+        found = meniscus_shape(
+            with_fraction(plan.prepared, fraction), profile, gaps, is_disc=is_disc
+        )
         volume = plan.scene.meniscus.count * found.volume
         values = (found.neck, found.lower, found.upper, found.pressure, volume, film.end)
         for column, value in zip(SHAPE_COLUMNS, values, strict=True):
@@ -97,7 +101,7 @@ def _at_pressure(
 
 
 def _between_flats(
-    prepared: PreparedScene[SeparationScene], effect: MeniscusForce, gaps: Curve
+    prepared: PreparedScene[SeparationScene], profile: str, gaps: Curve, is_disc: bool
 ) -> MeniscusShape:
     import numpy as np
 
@@ -105,12 +109,12 @@ def _between_flats(
 
     tension = prepared.liquid.surface_tension
     printed = -tension * prepared.wetting / gaps  # the curvature of the arc alone
-    if effect.takes_printed() and effect.radius == "disc":
+    if is_disc:
         radius = np.array([prepared.film.radius(gap) for gap in gaps.tolist()])
         return MeniscusShape(radius, radius, radius, printed, np.pi * radius**2 * gaps)
-    one = volume_of_one(prepared, effect.profile)
+    one = volume_of_one(prepared, profile)
     volume = np.array([one(gap) for gap in gaps.tolist()])
-    if effect.profile == "exact":
+    if profile == "exact":
         from ...capillary.exact.bridge import bridge
 
         exact = bridge(gaps, volume, *prepared.angles, beyond="nan")
@@ -119,7 +123,7 @@ def _between_flats(
     from ...capillary.arc.bridge import arc_bridge
 
     arc = arc_bridge(gaps, volume, *prepared.angles, beyond="nan")
-    pressure = printed if effect.takes_printed() else tension * arc.pressure
+    pressure = printed if profile == "as-published" else tension * arc.pressure
     return MeniscusShape(arc.neck, arc.radius_lower, arc.radius_upper, pressure, volume)
 
 

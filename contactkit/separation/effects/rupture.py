@@ -18,7 +18,7 @@ from .meniscus_flat import exact_end
 if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
-    from ..plan import Plan
+    from .base import PlanView
     from .prepared import PreparedScene
 
 __all__ = ["Rupture"]
@@ -69,7 +69,7 @@ class Rupture(FilmEnd):
         return ("zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",)
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`."""
+        """See `Effect.liquid_needs`."""
         at_pressure = self.gap is None and scene.liquid_pressure is not None
         return ("surface_tension",) if at_pressure else ()
 
@@ -118,7 +118,7 @@ class Rupture(FilmEnd):
         meniscus = scene.effect(MeniscusForce)
         return "as-published" if meniscus is not None and meniscus.profile == "exact" else ""
 
-    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+    def errata(self, plan: PlanView) -> tuple[PublishedValue, ...]:
         """See `SeparationEffect.errata`."""
         if not self.takes_printed():
             return ()

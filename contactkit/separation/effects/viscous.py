@@ -16,9 +16,9 @@ from ...lubrication.reynolds.damping import DampingLaw
 from ...scene.column import Column
 from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
-from ...scene.validity import ValidityNumber
 from ...units import si
 from ...validators import choice, finite, optional, part, positive
+from ...validity import ValidityNumber
 from ..cavity.law import CavityLaw
 from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
@@ -30,9 +30,7 @@ from .published_film import published_film
 if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
-    from ..plan import Plan
-    from ..results import SeparationResult
-    from .base import Curve
+    from .base import Curve, PlanView, RunView
     from .prepared import PreparedScene
 
 __all__ = [
@@ -204,7 +202,7 @@ class ViscousForce(SeparationForce):
         return True
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`: a film of fixed pressure has a height as well."""
+        """See `Effect.liquid_needs`: a film of fixed pressure has a height as well."""
         at_pressure = scene.liquid_pressure is not None
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
@@ -239,22 +237,22 @@ class ViscousForce(SeparationForce):
         mean = self.closure == "volume-conserving" and isinstance(scene.loading, ImposedTime)
         return "consistent" if mean and scene.interface.is_flat else ""
 
-    def errata(self, plan: Plan) -> tuple[PublishedValue, ...]:
+    def errata(self, plan: PlanView) -> tuple[PublishedValue, ...]:
         """See `SeparationEffect.errata`: as an impulse [N.s], which no time changes."""
         return (_erratum(plan),) if self.takes_printed() else ()
 
     def validity(
-        self, plan: Plan, path: Sequence[tuple[float, float]]
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
     ) -> tuple[ValidityNumber, ...]:
         """See `SeparationEffect.validity`."""
         both = _against_meniscus(plan.prepared, path) if plan.has(MeniscusForce) else ()
         return _validity(plan.prepared, path) + both
 
-    def part(self, result: SeparationResult) -> ViscousPart:
+    def part(self, result: RunView) -> ViscousPart:
         """See `SeparationEffect.part`."""
         return ViscousPart(result, self.column)
 
-    def scalars(self, result: SeparationResult) -> dict[str, tuple[float, str]]:
+    def scalars(self, result: RunView) -> dict[str, tuple[float, str]]:
         """See `SeparationEffect.scalars`."""
         if not isinstance(result.plan.scene.loading, ImposedTime):
             return {}
@@ -595,7 +593,7 @@ def viscous_film(prepared: PreparedScene[SeparationScene]) -> FilmShape:
     return film_shape(scene, prepared.liquid, constant_radius=True)
 
 
-def _erratum(plan: Plan) -> PublishedValue:
+def _erratum(plan: PlanView) -> PublishedValue:
     from ...as_published.lookup import published
 
     prepared, film, loading = plan.prepared, viscous_film(plan.prepared), plan.scene.loading

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import abc
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Protocol
 
 from attrs import Attribute, field, frozen
 
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
     from ..effects.prepared import PreparedScene
-    from .plan import SlidingPlan
-    from .result import SlidingResult
 
     Curve = NDArray[np.float64]
 
@@ -39,9 +37,49 @@ __all__ = [
     "CouettePart",
     "HysteresisPart",
     "SlideLaw",
+    "SlidePlanView",
+    "SlideView",
     "SlidingForce",
     "SlidingPart",
 ]
+
+
+class SlidePlanView(Protocol):
+    """Plan of a sliding as an effect sees it."""
+
+    @property
+    def scene(self) -> SlidingScene:
+        """The scene that is planned."""
+
+    @property
+    def prepared(self) -> PreparedScene[SlidingScene]:
+        """Liquid, geometry and settings, computed once."""
+
+    @property
+    def film(self) -> FilmShape:
+        """Geometry of the film."""
+
+    @property
+    def wetted_radius(self) -> float:
+        """Radius of the wetted circles [m]."""
+
+
+class SlideView(Protocol):
+    """Run of a sliding as an effect sees it: its curves and totals."""
+
+    @property
+    def totals(self) -> Mapping[str, float]:
+        """Impulses [N.s] and work [J] over the whole slide."""
+
+    @property
+    def duration(self) -> float:
+        """Time that the slide takes [s]."""
+
+    def total(self, column: Column) -> float:
+        """Return the total of a column over the whole slide."""
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a curve by its name."""
 
 
 class SlideLaw(NamedTuple):
@@ -87,11 +125,11 @@ class SlidingForce(SeparationEffect):
     def prepare(self, prepared: PreparedScene[SlidingScene]) -> SlideLaw:
         """Do the work that depends on neither travel nor speed."""
 
-    def printed(self, plan: SlidingPlan, duration: float) -> tuple[PublishedValue, ...]:
+    def printed(self, plan: SlidePlanView, duration: float) -> tuple[PublishedValue, ...]:
         """Printed equations that a run of a duration [s] takes, each with the right value."""
         return ()
 
-    def part(self, result: SlidingResult) -> SlidingPart:
+    def part(self, result: SlideView) -> SlidingPart:
         """Part of a result that `SlidingResult.of` returns."""
         return SlidingPart(result, self.column)
 
@@ -100,7 +138,7 @@ class SlidingForce(SeparationEffect):
 class SlidingPart:
     """Force of an effect along the travel, and its impulse."""
 
-    result: SlidingResult = field(repr=False)
+    result: SlideView = field(repr=False)
     column: Column
 
     @property
@@ -191,7 +229,7 @@ class CouetteForce(SlidingForce):
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     def liquid_needs(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`."""
+        """See `Effect.liquid_needs`."""
         return ("viscosity",)
 
     def lacks_in(self, scene: SlidingScene) -> tuple[str, ...]:
@@ -212,7 +250,7 @@ class CouetteForce(SlidingForce):
             return _even_law(film, gap, film.height(gap), viscosity, limit)
         return _sphere_law(film, gap, viscosity, limit, self.closure == "lubrication")
 
-    def printed(self, plan: SlidingPlan, duration: float) -> tuple[PublishedValue, ...]:
+    def printed(self, plan: SlidePlanView, duration: float) -> tuple[PublishedValue, ...]:
         """See `SlidingForce.printed`: the mean force of one meniscus."""
         if not self.takes_printed():
             return ()
@@ -228,7 +266,7 @@ class CouetteForce(SlidingForce):
             one = published("3.56", **shape, **given)
         return (one._replace(name=f"{self.name}, {one.name}, of one meniscus"),)
 
-    def part(self, result: SlidingResult) -> CouettePart:
+    def part(self, result: SlideView) -> CouettePart:
         """See `SlidingForce.part`."""
         return CouettePart(result, self.column)
 
@@ -371,7 +409,7 @@ class ContactAngleHysteresis(SlidingForce):
         return _needs_rim(scene)
 
     def liquid_needs(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
-        """See `SeparationEffect.liquid_needs`."""
+        """See `Effect.liquid_needs`."""
         return ("surface_tension",)
 
     def prepare(self, prepared: PreparedScene[SlidingScene]) -> SlideLaw:
@@ -394,7 +432,7 @@ class ContactAngleHysteresis(SlidingForce):
 
         return SlideLaw(force, work=work)
 
-    def part(self, result: SlidingResult) -> HysteresisPart:
+    def part(self, result: SlideView) -> HysteresisPart:
         """See `SlidingForce.part`."""
         return HysteresisPart(result, self.column)
 

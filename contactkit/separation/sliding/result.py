@@ -10,7 +10,7 @@ from attrs import field, frozen
 from ...errors import NotSimulatedError
 from ...scene.column import Column
 from ...scene.scales import Scales
-from ...scene.validity import ValidityNumber
+from ...validity import ValidityNumber
 from ..curve_result import CurveResult, Work
 from .effects import SlidingForce
 from .plan import SlidingPlan
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...as_published.arguments import PublishedValue
-    from ...plot.accessors.separation import SlidingFigures
 
     Curve = NDArray[np.float64]
 
@@ -116,19 +115,6 @@ class SlidingResult(CurveResult):
         """Time [s] the slide takes."""
         loading = self.plan.scene.loading
         return loading.time or self.plan.end / (loading.speed or 1.0)
-
-    @property
-    def plot(self) -> SlidingFigures:
-        """Figures of the forces as methods: ``result.plot.forces(ax=ax)``.
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed: ``pip install contactkit[plot]``.
-        """
-        from ...plot.accessors.separation import SlidingFigures
-
-        return SlidingFigures(self)
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""

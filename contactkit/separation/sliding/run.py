@@ -12,8 +12,8 @@ from ...lubrication import dimensionless as numbers
 from ...lubrication.couette_flat import lens_area
 from ...numerics.lines import with_middles
 from ...numerics.quadrature import gauss_legendre
-from ...scene.validity import ValidityNumber
 from ...units import nm
+from ...validity import ValidityNumber
 from ..curve_result import Work
 from .effects import SlideLaw
 from .plan import SlidingPlan

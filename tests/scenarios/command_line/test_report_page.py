@@ -76,7 +76,7 @@ def test_a_page_holds_figures_numbers_plan_validity_and_sources(folder):
 
 def test_what_is_out_of_range_comes_first():
     from contactkit.app.report_page import validity_rows
-    from contactkit.scene.validity import ValidityNumber
+    from contactkit.validity import ValidityNumber
 
     numbers = [
         ValidityNumber(name="a", value=0.1, high=1.0, detail="small; is good"),
