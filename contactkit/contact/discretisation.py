@@ -30,9 +30,11 @@ _Numbers = Mapping[str, tuple[float, str]]
 
 _SAFETY = 1.25  # of a grid convergence index from three grids (Roache)
 _ORDERS = (1.0, 1.5)  # of numbers of a rough contact: an area is of the first, an integral higher
-_SINGULAR = {  # largest at the edge of the contact, where stress grows as the root of the distance
+_SINGULAR = {  # what follows stress at the edge of a spot, which grows as the root of the distance
     "max_tension": (0.5, 0.5),
     "max_sigma_xz": (0.5, 0.5),
+    "plastic_area": (0.5, 0.5),
+    "plastic_fraction": (0.5, 0.5),
 }
 _OF_A_SPOT = 6.0  # error of a peak times the cube of the pixels across a spot, see the coverage
 _LOOSE = 1e-5  # tolerance of the companions: half the work of 1e-8, far below what is estimated
@@ -75,11 +77,11 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
     .. math:: e = 1.25 \max\left(\frac{d_2}{2^q - 1}, \frac{d_4}{4^q - 1}\right), \quad
               q = \log_2(d_4/d_2 - 1)
 
-    where the order q is taken from 1 to 1.5, and is 1/2 for tension and shear stress, which peak at
-    the edge of the contact. To the approach and the largest displacement it adds the rise of the
-    highest point over the highest pixel. Areas have at least 1.25 times the excess that pixels cut
-    by their edge have on average (half of it where that is taken off), maxima of pressure and
-    stress at least :math:`6/d^3`, d the pixels across a contact spot.
+    where the order q is taken from 1 to 1.5, and is 1/2 for tension, shear stress and plastic area,
+    which follow the stress at the edge of a spot. To the approach and the largest displacement it
+    adds the rise of the highest point over the highest pixel. Areas have at least 1.25 times the
+    excess that pixels cut by their edge have on average (half of it where that is taken off),
+    maxima of pressure and stress at least :math:`6/d^3`, d the pixels across a contact spot.
 
     Parameters
     ----------
@@ -98,11 +100,21 @@ def discretisation_error(result: ContactResult) -> DiscretisationError:
 
     Notes
     -----
-    COVERAGE
+    Measured on 2241 numbers of 220 contacts, 64 x 64 pixels, against pixels four times finer: the
+    true error exceeds the stated one in 2.2 % and twice it in 0.8 %; half of the stated errors are
+    more than 6.3 times the true one. Of the 60 contacts on which no constant but the order of the
+    plastic area was set, 1.2 and 0.2 %. The contacts are Gaussian, lognormal and anisotropic
+    roughness with 2.2 to 16 pixels to the shortest wave, bumps one to three pixels wide, balls, and
+    patches cut from a map, on half-spaces and films, with a hardness or without.
 
-    The estimate knows no more than the pixels do: of waves shorter than two pixels it is silent.
-    With `Adhesion` the companions start from the state of the contact, so that all are on the same
-    branch.
+    It fails where pixels know too little: on bumps narrower than a pixel (in 9 % of the numbers of
+    bumps), and where a spot reaches the cut edge of an isolated map, at which the pressure is
+    singular (the maxima of 4 of 8 patches). Of waves shorter than two pixels it is silent.
+
+    The companions are solved to 1e-5 at the tightest. They take about as long as the contact at 512
+    x 512 pixels, 1.3 times at 256 x 256, and 3 times at 64 x 64 (6 with `SubsurfaceStress`), where
+    fixed costs prevail. With `Adhesion` they start from the state of the contact, at its tolerance,
+    so that all are on the same branch.
 
     References
     ----------
