@@ -15,7 +15,7 @@ from typing import Any, Literal, NamedTuple
 
 from attrs import evolve
 
-from ... import __version__
+from ..._version import __version__
 from ...errors import DescriptionError, PlanError
 from ...scene.scenes import ContactScene, SeparationScene
 from ...separation.effects.prepared import prepare_scene

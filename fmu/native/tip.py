@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from attrs import evolve
 
-from ... import __version__
+from ..._version import __version__
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description

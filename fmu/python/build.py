@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import fromstring, indent, tostring
 
-from ... import __version__
+from ..._version import __version__
 from ...errors import ContactkitError, DescriptionError
 from ...extras import require
 from ..contents.document import Page, external_dependencies, index_page, license_text

@@ -6,7 +6,7 @@ Every state of a film has these numbers; one that leaves its range is a `Validit
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -17,11 +17,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .face import Face
-    from .film import FilmState
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["film_numbers", "roughness_number", "warn_new"]
+__all__ = ["SolvedFilm", "film_numbers", "roughness_number", "warn_new"]
 
 _CONTINUUM = 2e-9  # [m], Chan and Horn 1985
 _STEEPEST = 0.1
@@ -29,7 +28,35 @@ _FEWEST_CELLS = 8.0  # a strip of 8 cells is off by 1.6 % of its force, a disc o
 _THINNEST = 0.5  # gap over rms roughness
 
 
-def film_numbers(state: FilmState) -> tuple[ValidityNumber, ...]:
+class SolvedFilm(Protocol):
+    """State of a film as its numbers of validity see it; see `FilmState`."""
+
+    @property
+    def film(self) -> Any:
+        """Face, liquid and pressures."""
+
+    @property
+    def gap(self) -> Array:
+        """Gap [m], (ny, nx)."""
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure [Pa], (ny, nx)."""
+
+    @property
+    def pressure_gradient(self) -> tuple[Array, Array]:
+        """Slope of the pressure along y and x [Pa/m]."""
+
+    @property
+    def lower_velocity(self) -> tuple[float, float]:
+        """Velocity of the lower face along y and x [m/s]."""
+
+    @property
+    def upper_velocity(self) -> tuple[float, float]:
+        """Velocity of the upper face along y and x [m/s]."""
+
+
+def film_numbers(state: SolvedFilm) -> tuple[ValidityNumber, ...]:
     """Numbers of validity of a film at one instant.
 
     Slopes are those that two neighbouring sides of a cell have in common, so that the step of a
@@ -127,7 +154,7 @@ def _cells_across(face: Face) -> float | None:
     return 2.0 * float(face.inside.sum()) / sides if sides else None
 
 
-def _reynolds(state: FilmState) -> float | None:
+def _reynolds(state: SolvedFilm) -> float | None:
     """Reduced Reynolds number of the mean flow, rho u h^2/(eta L); None without a density."""
     film = state.film
     if film.density is None:
@@ -139,4 +166,4 @@ def _reynolds(state: FilmState) -> float | None:
     ]
     speed = np.hypot(flow * abs(slope_x) + carried[0], flow * abs(slope_y) + carried[1])
     worst = float((speed * state.gap**2)[film.face.inside].max())
-    return film.density * worst / (film.viscosity * _extent(film.face))
+    return float(film.density * worst / (film.viscosity * _extent(film.face)))
