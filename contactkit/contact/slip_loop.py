@@ -256,7 +256,7 @@ def _combined(history: list[_Pass]) -> Map:
 def _step_error(fine: _State, steps: int, coarse: _State, fewer: int) -> float:
     """Error of the tractions, rms over that of their bound, from those with fewer steps [-].
 
-    It is of first order in the steps. Measured on spheres and rough surfaces it is 0.4 to 0.9 of
+    It is of first order in the steps. Measured on spheres and rough surfaces it is 0.5 to 1 of
     this, as tractions err by rings of a step each, in other places with other steps: they cannot be
     extrapolated.
     """
