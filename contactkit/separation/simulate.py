@@ -167,11 +167,10 @@ def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float],
     k, force = loading.stiffness, loading.force
     if k == 0.0 or len(states) < 2 or abs(force - pull(state.time)) > 1e-9 * abs(force):
         return False
-    if plan.film.static_columns and (
-        plan.scene.meniscus.rewetting > 0.0 or _pushes(plan, loading.final_gap)
-    ):
+    if _energy_left(plan, state) >= -1e-6 * abs(force) * (loading.final_gap - state.gap):
         return False
-    return _energy_left(plan, state) < -1e-6 * abs(force) * (loading.final_gap - state.gap)
+    is_given = plan.scene.meniscus.rewetting > 0.0 or _pushes(plan, loading)
+    return not (plan.film.static_columns and is_given)
 
 
 def _energy_left(plan: Plan, state: MotionState) -> float:
@@ -183,10 +182,10 @@ def _energy_left(plan: Plan, state: MotionState) -> float:
     return moving + given * (loading.final_gap - state.gap)
 
 
-def _pushes(plan: Plan, final_gap: float) -> bool:
+def _pushes(plan: Plan, loading: ImposedForce) -> bool:
     """Whether a film, or solids, push the bodies apart at a gap on the way."""
-    gap = min(plan.scene.imposed_force.initial_gap, 0.5 * final_gap)
-    ratio = (final_gap / gap) ** (1.0 / 32.0)
+    gap = max(loading.initial_gap, 1e-6 * loading.final_gap)
+    ratio = (loading.final_gap / gap) ** (1.0 / 32.0)
     return any(plan.film.static_force(gap * ratio**i) < 0.0 for i in range(33))
 
 

@@ -208,7 +208,7 @@ def advance_tip(
         raise DescriptionError("advance_tip(dt)", dt, "be zero or positive, and finite", unit="s")
     root = root._replace(time=state.time)
     end = state.time + dt
-    cost = 0
+    cost = 0.0
     while cost <= plan.accuracy.max_steps:
         left, before = end - state.time, state
         if left <= 1e-13 * max(abs(end), dt):

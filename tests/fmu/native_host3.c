@@ -39,7 +39,7 @@
 #define DECLARE(name) static fmi3##name##TYPE *name;
 EACH(DECLARE)
 
-enum { F_EXT = 1, H = 3, V = 4, F = 5, STATE = 11, T_BREAK = 13, N_BREAK = 16, MASS = 24, H_BREAK = 23, TIME = 34 };
+enum { F_EXT = 1, H = 3, V = 4, F = 5, STATE = 11, T_BREAK = 13, N_BREAK = 16, MASS = 24, H_BREAK = 23, TIME = 35 };
 
 static const char *folder, *token;
 static int failures, messages;
