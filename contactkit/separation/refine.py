@@ -33,6 +33,7 @@ Row = Callable[[MotionState], Sequence[float]]
 _SHARE = 0.9  # of the error for what lines leave out; the rest is for points that are left out
 _CURVED = 0.05  # of the error, by second differences of the steps: below, a step needs no points
 _JUMP = 1e-6  # of a step, in which a jump is drawn; where a limit sets in, rounding takes 1e-8
+_STILL = 1e-14  # of the gap, some fifty times its rounding
 _SMALLEST = 1e-12  # of the largest value of a curve: its rounding
 
 
@@ -177,7 +178,10 @@ class _Filled:
             allowed = _SHARE * self._errors
             allowed[0] = _SHARE * self._rtol * half[0]
             error = float((miss / allowed).max())
-            if error > 1.0 and dt > shortest:
+            # A gap that rounding holds where it is shows no state between: shorter parts of a step
+            # would creep towards a jump (at the edge of a full film) and never reach it.
+            moves = abs(row_of_last[0] - row[0]) > _STILL * half[0]
+            if error > 1.0 and dt > shortest and moves:
                 dt *= min(max(math.sqrt(0.7 / error), 0.1), 0.7)
                 continue
             self.add(middle, half)
