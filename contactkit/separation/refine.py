@@ -34,6 +34,7 @@ _SHARE = 0.9  # of the error for what lines leave out; the rest is for points th
 _CURVED = 0.05  # of the error, by second differences of the steps: below, a step needs no points
 _JUMP = 1e-6  # of a step, in which a jump is drawn; where a limit sets in, rounding takes 1e-8
 _STILL = 1e-14  # of the gap, some fifty times its rounding
+_CREEP = 1e-3  # of a step: shorter parts in which the gap stays still find no more than rounding
 _SMALLEST = 1e-12  # of the largest value of a curve: its rounding
 
 
@@ -161,7 +162,7 @@ class _Filled:
     def _march(self, here: MotionState, row: Floats, end: MotionState, row_of_end: Floats) -> None:
         """Add points from one state to another, two at a time, as far apart as lines allow."""
         dt = end.time - here.time
-        shortest = _JUMP * dt
+        shortest, creeping = _JUMP * dt, _CREEP * dt
         while here.time < end.time:
             left = end.time - here.time
             dt = max(dt, shortest)
@@ -180,7 +181,7 @@ class _Filled:
             error = float((miss / allowed).max())
             # A gap that rounding holds where it is shows no state between: shorter parts of a step
             # would creep towards a jump (at the edge of a full film) and never reach it.
-            moves = abs(row_of_last[0] - row[0]) > _STILL * half[0]
+            moves = dt > creeping or abs(row_of_last[0] - row[0]) > _STILL * half[0]
             if error > 1.0 and dt > shortest and moves:
                 dt *= min(max(math.sqrt(0.7 / error), 0.1), 0.7)
                 continue
