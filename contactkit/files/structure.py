@@ -168,6 +168,8 @@ def field_value(kind: type, name: str, value: Any) -> Any:
     is_object = any(attrs.has(one) for one in get_args(attribute.type) or (attribute.type,))
     if is_object and isinstance(value, str | Mapping | list):
         try:
+            if name == "effects":
+                return _effects(kind)(value, None)
             return _CONVERTER.structure(value, attribute.type)  # type: ignore[arg-type]
         except cattrs.ClassValidationError as error:
             raise FileError(f"{kind.__name__}.{name}", _problems(error)) from None
@@ -179,10 +181,10 @@ def _resolved(kind: type) -> None:
     attrs.resolve_types(kind, localns={"Map": Any, "Mask": Any})
 
 
-def _effects(kind: type[Scene]) -> Callable[[Any, Any], Any]:
+def _effects(kind: type) -> Callable[[Any, Any], Any]:
     """Structure the effects of a scene: those that its kind of scene may list."""
-    listed = ContactEffect if issubclass(kind, ContactScene) else SeparationEffect
-    return lambda value, _: _CONVERTER.structure(value, tuple[listed, ...])  # type: ignore[valid-type]
+    listed: Any = ContactEffect if issubclass(kind, ContactScene) else SeparationEffect
+    return lambda value, _: _CONVERTER.structure(value, tuple[listed, ...])
 
 
 def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any], Any]:

@@ -22,7 +22,7 @@ class Figures(Protocol):
 
 
 class Drawn:
-    """What has figures: `plot/` says which, for each class (`plot.accessors.base.figures_of`)."""
+    """Base class of all that has figures; `plot/` registers them by class (`figures_of` there)."""
 
     __slots__ = ()
 

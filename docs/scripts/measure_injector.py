@@ -79,7 +79,7 @@ class Film:
 
 
 class Torn:
-    """What the edge has left behind: how much liquid lies up to where it was at each time."""
+    """Liquid that the edge has left behind, up to where it was at each time."""
 
     def __init__(self, film: Film, found: Any) -> None:
         times = np.linspace(found.t[0], found.t[-1], 4001)

@@ -190,7 +190,7 @@ def _variable(port: Port, references: Mapping[str, int], start: Mapping[str, Val
 
 
 def variability(port: Port) -> str:
-    """When a variable may change, in the words of both versions of FMI."""
+    """Variability of a variable, in the words of both versions of FMI."""
     if port.causality == "parameter":
         return "fixed"
     return "discrete" if port.kind != "real" or port.name in HELD else "continuous"

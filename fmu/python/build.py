@@ -17,11 +17,12 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.etree.ElementTree import fromstring, indent, tostring
+from xml.etree.ElementTree import indent, tostring
 
 from ..._version import __version__
 from ...errors import ContactkitError, DescriptionError
 from ...extras import require
+from ...reading.xml_elements import read_xml
 from ..contents.document import Page, external_dependencies, index_page, license_text
 from ..contents.packing import write_archive
 from ..contents.terminals import annotate_terminal, terminal_files
@@ -128,7 +129,7 @@ def build(
         fmu = _pack(slave, name, dict(sorted(baked.items())), Path(folder), data)
         with zipfile.ZipFile(fmu) as packed:
             files = {path: packed.read(path) for path in packed.namelist()}
-    root = fromstring(files["modelDescription.xml"])
+    root = read_xml(files["modelDescription.xml"], "modelDescription.xml")
     annotate_terminal(root, slave.ports)
     indent(root)
     files["modelDescription.xml"] = tostring(root, encoding="utf-8", xml_declaration=True)

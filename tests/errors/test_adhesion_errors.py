@@ -103,7 +103,7 @@ def test_what_goes_together_is_let_through():
 
 
 @pytest.mark.parametrize(
-    ("model", "modulus", "bound"), [("jkr", 5e10, "at least 5"), ("dmt", 1e8, "at most 0.1")]
+    ("model", "modulus", "bound"), [("jkr", 5e10, "at least 5"), ("dmt", 1e8, "0 to 0.1")]
 )
 def test_a_model_out_of_its_range_warns(model, modulus, bound):
     effect = ck.AdhesiveContact(model=model, work_of_adhesion=0.05, reduced_modulus=modulus)

@@ -86,7 +86,8 @@ def test_a_rim_far_out_changes_nothing(effects):
 def test_an_effect_that_knows_the_rim_has_a_smaller_force(effects):
     free, narrow = run(*effects), run(*effects, lower=ck.Flat(radius=5e-9))
     for column, force in forces(free).items():
-        assert np.all(forces(narrow)[column] < 0.9 * force), column
+        there = np.interp(narrow.gap, free.gap, force)  # each has the points that its lines need
+        assert np.all(forces(narrow)[column] < 0.9 * there), column
 
 
 @pytest.mark.parametrize("effects", REFUSE, ids=name)

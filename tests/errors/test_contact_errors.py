@@ -8,7 +8,6 @@ import attrs
 import numpy as np
 import pytest
 from refusals import (
-    BETWEEN,
     FINITE,
     NEVER,
     NON_NEGATIVE,
@@ -98,7 +97,7 @@ FIELDS = [
     (ck.IslandBridges(), "connectivity", "", "be 4 or 8 neighbours", [0, 6, None]),
     (ck.HardnessLimit(), "hardness", "Pa", POSITIVE, [0.0, -1.0]),
     (ck.HardnessLimit(), "shift", "", NON_NEGATIVE, [-0.1, None]),
-    (FRICTION, "coefficient", "", BETWEEN, [-0.1, 1.1, None]),
+    (FRICTION, "coefficient", "", "lie between 0 and 1000", [-0.1, 1001.0, None]),
     (FRICTION, "direction", "rad", FINITE, [None]),
     (ck.SubsurfaceStress(), "window", "", POSITIVE, [0.0, -1.0, None]),
     (ck.SubsurfaceStress(), "tolerance", "", POSITIVE, [0.0, -0.1, None]),
@@ -130,7 +129,7 @@ ELSEWHERE = {
         )
     ),
 }
-OF_A_SEPARATION = {"time_rtol", "points", "max_steps"}
+OF_A_SEPARATION = {"time_rtol", "curve_rtol", "points", "max_steps"}
 
 
 def misfit(thing, field, unit, expected, value):

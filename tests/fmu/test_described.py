@@ -113,4 +113,4 @@ def test_both_versions_of_fmi_say_the_same_of_variables(name, shelf):
 
 
 def test_the_command_offers_every_model():
-    assert set(_MODELS) == set(FMUS)
+    assert set(_MODELS) == set(FMUS) - {"toy"}  # of the tests of slaves

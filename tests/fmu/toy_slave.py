@@ -96,7 +96,7 @@ class Toy(PortSlave):
         u = v["u"]
         if u == 13.0:
             v["y"] = math.nan
-            raise ZeroDivisionError("13 brings 100 % bad luck")
+            raise LookupError("13 brings 100 % bad luck")
         if u == 14.0:
             raise InfeasibleError("no bridge beyond 14 N; pull less")
         if u == 15.0:

@@ -202,7 +202,7 @@ def test_a_native_fmu_tabulates_it(plates):
     """Its table alone: a force that falls as h^-2 is a constant times h^-2, from two nodes."""
     alone = scene(plates.ElectrostaticForce(voltage=VOLTAGE), force=1.0, mass=1e-3)
     numbers = film_numbers(alone).numbers
-    film = numbers[7:]
+    film = numbers[6:]
     n_forces, law = film[3], film[4:]
     scale, needs_film, *ends, n_kinks, stays, n_pieces = law[:8]
     assert (n_forces, scale, needs_film, n_kinks, stays, n_pieces) == (1, 0, 0, 0, 0, 1)
@@ -252,7 +252,7 @@ def test_an_end_of_the_film_ends_it_in_results_files_and_native_fmus(folder, tab
         assert ck.load_scene(ck.save_scene(made, tmp_path / "lian.toml")) == made
         assert "| end of the film |" in tables.TABLES["effects"]()
         moving = attrs.evolve(made, loading=scene(force=0.0, mass=1e-3).loading)
-        assert film_numbers(moving).numbers[8] == lian(volume, 0.0)
+        assert film_numbers(moving).numbers[7] == lian(volume, 0.0)
 
 
 def test_an_observer_of_a_contact_has_its_number_everywhere(folder, tables, tmp_path):

@@ -114,7 +114,9 @@ def test_what_has_wetted_again_has_its_own_shape(film_scene):
     made = run(film_scene, ck.MeniscusForce(), FLATS, {"volume": 6e-23, "rewetting": 0.5}).plan
     gap = np.array([3e-9, 3e-9, 1e-7])
     whole, fraction = np.array([True, True, False]), np.array([1.0, 0.5, 1.0])
-    found = shape_curves(ck.MeniscusForce(), RunCurves(made, gap, whole, fraction))
+    found = shape_curves(
+        ck.MeniscusForce, "exact", RunCurves(made, gap, whole, fraction), is_disc=False
+    )
     assert found["liquid_volume"][:2] == pytest.approx([6e-23, 3e-23])
     assert found["break_gap"][1] / found["break_gap"][0] == pytest.approx(0.5 ** (1 / 3))
     half = bridge(3e-9, 3e-23, LOWER, UPPER)
@@ -125,9 +127,9 @@ def test_what_has_wetted_again_has_its_own_shape(film_scene):
 def test_a_shape_is_computed_only_when_asked_for(film_scene, monkeypatch):
     calls = []
 
-    def counted(*given):
+    def counted(*given, is_disc):
         calls.append(given)
-        return shape_curves(*given)
+        return shape_curves(*given, is_disc=is_disc)
 
     monkeypatch.setattr(meniscus_module, "shape_curves", counted)
     result = run(film_scene, ck.MeniscusForce(), FLATS, {"volume": 6e-23})

@@ -132,7 +132,7 @@ def test_trouble_in_the_code_of_the_model(toy):
     assert toy.step() == DISCARD
     assert toy.get("y") == good
     assert "Traceback" in toy.errors[0]
-    assert_failed(toy, "step of 0.1 s from t = 0.1 s: unexpected ZeroDivisionError: 13 brings 100 ")
+    assert_failed(toy, "step of 0.1 s from t = 0.1 s: unexpected LookupError: 13 brings 100 ")
 
 
 def test_earlier_state_cures_a_failed_step(toy):
