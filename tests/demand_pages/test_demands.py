@@ -109,6 +109,11 @@ def test_every_solver_and_every_shipped_scene_has_its_errors():
     assert [test for _, test in ANALYSES.values() if not (ROOT / test).exists()] == []
 
 
+def test_release_times_of_the_page_are_right():
+    """Against the two other codes, whatever the page said last time."""
+    assert all(shown["error"] < 1e-6 for shown in SHOWN_STUDIES["releases"])
+
+
 @pytest.mark.parametrize(
     "name",
     [

@@ -42,11 +42,13 @@ def release_scene(case: dict[str, Any]) -> ck.SeparationScene:
         stiffness=case["k_s"],
         rise_time=case["tau"],
     )
-    meniscus = ck.MeniscusForce(profile="as-published", radius="disc")
+    effects = [ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce()]
+    if case["dp_cav"]:
+        effects.append(ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"))
     return ck.SeparationScene(
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
         loading=loading,
-        effects=(meniscus, ck.ViscousForce()),
+        effects=tuple(effects),
     )
 
 
