@@ -94,7 +94,7 @@ def _stated(data: bytes, dice: random.Random) -> bytes:
         base.deserialize(data)
         base.executescript(dice.choice(_STATEMENTS))
         return base.serialize()
-    except sqlite3.Error:
+    except (sqlite3.Error, UnicodeDecodeError):  # the latter from a message about a spoilt name
         return data
     finally:
         base.close()
