@@ -44,7 +44,7 @@ ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")
 MOST_LINES_OF_A_FUNCTION = 60  # as the formatter lays them out
 MOST_ARGUMENTS = 8
-MOST_FILES_IN_A_FOLDER = 27
+MOST_FILES_IN_A_FOLDER = 25
 
 SCENE_OBJECTS = [
     ck.Accuracy,

@@ -1,6 +1,6 @@
 """Measure what a communication step costs the injector: blocks of docs/hosts.md and docs/fmu.md.
 
-``python docs/scripts/measure_injector.py`` prints them, ``--write`` puts them into the pages; a
+``python docs/scripts/injector`` prints them, ``--write`` puts them into the pages; a
 minute, and a C compiler. The reference shares no code with the FMUs: coil, spring and a film that
 tears are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10). Each
 coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects them.
@@ -15,6 +15,8 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import numpy as np
 from measured_blocks import measure
