@@ -38,22 +38,22 @@ def is_even(heights: Map) -> bool:
     return spread <= ROUNDED * largest
 
 
-def check_sizes(contact: Contact, heights: Map) -> tuple[ValidityNumber, ...]:
+def check_sizes(contact: Contact, *, even: bool) -> tuple[ValidityNumber, ...]:
     """Evaluate the sizes of a solved contact that its slope and peak pressure do not show.
 
     Parameters
     ----------
     contact : Contact
         The solved contact.
-    heights : ndarray (ny, nx)
-        Heights of both bodies together [m].
+    even : bool
+        Whether the heights of both bodies together are even; see `is_even`.
     """
     found = [_modulus(contact), _window(contact)]
     loading = contact.scene.loading
     is_pressed = isinstance(loading, Pressing) and float(contact.pressure.sum()) > 0.0
     # A load on an isolated window is one over no area, and even faces may rest on each other.
     pulled = contact.scene.effect(Attraction) is not None
-    if is_pressed and contact.grid.edges and not pulled and not is_even(heights):
+    if is_pressed and contact.grid.edges and not pulled and not even:
         found.append(_mean_pressure(contact))
     return tuple(found)
 

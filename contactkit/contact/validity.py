@@ -53,12 +53,13 @@ def check_contact(
     is_periodic = contact.grid.periodic
     # Of a window that is not periodic the rectangle around the contact matters alone.
     steps = _steps(heights if is_periodic else heights[_around(contact.touching)])
+    even = is_even(heights)
     found = [
         _pixels_per_wave(contact),
         _pixels_per_spot(contact),
-        _peak_pressure(contact, is_even(heights)),
-        _slope(contact, steps, is_even(heights)),
-        *check_sizes(contact, heights),
+        _peak_pressure(contact, even),
+        _slope(contact, steps, even),
+        *check_sizes(contact, even=even),
     ]
     if contact.grid.edges:
         found.append(_jump(heights, contact.grid.edges))

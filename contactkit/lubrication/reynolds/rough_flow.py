@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...errors import DescriptionError
+from ...validity import warn
 from .face import SOLID, face_from_level
 from .film import Film
 from .linear_systems import choose_solver, solve_sparse
 from .solve import solve_pressure
-from .validity import roughness_number, warn_new
+from .validity import roughness_number
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -112,7 +113,7 @@ def flow_factors(
     (0.433, 1.375)
     """
     found = patch_factors(gap, pixel_size, floor, solver)
-    warn_new(found.validity, set())
+    warn(found.validity)
     return found
 
 

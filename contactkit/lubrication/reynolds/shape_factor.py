@@ -14,12 +14,13 @@ import numpy as np
 from attrs import evolve
 
 from ...errors import DescriptionError
+from ...validity import warn
 from .damping import PowerDamping, TabulatedDamping
 from .face import Face
 from .film import Film, FilmState
 from .rough_flow import patch_factors
 from .solve import unchecked_pressure
-from .validity import roughness_number, warn_new
+from .validity import roughness_number
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -192,7 +193,7 @@ def rough_damping(
         raise DescriptionError("rough_damping.roughness", heights.shape, "be a map")
     heights = heights - heights.mean()
     nodes = _nodes(gaps, 0.0, points)
-    warn_new([roughness_number(nodes[0], float(heights.std()))], set())
+    warn([roughness_number(nodes[0], float(heights.std()))])
     coefficients, onsets = [], []
     for gap in nodes:
         conductivity = patch_factors(gap - heights, pixel_size, 0.0, solver).conductivity

@@ -9,6 +9,7 @@ import numpy as np
 from attrs import evolve
 
 from ...errors import DescriptionError, InfeasibleError
+from ...validity import warn
 from .complementarity import (
     Problem,
     Solution,
@@ -111,7 +112,7 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
         liquid_fraction=fraction,
         is_torn=face.loaded & bool(torn),
     )
-    warn_new(state.validity, set())
+    warn(state.validity)
     return state
 
 
@@ -170,7 +171,7 @@ def solve_pressure(
     """
     velocities = (lower_velocity, upper_velocity)
     state = unchecked_pressure(film, gap, rate, velocities, solver)
-    warn_new(state.validity, set())
+    warn(state.validity)
     return state
 
 
@@ -253,7 +254,7 @@ def steady_film(
     balance, found = _solve(task)
     state = _state(task, balance, found)
     state = evolve(state, lower_velocity=lower_velocity, upper_velocity=upper_velocity)
-    warn_new(state.validity, set())
+    warn(state.validity)
     return state
 
 

@@ -154,7 +154,7 @@ class RunCurves(NamedTuple):
 
 @frozen(eq=False)
 class ForceLaw:
-    """A force made ready: what it is, and where it is not smooth.
+    """Prepared force law: F(h, v), the gaps at which its slope jumps, and its range.
 
     `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
     slope jumps, `end` the gap beyond which it does not exist (inf: none). A contact of solids pulls

@@ -46,7 +46,7 @@ __all__ = [
 
 @frozen(eq=False)
 class ViscousLaw(ForceLaw):
-    """A viscous force made ready: it is proportional to speed.
+    """Prepared viscous force law, proportional to speed.
 
     It falls as gap^-n, with n the `exponent` at a gap; `impulse` is its time integral [N.s] between
     two gaps, which no path in time changes.

@@ -83,7 +83,7 @@ class SlideView(Protocol):
 
 
 class SlideLaw(NamedTuple):
-    """A tangential force made ready, of all menisci together; arrays of travel [m] go in.
+    """Prepared tangential force law of all menisci together; arrays of travel [m] go in.
 
     `force` is called with (travel [m], speed [m/s]) and gives [N]. Called with (travel [m]),
     `impulse` gives the time integral [N.s] of a force that is proportional to speed, and `work`
