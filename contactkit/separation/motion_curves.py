@@ -69,11 +69,13 @@ class _Motion:
         from .refine import refined
 
         plan, pull = self._plan, pull_law(self._plan)
-        self._states, table = refined(plan, self._states, pull, lambda s: _row(plan, s, pull))
+        names = _names(plan)
+        self._states, table = refined(
+            plan, self._states, pull, lambda s: _row(plan, s, pull, names)
+        )
         self._fractions = np.array([state.volume_fraction for state in self._states])
         self._states = ()
-        names = ("time", *_names(plan))
-        return {name: frozen(table[:, i]) for i, name in enumerate(names)}
+        return {name: frozen(table[:, i]) for i, name in enumerate(("time", *names))}
 
     def volume_fraction(self) -> Curve:
         """Volume of the film over that of the scene; known once the columns are."""
@@ -81,8 +83,8 @@ class _Motion:
         return self._fractions
 
 
-def _row(plan: Plan, state: MotionState, pull: PullLaw) -> list[float]:
-    """What the curves show of a state, in the order of their names."""
+def _row(plan: Plan, state: MotionState, pull: PullLaw, names: Sequence[str]) -> list[float]:
+    """Values of the curves at a state, in the order of their names."""
     force = pull(state.time)
     shown, film = outputs(plan, state, force), acting_film(plan, state)
     none = {column.name: 0.0 for column in plan.film.static_columns}
@@ -99,7 +101,7 @@ def _row(plan: Plan, state: MotionState, pull: PullLaw) -> list[float]:
         "void_volume": shown.void,
         "viscous_impulse": state.impulses.get("viscous_impulse", 0.0),
     }
-    return [known[name] for name in _names(plan)]
+    return [known[name] for name in names]
 
 
 def _newtonian_force(plan: Plan, state: MotionState) -> float:
