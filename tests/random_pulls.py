@@ -1,4 +1,4 @@
-"""Random pulls of a mass on a squeeze film, and a solution that shares nothing with contactkit."""
+"""Random pulls of a mass on a squeeze film, and a solution with no code of contactkit."""
 
 from __future__ import annotations
 

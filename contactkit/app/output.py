@@ -167,7 +167,7 @@ def written_to(path: Path, command: Command, *, overwrite: bool = False) -> Iter
     try:
         yield folder
     except BaseException:
-        with suppress(OSError):  # what ended the command is what it tells
+        with suppress(OSError):  # the error that ended the command is the one to report
             folder.enter()
         raise
     folder.enter()

@@ -74,7 +74,7 @@ def references_from(tables: Mapping[str, Any], file: Path) -> dict[str, Any]:
 
 
 def found_from(folder: Path, name: str) -> Path:
-    """Absolute path of a name, whose own link is not followed: its ending tells the format."""
+    """Absolute path of a name, whose own link is not followed: the format goes by its ending."""
     joined = Path(folder, name)
     return joined.parent.resolve() / joined.name
 

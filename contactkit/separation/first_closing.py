@@ -49,7 +49,7 @@ def _when(travel: float, gap: float) -> str:
 
 
 def _in_film(loading: ImposedForce, film: Film, attraction: float, time: float) -> float:
-    """Travel [m] of a body without mass: the impulse that is left to the film is spent on it."""
+    """Travel [m] of a body without mass: the film takes the impulse that is left."""
     start = loading.initial_gap
     if not film.has_viscous:
         return math.inf
@@ -60,8 +60,8 @@ def _in_film(loading: ImposedForce, film: Film, attraction: float, time: float) 
     low, high = math.log(1e-16), 0.0  # of the travel over the gap
     for _ in range(50):
         middle = 0.5 * (low + high)
-        spent = film.newtonian_impulse(start * -math.expm1(middle), start)
-        if spent > impulse:
+        taken = film.newtonian_impulse(start * -math.expm1(middle), start)
+        if taken > impulse:
             high = middle
         else:
             low = middle

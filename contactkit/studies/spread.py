@@ -140,11 +140,13 @@ class _Processes:
     def close(self, take: Take) -> None:
         """End the workers, and take the points that they finish before."""
         self._stop.set()
-        self._pool.shutdown(wait=False, cancel_futures=True)
+        for one in self._submitted:
+            one.cancel()
         while not all(one.done() for one in self._submitted):
             self.watch(take)  # a worker waits where nobody reads
             time.sleep(0.1 * _TICK)
         self.watch(take)
+        # Waits for workers that still begin, too: they would miss the queue of reports.
         self._pool.shutdown()
 
 

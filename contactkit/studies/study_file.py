@@ -469,7 +469,7 @@ class StudyWriter:
         try:
             self._base.commit()
         except sqlite3.OperationalError as other:
-            if kind is None:  # else the first error tells
+            if kind is None:  # else the first error is raised
                 raise _unwritten(self.path, other) from None
         finally:
             self._base.close()

@@ -457,7 +457,7 @@ def as_text(value: Any, digits: int = 6) -> str:
         if given := getattr(value, name, None):
             return str(given)
     text = str(value)
-    if " " not in text and len(text) > _WIDEST:  # a path, whose end tells
+    if " " not in text and len(text) > _WIDEST:  # a path, known by its end
         return f"... {text[4 - _WIDEST :]}"
     return textwrap.shorten(text, _WIDEST, placeholder=" ...")
 

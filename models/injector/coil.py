@@ -152,7 +152,7 @@ def _runge_kutta(
 
 
 class StepCount:
-    """Steps taken by several calls of `advance_flux`, which share what they may take."""
+    """Steps taken by several calls of `advance_flux`, with one limit for all."""
 
     def __init__(self, most: int = MOST_STEPS) -> None:
         self.left = most

@@ -126,7 +126,7 @@ def test_a_check_that_does_not_hold_fails_the_command(page, tmp_path, capsys):
     assert "| **no** |" in (tmp_path / "out" / "squares.md").read_text()
 
 
-def test_a_page_that_cannot_be_written_says_so_beside_its_checks(
+def test_a_page_that_cannot_be_written_is_reported_beside_its_checks(
     page, tmp_path, capsys, monkeypatch
 ):
     def full(*_, **__):

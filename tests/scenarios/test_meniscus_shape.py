@@ -233,11 +233,11 @@ def test_the_earlier_name_of_the_gap_means_the_same():
     water = ck.Liquid(name="water", surface_tension=TENSION)
     form = {"liquid": water, "radius": 100e-9}
     assert ck.Meniscus.from_radius(**form, gap=2e-9) == ck.Meniscus.from_radius(**form, at_gap=2e-9)
-    cover = {"liquid": water, "coverage": 0.5, "area": 1e-12}
-    assert ck.Meniscus.from_coverage(**cover, gap=2e-9).volume == pytest.approx(1e-21, rel=1e-15)
+    given = {"liquid": water, "coverage": 0.5, "area": 1e-12}
+    assert ck.Meniscus.from_coverage(**given, gap=2e-9).volume == pytest.approx(1e-21, rel=1e-15)
     with pytest.raises(DescriptionError, match=r"\(at_gap\) must be given once .*gap is"):
         ck.Meniscus.from_radius(**form, gap=2e-9, at_gap=2e-9)
     with pytest.raises(DescriptionError, match=r"from_coverage\(at_gap\) must be given \[m\]"):
-        ck.Meniscus.from_coverage(**cover)
+        ck.Meniscus.from_coverage(**given)
     with pytest.raises(TypeError, match=r"from_radius\(\) got .* 'profil'; did you mean 'profile'"):
         ck.Meniscus.from_radius(**form, at_gap=2e-9, profil="arc")

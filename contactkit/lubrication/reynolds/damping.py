@@ -51,7 +51,7 @@ ZETA_5 = 1.0369277551433699
 
 
 def film_tension(tension: float, strength: float) -> ValidityNumber:
-    """Whether a liquid bears the tension [Pa] of a film; inf: one that is said never to tear."""
+    """Tension of a film [Pa] over the tensile strength of its liquid; inf: it never cavitates."""
     bears = strength if strength < math.inf else ATMOSPHERE
     value = max(tension, 0.0) / (bears or 1.0)  # of a liquid that bears none, in Pa
     return ValidityNumber(

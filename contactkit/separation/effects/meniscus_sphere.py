@@ -242,7 +242,10 @@ def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], floa
         f = bridges.solved(gaps)
         if not np.all(np.isfinite(f)):
             missing = float(gaps[~np.isfinite(f)][0])
-            raise InfeasibleError(f"no meniscus spans a gap of {missing:g} m on the way")
+            raise InfeasibleError(
+                f"no meniscus spans a gap of {missing:g} m on the way; give less "
+                "liquid, or another profile"
+            )
         return f
 
     x, f = [first], list[float]()

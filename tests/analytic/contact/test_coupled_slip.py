@@ -177,7 +177,7 @@ def test_more_steps_of_pressing_change_less():
 
 
 @pytest.mark.parametrize(("rtol", "steps"), [(0.1, 16), (0.02, 16), (0.01, 33), (0.001, 256)])
-def test_the_steps_of_pressing_are_chosen_by_their_error(monkeypatch, rtol, steps):
+def test_the_number_of_pressing_steps_follows_from_the_tolerance(monkeypatch, rtol, steps):
     """Tractions that err by 0.3 over the number of steps, as they do."""
 
     def pressed_in(run, n, last=0.0):

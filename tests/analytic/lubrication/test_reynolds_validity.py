@@ -29,7 +29,7 @@ def warned(call):
     return result, [str(one.message) for one in caught]
 
 
-def test_a_film_far_below_vacuum_says_so():
+def test_a_film_far_below_vacuum_warns():
     """3 eta v R^2/h^3 in the middle: -478 bar passed without a word."""
     state, (said,) = warned(lambda: reynolds.solve_pressure(FILM, 5e-6, 2e-3))
     tension = 3.0 * OIL * 2e-3 * R**2 / 5e-6**3
@@ -43,7 +43,7 @@ def test_a_film_far_below_vacuum_says_so():
     assert all(one.is_valid is not False for one in still.validity)
 
 
-def test_a_film_with_a_cavity_bears_no_more_than_its_strength():
+def test_tension_of_a_film_with_a_cavity_is_at_most_its_strength():
     film = reynolds.Film(face=FACE, viscosity=OIL, cavity_pressure=-1e5, tensile_strength=1e6)
     start = reynolds.at_rest(film, 5e-6)
     after, nothing = warned(lambda: reynolds.step_film(start, 5.1e-6, 1e-4))

@@ -98,7 +98,7 @@ HOSTILE = (0.0, -0.0, math.inf, math.nan, 1e300, -1e300, 5e-324, -1.0)
 @pytest.mark.parametrize("kind", [StictionMass, StictionForce, ValveDrive])
 @pytest.mark.parametrize("seed", range(6))
 def test_hostile_values_and_calls_raise_nothing(kind, seed):
-    """A defect would be told as unexpected, with a traceback."""
+    """A defect would be reported as unexpected, with a traceback."""
     chance = random.Random(seed)
     slave = started(kind, **({"max_steps": 300} if kind is StictionMass else {}))
     references = {port.name: k for k, port in enumerate(kind.ports, 1)}

@@ -97,16 +97,16 @@ def test_every_description_is_complete(described):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FMUS)
 def test_both_versions_of_fmi_say_the_same_of_variables(name, shelf):
-    told = []
+    found = []
     for fmi in (2, 3):
         with zipfile.ZipFile(made(shelf, name, "native", fmi)) as files:
             root = ElementTree.fromstring(files.read("modelDescription.xml"))
-        told.append([v for v in variables(root, fmi) if v["name"] != "time"])
+        found.append([v for v in variables(root, fmi) if v["name"] != "time"])
         units = {node.get("name") for node in root.iter("DisplayUnit")}
         items = [node.attrib for node in root.iter("Item")]
-        told.append((units, items))
-    assert told[1] == told[3]
-    for two, three in zip(told[0], told[2], strict=True):
+        found.append((units, items))
+    assert found[1] == found[3]
+    for two, three in zip(found[0], found[2], strict=True):
         assert {key: two[key] for key in two if key != "initial"} == {
             key: three[key] for key in three if key != "initial"
         }

@@ -82,7 +82,9 @@ def test_every_kind_of_report_writes_last(monkeypatch, tmp_path, capsys):
     assert "largest error [%]" in capsys.readouterr().out
 
 
-def test_a_disk_that_is_full_for_the_record_too_tells_the_first_file(scene, tmp_path, capsys, full):
+def test_a_disk_that_is_full_for_the_record_too_reports_the_first_file(
+    scene, tmp_path, capsys, full
+):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("contactkit.app.output.write_whole", no_space)
         patch.setattr("contactkit.studies.table.save_npz", no_space)

@@ -166,7 +166,7 @@ def test_the_store_knows_a_map_in_another_folder_by_its_content(bare):
     assert solved("b") == 1
 
 
-def test_the_store_tells_the_maps_of_two_bodies_apart(bare):
+def test_the_store_distinguishes_the_maps_of_two_bodies(bare):
     text = SCENE.replace(
         'lower = { solid = "glass-ceramic" }',
         'lower = { solid = "glass-ceramic", surface = { shape = "measured", path = "LOWER", '
