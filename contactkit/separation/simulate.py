@@ -25,7 +25,7 @@ from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
 from .sliding.run import slide
 from .validity import check
-from .vibration import vibrating
+from .vibration.run import vibrating
 
 __all__ = ["advance", "simulate"]
 
