@@ -43,7 +43,8 @@ def with_middles(
     Parameters
     ----------
     places : ndarray
-        Ascending places to begin with.
+        Ascending places to begin with; corners of the curves are among them, as a curve may meet
+        its chord in the middle beside one.
     table : callable
         Curves at some ascending places, a column for each.
     rtol : float

@@ -14,7 +14,6 @@ from ...numerics.lines import errors_of_lines, needed, with_middles
 from .. import prescribed
 from ..bridge_end import distance_to_end
 from ..effects.base import LIMIT, FilmStatus
-from ..effects.registry import ViscousForce
 from ..plan import Plan
 from ..torn_path import TornPoint
 from .cycles import Cycle, forces_at, mean_pulls
@@ -39,7 +38,7 @@ def curve_names(plan: Plan) -> list[str]:
 def _names(plan: Plan) -> list[str]:
     """Names of the curves that are not constant over a cycle, the gap first."""
     simulated = prescribed.simulated(plan)
-    impulse = ["viscous_impulse"] if plan.has(ViscousForce) else []
+    impulse = ["viscous_impulse"] if plan.film.has_viscous else []
     known = ["gap", "speed", "mean_gap", "pull", "steady_pull", "film_status"]
     return [*known, *simulated, *impulse]
 
@@ -93,13 +92,14 @@ class CycleCurves:
         rtol = self.plan.accuracy.curve_rtol
 
         def allowed(values: Floats) -> Floats:
-            limits = np.tile(errors, (len(values), 1))
-            limits[:, 0] = rtol * values[:, 0]  # of the gap
+            limits = np.broadcast_to(errors, values.shape).copy()
+            limits[..., 0] = rtol * values[..., 0]  # of the gap
             return limits
 
-        times = with_middles(
-            self.cycle.times, self.table, rtol, lambda values: _SHARE * allowed(values)
-        )
+        times = self.cycle.times
+        if self.torn is not None:
+            times = np.unique([*times, *self.torn.events(times[1:].tolist())])
+        times = with_middles(times, self.table, rtol, lambda values: _SHARE * allowed(values))
         table = self.table(times)
         rest = (1.0 - _SHARE) * allowed(table)
         kept = needed(np.column_stack([times, table]), rest, np.array([0]))
@@ -120,8 +120,10 @@ class CycleCurves:
         gap, speed = path.gap(time), path.speed(time)
         known = forces_at(plan, gap, speed, film)
         known["newtonian_force"] = plan.film.newtonian_force(gap, speed)
-        known[LIMIT.name] = float(plan.film.viscous_force(gap, speed)[1])
-        known |= prescribed.torn_row(film) if film is not None else {}
+        if film is not None:
+            known |= prescribed.torn_row(film)
+        elif plan.film.is_limited:
+            known[LIMIT.name] = float(plan.film.viscous_force(gap, speed)[1])
         is_full = gap <= plan.film.full_gap
         known |= {
             "gap": gap,

@@ -11,7 +11,6 @@ from scipy.interpolate import CubicSpline
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import first_true
 from ..effects.base import LimitKind
-from ..effects.registry import ViscousForce
 from ..plan import Plan
 from ..torn_path import TornPoint
 from .path import NODES, VibrationPath, panels
@@ -47,7 +46,7 @@ def forces_at(
     found = dict(plan.film.static_forces(gap))
     if torn is not None:
         found["viscous_force"] = torn.force
-    elif plan.has(ViscousForce):
+    elif plan.film.has_viscous:
         found["viscous_force"] = plan.film.viscous_force(gap, speed)[0]
     return found | {"pull": sum(found.values())}
 

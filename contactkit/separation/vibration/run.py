@@ -101,7 +101,7 @@ def _message(path: VibrationPath, end: float, broke: _Break, drawn: int) -> str:
         f"opened from {path.begin:g} m to {path.mean(end):g} m on the mean, in {count:.6g} cycles "
         f"of {path.vibration.amplitude:g} m"
     )
-    if math.ceil(count) > drawn:
+    if math.ceil(count * (1.0 - 1e-12)) > drawn:
         said += f", of which {drawn} were computed"
     if broke.time > end:
         return said

@@ -65,6 +65,11 @@ class TornCycles:
             return []
         return torn_points(self.film, self.law, self.steady, inside, self.rtol, self._known_steady)
 
+    def events(self, times: Sequence[float]) -> list[float]:
+        """Times [s] between known ones at which the film tears, heals, or its edge turns."""
+        known = [*map(self._known.get, times), *map(self._known_steady.get, times)]
+        return [event for one in known if one is not None for event in one.events]
+
     def running(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
         """Viscous impulse [N.s] from the first of some times [s] to each of them."""
         known, spline = self._known, self._impulse
