@@ -254,10 +254,11 @@ def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
     time = found.time
     assert (np.diff(time) > 0.0).all()
     rng, pace = np.random.default_rng(3), 2.0 * math.pi * frequency
-    places = np.sort(rng.uniform(0.0, time[-1], 20_000))
-    cycle = np.floor(places * frequency)
-    places = places[np.isin(cycle, np.unique(np.floor(time * frequency * (1.0 + 1e-12))))]
-    assert len(places) > 2000 or "were computed" in found.message
+    places = np.sort(rng.uniform(0.0, time[-1], 40_000))
+    within = np.diff(time)[np.searchsorted(time, places) - 1] < 0.5 / frequency
+    places = places[within]  # of a run of many cycles some are computed
+    assert len(places) > 1000
+    assert within.all() or "were computed" in found.message
     angle = pace * places + 0.3
     gap = 5e-6 + 5e-4 * places + amplitude * np.sin(angle)
     speed = 5e-4 + pace * amplitude * np.cos(angle)
@@ -281,7 +282,10 @@ def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
     "scene",
     [
         vibrated(film(TORN, viscosity=0.1), 2e-6),
-        vibrated(film(ck.TensionLimit(strength="vapour"), viscosity=0.1), 5e-7, phase=1.3),
+        pytest.param(
+            vibrated(film(ck.TensionLimit(strength="vapour"), viscosity=0.1), 5e-7, phase=1.3),
+            marks=pytest.mark.slow,
+        ),
         vibrated(film(ck.ShearLimit(strength=1e4), viscosity=0.1), 2e-6),
         vibrated(film(*MENISCUS, volume=1e-11), 1e-6, final_gap=60e-6, speed=5e-3),
         vibrated(ball(), 2e-7, initial_gap=1e-6, final_gap=3e-6, speed=1e-4),
