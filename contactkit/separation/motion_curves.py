@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import ConvergenceError
 from .curve_result import LateColumns
 from .effects.registry import ViscousForce
+from .motion.advance import advance
 from .motion.state import MotionState, PullLaw, acting_film, outputs
 from .plan import Plan
 from .prescribed import frozen, simulated
@@ -21,6 +24,8 @@ if TYPE_CHECKING:
     Curve = NDArray[np.float64]
 
 __all__ = ["at_steps", "motion_curves", "pull_law"]
+
+_JUST = 1e-6  # of a step, before the event at its end; as far as a jump of a curve is drawn
 
 
 def pull_law(plan: Plan) -> Callable[[float], float]:
@@ -34,14 +39,36 @@ def pull_law(plan: Plan) -> Callable[[float], float]:
 def at_steps(
     plan: Plan, states: Sequence[MotionState], pull: PullLaw
 ) -> tuple[dict[str, Curve], Curve]:
-    """Gap, speed, status of the film and force that resists [N], at the steps of a motion."""
-    shown = [outputs(plan, state, pull(state.time)) for state in states]
+    """Gap, speed, status of the film and force that resists [N], at the steps of a motion.
+
+    Also just before a film breaks and before a mass lands: the film is not whole any more, and the
+    speed lost, at the step that ends there.
+    """
+    seen = [states[0]]
+    for before, after in pairwise(states):
+        if after.broken > before.broken or after.in_contact > before.in_contact:
+            seen += _just_before(plan, pull, before, after)
+        seen.append(after)
+    shown = [outputs(plan, state, pull(state.time)) for state in seen]
     columns = {
-        "gap": np.array([state.gap for state in states]),
-        "speed": np.array([state.speed for state in states]),
+        "gap": np.array([state.gap for state in seen]),
+        "speed": np.array([state.speed for state in seen]),
         "film_status": np.array([float(one.status) for one in shown]),
     }
     return columns, np.array([one.film for one in shown])
+
+
+def _just_before(
+    plan: Plan, pull: PullLaw, before: MotionState, after: MotionState
+) -> list[MotionState]:
+    """State a millionth of a step before the event that ends it; none where none is found."""
+    dt = (after.time - before.time) * (1.0 - _JUST)
+    if dt <= 0.0:
+        return []
+    try:
+        return [advance(plan, before, pull, dt)]
+    except ConvergenceError:
+        return []
 
 
 def motion_curves(plan: Plan, states: Sequence[MotionState]) -> Mapping[str, Curve]:

@@ -335,3 +335,19 @@ def test_the_shape_of_a_bridge_is_right_next_to_where_it_breaks():
         ):
             drawn = np.interp(gaps, found.gap[before], found[name][before])
             assert np.abs(drawn - values).max() < 1e-3 * np.nanmax(found[name])
+
+
+@pytest.mark.parametrize("name", ["film that breaks", "ball"])
+def test_validity_is_judged_up_to_the_instant_of_rupture(name):
+    """The numbers of the steps alone missed the last of them: the film is broken at its end."""
+    result = run(PULLS[name])
+    whole = result["film_status"] != ck.FilmStatus.BROKEN
+    path = np.column_stack([result.gap, result.speed])[whole].tolist()
+    dense = {one.name: one.value for one in result.plan.validity([tuple(pair) for pair in path])}
+    for one in result.validity:
+        if one.value is not None:
+            assert one.value == pytest.approx(dense[one.name], rel=2e-3), one.name
+    end = result.plan.film.end
+    slender = next(one for one in result.validity if one.name.startswith("slenderness"))
+    film = result.plan.prepared.film
+    assert slender.value == pytest.approx(film.radius(end) / film.height(end), rel=1e-4)
