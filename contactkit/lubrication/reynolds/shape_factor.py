@@ -55,7 +55,7 @@ def face_damping(face: Face, *, copies: int = 1, solver: str | None = None) -> P
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Ring
+    >>> from contactkit.scene.planforms import Ring
     >>> law = face_damping(rasterise(Ring(radius=1.0, hole_radius=0.3), 64))
     >>> abs(law.shape_factor / 1.433008 - 1.0) < 3e-3
     True
@@ -109,7 +109,7 @@ def tabulate_damping(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=1e-3), 24)
     >>> law = tabulate_damping(face, (1e-6, 1e-4), (face.x**2 + face.y**2) / 2.0, points=8)
     >>> 1.0 < law.exponent(1e-7) < law.exponent(1e-5) < law.exponent(1e-3) < 3.0
@@ -181,7 +181,7 @@ def rough_damping(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=1e-3), 24)
     >>> ridges = 1e-6 * np.cos(2.0 * np.pi * np.arange(32) / 32) * np.ones((4, 1))
     >>> law = rough_damping(face, (2e-6, 1e-4), ridges, 1e-6, points=6)

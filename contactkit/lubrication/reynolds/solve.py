@@ -89,7 +89,7 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Rectangle
+    >>> from contactkit.scene.planforms import Rectangle
     >>> face = rasterise(Rectangle(length=1e-3, width=1e-3), 18)
     >>> round(at_rest(Film(face=face, viscosity=0.1), 1e-6).liquid_volume, 18)
     1e-12
@@ -162,7 +162,7 @@ def solve_pressure(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> from contactkit.lubrication.squeeze_film import disc_force
     >>> face = rasterise(Disc(radius=3.175e-3), 64)
     >>> state = solve_pressure(Film(face=face, viscosity=0.1), 1e-5, 1e-5)
@@ -303,7 +303,7 @@ def step_film(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=3.175e-3), 32)
     >>> film = Film(face=face, viscosity=0.1, cavity_pressure=-1e6)
     >>> before = at_rest(film, 5e-6)

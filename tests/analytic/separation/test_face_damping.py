@@ -47,7 +47,7 @@ def test_a_vented_ring_is_released_sooner_as_its_damping_is_less():
 
 def test_any_face_by_the_solver():
     face = reynolds.rasterise(
-        reynolds.Disc(radius=RADIUS) - reynolds.Disc(radius=5e-4, centre=(1.5e-3, 0.0)), 48
+        ck.Disc(radius=RADIUS) - ck.Disc(radius=5e-4, centre=(1.5e-3, 0.0)), 48
     )
     law = reynolds.face_damping(face)
     result = ck.simulate(ck.plan(scene(law)))
