@@ -20,7 +20,7 @@ from ..scene.scenes import SeparationScene
 from ..units import nm, quantity_text
 from ..validity import ValidityNumber
 from .bodies import check_bodies, check_rim
-from .cavity.law import CavityLaw
+from .cavity.law import Cavitation
 from .columns import COLUMNS
 from .effects.as_published import mixed
 from .effects.base import (
@@ -350,7 +350,7 @@ def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
 def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     laws: dict[type[SeparationForce], ForceLaw] = {}
     limits: list[tuple[LimitKind, Limiter]] = []
-    cavity: CavityLaw | None = None
+    cavity: Cavitation | None = None
     end = math.inf
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
