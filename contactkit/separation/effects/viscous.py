@@ -18,7 +18,7 @@ from ...scene.scenes import SlidingScene
 from ...units import si
 from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
-from ..cavity.law import CavityLaw
+from ..cavity.law import Cavitation, CavityLaw
 from ..face.shape import closed_form, shape_of
 from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
@@ -486,13 +486,22 @@ class TensionLimit(FilmLimit):
         tears, drop = self.tension / 1e5, self.cavity_drop / 1e5
         return (f"the liquid tears {tears:g} bar below ambient, a cavity is {drop:g} bar below it",)
 
-    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> CavityLaw | None:
+    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
         """See `FilmLimit.cavity_law`."""
         if self.cavity != "mass-conserving":
             return None
+        if prepared.face_film is not None:
+            return self._face_cavity(prepared, prepared.face_film)
         film = viscous_film(prepared)
         viscosity, rim = prepared.liquid.viscosity, film.rim * film.rim
         return CavityLaw(film.menisci, rim, film.volume, viscosity, self.tension, self.cavity_drop)
+
+    def _face_cavity(self, prepared: PreparedScene[SeparationScene], film: FaceFilm) -> Cavitation:
+        from ..face.cavity import FaceCavity
+
+        grid = film.gridded(prepared.scene.loading.smallest_gap)
+        viscosity, rtol = prepared.liquid.viscosity, prepared.accuracy.film_rtol
+        return FaceCavity(film, grid, viscosity, self.tension, self.cavity_drop, rtol)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
