@@ -21,7 +21,6 @@ from ...separation.effects.viscous import (
     ViscousLaw,
     viscous_film,
 )
-from ...separation.film import Film
 from ...separation.plan import Plan, plan
 from .tables import Table, tabulate
 
@@ -104,8 +103,7 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
-    prepared = plan(scene, accuracy)
-    reaching = _reaching(prepared)
+    made = plan(scene, accuracy)
     interface, loading = scene.interface, scene.loading
     fractions = [1.0]
     fraction = scene.meniscus.rewetting
@@ -114,7 +112,7 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     tension = scene.effect(TensionLimit)
     reynolds = tension is not None and tension.cavity == "reynolds"
     is_sphere = not interface.is_flat
-    lowest = max(1e-13, 1e-3 * loading.initial_gap)
+    tables = _Tables(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
     numbers = [
         float(is_sphere),
         interface.sphere_radius,
@@ -124,23 +122,32 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         float(len(fractions)),
     ]
     for one in fractions:
-        numbers += _film(reaching, one, lowest)
-    force = prepared.film.static_force(loading.initial_gap)
-    return FilmNumbers(numbers, lowest, force, prepared.prepared)
+        numbers += _film(tables, one)
+    force = made.film.static_force(loading.initial_gap)
+    return FilmNumbers(numbers, tables.lowest, force, made.prepared)
 
 
-def _reaching(made: Plan) -> Plan:
-    """Plan whose tables reach the ends of its laws: in a host a motion may exceed `final_gap`."""
-    loading = made.scene.imposed_force
-    ends = [law.end for law in made.film.laws.values() if loading.final_gap < law.end < _INF]
-    if not ends:
-        return made
-    loading = evolve(loading, final_gap=max(ends))
-    return plan(evolve(made.scene, loading=loading), made.accuracy)
+class _Tables(NamedTuple):
+    """What the tables of a plan have in common: liquid that stays free, and their lowest gap."""
+
+    plan: Plan
+    free: FreeLiquid
+    lowest: float
+
+    @property
+    def final_gap(self) -> float:
+        """Gap [m] that is reached: in a host a motion goes on beyond that of the scene.
+
+        At least up to the ends of the laws, so that a table holds all of a bridge.
+        """
+        given = self.plan.scene.loading.final_gap
+        ends = (law.end for law in self.plan.film.laws.values())
+        return max((given, *(end for end in ends if end < _INF)))
 
 
-def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
+def _film(tables: _Tables, fraction: float) -> list[float]:
     """Numbers of the film with a fraction of the volume."""
+    made = tables.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
     breaks = _INF
     for effect in made.scene.effects:
@@ -150,8 +157,10 @@ def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
     numbers = [ends, breaks, film.full_gap, float(len(film.laws))]
     for effect in made.scene.effects:
         if isinstance(effect, SeparationForce):
-            numbers += _law(made.prepared, effect, film.laws[type(effect)], lowest)
-    return numbers + _shape(prepared, film, lowest).numbers() + _disc(prepared, film)
+            numbers += _law(tables, effect, film.laws[type(effect)])
+    shape = viscous_film(prepared) if film.has_viscous else None
+    disc = [shape.rim * shape.rim, shape.volume] if shape and can_tear(made.scene) else [0.0, 0.0]
+    return numbers + _shape(tables, shape).numbers() + disc
 
 
 def can_tear(scene: SeparationScene) -> bool:
@@ -159,30 +168,16 @@ def can_tear(scene: SeparationScene) -> bool:
     return scene.interface.is_flat and scene.effect(ViscousForce) is not None
 
 
-def _disc(prepared: PreparedScene[SeparationScene], film: Film) -> list[float]:
-    """Square of the rim [m2] and volume [m3] of one film, for its cavity; 0 if it can have none."""
-    if not can_tear(prepared.scene):
-        return [0.0, 0.0]
-    shape = viscous_film(prepared)
-    return [shape.rim * shape.rim, shape.volume]
-
-
-def _law(
-    prepared: PreparedScene[SeparationScene],
-    effect: SeparationForce,
-    law: ForceLaw,
-    lowest: float,
-) -> list[float]:
-    scene = prepared.scene
-    viscosity, surface_tension = free_liquid(prepared)
+def _law(tables: _Tables, effect: SeparationForce, law: ForceLaw) -> list[float]:
+    viscosity, surface_tension = tables.free
     speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
     scale, unit = _FIXED, 1.0
-    proportional_to = effect.proportional_to(scene)
+    proportional_to = effect.proportional_to(tables.plan.scene)
     if proportional_to == "viscosity" and viscosity:
         scale, unit = _VISCOSITY, viscosity
     elif proportional_to == "surface_tension" and surface_tension:
         scale, unit = _SURFACE, surface_tension
-    table = _law_table(scene, effect, law, lowest, lambda gap: law.force(gap, speed) / unit)
+    table = _law_table(tables, effect, law, lambda gap: law.force(gap, speed) / unit)
     return [
         scale,
         float(effect.needs_film),
@@ -196,13 +191,9 @@ def _law(
 
 
 def _law_table(
-    scene: SeparationScene,
-    effect: SeparationForce,
-    law: ForceLaw,
-    lowest: float,
-    force: Callable[[float], float],
+    tables: _Tables, effect: SeparationForce, law: ForceLaw, force: Callable[[float], float]
 ) -> Table:
-    final, high = scene.loading.final_gap, min(law.end, law.known_to)
+    lowest, final, high = tables.lowest, tables.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
         high = _FAR * final if isinstance(law, ViscousLaw) else _FARTHER * final
@@ -222,12 +213,11 @@ def _law_table(
         ) from error
 
 
-def _shape(prepared: PreparedScene[SeparationScene], film: Film, lowest: float) -> Table:
+def _shape(tables: _Tables, shape: FilmShape | None) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    high = _FAR * prepared.scene.loading.final_gap
-    if not film.has_viscous:
+    lowest, high = tables.lowest, _FAR * tables.final_gap
+    if shape is None:
         return tabulate(lambda gap: 1.0, (lowest, high))
-    shape = viscous_film(prepared)
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}
     return tabulate(_reach(shape), (lowest, *sorted(marks), high))
 

@@ -120,6 +120,22 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     assert np.max(wrong[smooth]) <= 0.0
 
 
+def test_a_scene_is_planned_once(monkeypatch):
+    """Though the bridge ends beyond its final gap, up to which the tables go on."""
+    from contactkit.separation.effects import meniscus
+
+    solved, final = [], 8e-6
+    law = meniscus.exact_law
+    monkeypatch.setattr(meniscus, "exact_law", lambda *given: solved.append(given) or law(*given))
+    made = moving(
+        attrs.evolve(SCENES["drop"], loading=attrs.evolve(SCENES["drop"].loading, final_gap=final)),
+        None,
+    )
+    assert film_numbers(made).prepared.scene == made
+    assert len(solved) == 1
+    assert plan(made).film.end > final
+
+
 @pytest.mark.parametrize("degrees", ANGLES, ids=str)
 def test_a_meniscus_is_the_bridge_solved_at_every_gap_up_to_its_end(degrees, probe, tmp_path):
     """Values and slopes, by a solver that knows no table; next to the end the gap has no digits."""
