@@ -1,4 +1,4 @@
-"""The film of a scene as the numbers that the C kernel of a native FMU reads."""
+"""The film of a scene as the tables that the C kernel of a native FMU reads."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ from ...separation.effects.viscous import (
     viscous_film,
 )
 from ...separation.plan import Plan, plan
-from .tables import Table, tabulate
+from .records import Film, FilmTables, Law, Scale, Table
+from .tables import tabulate
 
-__all__ = ["FINE", "FilmNumbers", "can_tear", "film_numbers", "free_liquid", "moving"]
+__all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepared_film"]
 
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
 
 _FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
 _FARTHER = 100.0  # the same of forces that lose no digits there
-_FIXED, _SURFACE, _VISCOSITY = 0.0, 1.0, 2.0
 _INF = math.inf
 
 
-class FilmNumbers(NamedTuple):
-    """Numbers that the kernel reads about a scene, and what they were made of."""
+class PreparedFilm(NamedTuple):
+    """Tables that the kernel reads about a scene, and what they were made of."""
 
-    numbers: list[float]
+    tables: FilmTables
     lowest: float
     """Lowest gap of the tables [m]."""
     force: float
@@ -95,8 +95,8 @@ def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     return FreeLiquid(viscosity, tension)
 
 
-def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbers:
-    """Numbers of the films of a scene, in the order in which ``native/data.c`` reads them.
+def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> PreparedFilm:
+    """Tables of the films of a scene.
 
     Raises
     ------
@@ -104,30 +104,23 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         If the scene cannot be planned, or a force is too rough for a table.
     """
     made = plan(scene, accuracy)
-    interface, loading = scene.interface, scene.loading
-    fractions = [1.0]
-    fraction = scene.meniscus.rewetting
-    if scene.meniscus.volume is not None and 0.0 < fraction < 1.0:
-        fractions.append(fraction)
+    interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
+    returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
-    reynolds = tension is not None and tension.cavity == "reynolds"
-    is_sphere = not interface.is_flat
-    tables = _Tables(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
-    numbers = [
-        float(is_sphere),
-        interface.sphere_radius,
-        float(scene.meniscus.count),
-        float(reynolds),
-        fraction,
-        float(len(fractions)),
-    ]
-    for one in fractions:
-        numbers += _film(tables, one)
+    common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
+    tables = FilmTables(
+        is_sphere=not interface.is_flat,
+        sphere_radius=interface.sphere_radius,
+        menisci=float(scene.meniscus.count),
+        reynolds=tension is not None and tension.cavity == "reynolds",
+        rewetting=fraction,
+        films=tuple(_film(common, one) for one in ((1.0, fraction) if returns else (1.0,))),
+    )
     force = made.film.static_force(loading.initial_gap)
-    return FilmNumbers(numbers, tables.lowest, force, made.prepared)
+    return PreparedFilm(tables, common.lowest, force, made.prepared)
 
 
-class _Tables(NamedTuple):
+class _Common(NamedTuple):
     """What the tables of a plan have in common: liquid that stays free, and their lowest gap."""
 
     plan: Plan
@@ -145,22 +138,23 @@ class _Tables(NamedTuple):
         return max((given, *(end for end in ends if end < _INF)))
 
 
-def _film(tables: _Tables, fraction: float) -> list[float]:
-    """Numbers of the film with a fraction of the volume."""
-    made = tables.plan
+def _film(common: _Common, fraction: float) -> Film:
+    """Tables of the film with a fraction of the volume."""
+    made = common.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
-    breaks = _INF
-    for effect in made.scene.effects:
-        if isinstance(effect, FilmEnd):
-            breaks = effect.prepare(prepared)
-    ends = min([_INF, *(law.end for law in film.laws.values())])
-    numbers = [ends, breaks, film.full_gap, float(len(film.laws))]
-    for effect in made.scene.effects:
-        if isinstance(effect, SeparationForce):
-            numbers += _law(tables, effect, film.laws[type(effect)])
+    forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
+    rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     shape = viscous_film(prepared) if film.has_viscous else None
-    disc = [shape.rim * shape.rim, shape.volume] if shape and can_tear(made.scene) else [0.0, 0.0]
-    return numbers + _shape(tables, shape).numbers() + disc
+    disc = shape if can_tear(made.scene) else None
+    return Film(
+        end=min(law.end for law in film.laws.values()),
+        breaks=min(rules, default=_INF),
+        full_gap=film.full_gap,
+        laws=tuple(_law(common, effect, film.laws[type(effect)]) for effect in forces),
+        shape=_shape(common, shape),
+        rim_square=disc.rim * disc.rim if disc else 0.0,
+        volume=disc.volume if disc else 0.0,
+    )
 
 
 def can_tear(scene: SeparationScene) -> bool:
@@ -168,32 +162,30 @@ def can_tear(scene: SeparationScene) -> bool:
     return scene.interface.is_flat and scene.effect(ViscousForce) is not None
 
 
-def _law(tables: _Tables, effect: SeparationForce, law: ForceLaw) -> list[float]:
-    viscosity, surface_tension = tables.free
+def _law(common: _Common, effect: SeparationForce, law: ForceLaw) -> Law:
+    viscosity, surface_tension = common.free
     speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
-    scale, unit = _FIXED, 1.0
-    proportional_to = effect.proportional_to(tables.plan.scene)
+    scale, unit = Scale.FIXED, 1.0
+    proportional_to = effect.proportional_to(common.plan.scene)
     if proportional_to == "viscosity" and viscosity:
-        scale, unit = _VISCOSITY, viscosity
+        scale, unit = Scale.VISCOSITY, viscosity
     elif proportional_to == "surface_tension" and surface_tension:
-        scale, unit = _SURFACE, surface_tension
-    table = _law_table(tables, effect, law, lambda gap: law.force(gap, speed) / unit)
-    return [
-        scale,
-        float(effect.needs_film),
-        law.end,
-        law.release,
-        law.recontact,
-        float(len(law.kinks)),
-        *law.kinks,
-        *table.numbers(),
-    ]
+        scale, unit = Scale.SURFACE_TENSION, surface_tension
+    return Law(
+        scale=scale,
+        needs_film=effect.needs_film,
+        end=law.end,
+        release=law.release,
+        recontact=law.recontact,
+        kinks=tuple(map(float, law.kinks)),
+        table=_law_table(common, effect, law, lambda gap: law.force(gap, speed) / unit),
+    )
 
 
 def _law_table(
-    tables: _Tables, effect: SeparationForce, law: ForceLaw, force: Callable[[float], float]
+    common: _Common, effect: SeparationForce, law: ForceLaw, force: Callable[[float], float]
 ) -> Table:
-    lowest, final, high = tables.lowest, tables.final_gap, min(law.end, law.known_to)
+    lowest, final, high = common.lowest, common.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
         high = _FAR * final if isinstance(law, ViscousLaw) else _FARTHER * final
@@ -213,9 +205,9 @@ def _law_table(
         ) from error
 
 
-def _shape(tables: _Tables, shape: FilmShape | None) -> Table:
+def _shape(common: _Common, shape: FilmShape | None) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    lowest, high = tables.lowest, _FAR * tables.final_gap
+    lowest, high = common.lowest, _FAR * common.final_gap
     if shape is None:
         return tabulate(lambda gap: 1.0, (lowest, high))
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}
