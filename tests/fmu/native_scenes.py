@@ -10,7 +10,6 @@ import subprocess
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.fmu.framework.toolchain import fmi_headers, kernel_sources
 
 HERE = Path(__file__).parent
 CC = os.environ.get("CC", "cc").split()[0]
@@ -126,9 +125,9 @@ def bare_meniscus(lower, upper):
 
 def write_sources(folder):
     """Write the sources of the kernel and the headers of FMI to a folder."""
-    folder.mkdir(exist_ok=True)
-    for name, content in (kernel_sources() | fmi_headers()).items():
-        (folder / name).write_bytes(content)
+    from contactkit.fmu.native import sources  # which needs pythonfmu
+
+    sources.write_sources(folder)
     return folder
 
 
