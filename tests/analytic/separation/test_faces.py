@@ -155,8 +155,10 @@ lower = { shape = "flat" }
 [interface.upper]
 shape = "flat"
 planform = { shape = "ring", radius = "3.175 mm", hole_radius = "1 mm" }
-holes = [{ kind = "vent", shape = { shape = "disc", radius = "0.2 mm", centre = ["2 mm", "0 mm"] } }]
 tilt = ["0.1 mrad", "0 mrad"]
+[[interface.upper.holes]]
+kind = "vent"
+shape = { shape = "disc", radius = "0.2 mm", centre = ["2 mm", "0 mm"] }
 [interface.meniscus]
 liquid = { name = "oil", viscosity = "100 mPa.s" }
 [loading]
