@@ -50,7 +50,7 @@ def delay(injector: InjectorScene, temperature: float, hole: float) -> float:
     return release - injector.valve.profile.start_delay
 
 
-def vented_face() -> reynolds.FilmState:
+def vented_face() -> reynolds.GridFilmState:
     """Pressure on a face with one vent in the middle and four around it, opening at 0.1 mm/s."""
     at = [
         (0.0, 0.0),
@@ -60,7 +60,7 @@ def vented_face() -> reynolds.FilmState:
     face = reynolds.rasterise(ck.Disc(radius=RADIUS), 160, holes=vents)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)  # 24 bar of tension: it never tears
-        return reynolds.solve_pressure(reynolds.Film(face=face, viscosity=0.1), GAP, 1e-4)
+        return reynolds.solve_pressure(reynolds.GridFilm(face=face, viscosity=0.1), GAP, 1e-4)
 
 
 def main(out: Path) -> float:
