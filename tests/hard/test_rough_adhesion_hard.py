@@ -156,7 +156,7 @@ def test_the_end_of_a_law_is_no_narrower_than_matters():
 
 
 def test_what_does_not_settle_names_the_width_of_the_end(monkeypatch):
-    monkeypatch.setattr("contactkit.contact.attraction_loop._MAX_ITERATIONS", 3)
+    monkeypatch.setattr("contactkit.contact.outer.iteration.MAX_MONOTONIC", 3)
     with pytest.raises(ck.ConvergenceError, match=r"end_width = 2\.4e-10 m, now") as caught:
         on_stiff_film()
     monkeypatch.undo()

@@ -1,4 +1,4 @@
-"""Contact whose load includes the force of a liquid film: its equilibria."""
+"""Load on a contact that a liquid film adds to: the balances of load, film and bodies."""
 
 from __future__ import annotations
 
@@ -8,19 +8,27 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 from attrs import evolve
 
-from ..accuracy import Accuracy
-from ..errors import InfeasibleError
-from .companion import coarser, largest_factor
-from .effects.base import Balance, Compliance, Contact, FixedHardness, LoadTerm, PressureBound
-from .friction_loop import Target
-from .hardness_loop import Solved, contact_of, solve_with_hardness
-from .plan import ContactPlan
-from .solver.warm_start import MAX_SOLUTIONS
-from .work import WorkCounter
+from ...accuracy import Accuracy
+from ...errors import InfeasibleError
+from ...numerics.roots import Bracket, Probe
+from ..companion import coarser, largest_factor
+from ..effects.base import (
+    Balance,
+    Compliance,
+    Contact,
+    FixedHardness,
+    LoadTerm,
+    PressureBound,
+)
+from ..plan import ContactPlan
+from ..solver.warm_start import MAX_SOLUTIONS
+from ..work import WorkCounter
+from .iteration import settle_balance, unsettled
+from .step import Solved, Step
+from .unknown import Target
 
-__all__ = ["Pulled", "film_companion", "pulled_together", "to_last_pixel"]
+__all__ = ["film_companion", "solve_under_load", "to_last_pixel"]
 
-_MAX_ITERATIONS = 60
 _MAX_IMBALANCE = 0.05  # of the load, at a step of the force
 _LOOSE = 1e-4  # tolerance of contacts far from the balance
 _AHEAD = 1e-3  # tolerance of a contact over the imbalance of the one before
@@ -37,14 +45,6 @@ _SAMPLES = 64  # loads in that range
 Part = TypeVar("Part")
 
 
-class Pulled(NamedTuple, Generic[Part]):
-    """A contact under its load and the force that adds to it."""
-
-    solved: Solved
-    contact: Contact
-    part: Part
-
-
 class _Trial(NamedTuple, Generic[Part]):
     """A contact under a load [N], and its imbalance: imposed load + force - load on it [N].
 
@@ -55,27 +55,35 @@ class _Trial(NamedTuple, Generic[Part]):
     excess: float
     rtol: float
     solved: Solved
-    contact: Contact
     part: Part
 
 
 class _Search(Generic[Part]):
-    """A plan, the force that adds to its load, and the contacts solved so far, newest first."""
+    """A step, the force that adds to its load, and the contacts solved so far, newest first."""
 
-    def __init__(
-        self,
-        plan: ContactPlan,
-        term: LoadTerm[Part],
-        imposed: float,
-        target: Target,
-        counter: WorkCounter,
-    ) -> None:
-        self.plan, self.term, self.imposed = plan, term, imposed
-        self.target, self.counter = target, counter
-        self.rtol, self.tolerance = plan.accuracy.rtol, max(plan.accuracy.outer_rtol, 1e-9)
-        varies = plan.hardness is not None and not isinstance(plan.hardness, FixedHardness)
-        self.is_iterated = varies or plan.coupling is not None
+    def __init__(self, step: Step, term: LoadTerm[Part], imposed: float, target: Target) -> None:
+        self.step, self.plan, self.term, self.imposed = step, step.plan, term, imposed
+        self.target, accuracy = target, step.plan.accuracy
+        self.rtol, self.tolerance = accuracy.rtol, max(accuracy.outer_rtol, 1e-9)
+        hardness = step.plan.hardness
+        varies = hardness is not None and not isinstance(hardness, FixedHardness)
+        self.is_iterated = varies or step.has_unknowns
         self.trials: list[_Trial[Part]] = []
+
+    def probe(self, load: float, excess: float) -> Probe[_Trial[Part]] | None:
+        """Contact under a load, as a probe of the balance; `excess` is the least so far [N]."""
+        trial = self.attempt(load, _AHEAD * excess)
+        return None if trial is None else Probe(load, trial.excess, trial)
+
+    def bracket(
+        self, low: _Trial[Part], high: float, above: _Trial[Part] | None = None
+    ) -> Bracket[_Trial[Part]]:
+        """Bracket between a contact that carries too little and a load that is too much."""
+        made: Bracket[_Trial[Part]] = Bracket(low.load, high)
+        for one in (low, above):
+            if one is not None:
+                made.take(Probe(one.load, one.excess, one))
+        return made
 
     def attempt(self, load: float, error: float) -> _Trial[Part] | None:
         """Contact under a load, its imbalance known to an error [N], and at least in its sign.
@@ -93,10 +101,6 @@ class _Search(Generic[Part]):
                 return trial
             rtol = max(self.rtol, min(imbalance / _OUTER, 0.1 * rtol))
 
-    def is_settled(self, best: _Trial[Part], low: float, high: float) -> bool:
-        """Whether a contact balances, or the balance lies between two loads that are about one."""
-        return abs(best.excess) <= self.tolerance * best.load or high - low <= self.tolerance * high
-
     def finished(self, trial: _Trial[Part]) -> _Trial[Part]:
         """Solve a contact to the tolerance of the plan, if it is not yet."""
         if trial.rtol <= self.rtol or trial.solved.problem:
@@ -104,17 +108,14 @@ class _Search(Generic[Part]):
         return self._solved(trial.load, self.rtol) or trial
 
     def _solved(self, load: float, rtol: float) -> _Trial[Part] | None:
-        plan, near = self.plan, self._near(load)
-        to_tolerance = evolve(plan, accuracy=evolve(plan.accuracy, rtol=rtol))
         try:
-            solved = solve_with_hardness(to_tolerance, near, self.counter)
+            solved = self.step.to(rtol).solve(self._near(load))
         except InfeasibleError:
             return None
-        contact = contact_of(plan, solved)
-        part = self.term.observe(contact)
+        part = self.term.observe(solved.contact)
         excess = self.imposed + self.term.force_of(part) - load
         reached = rtol if self.is_iterated else solved.solution.kkt
-        trial = _Trial(load, excess, reached, solved, contact, part)
+        trial = _Trial(load, excess, reached, solved, part)
         if load > 0.0:
             others = [one for one in self.trials if one.load != load]
             self.trials = [trial, *others][:_KEPT]
@@ -123,7 +124,9 @@ class _Search(Generic[Part]):
     def between(self, low: _Trial[Part], high: _Trial[Part], at: float) -> Part:
         """Return the force in the contact interpolated between two."""
         influence = self.plan.prepared.solver.self_influence
-        return self.term.observe(_interpolated(low.contact, high.contact, at, influence))
+        return self.term.observe(
+            _interpolated(low.solved.contact, high.solved.contact, at, influence)
+        )
 
     def _near(self, load: float) -> Target:
         """Where the solve under a load begins: from the contacts under the nearest loads."""
@@ -133,18 +136,12 @@ class _Search(Generic[Part]):
             return target
         nearest = sorted(self.trials, key=lambda one: abs(math.log(one.load / load)))
         pairs = [(one.load / area, one.solved.solution.pressure) for one in nearest]
-        hardness = nearest[0].solved.hardness
-        known = hardness if isinstance(hardness, float) else target.hardness
-        return target._replace(start=pairs[:MAX_SOLUTIONS], hardness=known)
+        near = nearest[0].solved.near(target)
+        known = near.hardness if near.hardness is not None else target.hardness
+        return near._replace(start=pairs[:MAX_SOLUTIONS], hardness=known)
 
 
-def pulled_together(
-    plan: ContactPlan,
-    term: LoadTerm[Part],
-    mean_pressure: float,
-    target: Target,
-    counter: WorkCounter,
-) -> Pulled[Part]:
+def solve_under_load(step: Step, term: LoadTerm[Part], target: Target) -> Solved:
     """Find the smallest load N on the contact with N = W + F(N), and look for further ones.
 
     Fixed-point steps N <- W + F(N) climb from the imposed load W, accelerated by secants where
@@ -160,9 +157,9 @@ def pulled_together(
     harder the closer the bodies are, so that one load below W balances, if the film does not carry
     all of W where the bodies first touch.
     """
-    area = plan.grid.area
-    imposed = mean_pressure * area
-    search = _Search(plan, term, imposed, target, counter)
+    imposed = (target.mean_pressure or 0.0) * step.plan.grid.area
+    plan = step.plan
+    search = _Search(step, term, imposed, target)
     first = search.attempt(imposed, _LOOSE * imposed)
     if first is None:
         raise InfeasibleError(
@@ -173,9 +170,9 @@ def pulled_together(
     if first.excess < 0.0:
         found, is_settled = _pushed_apart(search, first)
     else:
-        largest = imposed + term.largest_force(first.contact)
+        largest = imposed + term.largest_force(first.solved.contact)
         if plan.hardness is not None:
-            largest = min(largest, plan.hardness.highest * area * (1.0 - 1e-6))
+            largest = min(largest, plan.hardness.highest * plan.grid.area * (1.0 - 1e-6))
         found, is_settled = _smallest(search, first, largest)
         others = _further(search, found, largest)
     # At a step of the force the balance says how much of it acts.
@@ -189,8 +186,8 @@ def pulled_together(
     if gap > _MAX_IMBALANCE and is_settled and not solved.problem:
         solved = solved._replace(problem=_step(found, gap))
     elif not is_settled and not solved.problem:
-        solved = solved._replace(problem=_unsettled(gap))
-    return Pulled(solved, found.contact, part)
+        solved = solved._replace(problem=_unsettled(gap, search.tolerance))
+    return solved._replace(parts={**solved.parts, type(term): part})
 
 
 def _step(found: _Trial[Part], gap: float) -> str:
@@ -201,11 +198,12 @@ def _step(found: _Trial[Part], gap: float) -> str:
     )
 
 
-def _unsettled(gap: float) -> str:
-    return (
-        f"the load and the force of the film still differ by {gap:.2g} of the load after "
-        f"{_MAX_ITERATIONS} iterations; use a larger Accuracy.rtol, or FilmMeniscus without "
-        "self_consistent"
+def _unsettled(gap: float, tolerance: float) -> str:
+    return unsettled(
+        "load with the force of the film",
+        f"{gap:.2g} of itself",
+        tolerance,
+        "use a larger Accuracy.rtol, or FilmMeniscus without self_consistent",
     )
 
 
@@ -213,32 +211,34 @@ def _smallest(
     search: _Search[Part], first: _Trial[Part], largest: float
 ) -> tuple[_Trial[Part], bool]:
     """The smallest load that balances, and whether the iterations settled on it."""
-    low, high, top = first, None, largest
-    before = None
-    for _ in range(_MAX_ITERATIONS):
-        best = low if high is None or abs(low.excess) < abs(high.excess) else high
-        if search.is_settled(best, low.load, top):
-            return search.finished(best), True
-        if high is not None and high.load < _NARROW * low.load:
-            return _narrowed(search, low, high)
-        load = low.load + low.excess
-        if before is not None:
-            load = max(load, _secant(before, low))
-        if high is not None or load >= top:
-            load = min(load, 0.5 * (low.load + top))
-        trial = search.attempt(load, _AHEAD * abs(best.excess))
-        if trial is None or trial.excess < 0.0:
-            high, top = trial or high, load
-        else:
-            before, low = low, trial
-    return search.finished(best), False
+    bracket, narrow = search.bracket(first, largest), _Narrowing(search)
+
+    def guess(now: Bracket[_Trial[Part]]) -> float:
+        if now.above is not None and now.above.at < _NARROW * now.low:
+            return narrow.guess(now)
+        return _climbed(now)
+
+    is_settled = settle_balance(search.probe, bracket, guess, search.tolerance)
+    return search.finished(bracket.best.value), is_settled
 
 
-def _secant(before: _Trial[Part], now: _Trial[Part]) -> float:
-    """Zero of the line through two trials, at most four fixed-point steps ahead."""
-    slope = (now.excess - before.excess) / (now.load - before.load)
+def _climbed(bracket: Bracket[_Trial[Part]]) -> float:
+    """A step of the fixed point from below, or a secant ahead of it."""
+    low = bracket.below
+    assert low is not None
+    load = low.at + low.excess
+    if bracket.before is not None:
+        load = max(load, _secant(bracket.before, low))
+    if bracket.above is not None or load >= bracket.high:
+        load = min(load, 0.5 * (low.at + bracket.high))
+    return load
+
+
+def _secant(before: Probe[_Trial[Part]], now: Probe[_Trial[Part]]) -> float:
+    """Zero of the line through two probes, at most four fixed-point steps ahead."""
+    slope = (now.excess - before.excess) / (now.at - before.at)
     ahead = now.excess / max(-slope, 0.25)
-    return now.load + ahead
+    return now.at + ahead
 
 
 def _pushed_apart(search: _Search[Part], first: _Trial[Part]) -> tuple[_Trial[Part], bool]:
@@ -252,36 +252,35 @@ def _pushed_apart(search: _Search[Part], first: _Trial[Part]) -> tuple[_Trial[Pa
             f"load is {first.load:.6g} N: they float on it; raise the load, lower the contact "
             "angles or the film_thickness, or use FilmMeniscus without self_consistent"
         )
-    return _narrowed(search, low, first)
+    bracket, narrow = search.bracket(low, first.load, first), _Narrowing(search)
+    is_settled = settle_balance(search.probe, bracket, narrow.guess, search.tolerance)
+    return search.finished(bracket.best.value), is_settled
 
 
-def _narrowed(
-    search: _Search[Part], low: _Trial[Part], high: _Trial[Part]
-) -> tuple[_Trial[Part], bool]:
-    """The balance between two loads, and whether the iterations settled on it.
+class _Narrowing(Generic[Part]):
+    """Guesses of a balance between two loads that are both known.
 
     The next load is where the contact interpolated between the two balances; every step of the
     force between them is seen there without a solve. Far apart it is the zero of the line
     through both; where neither halves the interval, it is the middle.
     """
-    halves = False
-    for _ in range(_MAX_ITERATIONS):
-        best = min(low, high, key=lambda trial: abs(trial.excess))
-        if search.is_settled(best, low.load, high.load):
-            return search.finished(best), True
-        width = high.load - low.load
-        if halves:
-            load = low.load + 0.5 * width
-        elif high.load < _NARROW * low.load:
-            load = _interpolated_balance(search, low, high)
-        else:
-            load = low.load + width * low.excess / (low.excess - high.excess)
-        trial = search.attempt(load, _AHEAD * abs(best.excess))
-        if trial is None:
-            break
-        low, high = (low, trial) if trial.excess < 0.0 else (trial, high)
-        halves = not halves and high.load - low.load > 0.5 * width
-    return search.finished(best), False
+
+    def __init__(self, search: _Search[Part]) -> None:
+        self._search, self._width, self._halved = search, math.inf, False
+
+    def guess(self, bracket: Bracket[_Trial[Part]]) -> float:
+        """Load [N] to try next."""
+        low, high = bracket.below, bracket.above
+        if low is None or high is None:
+            return math.nan  # the middle
+        width = bracket.high - bracket.low
+        self._halved = not self._halved and width > 0.5 * self._width
+        self._width = width
+        if self._halved:
+            return bracket.low + 0.5 * width
+        if high.at < _NARROW * low.at:
+            return _interpolated_balance(self._search, low.value, high.value)
+        return low.at + (high.at - low.at) * low.excess / (low.excess - high.excess)
 
 
 def _farthest_balance(search: _Search[Part], found: _Trial[Part]) -> float:
@@ -348,9 +347,9 @@ def _further(search: _Search[Part], found: _Trial[Part], largest: float) -> tupl
     load = max(4.0 * found.load, 1e-6 * largest)
     if load >= largest:
         return ()
-    plan, counter = search.plan, WorkCounter()
-    coarse = film_companion(plan)
-    rough = _Search(coarse, search.term, search.imposed, Target(load, None), counter)
+    counter = WorkCounter()
+    coarse = film_companion(search.plan)
+    rough = _Search(Step(coarse, counter), search.term, search.imposed, Target(load, None))
     others: list[float] = []
     above, last = False, found.load
     while load < largest:
@@ -361,19 +360,18 @@ def _further(search: _Search[Part], found: _Trial[Part], largest: float) -> tupl
             others.append((last * load) ** 0.5 if last > 0.0 else load)
             above = not above
         last, load = load, 4.0 * load
-    search.counter.add_companion(counter, coarse.grid.shape == plan.grid.shape)
+    is_full = coarse.grid.shape == search.plan.grid.shape
+    search.step.counter.add_companion(counter, is_full)
     return (*others, largest) if above else tuple(others)
 
 
-def to_last_pixel(plan: ContactPlan) -> ContactPlan:
-    """Return the plan with the tolerance that a film which pulls needs, whatever its own.
+def to_last_pixel(accuracy: Accuracy) -> float:
+    """Return the tolerance that a film which pulls needs, whatever that of the plan.
 
     An error of the gap that moves single pixels moves a balance that is flat by much more: at a
     tolerance of 1e-5, area and force were up to 1.4 % off.
     """
-    if plan.accuracy.rtol <= _PIXEL_RTOL:
-        return plan
-    return evolve(plan, accuracy=evolve(plan.accuracy, rtol=_PIXEL_RTOL))
+    return min(accuracy.rtol, _PIXEL_RTOL)
 
 
 def film_companion(plan: ContactPlan) -> ContactPlan:
