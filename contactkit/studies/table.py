@@ -338,7 +338,7 @@ class Study(Tabular, Generic[R_co]):
         in contact beside the area. Changes at the level of rounding count as none; of a banded
         study only the medians are taken.
         """
-        known = list[NDArray[np.float64]]()
+        known: list[NDArray[np.float64]] = []
         found = list[str]()
         for name in self.points[0].scalars:
             if name in self._varied or name == RUNS or name.endswith(_NOT_TELLING):
