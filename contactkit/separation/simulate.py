@@ -13,13 +13,12 @@ from ..scene.plan import check_plan
 from ..units import quantity_text
 from ..validity import warn
 from .curve_result import Work
-from .effects.registry import ViscousForce
 from .first_closing import closed_first
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
 from .motion_curves import at_steps, motion_curves, pull_law
 from .plan import Plan
-from .prescribed import at_speed, newtonian_impulses, within_time
+from .prescribed import at_speed, impulses_of_gaps, within_time
 from .results import SeparationResult
 from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
@@ -197,9 +196,7 @@ def _motion_result(
     problem: str | None,
 ) -> SeparationResult:
     last = states[-1]
-    impulses = dict(last.impulses)
-    if plan.has(ViscousForce):
-        impulses = newtonian_impulses(plan) | impulses
+    impulses = impulses_of_gaps(plan) | dict(last.impulses)
     status, message = _outcome(plan, last, pull(last.time), problem)
     message += _rupture(states)
     if problem is None:
@@ -207,11 +204,12 @@ def _motion_result(
             plan.scene.imposed_force, (state.gap for state in states), plan.film
         )
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
-    along, force = at_steps(plan, states, pull)
+    shown = [outputs(plan, state, pull(state.time)) for state in states]
+    along, force = at_steps(states, shown)
     validity = check(plan, along)
     # The motion knows its peak between the steps too.
     extremes = {"peak_repulsion": max(-float(force.min()), 0.0)}
-    curves = motion_curves(plan, states)
+    curves = motion_curves(plan, states, shown)
     return SeparationResult(plan, status, message, curves, impulses, last, validity, work, extremes)
 
 
@@ -244,7 +242,10 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
             "spring or a smaller final_gap",
         )
     held = outputs(plan, last, pull).static
-    what = " and ".join(column.label for column in plan.film.static_columns)
+    film = acting_film(plan, last)
+    acting = film.static_forces(last.gap) if film is not None else {}
+    columns = plan.film.static_columns
+    what = " and ".join(c.label for c in columns if acting.get(c.name) or len(columns) == 1)
     return (
         "stuck",
         f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the "
