@@ -145,7 +145,7 @@ class Film:
 
     @property
     def is_smooth(self) -> bool:
-        """Whether no slope can jump with the speed: no limits, and no law that may depend in any way."""
+        """Whether no slope can jump with the speed: no limits, and no law of any rate."""
         return not (self._any or self.is_limited)
 
     def impulses(self) -> dict[str, float]:

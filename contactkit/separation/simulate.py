@@ -160,7 +160,8 @@ def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float],
     """Whether a spring keeps the mass from `final_gap` for good: its energy does not reach there.
 
     Films and contacts only take energy. Left out are what may give some: a pull that still rises,
-    forces that push the bodies apart, and a film that wets them again in between.
+    forces that push the bodies apart or the way they move, and a film that wets them again in
+    between.
     """
     state, loading = states[-1], plan.scene.imposed_force
     k, force = loading.stiffness, loading.force
@@ -168,8 +169,8 @@ def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float],
         return False
     if _energy_left(plan, state) >= -1e-6 * abs(force) * (loading.final_gap - state.gap):
         return False
-    is_given = plan.scene.meniscus.rewetting > 0.0 or _pushes(plan, loading)
-    return not (plan.film.static_columns and is_given)
+    rewets = bool(plan.film.static_columns) and plan.scene.meniscus.rewetting > 0.0
+    return not (rewets or _pushes(plan, loading))
 
 
 def _energy_left(plan: Plan, state: MotionState) -> float:
@@ -182,10 +183,18 @@ def _energy_left(plan: Plan, state: MotionState) -> float:
 
 
 def _pushes(plan: Plan, loading: ImposedForce) -> bool:
-    """Whether a film, or solids, push the bodies apart at a gap on the way."""
-    gap = max(loading.initial_gap, 1e-6 * loading.final_gap)
+    """Whether a force pushes the bodies apart at a gap on the way, or the way they move."""
+    gap, film = max(loading.initial_gap, 1e-6 * loading.final_gap), plan.film
     ratio = (loading.final_gap / gap) ** (1.0 / 32.0)
-    return any(plan.film.static_force(gap * ratio**i) < 0.0 for i in range(33))
+    gaps = [gap * ratio**i for i in range(33)]
+    # About the most that the pull gives a mass on this way; without one nothing is moved by itself.
+    travel = loading.final_gap - loading.initial_gap
+    speed = math.sqrt(abs(loading.force) * travel / loading.mass) if loading.mass else 0.0
+    return any(
+        film.static_force(place) < 0.0
+        or any(film.viscous_force(place, v)[0] * v < 0.0 for v in (speed, -speed))
+        for place in gaps
+    )
 
 
 def _motion_result(

@@ -113,7 +113,7 @@ IDENTIFIERS = (
 _MODELS = ("stiction-mass", "stiction-force", "valve-drive", "contact-stop", "tip-contact")
 _TYPES = {"real": 1.0, "integer": 2.0, "enumeration": 4.0, "boolean": 8.0}
 _CAUSALITIES = ("input", "output", "parameter")
-_MAGIC = b"CKFILM05"
+_MAGIC = b"CKFILM06"
 
 
 def port_numbers(model: str, ports: Sequence[Port], start: Mapping[str, Value]) -> list[float]:

@@ -9,18 +9,14 @@ from typing import NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...errors import ConvergenceError, DescriptionError
+from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
-from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
+from ...separation.effects.base import FilmEnd, SeparationForce
 from ...separation.effects.film_shape import FilmShape
+from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
-from ...separation.effects.viscous import (
-    TensionLimit,
-    ViscousForce,
-    ViscousLaw,
-    viscous_film,
-)
+from ...separation.effects.viscous import TensionLimit, ViscousForce, viscous_film
 from ...separation.film import Film
 from ...separation.plan import Plan, plan
 from .tables import Table, tabulate
@@ -33,6 +29,9 @@ FINE = Accuracy(time_rtol=1e-11)
 _FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
 _FARTHER = 100.0  # the same of forces that lose no digits there
 _FIXED, _SURFACE, _VISCOSITY = 0.0, 1.0, 2.0
+_AT_REST, _PER_SPEED, _LIQUID = 0.0, 1.0, 2.0
+_MOST_TABLES = 8  # of one film, in the kernel
+_PROBES = 65  # gaps at which a law is asked how it depends on the speed
 _INF = math.inf
 
 
@@ -104,8 +103,10 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
-    prepared = plan(scene, accuracy)
-    reaching = _reaching(prepared)
+    made = plan(scene, accuracy)
+    reach = _reach_of(made)
+    if any(law.known_to < min(law.end, reach) for law in made.film.laws.values()):
+        made = plan(_to(scene, reach), accuracy)  # rare: one law ends far beyond what another knows
     interface, loading = scene.interface, scene.loading
     fractions = [1.0]
     fraction = scene.meniscus.rewetting
@@ -124,34 +125,58 @@ def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbe
         float(len(fractions)),
     ]
     for one in fractions:
-        numbers += _film(reaching, one, lowest)
-    force = prepared.film.static_force(loading.initial_gap)
-    return FilmNumbers(numbers, lowest, force, prepared.prepared)
+        numbers += _film(made, one, _Range(lowest, reach))
+    force = made.film.static_force(loading.initial_gap)
+    return FilmNumbers(numbers, lowest, force, made.prepared)
 
 
-def _reaching(made: Plan) -> Plan:
-    """Plan whose tables reach the ends of its laws: in a host a motion may exceed `final_gap`."""
-    loading = made.scene.imposed_force
-    ends = [law.end for law in made.film.laws.values() if loading.final_gap < law.end < _INF]
-    if not ends:
-        return made
-    loading = evolve(loading, final_gap=max(ends))
-    return plan(evolve(made.scene, loading=loading), made.accuracy)
+class _Range(NamedTuple):
+    """Gaps [m] that tables hold at least."""
+
+    low: float
+    high: float
 
 
-def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
-    """Numbers of the film with a fraction of the volume."""
+def _reach_of(made: Plan) -> float:
+    """Gap [m] that tables are to reach: all laws with an end, as a host may exceed `final_gap`."""
+    final = made.scene.loading.final_gap
+    return max([final, *(law.end for law in made.film.laws.values() if law.end < _INF)])
+
+
+def _to(scene: SeparationScene, reach: float) -> SeparationScene:
+    """Scene that opens to a gap [m]."""
+    return evolve(scene, loading=evolve(scene.loading, final_gap=reach))
+
+
+def _film(made: Plan, fraction: float, gaps: _Range) -> list[float]:
+    """Numbers of the film with a fraction of the volume.
+
+    Raises
+    ------
+    PlanError
+        If there are more tables than the kernel takes.
+    """
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
     breaks = _INF
     for effect in made.scene.effects:
         if isinstance(effect, FilmEnd):
             breaks = effect.prepare(prepared)
     ends = min([_INF, *(law.end for law in film.laws.values())])
-    numbers = [ends, breaks, film.full_gap, float(len(film.laws))]
-    for effect in made.scene.effects:
-        if isinstance(effect, SeparationForce):
-            numbers += _law(made.prepared, effect, film.laws[type(effect)], lowest)
-    return numbers + _shape(prepared, film, lowest).numbers() + _disc(prepared, film)
+    tables = [
+        table
+        for effect in made.scene.effects
+        if isinstance(effect, SeparationForce)
+        for table in _law(made.prepared, effect, film.laws[type(effect)], gaps)
+    ]
+    if len(tables) > _MOST_TABLES:
+        raise PlanError(
+            f"{len(tables)} tables of forces are more than the {_MOST_TABLES} of a native FMU; one "
+            "that acts at rest and depends on the speed as well counts twice"
+        )
+    numbers = [ends, breaks, film.full_gap, float(len(tables))]
+    for table in tables:
+        numbers += table
+    return numbers + _shape(prepared, film, gaps).numbers() + _disc(prepared)
 
 
 def can_tear(scene: SeparationScene) -> bool:
@@ -159,7 +184,7 @@ def can_tear(scene: SeparationScene) -> bool:
     return scene.interface.is_flat and scene.effect(ViscousForce) is not None
 
 
-def _disc(prepared: PreparedScene[SeparationScene], film: Film) -> list[float]:
+def _disc(prepared: PreparedScene[SeparationScene]) -> list[float]:
     """Square of the rim [m2] and volume [m3] of one film, for its cavity; 0 if it can have none."""
     if not can_tear(prepared.scene):
         return [0.0, 0.0]
@@ -171,41 +196,77 @@ def _law(
     prepared: PreparedScene[SeparationScene],
     effect: SeparationForce,
     law: ForceLaw,
-    lowest: float,
-) -> list[float]:
-    scene = prepared.scene
+    gaps: _Range,
+) -> list[list[float]]:
+    """Numbers of each table of a force: what it is at rest, and what it is per speed."""
     viscosity, surface_tension = free_liquid(prepared)
-    speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
     scale, unit = _FIXED, 1.0
-    proportional_to = effect.proportional_to(scene)
+    proportional_to = effect.proportional_to(prepared.scene)
     if proportional_to == "viscosity" and viscosity:
         scale, unit = _VISCOSITY, viscosity
     elif proportional_to == "surface_tension" and surface_tension:
         scale, unit = _SURFACE, surface_tension
-    table = _law_table(scene, effect, law, lowest, lambda gap: law.force(gap, speed) / unit)
-    return [
-        scale,
-        float(effect.needs_film),
-        law.end,
-        law.release,
-        law.recontact,
-        float(len(law.kinks)),
-        *law.kinks,
-        *table.numbers(),
-    ]
+    per_speed = _PER_SPEED if effect.newtonian is None else _LIQUID
+    found = []
+    for rate, force in _parts(effect, law, gaps, per_speed):
+        table = _law_table(effect, law, rate, gaps, lambda gap, of=force: of(gap) / unit)
+        found.append(
+            [
+                scale,
+                rate,
+                float(effect.needs_film),
+                law.end,
+                law.release,
+                law.recontact,
+                float(len(law.kinks)),
+                *law.kinks,
+                *table.numbers(),
+            ]
+        )
+    return found
+
+
+def _parts(
+    effect: SeparationForce, law: ForceLaw, gaps: _Range, per_speed: float
+) -> list[tuple[float, Callable[[float], float]]]:
+    """What a force is at rest [N], and per speed [N.s/m], as functions of the gap.
+
+    Raises
+    ------
+    PlanError
+        If it is not linear in the speed, so that no two functions of the gap say what it is.
+    """
+    rate: str = law.rate
+    if law.rate == "any":
+        high = min(law.end, law.known_to, _FAR * gaps.high)
+        ratio = high / gaps.low
+        places = [gaps.low * ratio ** (i / _PROBES) for i in range(_PROBES)]
+        rate = measured_rate(law, places)
+    if rate == "any":
+        raise PlanError(
+            f"{type(effect).__name__} has no native form: its force is not linear in the speed, "
+            "and the tables of a native FMU are F(h, 0) and dF/dv(h); run the scene with "
+            "ck.simulate, or give a law that is linear over the speeds that matter"
+        )
+    parts: list[tuple[float, Callable[[float], float]]] = []
+    if rate != "proportional":
+        parts.append((_AT_REST, lambda gap: law.force(gap, 0.0)))
+    if rate != "none":
+        parts.append((per_speed, lambda gap: law.viscous_force(gap, 1.0)))
+    return parts
 
 
 def _law_table(
-    scene: SeparationScene,
     effect: SeparationForce,
     law: ForceLaw,
-    lowest: float,
+    rate: float,
+    gaps: _Range,
     force: Callable[[float], float],
 ) -> Table:
-    final, high = scene.loading.final_gap, min(law.end, law.known_to)
+    lowest, high = gaps.low, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
-        high = _FAR * final if isinstance(law, ViscousLaw) else _FARTHER * final
+        high = (_FARTHER if rate == _AT_REST else _FAR) * gaps.high
     folds = {high} if high == law.end else set[float]()
     inside = {kink for kink in law.kinks if lowest < kink < high}
     if lowest < law.release < high:
@@ -222,10 +283,10 @@ def _law_table(
         ) from error
 
 
-def _shape(prepared: PreparedScene[SeparationScene], film: Film, lowest: float) -> Table:
+def _shape(prepared: PreparedScene[SeparationScene], film: Film, gaps: _Range) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    high = _FAR * prepared.scene.loading.final_gap
-    if not film.has_viscous:
+    lowest, high = gaps.low, _FAR * gaps.high
+    if all(kind.newtonian is None for kind in film.laws):
         return tabulate(lambda gap: 1.0, (lowest, high))
     shape = viscous_film(prepared)
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}

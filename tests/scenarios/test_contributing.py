@@ -204,12 +204,12 @@ def test_a_native_fmu_tabulates_it(plates):
     numbers = film_numbers(alone).numbers
     film = numbers[6:]
     n_forces, law = film[3], film[4:]
-    scale, needs_film, *ends, n_kinks, stays, n_pieces = law[:8]
-    assert (n_forces, scale, needs_film, n_kinks, stays, n_pieces) == (1, 0, 0, 0, 0, 1)
+    scale, rate, needs_film, *ends, n_kinks, stays, n_pieces = law[:9]
+    assert (n_forces, scale, rate, needs_film, n_kinks, stays, n_pieces) == (1, 0, 0, 0, 0, 0, 1)
     assert ends == [math.inf, math.inf, 0.0]
-    power, n_nodes = law[12:14]
+    power, n_nodes = law[13:15]
     assert (power, n_nodes) == (2, 2)
-    assert law[16:18] == pytest.approx([attraction(1.0)] * 2, rel=1e-12)
+    assert law[17:19] == pytest.approx([attraction(1.0)] * 2, rel=1e-12)
 
 
 @pytest.mark.slow

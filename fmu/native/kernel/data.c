@@ -118,6 +118,7 @@ static void read_film(stream *s, ck_film *film) {
     for (i = 0; s->fine && i < film->count; i++) {
         ck_law *law = &film->laws[i];
         law->scale = whole(s, CK_FIXED, CK_VISCOSITY);
+        law->rate = whole(s, CK_AT_REST, CK_LIQUID);
         law->needs_film = whole(s, 0, 1);
         law->end = positive(s);
         law->release = positive(s);
@@ -210,7 +211,7 @@ static FILE *open_file(const char *path) {
 static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
     char magic[8];
     uint64_t head[2];
-    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM05", 8) != 0)
+    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM06", 8) != 0)
         return "it is no file of this FMU";
     if (fread(head, 8, 2, file) != 2 || fread(data->guid, 1, 40, file) != 40)
         return "it is cut short";

@@ -36,8 +36,11 @@ typedef struct {
 /* What a force is proportional to. */
 enum { CK_FIXED = 0, CK_TENSION_SURFACE = 1, CK_VISCOSITY = 2 };
 
+/* How a force depends on the speed; limits of the liquid bound the last kind. */
+enum { CK_AT_REST = 0, CK_PER_SPEED = 1, CK_LIQUID = 2 };
+
 typedef struct {
-    int scale, needs_film, kink_count;
+    int scale, rate, needs_film, kink_count;
     double end, release, recontact;
     double kinks[CK_KINKS];
     ck_table table;
@@ -66,6 +69,7 @@ typedef struct {
     double fixed, fixed_by_gap;
     double viscous, viscous_by_gap, viscous_by_speed;
     double resistance, resistance_by_gap; /* viscous force per speed without limits */
+    double free, free_by_gap;             /* the part of that which no limit bounds */
     int limit;                            /* 0 none, 1 tension, 2 shear */
     int padding;                          /* so that no byte of a saved state is left open */
 } ck_forces;
@@ -77,7 +81,7 @@ typedef struct {
 
 /* Impulses of the motion between two gaps. */
 typedef struct {
-    double viscous, fixed;
+    double viscous, fixed, free; /* `free` is in the viscous one, too */
 } ck_impulse;
 
 double ck_table_at(const ck_table *table, double gap, double log_gap, double *by_gap);
