@@ -169,7 +169,9 @@ def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float],
         return False
     if _energy_left(plan, state) >= -1e-6 * abs(force) * (loading.final_gap - state.gap):
         return False
-    rewets = bool(plan.film.static_columns) and plan.scene.meniscus.rewetting > 0.0
+    # What comes back with the film gives energy only if it pulls at rest, as a meniscus does.
+    returns = (k.needs_film and law.rate != "proportional" for k, law in plan.film.laws.items())
+    rewets = plan.scene.meniscus.rewetting > 0.0 and any(returns)
     return not (rewets or _pushes(plan, loading))
 
 

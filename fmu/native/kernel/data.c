@@ -118,7 +118,7 @@ static void read_film(stream *s, ck_film *film) {
     for (i = 0; s->fine && i < film->count; i++) {
         ck_law *law = &film->laws[i];
         law->scale = whole(s, CK_FIXED, CK_VISCOSITY);
-        law->rate = whole(s, CK_AT_REST, CK_LIQUID);
+        law->rate = whole(s, CK_STATIC, CK_LIQUID);
         law->needs_film = whole(s, 0, 1);
         law->end = positive(s);
         law->release = positive(s);

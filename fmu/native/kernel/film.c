@@ -132,7 +132,7 @@ void ck_forces_at(const ck_acting *a, double gap, double speed, ck_forces *found
         if (law->scale == CK_TENSION_SURFACE) scale = a->surface_tension;
         else if (law->scale == CK_VISCOSITY) scale = a->viscosity;
         value *= scale, by_gap *= scale;
-        if (law->rate == CK_AT_REST) found->fixed += value, found->fixed_by_gap += by_gap;
+        if (law->rate == CK_STATIC) found->fixed += value, found->fixed_by_gap += by_gap;
         else if (law->rate == CK_PER_SPEED) found->free += value, found->free_by_gap += by_gap;
         else liquid += value, liquid_by_gap += by_gap;
     }

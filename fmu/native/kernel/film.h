@@ -37,7 +37,7 @@ typedef struct {
 enum { CK_FIXED = 0, CK_TENSION_SURFACE = 1, CK_VISCOSITY = 2 };
 
 /* How a force depends on the speed; limits of the liquid bound the last kind. */
-enum { CK_AT_REST = 0, CK_PER_SPEED = 1, CK_LIQUID = 2 };
+enum { CK_STATIC = 0, CK_PER_SPEED = 1, CK_LIQUID = 2 };
 
 typedef struct {
     int scale, rate, needs_film, kink_count;
