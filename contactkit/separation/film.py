@@ -10,7 +10,7 @@ from typing import NamedTuple
 from attrs import field, frozen
 
 from ..scene.column import Column
-from .cavity.law import CavityLaw
+from .cavity.law import Cavitation
 from .effects.base import Limiter, LimitKind, SeparationForce
 from .effects.force_law import ForceLaw, LawAt, law_impulse
 from .integrator.radau import Forces
@@ -48,7 +48,7 @@ class Film:
     limits: tuple[tuple[LimitKind, Limiter], ...]
     end: float
     full_gap: float
-    cavity: CavityLaw | None = None
+    cavity: Cavitation | None = None
     """How the film tears, where that is remembered; None if its limits need no memory."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)

@@ -1,4 +1,4 @@
-"""The film of a scene as the numbers that the C kernel of a native FMU reads."""
+"""The film of a scene as the tables that the C kernel of a native FMU reads."""
 
 from __future__ import annotations
 
@@ -17,28 +17,26 @@ from ...separation.effects.film_shape import FilmShape
 from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
 from ...separation.effects.viscous import TensionLimit, ViscousForce, viscous_film
-from ...separation.film import Film
 from ...separation.plan import Plan, plan
-from .tables import Table, tabulate
+from .records import Film, FilmTables, Law, Rate, Scale, Table
+from .tables import tabulate
 
-__all__ = ["FINE", "FilmNumbers", "can_tear", "film_numbers", "free_liquid", "moving"]
+__all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepared_film"]
 
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
 
 _FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
 _FARTHER = 100.0  # the same of forces that lose no digits there
-_FIXED, _SURFACE, _VISCOSITY = 0.0, 1.0, 2.0
-_AT_REST, _PER_SPEED, _LIQUID = 0.0, 1.0, 2.0
-_MOST_TABLES = 8  # of one film, in the kernel
 _PROBES = 65  # gaps at which a law is asked how it depends on the speed
+_MOST_LAWS = 8  # of one film, in the records of the kernel
 _INF = math.inf
 
 
-class FilmNumbers(NamedTuple):
-    """Numbers that the kernel reads about a scene, and what they were made of."""
+class PreparedFilm(NamedTuple):
+    """Tables that the kernel reads about a scene, and what they were made of."""
 
-    numbers: list[float]
+    tables: FilmTables
     lowest: float
     """Lowest gap of the tables [m]."""
     force: float
@@ -95,140 +93,120 @@ def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     return FreeLiquid(viscosity, tension)
 
 
-def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbers:
-    """Numbers of the films of a scene, in the order in which ``native/data.c`` reads them.
+def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> PreparedFilm:
+    """Tables of the films of a scene.
 
     Raises
     ------
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
+    _check_face(scene)
     made = plan(scene, accuracy)
-    reach = _reach_of(made)
-    if any(law.known_to < min(law.end, reach) for law in made.film.laws.values()):
-        made = plan(_to(scene, reach), accuracy)  # rare: one law ends far beyond what another knows
-    interface, loading = scene.interface, scene.loading
-    fractions = [1.0]
-    fraction = scene.meniscus.rewetting
-    if scene.meniscus.volume is not None and 0.0 < fraction < 1.0:
-        fractions.append(fraction)
+    interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
+    returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
-    reynolds = tension is not None and tension.cavity == "reynolds"
-    is_sphere = not interface.is_flat
-    lowest = max(1e-13, 1e-3 * loading.initial_gap)
-    numbers = [
-        float(is_sphere),
-        interface.sphere_radius,
-        float(scene.meniscus.count),
-        float(reynolds),
-        fraction,
-        float(len(fractions)),
-    ]
-    for one in fractions:
-        numbers += _film(made, one, _Range(lowest, reach))
+    common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
+    tables = FilmTables(
+        is_sphere=not interface.is_flat,
+        sphere_radius=interface.sphere_radius,
+        menisci=float(scene.meniscus.count),
+        reynolds=tension is not None and tension.cavity == "reynolds",
+        rewetting=fraction,
+        films=tuple(_film(common, one) for one in ((1.0, fraction) if returns else (1.0,))),
+    )
     force = made.film.static_force(loading.initial_gap)
-    return FilmNumbers(numbers, lowest, force, made.prepared)
+    return PreparedFilm(tables, common.lowest, force, made.prepared)
 
 
-class _Range(NamedTuple):
-    """Gaps [m] that tables hold at least."""
-
-    low: float
-    high: float
-
-
-def _reach_of(made: Plan) -> float:
-    """Gap [m] that tables are to reach: all laws with an end, as a host may exceed `final_gap`."""
-    final = made.scene.loading.final_gap
-    return max([final, *(law.end for law in made.film.laws.values() if law.end < _INF)])
-
-
-def _to(scene: SeparationScene, reach: float) -> SeparationScene:
-    """Scene that opens to a gap [m]."""
-    return evolve(scene, loading=evolve(scene.loading, final_gap=reach))
-
-
-def _film(made: Plan, fraction: float, gaps: _Range) -> list[float]:
-    """Numbers of the film with a fraction of the volume.
-
-    Raises
-    ------
-    PlanError
-        If there are more tables than the kernel takes.
-    """
-    film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
-    breaks = _INF
-    for effect in made.scene.effects:
-        if isinstance(effect, FilmEnd):
-            breaks = effect.prepare(prepared)
-    ends = min([_INF, *(law.end for law in film.laws.values())])
-    tables = [
-        table
-        for effect in made.scene.effects
-        if isinstance(effect, SeparationForce)
-        for table in _law(made.prepared, effect, film.laws[type(effect)], gaps)
-    ]
-    if len(tables) > _MOST_TABLES:
+def _check_face(scene: SeparationScene) -> None:
+    """Refuse a cavity whose memory is a map."""
+    if scene.effect(TensionLimit) is not None and not scene.interface.has_discs:
         raise PlanError(
-            f"{len(tables)} tables of forces are more than the {_MOST_TABLES} of a native FMU; one "
-            "that acts at rest and depends on the speed as well counts twice"
+            "TensionLimit has no native form on a face that is no even disc: what its cavity "
+            "remembers is a map of the liquid, which the kernel does not hold; leave it out for a "
+            "film that never tears, or run the scene by ck.simulate"
         )
-    numbers = [ends, breaks, film.full_gap, float(len(tables))]
-    for table in tables:
-        numbers += table
-    return numbers + _shape(prepared, film, gaps).numbers() + _disc(prepared)
+
+
+class _Common(NamedTuple):
+    """What the tables of a plan have in common: liquid that stays free, and their lowest gap."""
+
+    plan: Plan
+    free: FreeLiquid
+    lowest: float
+
+    @property
+    def final_gap(self) -> float:
+        """Gap [m] that is reached: in a host a motion goes on beyond that of the scene.
+
+        At least up to the ends of the laws, so that a table holds all of a bridge.
+        """
+        given = self.plan.scene.loading.final_gap
+        ends = (law.end for law in self.plan.film.laws.values())
+        return max((given, *(end for end in ends if end < _INF)))
+
+
+def _film(common: _Common, fraction: float) -> Film:
+    """Tables of the film with a fraction of the volume."""
+    made = common.plan
+    film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
+    forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
+    rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
+    is_liquid = any(kind.newtonian is not None for kind in film.laws)
+    shape = viscous_film(prepared) if is_liquid else None
+    disc = shape if can_tear(made.scene) else None
+    laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
+    if len(laws) > _MOST_LAWS:
+        raise PlanError(
+            f"{len(laws)} tables of forces are more than the {_MOST_LAWS} of a native FMU; a force "
+            "that acts at rest and depends on the speed counts twice"
+        )
+    return Film(
+        end=min(law.end for law in film.laws.values()),
+        breaks=min(rules, default=_INF),
+        full_gap=film.full_gap,
+        laws=tuple(laws),
+        shape=_shape(common, shape),
+        rim_square=disc.rim * disc.rim if disc else 0.0,
+        volume=disc.volume if disc else 0.0,
+    )
 
 
 def can_tear(scene: SeparationScene) -> bool:
-    """Whether the film of a scene may have a cavity: one between flats, with a viscous force."""
-    return scene.interface.is_flat and scene.effect(ViscousForce) is not None
+    """Whether the film of a scene may have a cavity: one between discs, with a viscous force."""
+    interface = scene.interface
+    is_disc = interface.is_flat and interface.has_discs
+    return is_disc and scene.effect(ViscousForce) is not None
 
 
-def _disc(prepared: PreparedScene[SeparationScene]) -> list[float]:
-    """Square of the rim [m2] and volume [m3] of one film, for its cavity; 0 if it can have none."""
-    if not can_tear(prepared.scene):
-        return [0.0, 0.0]
-    shape = viscous_film(prepared)
-    return [shape.rim * shape.rim, shape.volume]
-
-
-def _law(
-    prepared: PreparedScene[SeparationScene],
-    effect: SeparationForce,
-    law: ForceLaw,
-    gaps: _Range,
-) -> list[list[float]]:
-    """Numbers of each table of a force: what it is at rest, and what it is per speed."""
-    viscosity, surface_tension = free_liquid(prepared)
-    scale, unit = _FIXED, 1.0
-    proportional_to = effect.proportional_to(prepared.scene)
+def _laws(common: _Common, effect: SeparationForce, law: ForceLaw) -> list[Law]:
+    """Tables of a force: what it is at rest, and what it is per speed."""
+    viscosity, surface_tension = common.free
+    scale, unit = Scale.FIXED, 1.0
+    proportional_to = effect.proportional_to(common.plan.scene)
     if proportional_to == "viscosity" and viscosity:
-        scale, unit = _VISCOSITY, viscosity
+        scale, unit = Scale.VISCOSITY, viscosity
     elif proportional_to == "surface_tension" and surface_tension:
-        scale, unit = _SURFACE, surface_tension
-    per_speed = _PER_SPEED if effect.newtonian is None else _LIQUID
-    found = []
-    for rate, force in _parts(effect, law, gaps, per_speed):
-        table = _law_table(effect, law, rate, gaps, lambda gap, of=force: of(gap) / unit)
-        found.append(
-            [
-                scale,
-                rate,
-                float(effect.needs_film),
-                law.end,
-                law.release,
-                law.recontact,
-                float(len(law.kinks)),
-                *law.kinks,
-                *table.numbers(),
-            ]
+        scale, unit = Scale.SURFACE_TENSION, surface_tension
+    return [
+        Law(
+            scale=scale,
+            rate=rate,
+            needs_film=effect.needs_film,
+            end=law.end,
+            release=law.release,
+            recontact=law.recontact,
+            kinks=tuple(map(float, law.kinks)),
+            table=_law_table(common, effect, law, rate, lambda gap, of=part: of(gap) / unit),
         )
-    return found
+        for rate, part in _parts(common, effect, law).items()
+    ]
 
 
 def _parts(
-    effect: SeparationForce, law: ForceLaw, gaps: _Range, per_speed: float
-) -> list[tuple[float, Callable[[float], float]]]:
+    common: _Common, effect: SeparationForce, law: ForceLaw
+) -> dict[Rate, Callable[[float], float]]:
     """What a force is at rest [N], and per speed [N.s/m], as functions of the gap.
 
     Raises
@@ -237,10 +215,10 @@ def _parts(
         If it is not linear in the speed, so that no two functions of the gap say what it is.
     """
     rate: str = law.rate
-    if law.rate == "any":
-        high = min(law.end, law.known_to, _FAR * gaps.high)
-        ratio = high / gaps.low
-        places = [gaps.low * ratio ** (i / _PROBES) for i in range(_PROBES)]
+    if rate == "any":
+        high = min(law.end, law.known_to, _FAR * common.final_gap)
+        ratio = high / common.lowest
+        places = [common.lowest * ratio ** (i / _PROBES) for i in range(_PROBES)]
         rate = measured_rate(law, places)
     if rate == "any":
         raise PlanError(
@@ -248,25 +226,26 @@ def _parts(
             "and the tables of a native FMU are F(h, 0) and dF/dv(h); run the scene with "
             "ck.simulate, or give a law that is linear over the speeds that matter"
         )
-    parts: list[tuple[float, Callable[[float], float]]] = []
+    found: dict[Rate, Callable[[float], float]] = {}
     if rate != "proportional":
-        parts.append((_AT_REST, lambda gap: law.force(gap, 0.0)))
+        found[Rate.AT_REST] = lambda gap: law.force(gap, 0.0)
     if rate != "none":
-        parts.append((per_speed, lambda gap: law.viscous_force(gap, 1.0)))
-    return parts
+        per_speed = Rate.PER_SPEED if effect.newtonian is None else Rate.LIQUID
+        found[per_speed] = lambda gap: law.viscous_force(gap, 1.0)
+    return found
 
 
 def _law_table(
+    common: _Common,
     effect: SeparationForce,
     law: ForceLaw,
-    rate: float,
-    gaps: _Range,
+    rate: Rate,
     force: Callable[[float], float],
 ) -> Table:
-    lowest, high = gaps.low, min(law.end, law.known_to)
+    lowest, final, high = common.lowest, common.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
-        high = (_FARTHER if rate == _AT_REST else _FAR) * gaps.high
+        high = (_FARTHER if rate is Rate.AT_REST else _FAR) * final
     folds = {high} if high == law.end else set[float]()
     inside = {kink for kink in law.kinks if lowest < kink < high}
     if lowest < law.release < high:
@@ -283,12 +262,11 @@ def _law_table(
         ) from error
 
 
-def _shape(prepared: PreparedScene[SeparationScene], film: Film, gaps: _Range) -> Table:
+def _shape(common: _Common, shape: FilmShape | None) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    lowest, high = gaps.low, _FAR * gaps.high
-    if all(kind.newtonian is None for kind in film.laws):
+    lowest, high = common.lowest, _FAR * common.final_gap
+    if shape is None:
         return tabulate(lambda gap: 1.0, (lowest, high))
-    shape = viscous_film(prepared)
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}
     return tabulate(_reach(shape), (lowest, *sorted(marks), high))
 

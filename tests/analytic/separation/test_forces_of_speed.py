@@ -15,7 +15,7 @@ from attrs import field, frozen
 from scipy.integrate import quad, solve_ivp
 
 import contactkit as ck
-from contactkit.fmu.native.film import film_numbers, moving
+from contactkit.fmu.native.film import moving, prepared_film
 from contactkit.scene.column import Column
 from contactkit.separation.effects.base import ForceLaw, SeparationForce
 from contactkit.units import si
@@ -288,21 +288,19 @@ def test_the_python_fmu_refuses_it_by_name():
 
 def test_tables_of_a_native_fmu_hold_what_it_is_at_rest_and_per_speed():
     brake = Brake(rest=0.2, linear=5.0)
-    numbers = film_numbers(moving(scene(imposed(), brake), None)).numbers
-    n_tables, first = numbers[9], numbers[10:]
-    assert n_tables == 2.0
-    size = 9 + 6 + 4 * 2  # of a table of two nodes, for a constant
-    for values, rate, level in ((first, 0.0, 0.2), (first[size:], 1.0, 5.0)):
-        assert values[1] == rate
-        assert values[13:15] == [0.0, 2.0]  # falls with no power, from two nodes
-        np.testing.assert_allclose(values[17:19], level, rtol=1e-12)
+    (film,) = prepared_film(moving(scene(imposed(), brake), None)).tables.films
+    at_rest, per_speed = film.laws
+    for law, rate, level in ((at_rest, "AT_REST", 0.2), (per_speed, "PER_SPEED", 5.0)):
+        (piece,) = law.table.pieces
+        assert (law.rate.name, piece.power) == (rate, 0)
+        np.testing.assert_allclose(piece.y, level, rtol=1e-12)
 
 
 @pytest.mark.parametrize("brake", [SQUARE, ALL], ids=["square", "all"])
 def test_what_is_not_linear_has_no_native_form_and_a_cure(brake):
     made = moving(scene(imposed(), ck.ViscousForce(), brake), None)
     with pytest.raises(ck.PlanError, match=r"Brake has no native form.*not linear.*ck\.simulate"):
-        film_numbers(made)
+        prepared_film(made)
 
 
 @pytest.mark.slow
