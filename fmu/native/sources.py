@@ -20,7 +20,7 @@ from ..framework.toolchain import fmi_headers
 from .data import CAUSALITIES, TYPES, Contents
 from .models import DISCRETE, MODELS, VARIABLES, enumerations
 from .record import Column, Record, Several, c_name
-from .records import Scale
+from .records import Rate, Scale
 
 __all__ = ["description_sources", "kernel_sources", "layout"]
 
@@ -75,7 +75,7 @@ def _declarations() -> tuple[str, ...]:
         _enum("causalities of variables", CAUSALITIES),
         _enum("variables", _distinct([*VARIABLES, "variables"])),
         f"enum {{ CK_DISCRETE = {len(DISCRETE)} }}; /* outputs that change at events only */\n",
-        *map(_members, (*enumerations(), Scale)),
+        *map(_members, (*enumerations(), Scale, Rate)),
         _enum("most of several members", {f"most_{name}": most for name, most in _mosts().items()}),
         "typedef struct ck_reader ck_reader;\n",
         *map(_struct, _records()),

@@ -464,6 +464,7 @@ class _Run:
                 viscous = film.viscous_force(gap, speed)[0]
             else:
                 viscous, growth = torn_pieces.torn_film(tearing, cavity, gap, speed, scale * void)
+                viscous += film.unbounded(gap, speed).viscous
             net -= film.static_force(gap) + viscous
             return [speed / gap, net / mass, rise, viscous, viscous * speed, growth / scale]
 
