@@ -1,7 +1,7 @@
 """A spool with a hole through its end face: release over its size, for an oil that never tears.
 
-The valve of the fuel injector pulls a spool whose end is a ring, vented in the middle: a `Flat` with
-a `Ring` for its planform. Beside it the pressure on such a face with four more vents, from
+The valve of the fuel injector pulls a spool whose end is a ring, vented in the middle: a `Flat` that
+has a `Ring` for its planform. Beside it the pressure on such a face with four more vents, from
 Reynolds' equation.
 """
 
@@ -40,7 +40,11 @@ def ring(injector: InjectorScene, temperature: float, hole: float) -> ck.Separat
 def delay(injector: InjectorScene, temperature: float, hole: float) -> float:
     """Release delay [s] since energising, at a temperature [K]; nan if it is not released."""
     found = simulate(
-        ck.plan(ring(injector, temperature, hole)), injector.valve, injector.first_pulse_end, rtol=1e-6, until_release=True
+        ck.plan(ring(injector, temperature, hole)),
+        injector.valve,
+        injector.first_pulse_end,
+        rtol=1e-6,
+        until_release=True,
     )
     release = next((e.time for e in found.events if e.what == "released"), math.nan)
     return release - injector.valve.profile.start_delay

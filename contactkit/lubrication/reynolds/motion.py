@@ -17,7 +17,6 @@ from .validity import warn_new
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-
     Array = NDArray[np.floating[Any]]
 
 __all__ = ["follow_gap"]

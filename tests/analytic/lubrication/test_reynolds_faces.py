@@ -357,9 +357,7 @@ REFUSED = [
         "at least the drop to the cavity",
     ),
     (
-        lambda: reynolds.GridFilm(
-            face=reynolds.rasterise(DISC, 16), viscosity=OIL, drop=-1.0
-        ),
+        lambda: reynolds.GridFilm(face=reynolds.rasterise(DISC, 16), viscosity=OIL, drop=-1.0),
         "lead below the pressure around the film",
     ),
     (
