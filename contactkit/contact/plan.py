@@ -278,10 +278,11 @@ def _check_bodies(scene: ContactScene) -> None:
         )
     for name in ("lower", "upper"):
         surface = getattr(interface, name).surface
-        if isinstance(surface, Flat) and surface.radius is not None:
+        if isinstance(surface, Flat) and surface.outline is not None:
+            given = "planform" if surface.radius is None else f"radius = {surface.radius:g} m"
             problems.append(
-                f"interface.{name}.surface.radius = {surface.radius:g} m has no effect: the window "
-                "of a contact has no rim; leave it out, or give the face as Heights"
+                f"interface.{name}.surface.{given} has no effect: the window of a contact has no "
+                "rim; leave it out, or give the face as Heights"
             )
     if problems:
         raise PlanError("; ".join(problems))

@@ -151,7 +151,7 @@ class SubsurfaceStress(Observer[StressPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
-    figures: ClassVar[tuple[str, ...]] = ("stress", "stress_3d")
+    figures: ClassVar[tuple[str, ...]] = ("stress", "stress_close_up", "stress_3d")
     records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)
     arrays: ClassVar[tuple[Array, ...]] = (
         Array("component", "-", lambda part: list(_COMPONENTS), ("component",)),
