@@ -232,21 +232,13 @@ def test_a_range_below_the_grid_rule_warns_and_names_one_above():
 @pytest.mark.parametrize(
     ("effect", "words"),
     [
-        (ck.FrictionTraction(coefficient=0.2), "no FrictionTraction beside it"),
         (ck.FilmMeniscus(film_thickness=1e-9), "no FilmMeniscus beside it"),
         (ck.IslandBridges(film_thickness=1e-9), "no IslandBridges beside it"),
     ],
 )
-def test_what_takes_pressures_to_be_positive_is_refused(effect, words):
+def test_liquid_in_the_gap_is_refused_beside_adhesion_across_air(effect, words):
     with pytest.raises(ck.PlanError, match=words):
         ck.plan(scene(WEAK, effect))
-
-
-def test_a_hardness_that_follows_the_displacement_is_refused():
-    hard = ck.Material(young_modulus=2e9, poisson_ratio=0.3, hardness=5e8)
-    stack = ck.Stack(layers=(ck.Layer(material=hard, thickness=4e-9),), substrate=SOLID)
-    with pytest.raises(ck.PlanError, match="rule='material'"):
-        ck.plan(scene(WEAK, ck.HardnessLimit(), solid=stack))
 
 
 @pytest.mark.parametrize(
