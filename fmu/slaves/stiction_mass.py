@@ -1,8 +1,8 @@
 """The FMU ``stiction-mass``: a mass held by a liquid film; a force in, motion out.
 
 The film is far too stiff to be coupled to a mass in another tool: c/m reaches 1e12 1/s. So the
-mass is inside, and `contactkit.motion.advance` integrates both, with its own error control,
-however long the communication step is.
+mass is inside, and `contactkit.separation.motion.advance` integrates both, with its own error
+control, however long the communication step is.
 """
 
 from __future__ import annotations
