@@ -19,7 +19,7 @@ from ...separation.effects.registry import AdhesiveContact, TensionLimit, Viscou
 from ...separation.effects.viscous import keeps_radius
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
-from ..slaves.stiction_mass import PLACES, with_numbers
+from ..slaves.stiction_mass import PLACES
 from ..slaves.tension import TENSIONS, tension_limit, tension_values
 from .film import can_tear, free_liquid
 from .models import native_model
@@ -125,8 +125,8 @@ def start_of(
     if prepared.scene.imposed_force.mass is None:
         raise DescriptionError("m", None, "be given", unit="kg")
     named = _OF_MASS if model == "stiction-mass" else _OF_FILM
-    settled = with_numbers(prepared)
-    own = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
+    scene = prepared.scene
+    own = read(PLACES, scene, prepared.liquid) | tension_values(scene.effect(TensionLimit))
     values: dict[str, Value] = {name: own[of] for name, of in named.items()}
     viscosity, surface_tension = free_liquid(prepared)
     return values | {"eta": viscosity, "gamma": surface_tension}

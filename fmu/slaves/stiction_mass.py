@@ -23,7 +23,6 @@ from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
 from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect, effects_of
-from ...separation.effects.prepared import PreparedScene, prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -46,7 +45,7 @@ from ..framework.ports import (
     tolerance,
 )
 from ..framework.slave import PortSlave
-from .tension import TENSIONS, tension_limit, tension_values
+from .tension import TENSIONS, as_written, tension_limit, tension_values
 
 __all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
 
@@ -297,8 +296,9 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     against = [reason for reason, holds in needs.items() if not holds]
     if against:
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
-    settled = _same_form(with_numbers(prepare_scene(scene)))
-    values = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
+    settled = _same_form(scene)
+    liquid = scene.meniscus.liquid.at(scene.temperature)
+    values = read(PLACES, settled, liquid) | tension_values(scene.effect(TensionLimit))
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
     lost = differences(settled, scene_of(numbers), _NOT_HELD)
     if lost:
@@ -310,7 +310,7 @@ _CURE = "change the scene, or add --native, which takes any scene with a mass"
 _NOT_HELD = (
     "name",
     "temperature",  # the liquid is that of it
-    "interface.meniscus.liquid.name",
+    "interface.meniscus.liquid",
     "loading.force",  # the pull is an input
     "loading.rise_time",
     "loading.time_limit",
@@ -327,6 +327,8 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     for effect in effects_of(scene):
         if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
             effects.append(evolve(effect, pulled="lower", radius="arc"))
+        elif isinstance(effect, TensionLimit):
+            effects += filter(None, (as_written(effect),))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)
     interface = evolve(
@@ -334,25 +336,6 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
         lower=evolve(interface.lower, surface=rim),
         upper=evolve(interface.upper, surface=rim),
     )
-    return evolve(scene, interface=interface, effects=tuple(effects))
-
-
-def with_numbers(prepared: PreparedScene[SeparationScene]) -> SeparationScene:
-    """Scene with a liquid of constant properties, and the tension limit as a pressure [Pa]."""
-    scene, state = prepared.scene, prepared.liquid
-    meniscus = scene.meniscus
-    liquid = Liquid(
-        name=meniscus.liquid.name,
-        viscosity=state.given("viscosity"),
-        surface_tension=state.given("surface_tension"),
-    )
-    effects = [e for e in scene.effects if not isinstance(e, TensionLimit)]
-    limit = scene.effect(TensionLimit)
-    settled = tension_limit(tension_values(limit) | {"tau_lim": 0.0})
-    if limit is not None and settled is not None:
-        is_cut = limit.cavity != "mass-conserving"
-        effects.append(evolve(settled, cavity=limit.cavity) if is_cut else settled)
-    interface = evolve(scene.interface, meniscus=evolve(meniscus, liquid=liquid))
     return evolve(scene, interface=interface, effects=tuple(effects))
 
 
