@@ -124,7 +124,7 @@ def build_native(
 def native_about(
     name: str, ports: tuple[Port, ...], start: Mapping[str, Value], more: str = ""
 ) -> Description:
-    """What a native FMU says of itself, but for its GUID; `more` ends its summary."""
+    """Description of a native FMU, but for its GUID; `more` ends its summary."""
     model = native_model(name)
     return Description(
         identifier=model.identifier,
@@ -155,7 +155,7 @@ def target(out: str | os.PathLike[str], fmi: int) -> Path:
 
 
 class NativeContent(NamedTuple):
-    """What follows the variables in the file of a native FMU, and the scene it was made from."""
+    """Tables and faces of the file of a native FMU, and the scene they were made from."""
 
     tables: FilmTables | None = None
     faces: Faces | None = None

@@ -56,7 +56,7 @@ class Numbers:
 
     @property
     def left(self) -> int:
-        """How many are left."""
+        """Number of those not yet taken."""
         return len(self._numbers) - self._place
 
     def next(self) -> float:
