@@ -38,7 +38,7 @@ from .description import CATEGORIES, description_files
 from .film import moving, prepared_film
 from .models import native_model
 from .page import native_page
-from .ports import Model, check_free, check_start, native_ports
+from .ports import Model, check_free, native_ports
 from .records import Faces, FilmTables
 from .sources import kernel_sources, layout
 
@@ -115,7 +115,7 @@ def build_native(
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
-    check_start(ports, values)
+    native_model(model).slave.check_start(values)
     about = native_about(model, ports, values, f" ({scene.name})" if scene.name else "")
     content = NativeContent(film.tables, None, scene)
     return write_native(model, about, content, place, fmi, chosen_platforms(platforms), compiler)

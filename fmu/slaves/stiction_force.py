@@ -208,6 +208,11 @@ class StictionForce(PortSlave):
     plan: Plan
     memory: _Memory
 
+    @classmethod
+    def check_start(cls, values: Mapping[str, Any]) -> None:
+        """See `PortSlave.check_start`."""
+        stiction_mass.check_gaps(values)
+
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
         start = self.values["h0"]

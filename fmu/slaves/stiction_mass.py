@@ -47,7 +47,7 @@ from ..framework.ports import (
 from ..framework.slave import PortSlave
 from .tension import TENSIONS, as_written, tension_limit, tension_values
 
-__all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
+__all__ = ["MeniscusLaw", "StictionMass", "check_gaps", "mass_values", "scene_of"]
 
 
 class MeniscusLaw(IntEnum):
@@ -251,6 +251,25 @@ _FILM = SeparationScene(
 """Scene whose fields the parameters fill in."""
 
 
+def check_gaps(values: Mapping[str, Any]) -> None:
+    """Refuse gaps, or tensions, of a film that contradict each other; those there are.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the two.
+    """
+    tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
+    start = values["h0"]
+    if values.get("h_rel", math.inf) <= start:
+        raise DescriptionError("h_rel", values["h_rel"], f"exceed h0 = {start:g} m", unit="m")
+    if values.get("h_min", 0.0) > start:
+        raise DescriptionError("h_min", values["h_min"], f"not exceed h0 = {start:g} m", unit="m")
+    if 0.0 < values["h_break"] <= start or math.isinf(values["h_break"]):
+        expected = f"be 0 or exceed h0 = {start:g} m"
+        raise DescriptionError("h_break", values["h_break"], expected, unit="m")
+
+
 def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     """Scene that the parameters of the FMU describe.
 
@@ -259,14 +278,7 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     DescriptionError
         If two parameters contradict each other.
     """
-    if values["h_rel"] <= values["h0"]:
-        raise DescriptionError(
-            "h_rel", values["h_rel"], f"exceed h0 = {values['h0']!r} m", unit="m"
-        )
-    if values["h_min"] > values["h0"]:
-        raise DescriptionError(
-            "h_min", values["h_min"], f"not exceed h0 = {values['h0']!r} m", unit="m"
-        )
+    check_gaps(values)
     limit = tension_limit(values)
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
@@ -354,6 +366,11 @@ class StictionMass(PortSlave):
     plan: Plan
     state: MotionState
     _pull = Pull(0.0)  # the last one, which a pull that stays takes again
+
+    @classmethod
+    def check_start(cls, values: Mapping[str, Any]) -> None:
+        """See `PortSlave.check_start`."""
+        check_gaps(values)
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
