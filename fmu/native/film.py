@@ -9,7 +9,7 @@ from typing import NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...errors import ConvergenceError, DescriptionError
+from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
@@ -103,6 +103,7 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
+    _check_face(scene)
     made = plan(scene, accuracy)
     interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
     returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
@@ -118,6 +119,16 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
     )
     force = made.film.static_force(loading.initial_gap)
     return PreparedFilm(tables, common.lowest, force, made.prepared)
+
+
+def _check_face(scene: SeparationScene) -> None:
+    """Refuse a cavity whose memory is a map."""
+    if scene.effect(TensionLimit) is not None and not scene.interface.has_discs:
+        raise PlanError(
+            "TensionLimit has no native form on a face that is no even disc: what its cavity "
+            "remembers is a map of the liquid, which the kernel does not hold; leave it out for a "
+            "film that never tears, or run the scene by ck.simulate"
+        )
 
 
 class _Common(NamedTuple):
@@ -158,8 +169,10 @@ def _film(common: _Common, fraction: float) -> Film:
 
 
 def can_tear(scene: SeparationScene) -> bool:
-    """Whether the film of a scene may have a cavity: one between flats, with a viscous force."""
-    return scene.interface.is_flat and scene.effect(ViscousForce) is not None
+    """Whether the film of a scene may have a cavity: one between discs, with a viscous force."""
+    interface = scene.interface
+    is_disc = interface.is_flat and interface.has_discs
+    return is_disc and scene.effect(ViscousForce) is not None
 
 
 def _law(common: _Common, effect: SeparationForce, law: ForceLaw) -> Law:

@@ -94,7 +94,8 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
         return evolve(port, exclusive=False, minimum=low, maximum=port.start if held else None)
     if model == "stiction-force" and port.name == "h":
         return evolve(port, exclusive=False, minimum=lowest)
-    if port.name in ("dp_cav", "tau_lim") and scene.effect(ViscousForce) is None:
+    is_limited = scene.interface.has_discs and scene.effect(ViscousForce) is not None
+    if port.name in ("dp_cav", "tau_lim") and not is_limited:
         return evolve(port, maximum=0.0)  # there is nothing to limit, but a master asks for them
     return port
 

@@ -302,6 +302,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     needs = {
         "two flats": interface.is_flat,
         "a face with a radius [m]": math.isfinite(interface.rim_radius),
+        "even discs": interface.has_discs,
         "loading = ImposedForce(...) with a mass [kg]": isinstance(loading, ImposedForce)
         and loading.mass is not None,
     }

@@ -103,6 +103,14 @@ SCENES |= {
 }
 
 
+RING = ck.Flat(planform=ck.Ring(radius=3.175e-3, hole_radius=1e-3))
+PAD = ck.Flat(planform=ck.Rectangle(length=4e-3, width=3e-3), tilt=(1e-3, 0.0))
+SCENES |= {
+    "ring": scene(lower=ck.Flat(), upper=RING, stiffness=0.0),
+    "tilted": scene(lower=ck.Flat(), upper=PAD, effects=(ck.ViscousForce(),), stiffness=0.0),
+}
+
+
 # Degrees, which a liquid repelled by one or both faces ends at as no power of what is left.
 ANGLES = [(180, 180), (179.9, 179.9), (120, 60)]
 

@@ -29,6 +29,7 @@ pytest.importorskip("fmpy")
 if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
+import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.errors import ConvergenceError
 from contactkit.fmu.framework.instance import Instance
@@ -206,10 +207,19 @@ MOTIONS = {
     "humid tip": ([1e-5] * 5, 1e-6, {}),
     "tip that sticks": ([2e-6] * 10, 1e-6, {}),
     "rough": ([0.1] * 10, 1e-5, {}),
+    "ring": ([40.0] * 30, 1e-3, {}),
+    "tilted": ([40.0] * 30, 1e-4, {}),
 }
 
 
-QUICK = ("rewetting", "sphere", "shear", "tip that sticks", "rough")
+QUICK = ("rewetting", "sphere", "shear", "tip that sticks", "rough", "tilted")
+
+
+def test_a_cavity_on_a_face_that_is_no_disc_has_no_native_form():
+    ring = SCENES["ring"]
+    torn = attrs.evolve(ring, effects=(*ring.effects, ck.TensionLimit()))
+    with pytest.raises(ck.PlanError, match=r"TensionLimit has no native form.*ck\.simulate"):
+        prepared_film(moving(torn, None))
 
 
 @pytest.mark.parametrize("name", quick(MOTIONS, *map([*MOTIONS].index, QUICK)))
