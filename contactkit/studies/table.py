@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Study", "StudyLine", "as_text", "study_contents"]
 
-_MAX_COLUMNS = 6  # of a table without named columns
-_WIDEST = 40  # characters of a value without a name
+_MAX_COLUMNS = 6  # of a table without named columns; more do not fit beside the parameters
+_WIDEST = 40  # characters of a value without a name; two of them fit into a line of a terminal
 
 
 class StudyLine(NamedTuple):
