@@ -96,6 +96,9 @@ def _ahead(
     bodies: Pair, here: Free, direction: Array, step: float, pressure: float | None
 ) -> Free | None:
     """Bridge one step along the curve, in the plane normal to its direction."""
+    # Pseudo-arclength (Keller): the gap is an unknown too and the step is along the tangent, so
+    # that the system stays regular at a fold, where the Jacobian by the four unknowns alone is
+    # singular.
     weights = weights_of(here)
     origin = np.append(here.unknowns[:, 0], here.gap[0])
     y = origin + step * direction
@@ -150,7 +153,7 @@ def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = 
             if step < 1e-6 or (here.gap[0] > limit * (1.0 - 1e-5)):
                 break
             continue
-        if now[4] <= 0.0:
+        if now[4] <= 0.0:  # the gap falls: a fold lies in this step; approach it by short ones
             if step > 1e-3:
                 step *= 0.25
                 continue

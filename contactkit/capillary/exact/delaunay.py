@@ -52,9 +52,13 @@ __all__ = [
 ]
 
 _RIGHT = math.pi / 2.0
-_TINY = 1e-300  # avoids 0/0
+_TINY = 1e-300  # avoids 0/0 at the cylinder and at s = 0; lost beside any other number
+# Square of an angle over which a ratio of type (sin x/x - cos x)/x^2 is drawn to its limit 1/3, in
+# derivatives only. 1e-8 leaves 1e-11 of them in the median; below 1e-12 single ones lose 8 digits.
 _SMALL = 1e-10
-_ROUND = 0.2  # shapes below this have no neck that is narrow compared with their length
+# Shapes below this are integrated from the bulge. The map from the neck degenerates at e = 0, that
+# from the bulge at e = 1; in between the choice does not matter: 0.02 to 0.9 agree to 3e-15.
+_ROUND = 0.2
 
 
 class Elementary(NamedTuple):

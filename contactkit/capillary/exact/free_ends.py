@@ -21,7 +21,7 @@ __all__ = ["Free", "at_gaps", "scaled_curvature", "descend", "newton", "tangent"
 Array = NDArray[np.float64]
 Rows = NDArray[np.complex128]  # a value and its complex steps in the directions of the unknowns
 
-_STEP = 1e-30  # of the complex-step derivative
+_STEP = 1e-30  # of the complex-step derivative, as in `chart`
 _STEPS = 400
 _DIRECTIONS = np.concatenate((np.zeros((1, 4)), np.eye(4)))[:, :, None]
 
@@ -148,6 +148,8 @@ def descend(
     here, good = newton(bodies, start[:, None], np.array([start_gap]), pressure)
     if not good[0]:
         return found
+    # The determinant changes sign at a fold: a step to where it has the other sign has jumped over
+    # one.
     sign = np.sign(np.linalg.det(here.jacobian[0]))
     left, fraction = _STEPS, 0.2
     for i in np.argsort(-gaps):

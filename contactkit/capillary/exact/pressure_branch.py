@@ -26,7 +26,10 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Two = tuple[Array, Array]
 
-_RADII = np.geomspace(1e-9, 0.98, 400)  # of the contact circles, over the smaller radius
+# Of the contact circles, over the smaller radius of the bodies: wide enough for films of 1e12 times
+# the curvature of pressure, and for the equator. The table only brackets a start of Newton's
+# method.
+_RADII = np.geomspace(1e-9, 0.98, 400)
 
 
 def holds(found: Solution) -> Flags:

@@ -24,7 +24,9 @@ __all__ = ["BeyondLimitError", "columns_at"]
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_NEAR = 1e-9  # error of the gap, over its maximum, above which a solution is rejected
+# Error of the gap, over its maximum, above which a solution is rejected: Newton's method ends at
+# 1e-13 or on another branch, so that 1e-12 to 1e-3 reject the same.
+_NEAR = 1e-9
 
 
 class BeyondLimitError(Exception):

@@ -68,7 +68,7 @@ def sessile_drop(body: Body) -> SessileDrop:
 
 Array = NDArray[np.float64]
 
-FOLD, PITCHFORK, DETACHMENT = 0, 1, 2
+FOLD, PITCHFORK, DETACHMENT = 0, 1, 2  # indices of `stability.LIMITS`
 _INSIDE = 9  # nodes of the interpolation of a fold
 # denser towards zero, where the limit of nearly equal bodies has a cusp
 _FINE = 0.5 ** np.arange(1.0, 27.0)
@@ -141,6 +141,8 @@ def along(
     if flat and pressure is None:
         found = _along_flats(point(pairs, np.zeros_like(chart), chart))
         return _gone(bodies, chart, *found)
+    # zeta parameterises the branch through its fold, where the gap cannot: at each zeta one
+    # equation in ln a is left, whose steps of at most 0.7 halve or double the neck.
     log_neck, step = log_neck.copy(), np.full(chart.shape, np.inf)
     for _ in range(20):
         at = point(pairs, log_neck, chart)
@@ -205,6 +207,9 @@ def _closed(
 ) -> Branch:
     """Branch through points in order; a fold is located after the last point but one."""
     if kind == FOLD:
+        # The limit is the root of the slope, not the maximum of the gap: that is flat, and would be
+        # known to half of the digits only. Two refinements of the bracket by _INSIDE come before
+        # fits to it.
         inside = places[:, -2:]
         for _ in range(2):
             nodes = np.linspace(inside[0, 0], inside[0, 1], _INSIDE)

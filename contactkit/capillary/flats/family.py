@@ -19,7 +19,7 @@ from ..exact.delaunay import COMPLEX, NUMBERS, Body, Ends, body, ends, integrand
 
 __all__ = ["Member", "family", "last_member"]
 
-_STEP = 1e-30  # of the complex step
+_STEP = 1e-30  # of the complex step, as in `exact.chart`
 
 
 class Member(NamedTuple):
