@@ -214,6 +214,9 @@ def _edges(
     distance: NDArray[np.float64], ends: NDArray[np.float64], load: point_load.PointLoad
 ) -> NDArray[np.float64]:
     """Sum over the two edges of each pixel that lie along `ends`; shape (ends, distances)."""
+    # A pixel is four triangles with the point at their tip. In u = asinh(along/distance) the
+    # integral over a triangle is that of the tabulated mean I alone: no singularity at r = 0 is
+    # left.
     angle = np.arcsinh(ends[:, None] / distance)
     first = 2.0 * distance * _integral(0.0 * angle[:1], angle[:1], distance, load)
     later = distance * _integral(angle[:-1], angle[1:], distance, load)

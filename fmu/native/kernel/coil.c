@@ -7,9 +7,9 @@
 #include <float.h>
 #include <math.h>
 
-#define MOST_STEPS 100000 /* for one voltage */
-#define RTOL 1e-11        /* of the flux */
-#define KNEE 8.0          /* how sharply the iron saturates */
+#define MOST_STEPS 100000 /* for one voltage: then the motion given is no motion */
+#define RTOL 1e-11        /* of the flux: far below what an extrapolated gap is worth */
+#define KNEE 8.0          /* how sharply the iron saturates: see models/injector/coil.py */
 
 /* As Python's max(value, 0.0): nan stays, for others to find. */
 static double at_least_zero(double value) { return 0.0 > value ? 0.0 : value; }
