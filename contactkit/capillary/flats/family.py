@@ -63,7 +63,8 @@ def _integrals(found: Ends) -> tuple[float, float, float, float]:
     from_bulge = bool(is_round(shape))
     low = -reach(NUMBERS, shape, found.limiting, from_bulge=from_bulge)
     span = reach(NUMBERS, shape, found.second, from_bulge=from_bulge) - low
-    # The nearest branch point is a right angle away for every shape: accurate to round-off.
+    # As in `exact.chart`. The nearest branch point is a right angle away for every shape: accurate
+    # to round-off.
     wanted = 6.0 + 20.0 / math.asinh(math.pi / max(abs(span), 1e-3))
     total = [0.0, 0.0, 0.0, 0.0]
     for node, weight in zip(*gauss_legendre(8 * math.ceil(wanted / 8.0)), strict=True):

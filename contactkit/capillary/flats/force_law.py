@@ -28,8 +28,12 @@ from .sampling import members_along
 
 __all__ = ["FlatLaw", "flat_end", "flat_law"]
 
-_THIN = 1e-8  # gap over radius below which the circular approximation is used
-_RIGHT_CLOSE = 1e-12  # cosine of two angles that make a cylinder
+# Gap over radius below which the circular approximation is used, whose error is of that order and
+# is corrected to its square. Larger, that square shows; smaller, the table has more thin films.
+_THIN = 1e-8
+# Cosine of two angles that make a cylinder: right angles in radians are off by 6e-17, in degrees by
+# as much; other angles have a fold near pi, which the table of a cylinder has not.
+_RIGHT_CLOSE = 1e-12
 
 
 class FlatLaw(NamedTuple):
