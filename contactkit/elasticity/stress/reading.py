@@ -45,7 +45,11 @@ FINER = 16
 # Width w of the filter in pixels: 4e-6 at the Nyquist frequency. Narrower, long waves alias (3e-5
 # at 1.5, 4e-3 at 1); wider, the rest reaches farther than REACH (4e-5 at 3).
 FILTER = 2.0
-EDGE = 0.15  # EDGE#
+# Width in pixels of the same filter that ends the sum over aliases: it smooths what is shallower
+# than itself. Uniform pixels are off by 3e-4 at a quarter of a pixel, a spline by 1e-5; with 0.3 by
+# 1e-2 and 4e-4. 0.1 would leave a tenth of that; below, FINER has too few waves (5e-3 at the
+# surface with 0.05).
+EDGE = 0.15
 # Depth in pixels down to which aliases are summed: (1 + k) exp(-k) = 1e-5 at the Nyquist frequency,
 # k = pi SHALLOW. 2 leave 2e-4; from 3 on what changes is the filter's 7e-7.
 SHALLOW = 4.5
