@@ -39,6 +39,7 @@ Pair = tuple[float, float]
 
 # Errors of windows of 16 to 64 pixels a side, homogeneous and with layers of a contrast up to 100,
 # over the coefficient at zero offset.
+
 _LEAST = 2  # images on either side that are summed pixel by pixel: 1 and 4 agree to 2e-11
 # Longer sides of the window up to which images are summed, before an integral: 100 leave 3e-10, 50
 # leave 4e-9; 400 take 1.3 times the time.

@@ -32,6 +32,7 @@ Edges = bool | Literal["x", "y"]
 
 # These balance the calls of many small pieces against what spills from the cache; none changes a
 # result. Times below: free maps of 1024 x 1024 on one thread of a shared server, to 10 %.
+
 # Of rows transformed at a time by scipy: 2**16 take 1.15 times the time, all at once 1.7 times.
 CHUNK_BYTES = 2**20
 # Of a padded spectrum up to which ducc0 takes all columns at once: beyond the cache strips save 5

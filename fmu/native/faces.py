@@ -13,7 +13,9 @@ from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
 __all__ = ["face_numbers", "stop_numbers"]
 
 _MOST_UNLOADING_CURVES = 64  # CK_UNLOADING_CURVES of native/kernel/drive.h
-_PIECES = 64  # of the dissipated work, between two unloading curves
+# Of the dissipated work, between two unloading curves: a monotone cubic through 64 pieces follows
+# it to the fourth power of a piece, 6e-8.
+_PIECES = 64
 
 
 def face_numbers(curve: LoadDisplacementCurve | None) -> list[float]:

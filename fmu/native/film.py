@@ -30,9 +30,12 @@ __all__ = ["FINE", "FilmNumbers", "can_tear", "film_numbers", "free_liquid", "mo
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
 
-_FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
-_FARTHER = 100.0  # the same of forces that lose no digits there
-_FIXED, _SURFACE, _VISCOSITY = 0.0, 1.0, 2.0
+# Final gaps up to which laws without an end are tabulated; beyond, their last power goes on. A
+# motion in a host rarely goes farther than four; forces that cost no digits there (static ones) are
+# cheap to 100.
+_FAR = 4.0
+_FARTHER = 100.0
+_FIXED, _SURFACE, _VISCOSITY = 0.0, 1.0, 2.0  # CK_FIXED ... of native/kernel/film.h
 _INF = math.inf
 
 

@@ -18,8 +18,8 @@ __all__ = ["members_along"]
 # Initial number of members. 16 to 128 end with 6300 to 7500 members in twelve laws and the same
 # errors; fewer might pass over a bend between two of them, more are members that nothing asked for.
 _COARSE = 64
-# Chart coordinate of a film thinner than any other: the gap falls as exp(-2 zeta/3) or faster, and
-# 1e-145 is below all of which the square is a number.
+# Chart coordinate of a film thinner than any other, to end the search for a thin one: no law came
+# near it, as 100 to 1000 take the same members.
 _FAR = 500.0
 # Tolerance of a slope over that of a value. Twelve laws have 6600 members at 30, 13 100 at 3, 3800
 # at 1000, where values are off by twice as much: slopes are what Newton's method of a motion reads.

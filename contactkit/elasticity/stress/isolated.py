@@ -43,8 +43,10 @@ Loads = list[Complex | None]
 Mean = Literal["periodic", "free", "x", "y"]
 
 # Measured on a Hertzian load over half of the map, with friction, homogeneous and under a layer 100
-# times as stiff; errors over the largest pressure. Points per side of the periodic window of a
-# step: 64 leave 2e-9, 32 5e-6; 128 take four times as long.
+# times as stiff; errors over the largest pressure.
+
+# Points per side of the periodic window of a step: 64 leave 2e-9, 32 5e-6; 128 take four times as
+# long.
 COARSE = 64
 WIDER = 4  # ratio of windows from step to step: two steps to 32 maps, on a wide grid of 256 points
 # Side of the first window over that of the map: the nearest image is then a whole map away, and its

@@ -36,8 +36,10 @@ Reading = Literal["trigonometric", "uniform", "spline"]
 
 READINGS: tuple[Reading, ...] = ("trigonometric", "uniform", "spline")
 # Errors over the largest pressure, of a Hertzian load 11 pixels in radius at depths of 0 to 6
-# pixels. Pixels from the centre over which the rest acts; a power of two. 16 leave 1e-6, 8 leave
-# 8e-4, and 32 take five times as long.
+# pixels, under a layer 100 times as stiff.
+
+# Pixels from the centre over which the rest acts; a power of two. 16 leave 1e-6, 8 leave 8e-4, and
+# 32 take five times as long.
 REACH = 16
 # Waves of a small window over those of its pixels, in each direction: 16 leave 1e-11, 8 leave 1e-3
 # as the filter EDGE then ends outside of them. 32 take 2.7 times as long.
