@@ -122,6 +122,7 @@ def _immersed_error(pressure: float, curvature: Array) -> InfeasibleError:
 
 def _relative_max_gap(ratio: Array, angle_lower: float, angle_upper: float) -> Array:
     """Maximum gap over the height of a thin meniscus, for pressures over curvature."""
+    # At fixed decades, not between the extremes: entries are cached over calls and angles.
     log = np.log10(ratio)
     low, high = math.floor(log.min() / _DECADES), math.ceil(log.max() / _DECADES)
     nodes = np.arange(low, high + 1) * _DECADES

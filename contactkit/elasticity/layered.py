@@ -300,6 +300,7 @@ def _of_squares(
     along_y: NDArray[np.int_], along_x: NDArray[np.int_], k: float, stack: Stack
 ) -> Array:
     """C at k sqrt(i^2 + j^2), each sum of squares evaluated once; zero at the origin."""
+    # Integers: equal wavenumbers are found exactly and without sorting.
     squares = (along_y * along_y)[:, None] + along_x * along_x
     met = np.zeros(squares[-1, -1] + 1, dtype=bool)
     met[squares] = True

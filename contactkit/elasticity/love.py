@@ -241,6 +241,8 @@ def _edge(
 
     The inverse hyperbolic sines of both ends are one, of an argument free of cancellation.
     """
+    # asinh(b) - asinh(a) = asinh(b sqrt(1 + a^2) - a sqrt(1 + b^2)). If the ends lie on both sides
+    # of the point its argument is a sum; else, with its conjugate, (b^2 - a^2) over a sum.
     lower, upper = along - half, along + half
     square = distance**2 + c * c
     root_lower, root_upper = np.sqrt(lower**2 + square), np.sqrt(upper**2 + square)

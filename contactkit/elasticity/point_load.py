@@ -184,6 +184,10 @@ def table_of(response: Response, thickness: NDArray[np.float64], radii: Radii) -
     low = min(_BELOW / scale, 0.1 / radii.maximum)
     high = max(_ABOVE / float(thickness[0]), 10.0 / radii.minimum)
     count = fft.next_fast_len(int(np.ceil(np.log(high / low) / _STEP)), real=True)
+    # The Hankel transform is a convolution in logarithms of wavenumber and radius: one FFT gives
+    # all radii over forty decades, with an error relative to T at every one. What is transformed is
+    # the response less one whose transform is known (exp(-alpha H)), so that it vanishes at both
+    # ends.
     alpha = low * np.exp(_STEP * np.arange(count))
     rest = response.at(alpha) - (c_inf + (c_s - c_inf) * np.exp(-alpha * scale))
     start = np.log(radii.minimum) - 2.0 * _STEP

@@ -270,7 +270,8 @@ def iterate(problem: Problem, profile: str, start: tuple[Array, Array] | None = 
             longest = np.maximum(abs(step1), abs(step2))
             d_turn = e.turn_lower * step1 + e.turn_upper * step2
             room = np.where(d_turn > 0.0, np.pi - e.turn, np.pi + e.turn)
-            # a distance is halved at most, and the chord stays above the horizontal
+            # The residuals have poles where the chord is horizontal, and a second family of roots
+            # beyond: a distance is halved at most, and 0.8 of the turn that is left is used.
             bound = np.where(room > 0.0, 0.8 * room / abs(d_turn), 1.0)
             scale = np.fmin(1.0, np.fmin(0.5 * size / longest, bound))
             one[active] += scale * step1

@@ -105,6 +105,8 @@ def newton(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> FreeRo
         fine: NDArray[np.bool_] = np.isfinite(
             at.jacobian.sum(axis=(1, 2)) + at.residual.sum(axis=0)
         )
+        # Singular or infinite systems among many would stop the solution of all: they get a step of
+        # no meaning, and fail by their residual.
         square = np.where(fine[:, None, None], at.jacobian, np.eye(4))
         square[abs(np.linalg.det(square)) < 1e-280] = np.eye(4)
         step = np.linalg.solve(square, np.where(fine, at.residual, 0.0).T[..., None])[..., 0].T
@@ -121,6 +123,7 @@ def newton(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> FreeRo
 
 def tangent(at: Free, i: int = 0) -> Array:
     """Direction of the curve in the unknowns and the gap, of unit length in `weights`."""
+    # The null vector of four equations in five unknowns, by singular values: regular at a fold too.
     rows = np.concatenate((at.jacobian[i], [[-1.0], [0.0], [0.0], [0.0]]), axis=1)
     weights = weights_of(at, i)
     direction = np.linalg.svd(rows / weights)[2][-1]

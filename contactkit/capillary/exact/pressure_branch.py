@@ -91,6 +91,8 @@ def branch_at_pressure(
         return problem(np.zeros(1), np.array([level]), angles, curvatures, at_pressure=True)
 
     with np.errstate(all="ignore"):
+        # A film starts Newton's method well only at pressures far below zero: lower the pressure
+        # until it does, then come back in steps of the drop, shorter ones where one fails.
         sharp = max(curvature_lower, curvature_upper)
         drop, level = 0.0, pressure
         found, _ = from_film(np.zeros(1), np.array([level]), angles, curvatures)

@@ -276,6 +276,8 @@ def march(
     bodies: Pair, flipped: bool, log_neck: float, chart: float, pressure: float | None = None
 ) -> Branch:
     """Follow the branch of unit volume, or of given pressure, from a stable point to its limit."""
+    # zeta is marched, not the gap, which has its fold there. Six points are solved at once, as
+    # numpy's calls cost more than the points; what lies beyond the limit is thrown away.
     columns = _places(bodies, np.array([chart]), np.array([log_neck]), pressure)
     step = 0.4
     for _ in range(80):
@@ -325,6 +327,7 @@ def _reordered(
 
 def flat_branch(bodies: Pair, flipped: bool) -> Branch:
     """Complete branch of unit volume between flats, where the volume determines the neck radius."""
+    # Between flats all is explicit in zeta: no initial guess, no iteration, fixed nodes.
     last = _last(bodies)
     straight = abs(bodies.limiting.cosine[0] + bodies.second.cosine[0]) < 1e-14
     # the meridian of a thin film between such plates is straight, and zeta vanishes with the gap

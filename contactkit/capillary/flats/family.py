@@ -116,7 +116,9 @@ def _last_chart(angle_lower: float, angle_upper: float, pinned: bool) -> float:
         return 1e-6  # remaining contact radius; its square is at round-off
     if symmetric and slope(1e-9) < 0.0:
         return 0.0
-    # For angles that add up to pi a film of zero gap is at zero, not at infinity.
+    # A bracket first, then false position: the slope is flat on the side of thin films, where
+    # Newton's method would leave the range. For angles that add up to pi a film of zero gap is at
+    # zero, not at infinity.
     step = 0.01 * max(min(limiting.sine, 1.0), 1e-6)
     if slope(step) < 0.0:
         high, low = step, -step

@@ -144,6 +144,9 @@ class _Measure(NamedTuple):
     cosines: float
     pinned: bool
 
+    # Force over `scale` is of order one from a film to the end, however large the force of the
+    # film: a tolerance of its spline is one of the force, relative to its two contributions.
+
     def depth(self, gap: float) -> float:
         """Spline coordinate of a gap, zero at the end."""
         return math.sqrt(max(math.log(self.end / gap), 0.0))

@@ -6,6 +6,8 @@
 
 #define CK_PI 3.14159265358979323846
 
+/* A power of the gap by products: pow() of the C libraries differs in its last bits, and a table times a
+   whole power is the same everywhere. */
 static double power_of(double base, int power) {
     double result = power & 1 ? base : 1.0, square = base * base;
     for (power >>= 1; power > 0; power--) result *= square;
@@ -19,6 +21,7 @@ static double place(const ck_piece *piece, double gap, double log_gap, double *b
         *by_gap = 1.0 / gap;
         return log_gap;
     }
+    /* Close to the end the difference of logarithms keeps few digits, of which the root takes half. */
     depth = piece->log_end - log_gap;
     if (depth < 1e-3) depth = gap < piece->high ? log1p((piece->high - gap) / gap) : 0.0;
     if (depth <= 1e-12) { /* the slope of a fold has no bound */
@@ -30,6 +33,7 @@ static double place(const ck_piece *piece, double gap, double log_gap, double *b
     return root;
 }
 
+/* A motion asks for gaps next to each other: the cell of the last call is tried first. */
 static const ck_cell *cell_at(const ck_piece *piece, double x) {
     const ck_cell *cells = piece->cells;
     int low = *piece->hint, high = piece->n_nodes - 1;
@@ -44,6 +48,8 @@ static const ck_cell *cell_at(const ck_piece *piece, double x) {
     return &cells[low];
 }
 
+/* Quintics, whose slope and curvature are continuous, too: the slopes of forces go into Newton's
+   iterations, and an error estimate of order three sees jumps of a curvature. */
 static double value_at(const ck_piece *piece, double x, double *by_x) {
     const ck_cell *cell = cell_at(piece, x);
     const double *c = cell->c;
