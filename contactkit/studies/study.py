@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from ..separation.results import SeparationResult
     from ..separation.sliding.result import SlidingResult
 
+# A point that kills its worker does so again; two tries are for those beside it in the same
+# process.
 RETRIES = 2
 """How often a point is solved again whose worker died, or which lacked memory or disk."""
 

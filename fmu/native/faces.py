@@ -14,7 +14,9 @@ from .records import Curve, Faces, PowerCurve, Unloading
 
 __all__ = ["faces_of"]
 
-_PIECES = 64  # of the dissipated work, between two unloading curves
+# Of the dissipated work, between two unloading curves: a monotone cubic through 64 pieces follows
+# it to the fourth power of a piece, 6e-8.
+_PIECES = 64
 
 
 def faces_of(curve: LoadDisplacementCurve) -> Faces:

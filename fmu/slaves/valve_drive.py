@@ -30,6 +30,8 @@ __all__ = ["ValveDrive", "drive_values", "valve_of"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
+# Of the voltage in one step of the host: the coil is solved from one to the next in some 10 us, and
+# a host waits a second.
 _MOST_SWITCHINGS = 100_000
 
 

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-#define ROUNDS 100
-#define CLOSE 1e-13
+#define ROUNDS 100 /* as many bisections reach round-off from any bracket; Newton takes some five */
+#define CLOSE 1e-13 /* of the approach: digits that a curve through tabulated values has */
 #define SAME 1e-12 /* approaches closer than this, relatively, are one */
 
 /* Piece in which a number lies, between the first and the last node. */
