@@ -27,7 +27,6 @@ from .effects.base import (
     LoadHistory,
     LoadTerm,
     PressureBound,
-    VaryingHardness,
     effects_of,
 )
 from .effects.friction import FrictionTraction
@@ -256,7 +255,6 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_liquid(made)
     _check_holes(scene)
     _check_free_sheets(scene, grid)
-    _check_attraction(made)
     for one in (*_before(made), made):
         _check_size(one)
         _check_load(one)
@@ -280,10 +278,11 @@ def _check_bodies(scene: ContactScene) -> None:
         )
     for name in ("lower", "upper"):
         surface = getattr(interface, name).surface
-        if isinstance(surface, Flat) and surface.radius is not None:
+        if isinstance(surface, Flat) and surface.outline is not None:
+            given = "planform" if surface.radius is None else f"radius = {surface.radius:g} m"
             problems.append(
-                f"interface.{name}.surface.radius = {surface.radius:g} m has no effect: the window "
-                "of a contact has no rim; leave it out, or give the face as Heights"
+                f"interface.{name}.surface.{given} has no effect: the window of a contact has no "
+                "rim; leave it out, or give the face as Heights"
             )
     if problems:
         raise PlanError("; ".join(problems))
@@ -353,16 +352,6 @@ def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
     ]
     if problems:
         raise PlanError("; ".join(problems))
-
-
-def _check_attraction(made: ContactPlan) -> None:
-    """Refuse an attraction beside a hardness that depends on the displacement."""
-    attraction = made.scene.effect(Attraction)
-    if attraction is not None and isinstance(made.hardness, VaryingHardness):
-        raise PlanError(
-            f"{type(attraction).__name__} needs a hardness that does not depend on the "
-            "displacement: give HardnessLimit(rule='material'), or rule='constant' with a number"
-        )
 
 
 def _check_window(grid: Grid) -> None:

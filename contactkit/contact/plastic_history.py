@@ -10,11 +10,12 @@ from attrs import evolve
 from ..errors import NotSimulatedError
 from ..scene.loading import Approach
 from ..scene.rough_surfaces import Heights
-from .effects.base import BoundedContact, Contact, FixedHardness, HardnessLaw
+from .effects.base import Contact, FixedHardness, HardnessLaw
 from .effects.plastic_history import PlasticHistory, PlasticHistoryPart
 from .effects.plasticity import AT_HARDNESS, HardnessLimit
-from .friction_loop import Target
-from .hardness_loop import Solved, contact_of, solve_with_hardness
+from .outer.load import solve_loaded
+from .outer.step import Solved, Step
+from .outer.unknown import Target
 from .plan import ContactPlan
 from .prepared import Once
 from .result import ContactResult
@@ -26,15 +27,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["Followed", "follow_history", "residual_surface"]
-
-
-class Followed(NamedTuple):
-    """The last contact of a history, and the history as the part of its effect."""
-
-    solved: Solved
-    contact: Contact
-    part: PlasticHistoryPart
+__all__ = ["PlasticPath", "follow_history", "residual_surface"]
 
 
 class _State(NamedTuple):
@@ -43,13 +36,13 @@ class _State(NamedTuple):
     residual : plastic depth [m] (ny, nx)
     deepest : largest displacement of each body so far [m], numbers or maps
     hardness : hardness [Pa] that belongs to it
-    pressure : pressure [Pa] of the last step, where the next one starts
+    last : contact of the last step, where the next one starts
     """
 
     residual: Map
     deepest: tuple[Map, ...] | None = None
     hardness: Map | float | None = None
-    pressure: Map | None = None
+    last: Solved | None = None
 
 
 class _Row(NamedTuple):
@@ -65,7 +58,66 @@ class _Row(NamedTuple):
     hardness: float
 
 
-def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCounter) -> Followed:
+class PlasticPath:
+    """Shape of a plastic contact along its loads, and the numbers of its states.
+
+    Parameters
+    ----------
+    plan : ContactPlan
+        The contact before any load.
+    history : PlasticHistory
+        The loads.
+    """
+
+    def __init__(self, plan: ContactPlan, history: PlasticHistory) -> None:
+        self.plan, self._history = plan, history
+        self._state, self._rows = _State(np.zeros(plan.grid.shape)), list[_Row]()
+
+    def targets(self) -> list[Target]:
+        """Loads or approaches of the steps."""
+        return _targets(self.plan, self._history)
+
+    def shaped(self) -> ContactPlan:
+        """Plan of the shape that the last step left, with a hardness that remembers."""
+        plan, state = self.plan, self._state
+        shape = plan.prepared.with_heights(plan.heights - state.residual)
+        return evolve(plan, hardness=_remembering(plan, state), interface=Once(lambda: shape))
+
+    def near(self, target: Target) -> Target:
+        """Start from the last step, if there was contact."""
+        last = self._state.last
+        return target if last is None else last.near(target)
+
+    def deform(self, heights: Map, solved: Solved) -> None:
+        """Deform the heights [m] of a step for good where its contact is at the hardness."""
+        plan, contact, residual = self.plan, solved.contact, self._state.residual
+        hardness = np.asarray(solved.hardness)
+        is_plastic = (contact.pressure >= hardness * AT_HARDNESS) & (contact.pressure > 0.0)
+        overlap = contact.bounded.overlap if contact.bounded is not None else np.zeros_like(heights)
+        # Less than this is the tolerance of the solver, not flow.
+        least = 2.0 * plan.accuracy.rtol * height_scale(heights, contact.displacement)
+        flow = np.where(is_plastic & (overlap > least), overlap, 0.0)
+        self._rows.append(_row(plan, solved, contact, is_plastic, flow))
+        self._state = _State(
+            residual + flow,
+            _deepest(plan, solved, self._state),
+            solved.hardness,
+            solved if solved.pressure.any() else None,
+        )
+
+    def finished(self, solved: Solved) -> Solved:
+        """Show the last step with the depth of the whole path, as a part of the result."""
+        bounded, residual = solved.contact.bounded, self._state.residual
+        if bounded is not None:
+            bounded = bounded._replace(overlap=residual)
+        part = _part(self.plan, self._rows, residual)
+        return solved._replace(
+            contact=solved.contact._replace(bounded=bounded),
+            parts={**solved.parts, PlasticHistory: part},
+        )
+
+
+def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCounter) -> Solved:
     """Solve the steps of a loading history; the last one is the contact of the plan.
 
     Raises
@@ -73,15 +125,16 @@ def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCoun
     InfeasibleError
         If the load of a step exceeds what the hardness there can carry.
     """
-    state, rows = _State(np.zeros(plan.grid.shape)), list[_Row]()
-    for target in _targets(plan, history):
-        solved, contact, state, row = _step(plan, target, state, counter)
-        rows.append(row)
+    path = PlasticPath(plan, history)
+    for number, target in enumerate(path.targets(), 1):
+        step = Step(path.shaped(), counter)
+        solved = solve_loaded(step, path.near(target))
+        path.deform(step.plan.heights, solved)
         if solved.problem:
-            problem = f"step {len(rows)} of the loading history: {solved.problem}"
+            problem = f"step {number} of the loading history: {solved.problem}"
             solved = solved._replace(problem=problem)
             break
-    return Followed(solved, contact, _part(plan, rows, state.residual))
+    return path.finished(step.finished(solved, target))
 
 
 def residual_surface(result: ContactResult) -> Heights:
@@ -148,37 +201,6 @@ def _targets(plan: ContactPlan, history: PlasticHistory) -> list[Target]:
     return [Target(one, None) for one in values]
 
 
-def _step(
-    plan: ContactPlan, target: Target, state: _State, counter: WorkCounter
-) -> tuple[Solved, Contact, _State, _Row]:
-    """Press the shape that the last step left, and deform it where the hardness is reached."""
-    heights = plan.heights - state.residual
-    shape = plan.prepared.with_heights(heights)
-    law = _remembering(plan, state)
-    here = evolve(plan, hardness=law, interface=Once(lambda: shape))
-    guess = state.hardness if isinstance(state.hardness, float) else None
-    solved = solve_with_hardness(
-        here, target._replace(start=state.pressure, hardness=guess), counter
-    )
-    contact = contact_of(here, solved)
-    hardness = np.asarray(solved.hardness)
-    is_plastic = (contact.pressure >= hardness * AT_HARDNESS) & (contact.pressure > 0.0)
-    overlap = contact.bounded.overlap if contact.bounded is not None else np.zeros_like(heights)
-    # Less than this is the tolerance of the solver, not flow.
-    least = 2.0 * plan.accuracy.rtol * height_scale(heights, contact.displacement)
-    flow = np.where(is_plastic & (overlap > least), overlap, 0.0)
-    residual = state.residual + flow
-    made = BoundedContact(contact.bounded.hardness, residual) if contact.bounded else None
-    after = _State(
-        residual,
-        _deepest(plan, solved, state),
-        solved.hardness,
-        contact.pressure if contact.pressure.any() else None,
-    )
-    row = _row(plan, solved, contact, is_plastic, flow)
-    return solved, contact._replace(bounded=made), after, row
-
-
 def _remembering(plan: ContactPlan, state: _State) -> HardnessLaw | None:
     """The law of the hardness, at the largest displacement so far."""
     law, deepest, known = plan.hardness, state.deepest, state.hardness
@@ -205,7 +227,7 @@ def _deepest(plan: ContactPlan, solved: Solved, state: _State) -> tuple[Map, ...
     law, solution = plan.hardness, solved.solution
     if law is None or isinstance(law, FixedHardness):
         return None
-    touching = solution.pressure > 0.0
+    touching = solved.contact.touching
     bodies = plan.prepared.displacements(solution.pressure, solution.displacement)
     now = tuple(
         np.maximum(u, 0.0) if law.is_local else np.asarray(u[touching].max(initial=0.0))

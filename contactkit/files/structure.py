@@ -21,24 +21,26 @@ from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError, nearest
 from ..liquids.liquid import Liquid
 from ..liquids.temperature_laws import TemperatureLaw
-from ..lubrication.reynolds.damping import DampingLaw
 from ..scene.effect import EffectRegistry
+from ..scene.faces import FaceHole
 from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
 from ..scene.materials import Material, RigidBase, Stack
 from ..scene.meniscus import Meniscus
+from ..scene.planforms import Planform
 from ..scene.scenes import ContactScene, Scene
 from ..scene.surfaces import Surface
 from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
-from .face_tables import DAMPING_KINDS, FACE_TABLES, FaceTable
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .toml_lines import line_of, lines_of_keys
 from .unstructure import (
     ARRAY_FIELDS,
     ATTRACTION_KINDS,
+    HOLE_KINDS,
     LAW_KINDS,
     LOADING_KINDS,
+    PLANFORM_KINDS,
     SEPARATION_EFFECT_KINDS,
     SURFACE_KINDS,
     unstructure,
@@ -68,6 +70,8 @@ _RENAMED = {
     "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
     "tension": "strength, the tension at which the whole liquid tears",
     "sliding": """[loading] with kind = "sliding\"""",
+    "damping": """the planform of a body: upper = { shape = "flat", planform = { shape = "ring", """
+    """... } }""",
     "tension_limits": "strengths and cavity_pressures [Pa]: two numbers say how a liquid tears",
 }
 
@@ -298,15 +302,6 @@ def _edges(value: Any, _: Any) -> Any:
     return value
 
 
-def _damping(value: Any, _: Any) -> DampingLaw:
-    """A table of a face, or of a law as a result file holds it."""
-    if isinstance(value, Mapping) and "law" in value:
-        made: DampingLaw = _DAMPING(value, DampingLaw)
-        return made
-    face: FaceTable = _FACE(value, FaceTable)
-    return face.law()
-
-
 def _solid(value: Any, _: Any) -> Material | Stack | None:
     """A material, by name or as a table; a stack, which has a substrate; or "rigid"."""
     if value is None or value == "rigid":
@@ -337,8 +332,9 @@ for _matches, _hook in (
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),
-    (lambda kind: kind is DampingLaw, _damping),
     (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
+    (lambda kind: kind is Planform, _tagged("shape", PLANFORM_KINDS)),
+    (lambda kind: kind is FaceHole, _tagged("kind", HOLE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
     (lambda kind: kind is AttractionLaw, _tagged("law", ATTRACTION_KINDS)),
     (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
@@ -350,7 +346,6 @@ _LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs
 _MENISCUS, _INTERFACE = _attrs_class(Meniscus, AMOUNT_KEYS), _attrs_class(Interface)
 _LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
 _law = _tagged("law", LAW_KINDS)
-_DAMPING, _FACE = _tagged("law", DAMPING_KINDS), _tagged("face", FACE_TABLES)
 
 
 def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:

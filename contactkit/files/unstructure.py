@@ -14,10 +14,23 @@ from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError
 from ..liquids.liquid import LAWS
 from ..liquids.temperature_laws import TemperatureLaw
-from ..lubrication.reynolds.damping import DampingLaw
 from ..scene.effect import Effect, EffectRegistry
+from ..scene.faces import FaceHole, SealedHole, Vent
 from ..scene.interface import Body
 from ..scene.loading import CONTACT_LOADINGS, SEPARATION_LOADINGS, SLIDING_LOADINGS, Loading
+from ..scene.planforms import (
+    Difference,
+    Disc,
+    Ellipse,
+    Image,
+    Intersection,
+    Planform,
+    Polygon,
+    Rectangle,
+    Ring,
+    Sector,
+    Union,
+)
 from ..scene.rough_surfaces import (
     CombinedSurface,
     GaussianRoughness,
@@ -33,14 +46,14 @@ __all__ = [
     "ARRAY_FIELDS",
     "ATTRACTION_KINDS",
     "LAW_KINDS",
+    "HOLE_KINDS",
     "LOADING_KINDS",
+    "PLANFORM_KINDS",
     "SEPARATION_EFFECT_KINDS",
     "SURFACE_KINDS",
     "unstructure",
     "with_arrays",
 ]
-from .face_tables import DAMPING_KINDS
-
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -60,6 +73,20 @@ _SURFACES: tuple[type[Surface], ...] = (
 )
 _LOADINGS: tuple[type[Loading], ...] = (*SEPARATION_LOADINGS, *CONTACT_LOADINGS, *SLIDING_LOADINGS)
 SURFACE_KINDS: dict[str, type] = {kind.kind: kind for kind in _SURFACES}
+_PLANFORMS: tuple[type[Planform], ...] = (
+    Disc,
+    Ring,
+    Rectangle,
+    Ellipse,
+    Sector,
+    Polygon,
+    Image,
+    Union,
+    Intersection,
+    Difference,
+)
+PLANFORM_KINDS: dict[str, type] = {kind.kind: kind for kind in _PLANFORMS}
+HOLE_KINDS: dict[str, type] = {kind.kind: kind for kind in (Vent, SealedHole)}
 LOADING_KINDS: dict[str, type[Loading]] = {kind.kind: kind for kind in _LOADINGS}
 SEPARATION_EFFECT_KINDS: EffectRegistry[Effect] = EffectRegistry(
     SEPARATION_EFFECTS, SLIDING_EFFECTS
@@ -92,10 +119,13 @@ _FAMILIES = (
         "use one of these, or the number at the temperature of the scene",
     ),
     _Family(AttractionLaw, "law", ATTRACTION_KINDS, "use one of these"),
-    _Family(DampingLaw, "law", DAMPING_KINDS, "tabulate it: TabulatedDamping"),
+    _Family(Planform, "shape", PLANFORM_KINDS, "draw it: Image(coverage=..., pixel_size=...)"),
+    _Family(FaceHole, "kind", HOLE_KINDS, "use one of these"),
 )
 # Fields that may hold an array, and their alternative in a file.
 ARRAY_FIELDS: dict[tuple[type, str], str] = {
+    (Image, "coverage"): "compose the planform of others; an image is kept in Python and in result "
+    "files",
     (Heights, "heights"): "save the array as .npy and use Measured(path=..., pixel_size=..., "
     "unit='m', detrend='none'), in a file shape = 'measured'",
     (Heights, "holes"): "fill the holes, save the array as .npy and use Measured(path=...); a map "

@@ -17,18 +17,19 @@ from measured_blocks import measure
 from PIL import Image
 from validation_tables import grid
 
+import contactkit as ck
 from contactkit.lubrication import reynolds
 from contactkit.lubrication.reynolds.face import Face
 
 R, OIL, GAP, RATE = 3.175e-3, 0.1, 1e-5, 1e-3
 SIZES = (64, 128, 256)
-DISC = reynolds.Disc(radius=R)
+DISC = ck.Disc(radius=R)
 IMG = Path(__file__).parents[1] / "img"
 
 
 def squeeze(face: Face, gap: object = GAP) -> float:
     """Force of a full film."""
-    film = reynolds.Film(face=face, viscosity=OIL)
+    film = reynolds.GridFilm(face=face, viscosity=OIL)
     return reynolds.solve_pressure(film, gap, RATE).force
 
 
@@ -44,21 +45,21 @@ def accuracy() -> str:
         return squeeze(face, reynolds.gap_map(face, GAP, dome_radius=curvature))
 
     def recessed(n: int) -> float:
-        face, hole = reynolds.rasterise(DISC, n), reynolds.Disc(radius=1.5e-3)
-        recess = reynolds.Recess(shape=hole, depth=3e-5)
+        face, hole = reynolds.rasterise(DISC, n), ck.Disc(radius=1.5e-3)
+        recess = ck.Recess(shape=hole, depth=3e-5)
         return squeeze(face, reynolds.gap_map(face, GAP, recesses=[recess]))
 
     def masked(n: int) -> float:
         face = reynolds.rasterise(DISC, n)
         return squeeze(reynolds.face_from_mask(face.inside, face.pixel_size))
 
-    small = reynolds.Hole(shape=reynolds.Disc(radius=0.01 * R))
-    pocket = reynolds.Pocket(shape=reynolds.Disc(radius=0.5 * R))
+    small = reynolds.Hole(shape=ck.Disc(radius=0.01 * R))
+    pocket = reynolds.Pocket(shape=ck.Disc(radius=0.5 * R))
     cases = {
         "disc": (made(DISC), reynolds.disc_damping(R)),
         "disc, from a mask": (masked, reynolds.disc_damping(R)),
         "ring, hole 0.3 R vented": (
-            made(reynolds.Ring(radius=R, hole_radius=0.3 * R)),
+            made(ck.Ring(radius=R, hole_radius=0.3 * R)),
             reynolds.ring_damping(R, 0.3 * R),
         ),
         "ring, hole 0.01 R vented": (made(DISC, small), reynolds.ring_damping(R, 0.01 * R)),
@@ -67,19 +68,19 @@ def accuracy() -> str:
             reynolds.ring_damping(R, 0.5 * R, is_sealed=True),
         ),
         "square": (
-            made(reynolds.Rectangle(length=side, width=side)),
+            made(ck.Rectangle(length=side, width=side)),
             reynolds.rectangle_damping(side, side),
         ),
         "rectangle 2:1": (
-            made(reynolds.Rectangle(length=2 * side, width=side)),
+            made(ck.Rectangle(length=2 * side, width=side)),
             reynolds.rectangle_damping(2 * side, side),
         ),
         "ellipse 1.5:1": (
-            made(reynolds.Ellipse(semi_axes=(R, R / 1.5))),
+            made(ck.Ellipse(semi_axes=(R, R / 1.5))),
             reynolds.ellipse_damping((R, R / 1.5)),
         ),
         "equilateral triangle": (
-            made(reynolds.equilateral_triangle(side)),
+            made(ck.equilateral_triangle(side)),
             reynolds.triangle_damping(side),
         ),
         "disc under a dome": (domed, reynolds.dome_damping(R, curvature)),
@@ -111,9 +112,7 @@ def cavity() -> str:
         exact = ratio * math.pi * R**2 * 1e6
         row, counts = [f"disc, {sigma:g} times the onset"], []
         for n in SIZES:
-            film = reynolds.Film(
-                face=reynolds.rasterise(DISC, n), viscosity=OIL, cavity_pressure=-1e6
-            )
+            film = reynolds.GridFilm(face=reynolds.rasterise(DISC, n), viscosity=OIL, drop=1e6)
             speed = sigma * reynolds.disc_damping(R).onset_speed(5e-6, 1e6, OIL)
             start = reynolds.at_rest(film, 5e-6)
             state = reynolds.step_film(start, 5e-6 + speed * 1e-12, 1e-12)
@@ -138,8 +137,8 @@ def cost() -> str:
     rows = []
     for n in (64, 128, 256, 512):
         face = reynolds.rasterise(DISC, n)
-        film = reynolds.Film(face=face, viscosity=OIL, cavity_pressure=-1e6)
-        full = reynolds.Film(face=face, viscosity=OIL)
+        film = reynolds.GridFilm(face=face, viscosity=OIL, drop=1e6)
+        full = reynolds.GridFilm(face=face, viscosity=OIL)
         repeats = 8 if n < 512 else 2
         solved = least(lambda full=full: reynolds.solve_pressure(full, GAP, RATE), repeats)
         rest = reynolds.at_rest(film, 5e-6)
@@ -164,16 +163,32 @@ def holed_face(cells: int) -> Face:
     """A disc with a vent in its middle and three holes around it."""
     turns = (0.0, 2.0 * math.pi / 3.0, 4.0 * math.pi / 3.0)
     places = [(0.6 * R * math.cos(t), 0.6 * R * math.sin(t)) for t in turns]
-    holes = [reynolds.Hole(shape=reynolds.Disc(radius=0.2 * R))]
-    holes += [reynolds.Hole(shape=reynolds.Disc(radius=0.08 * R, centre=p)) for p in places]
+    holes = [reynolds.Hole(shape=ck.Disc(radius=0.2 * R))]
+    holes += [reynolds.Hole(shape=ck.Disc(radius=0.08 * R, centre=p)) for p in places]
     return reynolds.rasterise(DISC, cells, holes=holes)
+
+
+def injector_disc() -> ck.SeparationResult:
+    """Disc of 20 g that is pulled off a film of 5 um with 40 N, and cavitates at 10 bar."""
+    scene = ck.SeparationScene(
+        interface=ck.Interface(
+            upper=ck.Flat(radius=R),
+            meniscus=ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=OIL)),
+        ),
+        loading=ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02),
+        effects=(
+            ck.ViscousForce(),
+            ck.TensionLimit(strength=1e6, cavity_pressure=101_325.0 - 1e6),
+        ),
+    )
+    return ck.simulate(ck.plan(scene))
 
 
 def pictures() -> None:
     """Draw the pictures of the page."""
     from contactkit.plot import film as film_plot
 
-    film = reynolds.Film(face=holed_face(128), viscosity=OIL, cavity_pressure=-1e6)
+    film = reynolds.GridFilm(face=holed_face(128), viscosity=OIL, drop=1e6)
     period = 1e-3
 
     def gap(t: float) -> float:
@@ -185,8 +200,10 @@ def pictures() -> None:
     film_plot.instants(shown).savefig(IMG / "film-instants.png")
     film_plot.animate(states[1:76:3], IMG / "film-opening.gif", rate=8.0)
     quarter = reynolds.rasterise(DISC, 64, window=(0.0, R, 0.0, R))
-    film = reynolds.Film(face=quarter, viscosity=OIL, cavity_pressure=-1e6)
-    steps = list(reynolds.pull_apart(film, 5e-6, mass=0.02, force=40.0, final=2e-5, copies=4))
+    film = reynolds.GridFilm(face=quarter, viscosity=OIL, drop=1e6)
+    pulled = injector_disc()
+    times, gaps = pulled["time"], pulled["gap"]
+    steps = list(reynolds.follow_gap(film, lambda t: float(np.interp(t, times, gaps)), times))
     film_plot.opening(steps, copies=4)[0].figure.savefig(IMG / "film-pull.png")
     for name in ("film-instants", "film-pull"):
         picture = IMG / f"{name}.png"

@@ -19,21 +19,15 @@ from ...separation.effects.registry import AdhesiveContact, TensionLimit, Viscou
 from ...separation.effects.viscous import keeps_radius
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
-from ..slaves.stiction_force import PORTS as FORCE_PORTS
-from ..slaves.stiction_mass import PLACES, with_numbers
-from ..slaves.stiction_mass import PORTS as MASS_PORTS
-from ..slaves.tension import TENSIONS, tension_limit, tension_values
-from .data import IDENTIFIERS
+from ..slaves.stiction_mass import PLACES
+from ..slaves.tension import TENSIONS, tension_values
 from .film import can_tear, free_liquid
+from .models import native_model
 
-__all__ = ["MODELS", "Model", "check_free", "check_start", "native_ports", "start_of"]
+__all__ = ["Model", "check_free", "native_ports", "start_of"]
 
 Model = Literal["stiction-mass", "stiction-force"]
-MODELS: Mapping[Model, tuple[Port, ...]] = {
-    "stiction-mass": MASS_PORTS,
-    "stiction-force": FORCE_PORTS,
-}
-"""Models that have a native form, and the variables of their Python FMUs."""
+"""Models of the film of any scene."""
 
 _OF_MASS = {
     name: name
@@ -60,8 +54,8 @@ def native_ports(
     force: float = 0.0,
 ) -> tuple[Port, ...]:
     """Variables of the FMU of a scene whose tables begin at a gap [m], with a typical force [N]."""
-    own = MODELS[model]
-    there = {port.name for port in own} & set(IDENTIFIERS) - _absent(prepared, model)
+    own = native_model(model).ports
+    there = {port.name for port in own} - _absent(prepared, model)
     start = start_of(prepared, model) | {STEP_LIMIT: NATIVE_STEPS}
     sizes = _sizes(prepared.scene, abs(force))
     ports = []
@@ -100,7 +94,8 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
         return evolve(port, exclusive=False, minimum=low, maximum=port.start if held else None)
     if model == "stiction-force" and port.name == "h":
         return evolve(port, exclusive=False, minimum=lowest)
-    if port.name in ("dp_cav", "tau_lim") and scene.effect(ViscousForce) is None:
+    is_limited = scene.interface.has_discs and scene.effect(ViscousForce) is not None
+    if port.name in ("dp_cav", "tau_lim") and not is_limited:
         return evolve(port, maximum=0.0)  # there is nothing to limit, but a master asks for them
     return port
 
@@ -108,7 +103,7 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
 def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
     """Parameters that mean nothing for a scene, or that its tables have fixed."""
     viscosity, surface_tension = free_liquid(prepared)
-    absent = {"N"}
+    absent = set[str]()
     if not viscosity:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
     if not surface_tension:
@@ -131,8 +126,8 @@ def start_of(
     if prepared.scene.imposed_force.mass is None:
         raise DescriptionError("m", None, "be given", unit="kg")
     named = _OF_MASS if model == "stiction-mass" else _OF_FILM
-    settled = with_numbers(prepared)
-    own = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
+    scene = prepared.scene
+    own = read(PLACES, scene, prepared.liquid) | tension_values(scene.effect(TensionLimit))
     values: dict[str, Value] = {name: own[of] for name, of in named.items()}
     viscosity, surface_tension = free_liquid(prepared)
     return values | {"eta": viscosity, "gamma": surface_tension}
@@ -148,30 +143,10 @@ def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value 
     """
     free = {port.name for port in ports}
     for name, value in given.items():
-        if name not in free and name in {port.name for port in MODELS[model]}:
+        if name not in free and name in {port.name for port in native_model(model).slave.ports}:
             raise DescriptionError(
                 name,
                 value,
                 f"be left out: in a native {model} of this scene it is no variable",
                 hint="change the scene, whose geometry, liquid and laws are in the tables",
             )
-
-
-def check_start(ports: tuple[Port, ...], values: Mapping[str, Value]) -> None:
-    """Refuse start values that contradict each other, as the kernel would.
-
-    Raises
-    ------
-    DescriptionError
-        Naming the two.
-    """
-    tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
-    gap = values["h0"]
-    if values.get("h_rel", math.inf) <= gap:
-        raise DescriptionError("h_rel", values["h_rel"], f"exceed h0 = {gap:g} m", unit="m")
-    if values.get("h_min", 0.0) > gap:
-        raise DescriptionError("h_min", values["h_min"], f"not exceed h0 = {gap:g} m", unit="m")
-    if 0.0 < values["h_break"] <= gap or math.isinf(values["h_break"]):
-        raise DescriptionError(
-            "h_break", values["h_break"], f"be 0 or exceed h0 = {gap:g} m", unit="m"
-        )

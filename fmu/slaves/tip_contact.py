@@ -45,7 +45,6 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat, Sphere
-from ...separation.effects.prepared import prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
     VanDerWaalsForce,
@@ -65,7 +64,6 @@ from ..framework.ports import (
     tolerance,
 )
 from ..framework.slave import PortSlave
-from .stiction_mass import with_numbers
 
 __all__ = ["TipContact", "TipLaw", "TipStatus", "check_tip"]
 
@@ -138,6 +136,7 @@ _PORTS = (
         "time of the latest rupture, -1 before",
         start=-1.0,
         nominal=1e-6,
+        at_events=True,
     ),
     output_port(
         "t_free",
@@ -145,6 +144,7 @@ _PORTS = (
         "time at which the tips were free for the last time, -1 before",
         start=-1.0,
         nominal=1e-6,
+        at_events=True,
     ),
     output_port(
         "t_land",
@@ -152,6 +152,7 @@ _PORTS = (
         "time of the latest landing, -1 before",
         start=-1.0,
         nominal=1e-6,
+        at_events=True,
     ),
     output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
     output_port("n_land", "-", "number of landings so far", kind="integer", minimum=0),
@@ -202,13 +203,23 @@ _PORTS = (
     size_port(
         "h_free", "m", "gap beyond which solids do not attract a tip", 5e-8, "nm", exclusive=True
     ),
-    size_port("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True),
-    size_port("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19),
-    size_port("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0),
+    size_port("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True, tabulated=True),
+    size_port("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19, tabulated=True),
+    size_port("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0, tabulated=True),
     size_port("gamma", "N/m", "surface tension of the liquid", 0.0727, "mN/m", exclusive=True),
     size_port("eta", "Pa.s", "viscosity of the liquid; 0: no viscous force", 1e-3, "mPa.s"),
-    size_port("theta1", "rad", "contact angle on the landing site", 0.7, "deg", maximum=math.pi),
-    size_port("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
+    size_port(
+        "theta1",
+        "rad",
+        "contact angle on the landing site",
+        0.7,
+        "deg",
+        maximum=math.pi,
+        tabulated=True,
+    ),
+    size_port(
+        "theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi, tabulated=True
+    ),
     Port(
         "profile",
         "-",
@@ -217,6 +228,7 @@ _PORTS = (
         kind="enumeration",
         enumeration=TipLaw,
         start=TipLaw.EXACT,
+        tabulated=True,
     ),
     size_port("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),
@@ -314,8 +326,10 @@ def tip_values(tip: SeparationScene) -> dict[str, Any]:
     }
     if against := [reason for reason, holds in needs.items() if not holds]:
         raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
-    settled = _same_form(with_numbers(prepare_scene(tip)))
-    values = read(PLACES, settled)
+    settled = _same_form(tip)
+    values = read(PLACES, settled, tip.meniscus.liquid.at(tip.temperature))
+    if tip.effect(ViscousForce) is None:
+        values["eta"] = 0.0
     if tip.effect(MeniscusForce) is None:
         del values["profile"]
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
@@ -327,7 +341,7 @@ def tip_values(tip: SeparationScene) -> dict[str, Any]:
 _NOT_HELD = (
     "name",
     "temperature",  # the liquid is that of it
-    "interface.meniscus.liquid.name",
+    "interface.meniscus.liquid",
     "loading.force",  # what pulls is the root
     "loading.rise_time",
     "loading.time_limit",
@@ -336,10 +350,8 @@ _NOT_HELD = (
 
 
 def _same_form(tip: SeparationScene) -> SeparationScene:
-    """Scene written as the parameters write it: no viscosity and no liquid that nothing reads."""
+    """Scene written as the parameters write it: no liquid that nothing reads."""
     meniscus = tip.meniscus
-    if tip.effect(ViscousForce) is None:
-        meniscus = evolve(meniscus, liquid=evolve(meniscus.liquid, viscosity=None))
     if tip.effect(MeniscusForce) is None and tip.effect(ViscousForce) is None:
         meniscus = evolve(meniscus, volume=None, pressure=None, relative_humidity=None)
     return evolve(tip, interface=evolve(tip.interface, meniscus=meniscus))

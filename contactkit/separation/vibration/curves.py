@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -37,10 +37,8 @@ def curve_names(plan: Plan) -> list[str]:
 
 def _names(plan: Plan) -> list[str]:
     """Names of the curves that are not constant over a cycle, the gap first."""
-    simulated = prescribed.simulated(plan)
-    impulse = ["viscous_impulse"] if plan.film.has_viscous else []
     known = ["gap", "speed", "mean_gap", "pull", "steady_pull", "film_status"]
-    return [*known, *simulated, *impulse]
+    return [*known, *prescribed.simulated(plan), *prescribed.impulses_so_far(plan)]
 
 
 @frozen(eq=False)
@@ -53,8 +51,8 @@ class CycleCurves:
         The scene, and the gap over time.
     cycle : Cycle
         The cycle, and its impulses.
-    begun : float
-        Viscous impulse [N.s] up to its start; 0 without a viscous force.
+    begun : mapping of str to float
+        Impulse [N.s] of each force up to its start, by the name of its column.
     torn : TornCycles or None
         Film that tears, where it remembers it.
     """
@@ -62,7 +60,7 @@ class CycleCurves:
     plan: Plan
     path: VibrationPath
     cycle: Cycle
-    begun: float
+    begun: Mapping[str, float]
     torn: TornCycles | None
     _known: dict[float, list[float]] = field(factory=dict, init=False, repr=False)
 
@@ -82,9 +80,11 @@ class CycleCurves:
                 calm = steady[i] if i < len(steady) else None
                 self._known[time] = self._row(names, time, film, calm)
         found = np.array([self._known[time] for time in moments])
-        if "viscous_impulse" in names:
-            force = found[:, names.index("viscous_force")]
-            found[:, names.index("viscous_impulse")] = self.begun + self._impulse(times, force)
+        for kind in self.plan.film.laws:
+            if kind.so_far is not None:
+                name = kind.column.name
+                impulse = self._impulse(name, times, found[:, names.index(name)])
+                found[:, names.index(kind.so_far.name)] = self.begun[name] + impulse
         return found
 
     def lines(self, errors: Floats) -> tuple[Floats, Floats]:
@@ -105,8 +105,9 @@ class CycleCurves:
         kept = needed(np.column_stack([times, table]), rest, np.array([0]))
         return times[kept], table[kept]
 
-    def _impulse(self, times: Floats, force: Floats) -> Floats:
-        edges, running = self.cycle.times, self.cycle.running["viscous_force"]
+    def _impulse(self, name: str, times: Floats, force: Floats) -> Floats:
+        """Impulse [N.s] of a force from the start of the cycle on."""
+        edges, running = self.cycle.times, self.cycle.running[name]
         parts = 0.5 * (force[1:] + force[:-1]) * np.diff(times)
         found = np.concatenate([[0.0], np.cumsum(parts)])
         missing = running - found[np.searchsorted(times, edges)]
@@ -118,12 +119,10 @@ class CycleCurves:
         """What the curves show at a time, and what lines follow beside them."""
         plan, path = self.plan, self.path
         gap, speed = path.gap(time), path.speed(time)
-        known = forces_at(plan, gap, speed, film)
-        known["newtonian_force"] = plan.film.newtonian_force(gap, speed)
-        if film is not None:
-            known |= prescribed.torn_row(film)
-        elif plan.film.is_limited:
-            known[LIMIT.name] = float(plan.film.viscous_force(gap, speed)[1])
+        found = plan.film.at(gap, speed, film.force if film is not None else None)
+        known = dict.fromkeys(names, 0.0) | found.named | found.newtonian
+        known |= {"pull": sum(found.named.values()), LIMIT.name: float(found.limit)}
+        known |= prescribed.torn_row(plan, film) if film is not None else {}
         is_full = gap <= plan.film.full_gap
         known |= {
             "gap": gap,
@@ -131,7 +130,6 @@ class CycleCurves:
             "mean_gap": path.mean(time),
             "steady_pull": self._steady_pull(time, calm),
             "film_status": float(FilmStatus.FULL if is_full else FilmStatus.BRIDGE),
-            "viscous_impulse": 0.0,
         }
         return [*(known[name] for name in names), distance_to_end(plan, gap), math.log(gap)]
 

@@ -12,6 +12,7 @@ from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import first_true
 from ..effects.base import LimitKind
 from ..plan import Plan
+from ..prescribed import limited_name
 from ..torn_path import TornPoint
 from .path import NODES, VibrationPath, panels
 from .torn import TornCycles
@@ -43,11 +44,7 @@ def forces_at(
     plan: Plan, gap: float, speed: float, torn: TornPoint | None = None
 ) -> dict[str, float]:
     """Each force [N] at a gap and a speed by the name of its column, and the pull."""
-    found = dict(plan.film.static_forces(gap))
-    if torn is not None:
-        found["viscous_force"] = torn.force
-    elif plan.film.has_viscous:
-        found["viscous_force"] = plan.film.viscous_force(gap, speed)[0]
+    found = plan.film.at(gap, speed, torn.force if torn is not None else None).named
     return found | {"pull": sum(found.values())}
 
 
@@ -59,7 +56,7 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
         return found
 
     def acting(time: float) -> LimitKind:
-        return film.viscous_force(path.gap(time), path.speed(time))[1]
+        return film.limited_force(path.gap(time), path.speed(time))[1]
 
     for low, high in pairwise(edges):
         first = acting(low)
@@ -87,9 +84,9 @@ def cycle_over(
         force = np.array([row[name] for row in rows]).reshape(times.shape)
         running[name] = np.concatenate([[0.0], np.cumsum((weights * force).sum(axis=1))])
     if torn is not None:
-        viscous = torn.running(edges)
-        running["pull"] += viscous - running["viscous_force"]
-        running["viscous_force"] = viscous
+        viscous, name = torn.running(edges), limited_name(plan)
+        running["pull"] += viscous - running[name]
+        running[name] = viscous
     return Cycle(edges, running, (min(pulls), max(pulls)))
 
 
@@ -143,6 +140,6 @@ def steady_impulse(plan: Plan, path: VibrationPath, end: float, torn: TornCycles
         for a, b in pairwise(edges.tolist()):
             for node, weight in zip(*gauss_legendre(NODES), strict=True):
                 found = forces_at(plan, a + node * (b - a), path.rise)
-                pull = found["pull"] - (found["viscous_force"] if torn is not None else 0.0)
+                pull = found["pull"] - (found[limited_name(plan)] if torn is not None else 0.0)
                 total += weight * (b - a) * pull / path.rise
     return total + (torn.steady_impulse if torn is not None else 0.0)

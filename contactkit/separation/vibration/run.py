@@ -19,7 +19,7 @@ from ...errors import InfeasibleError
 from ...scene.loading import ImposedSpeed, Vibration
 from ...units import quantity_text
 from ..curve_result import LateColumns, Work
-from ..effects.registry import ViscousForce
+from ..effects.force_law import law_impulse
 from ..plan import Plan
 from ..results import SeparationResult, extremes_of, pulls_of_cycles, with_late_curves
 from ..validity import check
@@ -57,17 +57,18 @@ def vibrating(
     torn = _torn(plan, path, spans)
     cycles = [cycle_over(plan, path, *span, torn) for span in spans]
     starts, totals = sums(path, cycles)
-    begun_at = starts.get("viscous_force", np.zeros(len(cycles))).tolist()
-    lines = CycleLines(
-        plan,
-        [CycleCurves(plan, path, *one, torn) for one in zip(cycles, begun_at, strict=True)],
-    )
+    parts = []
+    for i, cycle in enumerate(cycles):
+        begun_at = {name: float(up_to[i]) for name, up_to in starts.items()}
+        parts.append(CycleCurves(plan, path, cycle, begun_at, torn))
+    lines = CycleLines(plan, parts)
     along = lines.at_edges()
     impulses = {plan.columns[name].impulse.name: total for name, total in totals.items()}
     impulses["steady_pull_impulse"] = steady_impulse(plan, path, end, torn)
-    if plan.has(ViscousForce):
-        newtonian = film.newtonian_impulse(path.gap(0.0), path.gap(end))
-        impulses["newtonian_impulse"] = newtonian
+    for kind, law in film.laws.items():
+        if kind.newtonian is not None:
+            newtonian = law_impulse(law, path.gap(0.0), path.gap(end))
+            impulses[kind.newtonian.impulse.name] = newtonian
     pulls = along["pull"]
     if torn is None:  # the nodes are of a film that is whole
         pulls = np.concatenate([pulls, *(cycle.pulls for cycle in cycles)])

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from scipy.interpolate import CubicHermiteSpline
 
-from ..cavity.law import CavityLaw
+from ..cavity.law import Cavitation
 from ..cavity.path import Place
 from ..film import Film
 from ..torn_path import Known, TornPoint, torn_points
@@ -37,7 +37,7 @@ class TornCycles:
     """
 
     film: Film
-    law: CavityLaw
+    law: Cavitation
     vibrating: Place
     steady: Place
     times: Sequence[float]

@@ -9,13 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SAME 1e-9  /* gaps closer than this, relatively, are one */
-#define DOUBT 0.2  /* coupling error beyond which the flag is raised */
+#define SAME 1e-9  /* gaps closer than this, relatively, are one: a host rounds its gaps, too */
+#define DOUBT 0.2  /* coupling error beyond which the flag is raised: the answer is no estimate then */
 #define VOID 1e-9  /* error of the void in a step of time, over the volume of the film */
-#define MOST_STOPS 1000
+#define MOST_STOPS 1000 /* kinks and limits met in one step of the host; a film has some ten */
 #define MOST_STEPS 5000 /* of a cavity, in one step of the host: 20 to 40 us each where values are hostile */
 
-enum { EXCHANGE_FORCE = 1 };
 
 static const char *apply(ck_model *model) { return ck_common_parameters(model); }
 
@@ -105,15 +104,15 @@ static void marks(const ck_model *model, const ck_acting *acting, int broken, do
                   double *above, double *below) {
     int i, k;
     *above = HUGE_VAL, *below = 0.0;
-    for (i = 0; i < acting->film->count; i++)
-        for (k = 0; acting->acts[i] && k < acting->film->laws[i].kink_count; k++)
+    for (i = 0; i < acting->film->n_laws; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++)
             if (acting->film->laws[i].kinks[k] < acting->end)
                 consider(acting->film->laws[i].kinks[k], gap, above, below);
     if (acting->any) {
         consider(acting->end, gap, above, below);
         consider(acting->release, gap, above, below);
     }
-    if (broken && model->scene.rewetting > 0.0 && model->scene.initial_gap < gap &&
+    if (broken && model->scene.tables->rewetting > 0.0 && model->scene.initial_gap < gap &&
         *below < model->scene.initial_gap)
         *below = model->scene.initial_gap;
     if (model->state.memory.detached) consider(model->scene.recontact, gap, above, below);
@@ -132,11 +131,11 @@ static int show(ck_model *model) {
     v[CK_F] = f.fixed + f.viscous, v[CK_F_M] = f.fixed, v[CK_F_V] = f.viscous;
     v[CK_C] = f.viscous_by_speed, v[CK_K] = f.fixed_by_gap + f.viscous_by_gap;
     v[CK_H_STABLE] = v[CK_C] > 0.0 ? fmin(v[CK_M_REF] / v[CK_C], DBL_MAX) : DBL_MAX;
-    v[CK_STATE] = broken || !acting.any                              ? CK_BROKEN
-                  : gap <= acting.film->full_gap * (1.0 + SAME) ? CK_FULL
-                                                                : CK_BRIDGE;
-    v[CK_LIMIT] = f.limit + 1;
-    v[CK_R_CAV] = radius, v[CK_V_VOID] = broken ? 0.0 : model->scene.menisci * model->state.memory.cavity.hollow;
+    v[CK_STATE] = broken || !acting.any                              ? CK_FILM_STATUS_BROKEN
+                  : gap <= acting.film->full_gap * (1.0 + SAME) ? CK_FILM_STATUS_FULL
+                                                                : CK_FILM_STATUS_BRIDGE;
+    v[CK_LIMIT] = f.limit;
+    v[CK_R_CAV] = radius, v[CK_V_VOID] = broken ? 0.0 : model->scene.tables->menisci * model->state.memory.cavity.hollow;
     v[CK_H_ABOVE] = above < HUGE_VAL ? above : 0.0;
     v[CK_H_BELOW] = below;
     return 1;
@@ -150,7 +149,7 @@ static void settle(ck_model *model, double time) {
         memset(&memory->cavity, 0, sizeof memory->cavity);
         v[CK_T_BREAK] = time, v[CK_N_BREAK] += 1.0;
     } else if (memory->pending == CK_REWETTING) {
-        memory->broken = 0, memory->film = model->scene.film_count - 1;
+        memory->broken = 0, memory->film = model->scene.tables->n_films - 1;
     }
     memory->pending = CK_NONE;
 }
@@ -158,18 +157,26 @@ static void settle(ck_model *model, double time) {
 /* Apply the event at the gap that the motion has reached: rupture, pull-off, re-wetting, contact. */
 static void apply_event(ck_model *model, double gap, int rising, double time) {
     ck_memory *memory = &model->state.memory;
-    int next = model->scene.film_count - 1;
+    int next = model->scene.tables->n_films - 1;
     ck_acting acting;
     ck_act(&model->scene, memory->film, memory->broken, memory->detached, &acting);
     if (!memory->broken && gap >= acting.end * (1.0 - SAME)) {
         memory->pending = CK_RUPTURE;
     } else if (memory->broken && !rising && gap <= model->scene.initial_gap * (1.0 + SAME) &&
-               model->scene.rewetting > 0.0 && model->scene.ends[next] * (1.0 - SAME) > gap) {
+               model->scene.tables->rewetting > 0.0 && model->scene.ends[next] * (1.0 - SAME) > gap) {
         memory->pending = CK_REWETTING;
     }
     if (!model->scene.pauses) settle(model, time);
     if (acting.any && gap >= acting.release * (1.0 - SAME)) memory->detached = 1;
     else if (!rising && gap <= model->scene.recontact * (1.0 + SAME)) memory->detached = 0;
+}
+
+/* Whether a force acts that depends on the speed and that no limit of the liquid bounds. */
+static int free_of(const ck_acting *acting) {
+    int i;
+    for (i = 0; i < acting->film->n_laws; i++)
+        if (acting->acts[i] && acting->film->laws[i].rate == CK_RATE_PER_SPEED) return 1;
+    return 0;
 }
 
 /* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
@@ -186,9 +193,11 @@ static double with_memory(ck_model *model, const ck_acting *acting, double from,
     ck_path_begin(&path, acting->law, cavity, at, length, VOID, 0.0);
     while ((*left)-- > 0 && (found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
         double after = path.time == length ? to : path.first + path.speed * path.time;
-        total += full && after != gap
-                     ? ck_along(acting, gap, after, (after - gap) / path.speed).viscous
-                     : part;
+        if (after != gap && (full || free_of(acting))) {
+            ck_impulse along = ck_along(acting, gap, after, (after - gap) / path.speed);
+            part = full ? along.viscous : part + along.free;
+        }
+        total += part;
         if (was != (cavity->phase == CK_WHOLE)) was = !was, *changed = path.time;
         gap = after;
     }
@@ -202,7 +211,7 @@ static ck_impulse go(ck_model *model, double time, double step, double target, i
     ck_memory *memory = &model->state.memory;
     double begin = memory->gap, gap = begin, pace = step / (target - begin);
     int rising = target > begin, i;
-    ck_impulse sum = {0.0, 0.0}, part;
+    ck_impulse sum = {0.0, 0.0, 0.0}, part;
     ck_acting acting;
     for (i = 0; i < MOST_STOPS; i++) {
         double above, below, next = target;
@@ -213,7 +222,7 @@ static ck_impulse go(ck_model *model, double time, double step, double target, i
             marks(model, &acting, memory->broken, gap, &above, &below);
             if (rising && above < target) next = above;
             if (!rising && below > target) next = below;
-            part = next == gap ? (ck_impulse){0.0, 0.0}
+            part = next == gap ? (ck_impulse){0.0, 0.0, 0.0}
                                : ck_along(&acting, gap, next, (next - gap) * pace);
         }
         if (acting.any && acting.law && (begin == target || next != gap)) {
@@ -257,7 +266,7 @@ static void doubt(ck_model *model, double step, double damping) {
     double error = scale > 0.0 ? fabs(v[CK_F] - gone) / scale : 0.0;
     double stiffest = fmax(damping, model->state.memory.damping);
     int unstable = step * stiffest > mass, was = v[CK_IN_DOUBT] != 0.0;
-    int doubted = v[CK_EXCHANGE] == EXCHANGE_FORCE && (unstable || error > DOUBT);
+    int doubted = v[CK_EXCHANGE] == CK_EXCHANGE_FORCE && (unstable || error > DOUBT);
     v[CK_COUPLING_ERROR] = error;
     v[CK_IN_DOUBT] = doubted;
     v[CK_N_DOUBT] += doubted;
