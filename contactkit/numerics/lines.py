@@ -32,7 +32,9 @@ def errors_of_lines(values: Floats, rtol: float) -> Floats:
     rtol : float
         Error of the lines, relative to the range of each curve [-].
     """
-    return np.maximum(rtol * np.ptp(values, axis=0), _SMALLEST * np.abs(values).max(axis=0))
+    round_off = _SMALLEST * np.abs(values).max(axis=0)
+    found: Floats = np.maximum(rtol * np.ptp(values, axis=0), round_off)
+    return found
 
 
 def with_middles(
