@@ -63,19 +63,19 @@ if TYPE_CHECKING:
     from .contact.press import press
     from .contact.result import ContactResult
     from .contact.solve import solve
-    from .effects import EFFECTS, register_effect
     from .errors import (
         ContactkitError,
         ConvergenceError,
         DescriptionError,
         InfeasibleError,
-        InstalledEffectWarning,
+        InstalledKindWarning,
         NotSimulatedError,
         PlanError,
         ValidityWarning,
     )
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
     from .planning import plan
     from .scene.asperity_population import AsperityPopulation
@@ -102,17 +102,12 @@ if TYPE_CHECKING:
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
     from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
+    from .separation.effects.adhesion import AdhesiveContact, VanDerWaalsForce
+    from .separation.effects.asperities import AsperityMenisci
     from .separation.effects.base import FilmStatus, LimitKind
-    from .separation.effects.registry import (
-        AdhesiveContact,
-        AsperityMenisci,
-        MeniscusForce,
-        Rupture,
-        ShearLimit,
-        TensionLimit,
-        VanDerWaalsForce,
-        ViscousForce,
-    )
+    from .separation.effects.meniscus import MeniscusForce
+    from .separation.effects.rupture import Rupture
+    from .separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce
     from .separation.motion.advance import advance
     from .separation.motion.state import MotionState, Pull
     from .separation.plan import Plan
@@ -135,9 +130,9 @@ if TYPE_CHECKING:
 _HOMES = {
     "Accuracy": "accuracy",
     "Adhesion": "contact.effects.adhesion",
-    "AdhesiveContact": "separation.effects.registry",
+    "AdhesiveContact": "separation.effects.adhesion",
     "Approach": "scene.loading",
-    "AsperityMenisci": "separation.effects.registry",
+    "AsperityMenisci": "separation.effects.asperities",
     "AsperityPopulation": "scene.asperity_population",
     "Body": "scene.interface",
     "CombinedSurface": "scene.rough_surfaces",
@@ -150,7 +145,7 @@ _HOMES = {
     "CouetteForce": "separation.sliding.effects",
     "DescriptionError": "errors",
     "DugdaleAttraction": "contact.effects.attraction_laws",
-    "EFFECTS": "effects",
+    "EFFECTS": "kinds",
     "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
@@ -166,9 +161,10 @@ _HOMES = {
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
     "InfeasibleError": "errors",
-    "InstalledEffectWarning": "errors",
+    "InstalledKindWarning": "errors",
     "Interface": "scene.interface",
     "IslandBridges": "contact.effects.island_bridges",
+    "KINDS": "kinds",
     "Layer": "scene.materials",
     "LayeredHalfSpace": "contact.effects.elasticity",
     "LennardJonesAttraction": "contact.effects.attraction_laws",
@@ -177,7 +173,7 @@ _HOMES = {
     "Material": "scene.materials",
     "Measured": "scene.rough_surfaces",
     "Meniscus": "scene.meniscus",
-    "MeniscusForce": "separation.effects.registry",
+    "MeniscusForce": "separation.effects.meniscus",
     "MotionState": "separation.motion.state",
     "NotSimulatedError": "errors",
     "PUBLISHED": "as_published.lookup",
@@ -189,11 +185,11 @@ _HOMES = {
     "Pressing": "scene.loading",
     "Pull": "separation.motion.state",
     "RigidBase": "scene.materials",
-    "Rupture": "separation.effects.registry",
+    "Rupture": "separation.effects.rupture",
     "SelfAffineRoughness": "scene.rough_surfaces",
     "SeparationResult": "separation.results",
     "SeparationScene": "scene.scenes",
-    "ShearLimit": "separation.effects.registry",
+    "ShearLimit": "separation.effects.viscous",
     "Sliding": "scene.loading",
     "SlidingPlan": "separation.sliding.plan",
     "SlidingResult": "separation.sliding.result",
@@ -204,11 +200,11 @@ _HOMES = {
     "StudyFile": "studies.study_file",
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
-    "TensionLimit": "separation.effects.registry",
+    "TensionLimit": "separation.effects.viscous",
     "ValidityWarning": "errors",
-    "VanDerWaalsForce": "separation.effects.registry",
+    "VanDerWaalsForce": "separation.effects.adhesion",
     "Vibration": "scene.loading",
-    "ViscousForce": "separation.effects.registry",
+    "ViscousForce": "separation.effects.viscous",
     "Wave": "scene.surfaces",
     "Window": "scene.window",
     "adhesion_curve": "analyses.adhesion_curve",
@@ -231,7 +227,7 @@ _HOMES = {
     "press": "contact.press",
     "pull_off_curve": "analyses.pull_off",
     "published": "as_published.lookup",
-    "register_effect": "effects",
+    "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
     "Range": "studies.sensitivity",
@@ -279,9 +275,10 @@ __all__ = [
     "ImposedSpeed",
     "ImposedTime",
     "InfeasibleError",
-    "InstalledEffectWarning",
+    "InstalledKindWarning",
     "Interface",
     "IslandBridges",
+    "KINDS",
     "Layer",
     "LayeredHalfSpace",
     "LennardJonesAttraction",
@@ -346,7 +343,7 @@ __all__ = [
     "press",
     "published",
     "pull_off_curve",
-    "register_effect",
+    "register",
     "save_result",
     "save_scene",
     "sensitivity",

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, overload
 from .accuracy import Accuracy
 from .scene.plan import check_accuracy, check_scene
 from .scene.scenes import ContactScene, SeparationScene, SlidingScene
-from .separation.plan import Plan
-from .separation.plan import plan as plan_separation
 
 if TYPE_CHECKING:
     from .contact.plan import ContactPlan
+    from .separation.plan import Plan
     from .separation.sliding.plan import SlidingPlan
 
 __all__ = ["plan"]
@@ -63,4 +62,6 @@ def plan(
         from .separation.sliding.plan import plan_sliding
 
         return plan_sliding(scene, accuracy)
+    from .separation.plan import plan as plan_separation
+
     return plan_separation(scene, accuracy)

@@ -13,8 +13,8 @@ from ..export.contents import Contents
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
 from ..scene.tabular import Tabular, curve_contents
+from ..separation.effects.adhesion import AdhesiveContact
 from ..separation.effects.prepared import checked_liquid, prepare_scene
-from ..separation.effects.registry import AdhesiveContact
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -16,7 +16,8 @@ from ..numerics.roots import bracketed_root
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
 from ..scene.tabular import Tabular, curve_contents
-from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..separation.effects.meniscus import MeniscusForce
+from ..separation.effects.viscous import ViscousForce
 from .division_laws import SOURCES, DivisionLaw, Name, law_of
 
 if TYPE_CHECKING:

@@ -12,8 +12,9 @@ from ..errors import InfeasibleError, NotSimulatedError, PlanError
 from ..lubrication import squeeze_film as squeeze
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime, SeparationLoading
 from ..separation.effects.as_published import mixed
+from ..separation.effects.meniscus import MeniscusForce
 from ..separation.effects.prepared import checked_liquid
-from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..separation.effects.viscous import ViscousForce
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,9 +9,6 @@ from attrs import field, frozen
 
 from ..lubrication.reynolds.damping import (
     DampingLaw,
-    DomeDamping,
-    PowerDamping,
-    TabulatedDamping,
     disc_damping,
     dome_damping,
     ellipse_damping,
@@ -23,14 +20,7 @@ from ..lubrication.reynolds.damping import (
 from ..units import si
 from ..validators import finite, positive
 
-__all__ = ["DAMPING_KINDS", "FACE_TABLES", "FaceTable"]
-
-DAMPING_KINDS: dict[str, type[DampingLaw]] = {
-    "power": PowerDamping,
-    "dome": DomeDamping,
-    "table": TabulatedDamping,
-}
-"""Laws by the names under ``law`` in files that contactkit writes."""
+__all__ = ["FACE_TABLES", "FaceTable"]
 
 
 @frozen(kw_only=True)

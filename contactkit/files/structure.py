@@ -14,36 +14,20 @@ import cattrs
 from cattrs.gen import make_dict_structure_fn, override
 
 from .. import data
-from ..contact.effects.attraction_laws import AttractionLaw
-from ..contact.effects.base import ContactEffect
-from ..contact.effects.plasticity import HardnessMap
-from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError, nearest
+from ..kinds import CONTACT_EFFECTS, KINDS, LOADINGS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 from ..liquids.liquid import Liquid
-from ..liquids.temperature_laws import TemperatureLaw
-from ..lubrication.reynolds.damping import DampingLaw
-from ..scene.effect import EffectRegistry
+from ..registry import Registries, Registry, family_of
 from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
 from ..scene.materials import Material, RigidBase, Stack
 from ..scene.meniscus import Meniscus
 from ..scene.scenes import ContactScene, Scene
 from ..scene.surfaces import Surface
-from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
-from .face_tables import DAMPING_KINDS, FACE_TABLES, FaceTable
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .toml_lines import line_of, lines_of_keys
-from .unstructure import (
-    ARRAY_FIELDS,
-    ATTRACTION_KINDS,
-    LAW_KINDS,
-    LOADING_KINDS,
-    SEPARATION_EFFECT_KINDS,
-    SURFACE_KINDS,
-    unstructure,
-    with_arrays,
-)
+from .unstructure import unstructure, with_arrays
 
 __all__ = [
     "FileError",
@@ -84,48 +68,52 @@ def renamed(key: str) -> str:
 
 def _owners(kind: type, key: str) -> str:
     """Name the kinds beside one, of the same family, that have a key; empty if none has."""
-    effects = (SEPARATION_EFFECT_KINDS.by_name, CONTACT_EFFECTS.by_name)
-    for family in (SURFACE_KINDS, LAW_KINDS, ATTRACTION_KINDS, *effects):
-        if kind in family.values():
-            names = [name for name, one in family.items() if key in _keys(one)]
-            return f"it belongs to {' or '.join(names)}; " if names else ""
-    return ""
+    registry = KINDS.of(kind)
+    if registry is None or not registry.name_of(kind):
+        return ""
+    names = [name for name, one in registry.by_name.items() if key in _keys(one)]
+    return f"it belongs to {' or '.join(names)}; " if names else ""
 
 
-def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callable[[Any, Any], Any]:
-    """Structure a table by its kind under `tag`; effects may be registered later."""
+def _tagged(known: Registry[Any] | Registries[Any], tag: str) -> Callable[[Any, Any], Any]:
+    """Structure a table by the name of its kind under `tag`; kinds may be registered later."""
 
     def hook(value: Any, _: Any) -> Any:
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
-        name = rest.pop(tag, None)
-        if isinstance(kinds, EffectRegistry):
-            return _CONVERTER.structure(rest, kinds.find(name, tag))
-        if name not in kinds:
-            raise DescriptionError(
-                tag, name, "name a known kind", hint=nearest(name, sorted(kinds))
-            )
-        return _CONVERTER.structure(rest, kinds[name])
+        return _CONVERTER.structure(rest, known.find(rest.pop(tag, None), tag))
 
     return hook
 
 
+def _of_family(base: type) -> Callable[[Any, Any], Any]:
+    """Structure a table of a family, whose base class is the type of a field."""
+    registry = KINDS.of(base)
+    assert registry is not None
+    return _tagged(registry, registry.tag)
+
+
+def _is_base(kind: Any) -> bool:
+    """Whether a type is the base class of a family."""
+    return isinstance(kind, type) and "family" in vars(kind) and bool(family_of(kind))
+
+
 def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any], Any]:
     unit, field = attribute.metadata["unit"], f"{kind.__name__}.{attribute.name}"
-    cure = ARRAY_FIELDS.get((kind, attribute.name))
+    cure = attribute.metadata.get("in_file")
     # Words allowed in place of a number, such as "vapour".
     words = [w for one in get_args(attribute.type) for w in get_args(one) if isinstance(w, str)]
+    # Classes allowed there, such as the law of a property.
+    tables = [one for one in get_args(attribute.type) if attrs.has(one)]
 
     def hook(value: Any, target: Any) -> Any:
         if getattr(value, "ndim", 0):
             return value
         if cure is not None:
             raise DescriptionError(field, value, "be an array in hand", unit=unit, hint=cure)
-        if isinstance(value, Mapping):
-            if "values" in value:
-                return _CONVERTER.structure(value, HardnessMap)
-            return _law(value, TemperatureLaw)
+        if isinstance(value, Mapping) and tables:
+            return _CONVERTER.structure(value, tables[0])
         if value in words or isinstance(value, bool) or (unit == "-" and isinstance(value, int)):
             return value
         if isinstance(value, list | tuple):
@@ -181,9 +169,17 @@ def _resolved(kind: type) -> None:
     attrs.resolve_types(kind, localns={"Map": Any, "Mask": Any})
 
 
+class _ContactEffect:
+    """Type of an effect in a file of a contact, for the converter."""
+
+
+class _SeparationEffect:
+    """Type of an effect in a file of a separation or a sliding, for the converter."""
+
+
 def _effects(kind: type) -> Callable[[Any, Any], Any]:
     """Structure the effects of a scene: those that its kind of scene may list."""
-    listed: Any = ContactEffect if issubclass(kind, ContactScene) else SeparationEffect
+    listed: Any = _ContactEffect if issubclass(kind, ContactScene) else _SeparationEffect
     return lambda value, _: _CONVERTER.structure(value, tuple[listed, ...])
 
 
@@ -263,22 +259,22 @@ def _body(value: Any, _: Any) -> Body:
 
 def _loading(value: Any, wanted: type[Loading]) -> Loading:
     """A table with the kind of a loading, and the fields of that kind only."""
-    kinds = {name: kind for name, kind in LOADING_KINDS.items() if issubclass(kind, wanted)}
-    expected = f"name a loading: {' or '.join(map(repr, kinds))}"
+    known = KINDS.of(wanted) or LOADINGS
+    expected = f"name a loading: {' or '.join(map(repr, known.by_name))}"
     if not isinstance(value, Mapping):
         raise DescriptionError("loading", value, f"be a table with a key 'kind', to {expected}")
     given, fields = value.get("kind"), {key: value[key] for key in value if key != "kind"}
-    kind = kinds.get(given) if isinstance(given, str) else None
+    kind = known.by_name.get(given) if isinstance(given, str) else None
     if kind is None:
-        fits = [name for name, one in kinds.items() if fields.keys() <= _keys(one)]
+        fits = [name for name, one in known.by_name.items() if fields.keys() <= _keys(one)]
         hint = f"its keys are those of kind = {' or '.join(map(repr, fits))}" if fits else ""
         raise DescriptionError("loading.kind", given, expected, hint=hint)
     for key in sorted(fields.keys() - _keys(kind)):
-        owners = [name for name, one in LOADING_KINDS.items() if key in _keys(one)]
+        owners = [name for name, one in LOADINGS.by_name.items() if key in _keys(one)]
         hint = f"it belongs to {' or '.join(owners)}; " if owners else ""
         hint += nearest(key, sorted(_keys(kind)))
         raise DescriptionError(f"loading.{key}", fields[key], f"be a key of {given}", hint=hint)
-    made: Loading = _LOADINGS[kind](fields, kind)
+    made: Loading = _attrs_class(kind)(fields, kind)
     return made
 
 
@@ -298,13 +294,20 @@ def _edges(value: Any, _: Any) -> Any:
     return value
 
 
-def _damping(value: Any, _: Any) -> DampingLaw:
+def _damping(value: Any, wanted: type) -> Any:
     """A table of a face, or of a law as a result file holds it."""
     if isinstance(value, Mapping) and "law" in value:
-        made: DampingLaw = _DAMPING(value, DampingLaw)
-        return made
-    face: FaceTable = _FACE(value, FaceTable)
-    return face.law()
+        return _of_family(wanted)(value, wanted)
+    from .face_tables import FACE_TABLES  # for the films that have one
+
+    if not isinstance(value, Mapping):
+        raise DescriptionError("face", value, "be a table with a key 'face'")
+    rest = dict(value)
+    name = rest.pop("face", None)
+    if name not in FACE_TABLES:
+        expected = "name a known kind"
+        raise DescriptionError("face", name, expected, hint=nearest(name, sorted(FACE_TABLES)))
+    return _CONVERTER.structure(rest, FACE_TABLES[name]).law()
 
 
 def _solid(value: Any, _: Any) -> Material | Stack | None:
@@ -328,6 +331,11 @@ def _carrier(value: Any, _: Any) -> Material | RigidBase:
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
+_CONVERTER.register_structure_hook_factory(_is_base, _of_family)
+_CONVERTER.register_structure_hook(_ContactEffect, _tagged(CONTACT_EFFECTS, "effect"))
+_CONVERTER.register_structure_hook(
+    _SeparationEffect, _tagged(Registries(SEPARATION_EFFECTS, SLIDING_EFFECTS), "effect")
+)
 for _matches, _hook in (
     (lambda kind: kind is Liquid, _liquid),
     (lambda kind: kind is Material, _material),
@@ -337,20 +345,13 @@ for _matches, _hook in (
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),
-    (lambda kind: kind is DampingLaw, _damping),
-    (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
+    (lambda kind: _is_base(kind) and kind.family == "damping law", _damping),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
-    (lambda kind: kind is AttractionLaw, _tagged("law", ATTRACTION_KINDS)),
-    (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these use for their fields.
 _LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs_class(Body)
 _MENISCUS, _INTERFACE = _attrs_class(Meniscus, AMOUNT_KEYS), _attrs_class(Interface)
-_LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
-_law = _tagged("law", LAW_KINDS)
-_DAMPING, _FACE = _tagged("law", DAMPING_KINDS), _tagged("face", FACE_TABLES)
 
 
 def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:

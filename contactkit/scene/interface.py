@@ -106,13 +106,12 @@ class Interface(Described):
     @property
     def is_flat(self) -> bool:
         """Whether both bodies are flat."""
-        return all(isinstance(body.surface, Flat) for body in self.bodies)
+        return all(body.surface.is_flat for body in self.bodies)
 
     @property
     def rim_radius(self) -> float:
         """Radius of the smaller face [m], beyond which the film cannot spread; inf if none."""
-        faces = [body.surface for body in self.bodies if isinstance(body.surface, Flat)]
-        return min((face.radius for face in faces if face.radius is not None), default=math.inf)
+        return min(body.surface.rim_radius for body in self.bodies)
 
     @property
     def sphere_radius(self) -> float:

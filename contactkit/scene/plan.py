@@ -8,7 +8,8 @@ from typing import Any, ClassVar, Protocol
 
 from ..accuracy import Accuracy
 from ..errors import NotSimulatedError, PlanError
-from .effect import Effect, EffectRegistry, as_written, choices
+from ..registry import Registries, Registry
+from .effect import Effect, as_written, choices
 from .scenes import Scene
 
 __all__ = ["ScenePlan", "check_accuracy", "check_plan", "check_scene"]
@@ -30,7 +31,7 @@ class ScenePlan(abc.ABC):
 
     __slots__ = ()
 
-    known_effects: ClassVar[EffectRegistry[Any]]
+    known_effects: ClassVar[Registry[Any] | Registries[Any]]
     """The effects that a scene of this kind may list."""
 
     @property

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .curve_result import LateColumns
-from .effects.registry import ViscousForce
+from .effects.viscous import ViscousForce
 from .motion.state import MotionState, PullLaw, acting_film, outputs
 from .plan import Plan
 from .prescribed import frozen, simulated

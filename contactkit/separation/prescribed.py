@@ -16,7 +16,7 @@ from ..scene.loading import ImposedSpeed, ImposedTime
 from ..units import quantity_text
 from .curve_result import LateColumns, Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
-from .effects.registry import ViscousForce
+from .effects.viscous import ViscousForce
 from .plan import Plan
 from .results import SeparationResult, extremes_of, with_late_curves
 from .torn_path import Known, TornPoint, torn_points

@@ -13,7 +13,7 @@ from ..scene.plan import check_plan
 from ..units import quantity_text
 from ..validity import warn
 from .curve_result import Work
-from .effects.registry import ViscousForce
+from .effects.viscous import ViscousForce
 from .first_closing import closed_first
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start

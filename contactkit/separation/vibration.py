@@ -25,7 +25,7 @@ from ..scene.loading import ImposedSpeed, Vibration
 from ..units import quantity_text
 from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
-from .effects.registry import ViscousForce
+from .effects.viscous import ViscousForce
 from .plan import Plan
 from .prescribed import frozen, simulated, torn_row
 from .results import SeparationResult, extremes_of, with_late_curves

@@ -23,14 +23,10 @@ from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
 from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect, effects_of
+from ...separation.effects.meniscus import MeniscusForce
 from ...separation.effects.prepared import PreparedScene, prepare_scene
-from ...separation.effects.registry import (
-    MeniscusForce,
-    Rupture,
-    ShearLimit,
-    TensionLimit,
-    ViscousForce,
-)
+from ...separation.effects.rupture import Rupture
+from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce
 from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, restored_state, start
 from ...separation.plan import Plan, plan

@@ -22,7 +22,7 @@ from refusals import (
 from selection import quick
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS
 from contactkit.scene.effect import as_written
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -22,7 +22,7 @@ from refusals import (
 
 import contactkit as ck
 from contactkit.files.scenes import write_whole
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+from contactkit.kinds import SEPARATION_EFFECTS
 from contactkit.units import parse_quantity, parse_unit
 
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)

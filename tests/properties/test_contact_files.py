@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.result import ContactResult
 from contactkit.files.results import from_bytes, to_bytes
+from contactkit.kinds import CONTACT_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.errors import MissingExtraError
 from contactkit.export.contents import Contents
+from contactkit.kinds import CONTACT_EFFECTS
 
 xarray = pytest.importorskip("xarray")
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

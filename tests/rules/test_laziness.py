@@ -28,7 +28,8 @@ STEPS = {
     "contactkit": "import contactkit as ck",
     "inside an FMU": """
 import contactkit.separation.plan, contactkit.separation.motion.advance
-import contactkit.separation.effects.registry, contactkit.liquids.liquid
+import contactkit.separation.effects.meniscus, contactkit.separation.effects.viscous
+import contactkit.separation.effects.rupture, contactkit.liquids.liquid
 import contactkit.capillary.arc.flat, contactkit.lubrication.squeeze_film
 import contactkit.lubrication.film_limits, contactkit.separation.integrator.radau""",
     "separation": "ck.simulate",

@@ -9,8 +9,8 @@ from poison import by_kind, label, pairwise, poison_all_but, product_of, survive
 
 import contactkit as ck
 from contactkit.contact.effects.base import ContactEffect
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.solve import solve
+from contactkit.kinds import CONTACT_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

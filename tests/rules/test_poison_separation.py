@@ -20,10 +20,10 @@ from poison import (
 )
 
 import contactkit as ck
+from contactkit.kinds import SEPARATION_EFFECTS
 from contactkit.separation import simulate as separation
 from contactkit.separation.effects.as_published import mixed
 from contactkit.separation.effects.base import SeparationForce
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

@@ -16,7 +16,7 @@ from ...errors import ConvergenceError
 from ...fmu.slaves.stiction_mass import mass_values
 from ...models.injector.scene import InjectorScene
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import TensionLimit
+from ...separation.effects.viscous import TensionLimit
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..report import Report
 from ..run.injector.cosimulation import InjectorFmus, build_fmus

@@ -17,7 +17,7 @@ from ...models.micromirror.mirror import Mirror
 from ...models.micromirror.monolithic import simulate_monolithic
 from ...models.micromirror.scene import MicromirrorScene
 from ...models.micromirror.tip_film import tip_law
-from ...separation.effects.registry import MeniscusForce
+from ...separation.effects.meniscus import MeniscusForce
 from ...separation.plan import Plan
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..run.micromirror.cosimulation import build_tips, couple_fmus

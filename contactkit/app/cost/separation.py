@@ -14,7 +14,9 @@ from ...accuracy import Accuracy
 from ...errors import PlanError, ValidityWarning
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import MeniscusForce, Rupture, SeparationEffect
+from ...separation.effects.base import SeparationEffect
+from ...separation.effects.meniscus import MeniscusForce
+from ...separation.effects.rupture import Rupture
 from ...separation.plan import plan
 from ...work_precision import Outcome, Setting, WorkPrecision, sweep
 

@@ -11,5 +11,4 @@ partial_slip    Stick and slip under a tangential load path.
 stress          Stress below the surface.
 film            Meniscus force of a thin liquid film.
 island_bridges  An exact bridge on each wet island of the gap.
-registry        All of them: `CONTACT_EFFECTS`.
 """

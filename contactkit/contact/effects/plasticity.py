@@ -69,7 +69,15 @@ class HardnessMap:
         Hardness [Pa], zero or positive.
     """
 
-    values: Map = field(converter=_as_map, repr=False, metadata=si("Pa"))
+    values: Map = field(
+        converter=_as_map,
+        repr=False,
+        metadata=si("Pa")
+        | {
+            "in_file": "a scene file holds a uniform hardness; a map is kept in Python and in "
+            "result files"
+        },
+    )
 
     @values.validator
     def _check_values(self, attribute: Attribute[Any], value: Map) -> None:

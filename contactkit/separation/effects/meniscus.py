@@ -12,7 +12,6 @@ from ...as_published.printed import common as printed
 from ...errors import ConvergenceError, InfeasibleError
 from ...lubrication import dimensionless as numbers
 from ...scene.column import Column
-from ...scene.surfaces import Sphere
 from ...validators import choice
 from ...validity import ValidityNumber
 from .base import ForceLaw, RunCurves, SeparationForce
@@ -134,7 +133,7 @@ class MeniscusForce(SeparationForce):
             return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
-        if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):
+        if self.profile == "as-published" and not scene.interface.lower.surface.is_flat:
             missing += ("the sphere as the upper body: Eq. (3.12) is printed for that",)
         return missing + needs_extent(scene)
 

@@ -12,7 +12,7 @@ import numpy as np
 from ....models.injector.delays import delay
 from ....models.injector.scene import InjectorScene
 from ....plot import style as plot
-from ....separation.effects.registry import TensionLimit
+from ....separation.effects.viscous import TensionLimit
 from ....units import bar, celsius
 from .cosimulation import InjectorRun
 from .cycles import cycles, largest_pull

@@ -13,7 +13,7 @@ from ....files.scenes import unstructure
 from ....models.injector.delays import delay, dry_delay
 from ....models.injector.scene import InjectorScene
 from ....separation.effects.base import FilmStatus
-from ....separation.effects.registry import TensionLimit
+from ....separation.effects.viscous import TensionLimit
 from ....separation.plan import plan
 from ....units import bar, celsius
 from ...report import Report

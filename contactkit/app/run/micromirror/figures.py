@@ -15,7 +15,7 @@ from ....models.micromirror.release import Release, landing
 from ....models.micromirror.scene import MicromirrorScene
 from ....models.micromirror.tip_film import pressure_law, tip_law
 from ....plot import style as plot
-from ....separation.effects.registry import MeniscusForce
+from ....separation.effects.meniscus import MeniscusForce
 from .cosimulation import MirrorRun
 from .sketch import sketch
 

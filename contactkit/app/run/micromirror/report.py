@@ -17,7 +17,7 @@ from ....models.micromirror.electrostatics import pull_in
 from ....models.micromirror.release import Landing, Release, landing, release_curve
 from ....models.micromirror.scene import MicromirrorScene
 from ....models.micromirror.tip_film import tip_law
-from ....separation.effects.registry import MeniscusForce
+from ....separation.effects.meniscus import MeniscusForce
 from ...report import Report
 from .cosimulation import MirrorRun, cosimulate_flips
 from .landing_sites import landing_numbers
