@@ -47,7 +47,7 @@ def _points(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 @frozen(kw_only=True)
 class Accuracy(Described):
-    """Numerical settings of a plan; the first four apply to separation, the others to contact.
+    """Numerical settings of a plan; the first five apply to separation, the others to contact.
 
     Parameters
     ----------
@@ -64,6 +64,9 @@ class Accuracy(Described):
         Points are added where they are needed and left out where they are not.
     max_steps : int
         Maximum number of time steps of an integration.
+    film_rtol : float
+        Error of the force of a film that is solved on a grid, of a face without a closed form [-];
+        it decides how many cells there are. Of a separation.
     grid : int or (int, int), optional
         Pixels of the window of a contact, (ny, nx) or one number for both. None: those of the
         measured surface, else 256.
@@ -92,6 +95,9 @@ class Accuracy(Described):
         default=1e-3, converter=as_number, validator=_curve_error, metadata=si("-")
     )
     max_steps: int = field(default=100_000, converter=as_whole, validator=count, metadata=si("-"))
+    film_rtol: float = field(
+        default=1e-3, converter=as_number, validator=_curve_error, metadata=si("-")
+    )
 
     grid: int | tuple[int, int] | None = field(
         default=None, converter=_as_grid, validator=_grid, metadata=si("-")
@@ -123,6 +129,8 @@ class Accuracy(Described):
     reference: ClassVar[Accuracy]
 
 
-Accuracy.draft = Accuracy(time_rtol=1e-5, points=50, curve_rtol=1e-2, rtol=1e-4)
+Accuracy.draft = Accuracy(time_rtol=1e-5, points=50, curve_rtol=1e-2, film_rtol=1e-2, rtol=1e-4)
 Accuracy.standard = Accuracy()
-Accuracy.reference = Accuracy(time_rtol=1e-11, points=1000, curve_rtol=1e-4, rtol=1e-10)
+Accuracy.reference = Accuracy(
+    time_rtol=1e-11, points=1000, curve_rtol=1e-4, film_rtol=1e-4, rtol=1e-10
+)

@@ -14,10 +14,11 @@ __all__ = [
     "ATTRACTION_LAWS",
     "CONTACT_EFFECTS",
     "CONTACT_LOADINGS",
-    "DAMPING_LAWS",
     "EFFECTS",
+    "FACE_HOLES",
     "KINDS",
     "LOADINGS",
+    "PLANFORMS",
     "SEPARATION_EFFECTS",
     "SEPARATION_LOADINGS",
     "SLIDING_EFFECTS",
@@ -157,20 +158,32 @@ ATTRACTION_LAWS: Registry[Any] = Registry(
     role="AttractionLaw",
 )
 
-DAMPING_LAWS: Registry[Any] = Registry(
-    "damping law",
+PLANFORMS: Registry[Any] = Registry(
+    "planform",
     {
-        "power": "lubrication.reynolds.damping:PowerDamping",
-        "dome": "lubrication.reynolds.damping:DomeDamping",
-        "table": "lubrication.reynolds.damping:TabulatedDamping",
+        "disc": "scene.planforms:Disc",
+        "ring": "scene.planforms:Ring",
+        "rectangle": "scene.planforms:Rectangle",
+        "ellipse": "scene.planforms:Ellipse",
+        "sector": "scene.planforms:Sector",
+        "polygon": "scene.planforms:Polygon",
+        "image": "scene.planforms:Image",
+        "union": "scene.planforms:Union",
+        "intersection": "scene.planforms:Intersection",
+        "difference": "scene.planforms:Difference",
     },
-    tag="law",
-    group="contactkit.damping_laws",
-    role="DampingLaw",
+    tag="shape",
+    group="contactkit.planforms",
+    role="Planform",
 )
-
+FACE_HOLES: Registry[Any] = Registry(
+    "face hole",
+    {"vent": "scene.faces:Vent", "sealed-hole": "scene.faces:SealedHole"},
+    tag="kind",
+    role="FaceHole",
+)
 KINDS: Registries[Any] = Registries(
-    EFFECTS, SURFACES, LOADINGS, TEMPERATURE_LAWS, ATTRACTION_LAWS, DAMPING_LAWS
+    EFFECTS, SURFACES, LOADINGS, TEMPERATURE_LAWS, ATTRACTION_LAWS, PLANFORMS, FACE_HOLES
 )
 """All kinds of all families."""
 
@@ -186,7 +199,7 @@ def register(kind: K) -> K:
         cone = "indenters.shapes:Cone"  # its name in files = "module:class"
 
     The groups are ``contactkit.effects``, ``.surfaces``, ``.loadings``, ``.temperature_laws``,
-    ``.attraction_laws`` and ``.damping_laws``.
+    ``.attraction_laws`` and ``.planforms``.
 
     Parameters
     ----------

@@ -1,19 +1,70 @@
-"""Plan of any scene: `plan`."""
+"""Plan of any scene, `plan`, and its run, `run`: each kind of scene names who does it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, overload
+from collections.abc import Callable
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 from .accuracy import Accuracy
-from .scene.plan import check_accuracy, check_scene
-from .scene.scenes import ContactScene, SeparationScene, SlidingScene
+from .errors import PlanError
+from .scene.plan import ScenePlan, check_accuracy, check_scene
+from .scene.result import Result
+from .scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
 
 if TYPE_CHECKING:
     from .contact.plan import ContactPlan
     from .separation.plan import Plan
     from .separation.sliding.plan import SlidingPlan
 
-__all__ = ["plan"]
+__all__ = ["plan", "register_scene", "run"]
+
+Progress = Callable[[float], None]
+_Function = Callable[..., Any] | str
+
+
+class _Kind(NamedTuple):
+    """Functions that plan a scene and run its plan, or ``module:function`` of contactkit."""
+
+    plan: _Function
+    run: _Function
+
+
+_SIMULATE = "separation.simulate:simulate"
+_KINDS: dict[type[Scene], _Kind] = {
+    ContactScene: _Kind("contact.plan:plan_contact", "contact.solve:solve"),
+    SeparationScene: _Kind("separation.plan:plan", _SIMULATE),
+    SlidingScene: _Kind("separation.sliding.plan:plan_sliding", _SIMULATE),
+}
+
+
+def register_scene(
+    kind: type[Scene],
+    *,
+    plan: Callable[[Any, Accuracy | None], ScenePlan],
+    run: Callable[[Any], Result],
+) -> None:
+    """Register a kind of scene of one's own: `plan`, studies and the command line then take it.
+
+    Parameters
+    ----------
+    kind : type
+        Subclass of `Scene`.
+    plan : callable
+        Takes a scene and its accuracy, or None for the standard one; returns the plan.
+    run : callable
+        Takes the plan; returns the result.
+
+    Raises
+    ------
+    PlanError
+        If `kind` is no subclass of `Scene`, or another package registered it.
+    """
+    if not (isinstance(kind, type) and issubclass(kind, Scene)):
+        raise PlanError(f"a kind of scene is a subclass of Scene, got {kind!r}")
+    if kind in _KINDS:
+        raise PlanError(f"{kind.__name__} is registered already")
+    _KINDS[kind] = _Kind(plan, run)
 
 
 @overload
@@ -28,15 +79,13 @@ def plan(scene: SlidingScene, accuracy: Accuracy | None = None) -> SlidingPlan: 
 def plan(scene: ContactScene, accuracy: Accuracy | None = None) -> ContactPlan: ...
 
 
-def plan(
-    scene: SeparationScene | SlidingScene | ContactScene, accuracy: Accuracy | None = None
-) -> Plan | SlidingPlan | ContactPlan:
+def plan(scene: Scene, accuracy: Accuracy | None = None) -> ScenePlan:
     """Check the effects of a scene against it, and its feasibility, before any work.
 
     Parameters
     ----------
     scene : SeparationScene, SlidingScene or ContactScene
-        What is there and which physics it calls for.
+        What is there and which physics it calls for; or a scene of a registered kind.
     accuracy : Accuracy, optional
         How well to solve; `Accuracy.standard` if not given.
 
@@ -52,16 +101,35 @@ def plan(
     InfeasibleError
         If the scene has no answer.
     """
-    check_scene(scene, (ContactScene, SeparationScene, SlidingScene))
+    check_scene(scene, tuple(_KINDS))
     check_accuracy(accuracy)
-    if isinstance(scene, ContactScene):
-        from .contact.plan import plan_contact
+    made: ScenePlan = _function(_kind(type(scene)).plan)(scene, accuracy)
+    return made
 
-        return plan_contact(scene, accuracy)
-    if isinstance(scene, SlidingScene):
-        from .separation.sliding.plan import plan_sliding
 
-        return plan_sliding(scene, accuracy)
-    from .separation.plan import plan as plan_separation
+def run(made: ScenePlan, progress: Progress | None = None) -> Result:
+    """Run a plan of any kind of scene.
 
-    return plan_separation(scene, accuracy)
+    Parameters
+    ----------
+    made : ScenePlan
+        Of `plan`.
+    progress : callable, optional
+        Called with the completed fraction by what reports it.
+    """
+    name = _kind(type(made.scene)).run
+    more = {"progress": progress} if name == _SIMULATE else {}
+    result: Result = _function(name)(made, **more)
+    return result
+
+
+def _kind(scene: type) -> _Kind:
+    return next(_KINDS[one] for one in scene.__mro__ if one in _KINDS)
+
+
+def _function(name: _Function) -> Callable[..., Any]:
+    if not isinstance(name, str):
+        return name
+    module, _, function = name.partition(":")
+    found: Callable[..., Any] = getattr(import_module(f"{__package__}.{module}"), function)
+    return found

@@ -56,8 +56,8 @@ def vented_face() -> reynolds.FilmState:
         (0.0, 0.0),
         *((2.0 * mm * x, 2.0 * mm * y) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))),
     ]
-    vents = [reynolds.Hole(shape=reynolds.Disc(radius=0.25 * mm, centre=one)) for one in at]
-    face = reynolds.rasterise(reynolds.Disc(radius=RADIUS), 160, holes=vents)
+    vents = [reynolds.Hole(shape=ck.Disc(radius=0.25 * mm, centre=one)) for one in at]
+    face = reynolds.rasterise(ck.Disc(radius=RADIUS), 160, holes=vents)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)  # 24 bar of tension: it never tears
         return reynolds.solve_pressure(reynolds.Film(face=face, viscosity=0.1), GAP, 1e-4)

@@ -1,12 +1,54 @@
-"""Scenes that come with contactkit, by name."""
+"""Scenes that come with contactkit, and the kinds of devices, by name."""
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import DescriptionError, nearest
 
-__all__ = ["bundled_scene", "bundled_scenes"]
+if TYPE_CHECKING:
+    from .device import Device
+
+__all__ = ["bundled_scene", "bundled_scenes", "device_kind", "register_device"]
+
+# Class of each device by the name that it has in files, ``device = "fuel-injector"``; imported when
+# it is named.
+_DEVICES = {
+    "bridges": f"{__package__}.liquid_bridges.scene:Bridges",
+    "fuel-injector": f"{__package__}.injector.scene:InjectorScene",
+    "micromirror": f"{__package__}.micromirror.scene:MicromirrorScene",
+}
+
+
+def device_kind(name: object) -> type[Device]:
+    """Return the class of a device by its name in files.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none of that name.
+    """
+    if not isinstance(name, str) or name not in _DEVICES:
+        hint = nearest(name, sorted(_DEVICES))
+        raise DescriptionError("device", name, "be a known device", hint=hint)
+    module, _, kind = _DEVICES[name].partition(":")
+    found: type[Device] = getattr(import_module(module), kind)
+    return found
+
+
+def register_device(name: str, kind: str) -> None:
+    """Register a device of one's own: its name in files, and its class as ``module:class``.
+
+    Raises
+    ------
+    DescriptionError
+        If another device has the name.
+    """
+    if _DEVICES.get(name, kind) != kind:
+        raise DescriptionError("register_device(name)", name, "be new", hint=_DEVICES[name])
+    _DEVICES[name] = kind
 
 
 def bundled_scenes() -> dict[str, Path]:

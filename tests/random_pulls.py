@@ -1,8 +1,13 @@
-"""Random pulls of a mass on a squeeze film, and a solution with no code of contactkit."""
+"""Random pulls of a mass on a squeeze film, and a solution with no code of contactkit.
+
+``python tests/random_pulls.py`` solves the thousand pulls of each test anew (80 s) and keeps the
+solutions in tests/data.
+"""
 
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -10,8 +15,10 @@ from scipy.integrate import solve_ivp
 
 import contactkit as ck
 
-__all__ = ["Pulled", "Released", "exact", "pulls", "scene_of", "units"]
+__all__ = ["Pulled", "Released", "as_step", "exact", "kept", "pulls", "scene_of", "units"]
 
+KEPT = Path(__file__).parent / "data" / "pulls.npz"
+BEFORE = 0.999  # of the time of release, where a communication step ends
 FACE, GAP, OIL, PULL = 3.175e-3, 5e-6, 0.1, 40.0
 
 
@@ -26,10 +33,11 @@ class Pulled(NamedTuple):
 
 
 class Released(NamedTuple):
-    """Time and speed at a gap."""
+    """Time and speed at release; gap, speed and acceleration a little before."""
 
     time: float
     speed: float
+    before: tuple[float, float, float]
 
 
 def pulls(count, seed=1):
@@ -55,11 +63,11 @@ def pulls(count, seed=1):
     return made
 
 
-def exact(pull, opening=None):
-    """Motion to a gap by LSODA of scipy, in the logarithm of the gap, to some 1e-11."""
+def exact(pull):
+    """Motion to release by LSODA of scipy, in the logarithm of the gap, to some 1e-11."""
     n, inertia, rise = pull.exponent, pull.inertia, pull.rise
     stiffness = pull.spring / (pull.opening - 1.0)
-    end = math.log(opening or pull.opening)
+    end = math.log(pull.opening)
 
     def slope(time, y):
         x, speed = y
@@ -84,11 +92,26 @@ def exact(pull, opening=None):
         "LSODA",
         jac=slopes,
         events=there,
+        dense_output=True,
         rtol=1e-12,
         atol=[1e-14, 1e-30],
         first_step=1e-3 * min(inertia, math.sqrt(inertia), rise or 1.0, 1.0),
     )
-    return Released(found.t_events[0][0], found.y_events[0][0][1])
+    time = float(found.t_events[0][0])
+    x, speed = found.sol(BEFORE * time)
+    before = math.exp(x), float(speed), float(slope(BEFORE * time, (x, speed))[1])
+    return Released(time, float(found.y_events[0][0][1]), before)
+
+
+def as_step(pull):
+    """The pull as a step: an FMU has no rise time of its own."""
+    return pull._replace(rise=0.0)
+
+
+def kept(name):
+    """Solutions that are kept: of pulls with a rise ("pulls"), or of steps ("steps")."""
+    with np.load(KEPT) as data:
+        return [Released(row[0], row[1], tuple(row[2:])) for row in data[name].tolist()]
 
 
 def units():
@@ -117,3 +140,12 @@ def scene_of(pull):
         loading=loading,
         effects=(ck.ViscousForce(),),
     )
+
+
+if __name__ == "__main__":
+    solved = {
+        "pulls": [exact(pull) for pull in pulls(1000, seed=1)],
+        "steps": [exact(as_step(pull)) for pull in pulls(1000, seed=2)],
+    }
+    rows = {name: [(*r[:2], *r.before) for r in found] for name, found in solved.items()}
+    np.savez_compressed(KEPT, **rows)

@@ -9,7 +9,8 @@ from typing import Any, Literal, NamedTuple
 from attrs import frozen
 
 from ..errors import PlanError
-from .scenes import FmuStart, OpenedScene, open_scene
+from ..export.report import FmuStart
+from .scenes import Opened, open_scene
 from .settings import assignments, with_settings
 
 __all__ = ["Order", "build_fmu", "check_order"]
@@ -36,7 +37,7 @@ class _Named:
     start: FmuStart
 
     def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
+        """See `Opened.fmu_start`."""
         return self.start
 
 
@@ -93,7 +94,7 @@ def build_fmu(order: Order) -> str:
     return start.name
 
 
-def _build_native(order: Order, opened: OpenedScene | None, given: Mapping[str, Any]) -> str:
+def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any]) -> str:
     """Build an FMU in C; `given` are start values of a model that is built by its name."""
     from ..fmu.native.build import build_native, native_scene
     from ..fmu.native.drive import build_native_drive, build_native_stop
@@ -150,7 +151,7 @@ def _film_model(model: str | None) -> Literal["stiction-mass", "stiction-force"]
 
 def _drive_start(what: str, scene: Any) -> Mapping[str, Any]:
     """Start values of the drive of a scene."""
-    from .run.injector.cosimulation import drive_start
+    from ..models.injector.report.cosimulation import drive_start
 
     valve = getattr(scene, "valve", None)
     if valve is None:

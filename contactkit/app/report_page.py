@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import DescriptionError
 from ..export.html import numbers_table, table
@@ -14,6 +14,7 @@ from ..extras import missing_extra
 from ..files.results import AnyResult, load_result
 from ..files.scenes import write_whole
 from .output import RECORD, Printed, Record, read_record
+from .run import cost_text, draw_result
 
 if TYPE_CHECKING:
     from ..validity import ValidityNumber
@@ -64,7 +65,7 @@ def result_page(path: Path) -> str:
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         try:
             shown = [
-                figure(one.read_bytes(), _caption(one)) for one in _drawn(result, Path(folder))
+                figure(one.read_bytes(), _caption(one)) for one in draw_result(result, Path(folder))
             ]
         except ImportError as error:
             missing = missing_extra(error, "drawing the figures")
@@ -127,46 +128,21 @@ def _caption(path: Path) -> str:
     return path.stem.replace("-", " ").replace("_", " ")
 
 
-def _drawn(result: AnyResult, folder: Path) -> Sequence[Path]:
-    """Draw the figures of a result to a folder."""
-    from ..contact.result import ContactResult
-    from ..separation.sliding.result import SlidingResult
-
-    if isinstance(result, ContactResult):
-        from .run.contact import draw_contact
-
-        return draw_contact(result, (), folder)
-    if isinstance(result, SlidingResult):
-        from .run.sliding import draw_sliding
-
-        return draw_sliding(result, (), folder)
-    from .run.separation import draw_separation
-
-    return draw_separation(result, (), folder)
-
-
 def _title(result: AnyResult) -> str:
     return result.plan.scene.name or result.plan.title
 
 
 def _result_sections(result: AnyResult) -> list[str]:
     """Numbers, validity, plan, scene, sources and cost of a result."""
-    work = result.work._asdict()
-    counts = [(n.replace("_", " ").removeprefix("n "), str(v)) for n, v in _counts(work)]
-    errata = [str(one) for one in getattr(result, "errata", ())]
     return [
         section("Result", numbers_table(f"{result.status}: {result.message}", result.scalars())),
         section("Validity", table(validity_rows(result.validity))),
-        section("Errata of what is taken as printed", bullets(errata)),
+        section("Errata of what is taken as printed", bullets(map(str, result.errata))),
         section("Plan", result.plan._repr_html_()),
         section("Scene", result.plan.scene._repr_html_()),
         section("Sources", bullets(result.cite().splitlines())),
-        section("Cost", table([*counts, ("wall time", f"{work['seconds']:.3g} s")])),
+        section("Cost", bullets([*result.notes, cost_text(result)])),
     ]
-
-
-def _counts(work: dict[str, Any]) -> list[tuple[str, int]]:
-    return [(name, v) for name, v in work.items() if name.startswith("n_")]
 
 
 def validity_rows(numbers: Iterable[ValidityNumber]) -> list[tuple[str, str, str]]:

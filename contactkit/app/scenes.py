@@ -1,58 +1,30 @@
-"""Opening a scene by file or by name, and what the command line does with each kind."""
+"""Opening a scene by file or by name, and what the command line does with it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 from attrs import field, frozen
 
 from ..accuracy import Accuracy
-from ..errors import DescriptionError, PlanError, nearest
-from ..files.scenes import (
-    read_scene,
-    read_tables,
-    scene_kind,
-    structure,
-    telling_lines,
-)
-from ..models.injector.scene import InjectorScene
-from ..models.library import bundled_scene
-from ..models.liquid_bridges.scene import Bridges
-from ..models.micromirror.scene import MicromirrorScene
-from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
-from .report import Report
-from .run.study import StudyOptions, study_lines
+from ..errors import DescriptionError, PlanError
+from ..export.report import FmuStart, Report
+from ..files.scenes import read_scene, read_tables, scene_kind, structure, telling_lines
+from ..models.device import Device
+from ..models.library import bundled_scene, device_kind
+from ..planning import plan
+from ..scene.scenes import Scene
+from .study import StudyOptions, study_lines
 
-__all__ = [
-    "FmuStart",
-    "OpenedBridges",
-    "OpenedContact",
-    "OpenedInjector",
-    "OpenedMicromirror",
-    "OpenedScene",
-    "OpenedSeparation",
-    "OpenedSliding",
-    "open_scene",
-]
+__all__ = ["Opened", "OpenedDevice", "OpenedScene", "open_scene"]
 
 Progress = Callable[[float], None]
 
 
-class FmuStart(NamedTuple):
-    """Name of the FMU that holds a scene, and the start values to bake in.
-
-    `film` is the scene of the film of a device, which a native FMU takes as it is.
-    """
-
-    name: str
-    values: Mapping[str, Any]
-    film: SeparationScene | None = None
-
-
-class OpenedScene(Protocol):
-    """A scene with what the command line does with it."""
+class Opened(Protocol):
+    """A scene or a device with what the command line does with it."""
 
     @property
     def name(self) -> str:
@@ -74,7 +46,7 @@ class OpenedScene(Protocol):
         """Name of the FMU that holds this scene, and the start values to bake in."""
 
 
-def open_scene(name: str) -> OpenedScene:
+def open_scene(name: str) -> OpenedScene | OpenedDevice:
     """Open a scene file, or a scene of this package by its name, such as ``fuel-injector``.
 
     Raises
@@ -87,305 +59,100 @@ def open_scene(name: str) -> OpenedScene:
         path = bundled_scene(name)
     tables = read_tables(path)
     with telling_lines(path):
-        return _opened(tables, path)
+        return _opened(tables, path.name)
 
 
-def _opened(tables: dict[str, Any], path: Path) -> OpenedScene:
-    """Open the tables of a file."""
-    device = tables.pop("device", None)
-    if device is not None:
-        return _open_device(device, tables, path.name)
-    kind = scene_kind(tables)
-    if kind is ContactScene:
-        return OpenedContact(*read_scene(tables, ContactScene, path.name))
-    if kind is SlidingScene:
-        return OpenedSliding(*read_scene(tables, SlidingScene, path.name))
-    return OpenedSeparation(*read_scene(tables, SeparationScene, path.name))
-
-
-def _open_device(device: object, tables: Mapping[str, Any], origin: str) -> OpenedScene:
-    """Open the tables of a file with a ``device`` key."""
-    if device == "fuel-injector":
-        return OpenedInjector(structure(tables, InjectorScene, origin))
-    if device == "micromirror":
-        return OpenedMicromirror(structure(tables, MicromirrorScene, origin))
-    if device == "bridges":
-        return OpenedBridges(structure(tables, Bridges, origin))
-    hint = nearest(device, ["bridges", "fuel-injector", "micromirror"])
-    raise DescriptionError(f"{origin}, device", device, "be a known device", hint=hint)
-
-
-def _studied_by_run(name: str) -> PlanError:
-    """Refusal of a study of a device."""
-    return PlanError(
-        f"{name} is a device: contactkit run includes what its file varies; contactkit study takes "
-        "a contact, a separation or a sliding"
-    )
-
-
-def _with_sources(made: Any) -> str:
-    """Text of a plan, and its sources."""
-    return f"{made}\nsources:\n" + "\n".join(f"  {line}" for line in made.cite().splitlines())
+def _opened(tables: dict[str, Any], origin: str) -> OpenedScene | OpenedDevice:
+    """Open the tables of a file: of a device if it has a ``device`` key."""
+    if "device" not in tables:
+        return OpenedScene(*read_scene(tables, scene_kind(tables), origin))
+    name = tables.pop("device")
+    try:
+        kind = device_kind(name)
+    except DescriptionError as error:
+        where = f"{origin}, {error.field}"
+        raise DescriptionError(where, name, error.expected, hint=error.hint) from None
+    return OpenedDevice(structure(tables, kind, origin))
 
 
 @frozen
-class OpenedSeparation:
-    """A separation scene on the command line, with accuracy and study as in `OpenedContact`."""
-
-    scene: SeparationScene
-    accuracy: Accuracy = field(factory=Accuracy)
-    vary: Mapping[str, list[Any]] = field(factory=dict)
-
-    @property
-    def name(self) -> str:
-        """See `OpenedScene.name`."""
-        return self.scene.name or "separation"
-
-    def plan_text(self) -> str:
-        """See `OpenedScene.plan_text`."""
-        from ..separation.plan import plan
-
-        text = _with_sources(plan(self.scene, self.accuracy))
-        return "\n".join([text, *study_lines(self.scene, self.accuracy, self.vary)])
-
-    def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `OpenedScene.run`."""
-        from .run.separation import run_separation
-
-        return run_separation(self.scene, self.accuracy, self.vary, out, progress)
-
-    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
-        """See `OpenedScene.study`."""
-        from .run.study import run_study
-
-        return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
-
-    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `OpenedScene.cost`."""
-        from .cost.report import cost_report
-        from .cost.separation import separation_sweep
-
-        return cost_report(separation_sweep(self.scene, progress), out, error, self.name)
-
-    def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
-        from ..fmu.slaves.stiction_mass import mass_values
-
-        return FmuStart("stiction-mass", mass_values(self.scene))
-
-
-@frozen
-class OpenedContact:
-    """A contact scene on the command line, with the tables ``accuracy`` and ``study`` of its file.
+class OpenedScene:
+    """A scene of any kind, with the tables ``accuracy`` and ``study`` of its file.
 
     `vary` holds the values of the study by the path of what is varied.
     """
 
-    scene: ContactScene
+    scene: Scene
     accuracy: Accuracy = field(factory=Accuracy)
     vary: Mapping[str, list[Any]] = field(factory=dict)
 
     @property
     def name(self) -> str:
-        """See `OpenedScene.name`."""
-        return self.scene.name or "contact"
+        """See `Opened.name`."""
+        return self.scene.name or type(self.scene).__name__.removesuffix("Scene").lower()
 
     def plan_text(self) -> str:
-        """See `OpenedScene.plan_text`."""
-        from ..planning import plan
-
-        text = _with_sources(plan(self.scene, self.accuracy))
-        return "\n".join([text, *study_lines(self.scene, self.accuracy, self.vary)])
+        """See `Opened.plan_text`."""
+        made = plan(self.scene, self.accuracy)  # type: ignore[call-overload]
+        sources = (f"  {line}" for line in made.cite().splitlines())
+        varied = study_lines(self.scene, self.accuracy, self.vary)
+        return "\n".join([str(made), "sources:", *sources, *varied])
 
     def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `OpenedScene.run`."""
-        from .run.contact import run_contact
+        """See `Opened.run`."""
+        from .run import run_scene
 
-        return run_contact(self.scene, self.accuracy, self.vary, out, progress)
+        return run_scene(self.scene, self.accuracy, self.vary, out, progress)
 
     def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
-        """See `OpenedScene.study`."""
-        from .run.study import run_study
+        """See `Opened.study`."""
+        from .study import run_study
 
         return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `OpenedScene.cost`."""
-        from .cost.contact import contact_cost
+        """See `Opened.cost`."""
+        from ..benchmarks.scene_cost import scene_cost
 
-        return contact_cost(self.scene, self.accuracy, out, progress, error)
+        return scene_cost(self.scene, self.accuracy, out, progress, error)
 
     def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
-        from ..analyses.load_displacement.solve import load_displacement
+        """See `Opened.fmu_start`."""
+        from .scene_fmu import fmu_start
 
-        try:
-            curve = load_displacement(self.scene, accuracy=self.accuracy)
-            return FmuStart("contact-stop", {"curve": curve})
-        except PlanError as error:
-            raise PlanError(
-                "of a contact scene the FMU contact-stop is built, whose tables are its "
-                f"load-displacement curve, force and areas over the approach; {error}"
-            ) from error
+        return fmu_start(self.scene, self.accuracy)
 
 
 @frozen
-class OpenedSliding:
-    """A sliding scene on the command line, with accuracy and study as in `OpenedContact`."""
+class OpenedDevice:
+    """A device, whose report comes with its model."""
 
-    scene: SlidingScene
-    accuracy: Accuracy = field(factory=Accuracy)
-    vary: Mapping[str, list[Any]] = field(factory=dict)
+    scene: Device
 
     @property
     def name(self) -> str:
-        """See `OpenedScene.name`."""
-        return self.scene.name or "sliding"
-
-    def plan_text(self) -> str:
-        """See `OpenedScene.plan_text`."""
-        from ..separation.sliding.plan import plan_sliding
-
-        text = _with_sources(plan_sliding(self.scene, self.accuracy))
-        return "\n".join([text, *study_lines(self.scene, self.accuracy, self.vary)])
-
-    def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `OpenedScene.run`."""
-        from .run.sliding import run_sliding
-
-        return run_sliding(self.scene, self.accuracy, self.vary, out, progress)
-
-    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
-        """See `OpenedScene.study`."""
-        from .run.study import run_study
-
-        return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
-
-    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `OpenedScene.cost`."""
-        raise PlanError("cost has nothing to weigh: a sliding is closed form or one quadrature")
-
-    def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
-        raise PlanError("no FMU holds a sliding scene; an FMU needs a scene with an opening")
-
-
-@frozen
-class OpenedBridges:
-    """A comparison of closures of liquid bridges on the command line."""
-
-    scene: Bridges
-
-    @property
-    def name(self) -> str:
-        """See `OpenedScene.name`."""
+        """See `Opened.name`."""
         return self.scene.name
 
     def plan_text(self) -> str:
-        """See `OpenedScene.plan_text`."""
-        lines = [f"{self.name}: exact, arc, and as published (Eqs. (3.11), (3.12), zero neck)"]
-        lines += [f"  {case.label}" for case in self.scene.bridges]
-        lines.append("reference: Legendre's integrals; Orr, Scriven and Rivas 1975")
-        return "\n".join(lines)
+        """See `Opened.plan_text`."""
+        return self.scene.report.plan_text(self.scene)
 
     def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `OpenedScene.run`."""
-        from .run.bridges import run_bridges
-
-        return run_bridges(self.scene, out, progress)
+        """See `Opened.run`."""
+        return self.scene.report.run(self.scene, out, progress)
 
     def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
-        """See `OpenedScene.study`."""
-        raise _studied_by_run(self.name)
+        """See `Opened.study`."""
+        raise PlanError(
+            f"{self.name} is a device: contactkit run includes what its file varies; contactkit "
+            "study takes a contact, a separation or a sliding"
+        )
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `OpenedScene.cost`."""
-        from .cost.bridges import bridge_cost
-
-        return bridge_cost(self.scene, out, error, progress)
+        """See `Opened.cost`."""
+        return self.scene.report.cost(self.scene, out, progress, error)
 
     def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
-        raise PlanError("bridges are compared, not moved: they have no FMU; a separation has one")
-
-
-@frozen
-class OpenedInjector:
-    """The fuel injector on the command line."""
-
-    scene: InjectorScene
-
-    @property
-    def name(self) -> str:
-        """See `OpenedScene.name`."""
-        return self.scene.name
-
-    def plan_text(self) -> str:
-        """See `OpenedScene.plan_text`."""
-        from .run.injector.report import plan_text
-
-        return plan_text(self.scene)
-
-    def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `OpenedScene.run`."""
-        from .run.injector.report import run_injector
-
-        return run_injector(self.scene, out, progress)
-
-    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
-        """See `OpenedScene.study`."""
-        raise _studied_by_run(self.name)
-
-    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `OpenedScene.cost`."""
-        from .cost.injector import injector_cost
-
-        return injector_cost(self.scene, out, progress, error)
-
-    def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
-        from ..fmu.slaves.stiction_mass import mass_values
-
-        film = self.scene.separation(self.scene.temperature)
-        return FmuStart("stiction-mass", mass_values(film), film)
-
-
-@frozen
-class OpenedMicromirror:
-    """The digital micromirror on the command line."""
-
-    scene: MicromirrorScene
-
-    @property
-    def name(self) -> str:
-        """See `OpenedScene.name`."""
-        return self.scene.name
-
-    def plan_text(self) -> str:
-        """See `OpenedScene.plan_text`."""
-        from .run.micromirror.report import plan_text
-
-        return plan_text(self.scene)
-
-    def run(self, out: Path | None, progress: Progress) -> Report:
-        """See `OpenedScene.run`."""
-        from .run.micromirror.report import run_micromirror
-
-        return run_micromirror(self.scene, out, progress)
-
-    def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
-        """See `OpenedScene.study`."""
-        raise _studied_by_run(self.name)
-
-    def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
-        """See `OpenedScene.cost`."""
-        from .cost.micromirror import mirror_sweep
-        from .cost.report import cost_report
-
-        return cost_report(mirror_sweep(self.scene, progress), out, error, self.name)
-
-    def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
-        from .run.micromirror.cosimulation import tip_start
-
-        return FmuStart("tip-contact", tip_start(self.scene, self.scene.study.humidity))
+        """See `Opened.fmu_start`."""
+        return self.scene.report.fmu_start(self.scene)

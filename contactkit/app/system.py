@@ -19,14 +19,14 @@ from typing import Any
 from attrs import frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..export.report import FmuStart
 from ..fmu.contents.packing import write_archive
 from ..fmu.contents.ssp import Component, Connection, Connector, Experiment, structure_xml
 from ..fmu.framework.ports import Port, Value, find_port
 from ..fmu.slaves.stiction_mass import mass_values
+from ..models.injector.report.cosimulation import drive_start
 from ..models.injector.scene import InjectorScene
 from ..units import parse_quantity
-from .run.injector.cosimulation import drive_start
-from .scenes import FmuStart
 
 __all__ = ["write_system"]
 
@@ -46,7 +46,7 @@ class _Film:
     values: Mapping[str, Any]
 
     def fmu_start(self) -> FmuStart:
-        """See `OpenedScene.fmu_start`."""
+        """See `Opened.fmu_start`."""
         return FmuStart("stiction-mass", self.values)
 
 

@@ -55,7 +55,7 @@ def study(
 
     SCENE is a scene file with a table [study], or the name of a scene of contactkit.
     """
-    from ..app.run.study import StudyOptions
+    from ..app.study import StudyOptions
 
     chosen = StudyOptions(**choices)
     if (chosen.stream or chosen.trials) and (

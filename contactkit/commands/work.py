@@ -11,8 +11,8 @@ from .terminal import print_files, progress, show, timed
 
 if TYPE_CHECKING:
     from ..app.output import Folder
-    from ..app.report import Report
-    from ..app.scenes import OpenedScene
+    from ..app.scenes import Opened
+    from ..export.report import Report
 
 __all__ = ["Job", "load", "run_job"]
 
@@ -28,7 +28,7 @@ class Job(NamedTuple):
     as_json: bool
 
 
-def load(scene: str, settings: Sequence[str]) -> OpenedScene:
+def load(scene: str, settings: Sequence[str]) -> Opened:
     """Open a scene; its modules are imported here, so that --help is fast."""
     with timed("imports and scene"):
         from ..app.scenes import open_scene
@@ -39,7 +39,7 @@ def load(scene: str, settings: Sequence[str]) -> OpenedScene:
 
 def run_job(
     job: Job,
-    call: Callable[[OpenedScene, Callable[[float], None]], Report],
+    call: Callable[[Opened, Callable[[float], None]], Report],
     *,
     page: bool = False,
 ) -> None:

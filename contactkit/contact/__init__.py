@@ -12,12 +12,9 @@ pixel_edges    Edges between the pixels in and out of contact.
 patches        Connected spots of a contact, and the distribution of their sizes.
 companion      A coarser companion of a contact, on fewer pixels.
 discretisation Error of the grid, estimated from companions on wider pixels.
-friction_loop  Displacement caused by friction, until it agrees with the pressure.
-hardness_loop  Hardness that depends on the displacement, until they agree.
-slip_loop      Partial slip of dissimilar bodies, until pressure and tractions agree.
-attraction_loop Attraction across the gap, until it agrees with the gap.
+outer          Outer iteration: unknowns of the effects that agree with the contact.
+slip_path      Partial slip of dissimilar bodies: pressing in steps, then a tangential load path.
 plastic_history Steps of a loading history; the surface that a plastic contact leaves.
-film_loop      Load that includes the force of a film: equilibria.
 film_estimate  Size of a film force that is reported only, were it in balance.
 effects        The physics a contact scene may list.
 slip           Partial slip under a tangential load path.

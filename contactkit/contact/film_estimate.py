@@ -6,8 +6,9 @@ from typing import Any
 
 from ..errors import InfeasibleError
 from .effects.base import LoadTerm
-from .film_loop import film_companion, pulled_together
-from .friction_loop import Target
+from .outer.film_balance import film_companion, solve_under_load
+from .outer.step import Step
+from .outer.unknown import Target
 from .plan import ContactPlan
 from .work import WorkCounter
 
@@ -25,7 +26,7 @@ def self_consistent_force(plan: ContactPlan, term: LoadTerm[Any]) -> float | Non
     if load is None:
         return None
     try:
-        found = pulled_together(coarse, term, load, Target(load, None), WorkCounter())
+        found = solve_under_load(Step(coarse, WorkCounter()), term, Target(load, None))
     except InfeasibleError:
         return None
-    return term.force_of(found.part)
+    return term.force_of(found.parts[type(term)])

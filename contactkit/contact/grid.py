@@ -91,7 +91,7 @@ def combined_heights(scene: ContactScene, grid: Grid) -> Map:
 
 def holes_of(scene: ContactScene) -> NDArray[np.bool_] | None:
     """Pixels where a body has a hole, (ny, nx): they carry no load. None if there is none."""
-    union = union_of(body.surface.holes for body in scene.interface.bodies)
+    union = union_of(body.surface.void_pixels for body in scene.interface.bodies)
     if union is not None and union.all():
         raise DescriptionError(
             "Interface", "a hole in every pixel", "have pixels where both bodies are measured"

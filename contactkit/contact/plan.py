@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -19,6 +18,7 @@ from ..scene.figures import Drawn
 from ..scene.loading import ContactLoading
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene
+from ..scene.surfaces import Flat
 from ..scene.window import Grid
 from .effects.base import (
     Attraction,
@@ -29,7 +29,6 @@ from .effects.base import (
     LoadHistory,
     LoadTerm,
     PressureBound,
-    VaryingHardness,
     effects_of,
 )
 from .effects.friction import FrictionTraction
@@ -255,7 +254,6 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_liquid(made)
     _check_holes(scene)
     _check_free_sheets(scene, grid)
-    _check_attraction(made)
     for one in (*_before(made), made):
         _check_size(one)
         _check_load(one)
@@ -279,10 +277,11 @@ def _check_bodies(scene: ContactScene) -> None:
         )
     for name in ("lower", "upper"):
         surface = getattr(interface, name).surface
-        if math.isfinite(surface.rim_radius):
+        if isinstance(surface, Flat) and surface.outline is not None:
+            given = "planform" if surface.radius is None else f"radius = {surface.radius:g} m"
             problems.append(
-                f"interface.{name}.surface.radius = {surface.rim_radius:g} m has no effect: the "
-                "window of a contact has no rim; leave it out, or give the face as Heights"
+                f"interface.{name}.surface.{given} has no effect: the window of a contact has no "
+                "rim; leave it out, or give the face as Heights"
             )
     if problems:
         raise PlanError("; ".join(problems))
@@ -352,16 +351,6 @@ def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
     ]
     if problems:
         raise PlanError("; ".join(problems))
-
-
-def _check_attraction(made: ContactPlan) -> None:
-    """Refuse an attraction beside a hardness that depends on the displacement."""
-    attraction = made.scene.effect(Attraction)
-    if attraction is not None and isinstance(made.hardness, VaryingHardness):
-        raise PlanError(
-            f"{type(attraction).__name__} needs a hardness that does not depend on the "
-            "displacement: give HardnessLimit(rule='material'), or rule='constant' with a number"
-        )
 
 
 def _check_window(grid: Grid) -> None:

@@ -12,8 +12,9 @@ from ..scene.rough_surfaces import Heights
 from .effects.base import BoundedContact, Contact, FixedHardness, HardnessLaw
 from .effects.plastic_history import PlasticHistory, PlasticHistoryPart
 from .effects.plasticity import AT_HARDNESS, HardnessLimit
-from .friction_loop import Target
-from .hardness_loop import Solved, contact_of, solve_with_hardness
+from .outer.load import solve_loaded
+from .outer.step import Solved, Step
+from .outer.unknown import Target
 from .plan import ContactPlan
 from .prepared import Once
 from .result import ContactResult
@@ -25,15 +26,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["Followed", "follow_history", "residual_surface"]
-
-
-class Followed(NamedTuple):
-    """The last contact of a history, and the history as the part of its effect."""
-
-    solved: Solved
-    contact: Contact
-    part: PlasticHistoryPart
+__all__ = ["follow_history", "residual_surface"]
 
 
 class _State(NamedTuple):
@@ -42,13 +35,13 @@ class _State(NamedTuple):
     residual : plastic depth [m] (ny, nx)
     deepest : largest displacement of each body so far [m], numbers or maps
     hardness : hardness [Pa] that belongs to it
-    pressure : pressure [Pa] of the last step, where the next one starts
+    last : contact of the last step, where the next one starts
     """
 
     residual: Map
     deepest: tuple[Map, ...] | None = None
     hardness: Map | float | None = None
-    pressure: Map | None = None
+    last: Solved | None = None
 
 
 class _Row(NamedTuple):
@@ -64,7 +57,7 @@ class _Row(NamedTuple):
     hardness: float
 
 
-def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCounter) -> Followed:
+def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCounter) -> Solved:
     """Solve the steps of a loading history; the last one is the contact of the plan.
 
     Raises
@@ -73,14 +66,19 @@ def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCoun
         If the load of a step exceeds what the hardness there can carry.
     """
     state, rows = _State(np.zeros(plan.grid.shape)), list[_Row]()
-    for target in _targets(plan, history):
-        solved, contact, state, row = _step(plan, target, state, counter)
+    for one in _targets(plan, history):
+        step = Step(_shaped(plan, state), counter)
+        begun = one if state.last is None else state.last.near(one)
+        solved = solve_loaded(step, begun)
+        state, row, contact = _deformed(step.plan, plan, solved, state)
         rows.append(row)
         if solved.problem:
             problem = f"step {len(rows)} of the loading history: {solved.problem}"
             solved = solved._replace(problem=problem)
             break
-    return Followed(solved, contact, _part(plan, rows, state.residual))
+    contact = step.finished(solved, one).contact._replace(bounded=contact.bounded)
+    part = _part(plan, rows, state.residual)
+    return solved._replace(contact=contact, parts={**solved.parts, PlasticHistory: part})
 
 
 def residual_surface(result: ContactResult) -> Heights:
@@ -147,19 +145,17 @@ def _targets(plan: ContactPlan, history: PlasticHistory) -> list[Target]:
     return [Target(one, None) for one in values]
 
 
-def _step(
-    plan: ContactPlan, target: Target, state: _State, counter: WorkCounter
-) -> tuple[Solved, Contact, _State, _Row]:
-    """Press the shape that the last step left, and deform it where the hardness is reached."""
-    heights = plan.heights - state.residual
-    shape = plan.prepared.with_heights(heights)
-    law = _remembering(plan, state)
-    here = evolve(plan, hardness=law, interface=Once(lambda: shape))
-    guess = state.hardness if isinstance(state.hardness, float) else None
-    solved = solve_with_hardness(
-        here, target._replace(start=state.pressure, hardness=guess), counter
-    )
-    contact = contact_of(here, solved)
+def _shaped(plan: ContactPlan, state: _State) -> ContactPlan:
+    """Plan of the shape that the last step left, with a hardness that remembers."""
+    shape = plan.prepared.with_heights(plan.heights - state.residual)
+    return evolve(plan, hardness=_remembering(plan, state), interface=Once(lambda: shape))
+
+
+def _deformed(
+    here: ContactPlan, plan: ContactPlan, solved: Solved, state: _State
+) -> tuple[_State, _Row, Contact]:
+    """Deform the shape where the hardness is reached."""
+    contact, heights = solved.contact, here.heights
     hardness = np.asarray(solved.hardness)
     is_plastic = (contact.pressure >= hardness * AT_HARDNESS) & (contact.pressure > 0.0)
     overlap = contact.bounded.overlap if contact.bounded is not None else np.zeros_like(heights)
@@ -172,10 +168,10 @@ def _step(
         residual,
         _deepest(plan, solved, state),
         solved.hardness,
-        contact.pressure if contact.pressure.any() else None,
+        solved if solved.pressure.any() else None,
     )
     row = _row(plan, solved, contact, is_plastic, flow)
-    return solved, contact._replace(bounded=made), after, row
+    return after, row, contact._replace(bounded=made)
 
 
 def _remembering(plan: ContactPlan, state: _State) -> HardnessLaw | None:
@@ -204,7 +200,7 @@ def _deepest(plan: ContactPlan, solved: Solved, state: _State) -> tuple[Map, ...
     law, solution = plan.hardness, solved.solution
     if law is None or isinstance(law, FixedHardness):
         return None
-    touching = solution.pressure > 0.0
+    touching = solved.contact.touching
     bodies = plan.prepared.displacements(solution.pressure, solution.displacement)
     now = tuple(
         np.maximum(u, 0.0) if law.is_local else np.asarray(u[touching].max(initial=0.0))

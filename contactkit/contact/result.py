@@ -177,6 +177,11 @@ class ContactResult(Result):
         return "points of the bodies far from the contact"
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """See `Result.notes`."""
+        return (f"approach and displacement from {self.approach_datum}",)
+
+    @property
     def plastic_area(self) -> float:
         """Area at the hardness [m2]; raises without `HardnessLimit`."""
         return self.of(HardnessLimit).area

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,14 +13,15 @@ from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..validity import warn
-from .effects.base import AttractedContact, Attraction, Contact, ContactEffect, LoadTerm, effects_of
+from .effects.base import AttractedContact, Attraction, Contact, LoadTerm, effects_of
 from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
 from .film_estimate import self_consistent_force
-from .film_loop import pulled_together, to_last_pixel
-from .friction_loop import Target
-from .hardness_loop import Solved, contact_of, solve_with_hardness
+from .outer.load import solve_loaded
+from .outer.step import Solved, Step
+from .outer.tension import Tension
+from .outer.unknown import Target
 from .plan import ContactPlan
 from .result import ContactResult
 from .validity import check_contact
@@ -32,14 +33,6 @@ if TYPE_CHECKING:
     Map = NDArray[np.float64]
 
 __all__ = ["solve", "solve_unwarned"]
-
-
-class _Answer(NamedTuple):
-    """A solved contact, as the solver and as the effects see it, and the parts of the effects."""
-
-    solved: Solved
-    contact: Contact
-    parts: dict[type[ContactEffect[Any]], object]
 
 
 def solve(
@@ -112,11 +105,10 @@ def solve_unwarned(
 ) -> ContactResult:
     """Solve a contact as `solve` does; the caller reports the validity of the result."""
     counter = WorkCounter()
-    target = _target(plan, start)
-    answer = _solve_all(plan, target, _attracted(start), counter)
-    result = _result(plan, answer, counter)
-    if answer.solved.problem and throw:
-        raise ConvergenceError(answer.solved.problem, result)
+    solved = _solved(plan, _target(plan, start), counter)
+    result = _result(plan, _observed(plan, solved, counter), counter)
+    if solved.problem and throw:
+        raise ConvergenceError(solved.problem, result)
     return result
 
 
@@ -134,50 +126,43 @@ def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | 
         hardness = before[0].of(HardnessLimit).hardness
         near = hardness if isinstance(hardness, float) else None
     load, approach = plan.mean_pressure, plan.rigid_approach
+    target = Target(load, approach, None, near)
+    if before and (attracted := _attracted(before[0])) is not None:
+        pressure = before[0].pressure + attracted.tension
+        start = np.where(attracted.touching, pressure, 0.0)
+        return target._replace(start=start, unknowns={Tension.name: attracted.tension})
     known = [
         (one.mean_pressure if load is not None else one.rigid_approach, one.pressure)
         for one in before
     ]
-    return Target(load, approach, known or None, near)
+    return target._replace(start=known or None)
 
 
-def _attracted(
-    start: ContactResult | Sequence[ContactResult] | None,
-) -> AttractedContact | None:
-    """Tension of the newest result to start from, if it has one."""
-    newest = start if isinstance(start, ContactResult) else next(iter(start or ()), None)
-    attraction = newest.plan.scene.effect(Attraction) if newest is not None else None
-    if newest is None or attraction is None or type(attraction) not in newest.parts:
+def _attracted(newest: ContactResult) -> AttractedContact | None:
+    """Tension of a result to start from, if it has one."""
+    attraction = newest.plan.scene.effect(Attraction)
+    if attraction is None or type(attraction) not in newest.parts:
         return None
     return attraction.attracted_of(newest.of(type(attraction)))
 
 
-def _solve_all(
-    plan: ContactPlan, target: Target, before: AttractedContact | None, counter: WorkCounter
-) -> _Answer:
-    """Solve the contact, with an attraction or a force that adds to its load; run the effects."""
-    parts: dict[type[ContactEffect[Any]], object] = {}
-    term, load = plan.scene.effect(LoadTerm), plan.mean_pressure
-    if term is not None and term.self_consistent and load is not None:
-        begun = time.perf_counter()
-        tight = to_last_pixel(plan)
-        solved, contact, parts[type(term)] = pulled_together(tight, term, load, target, counter)
-        counter.clock(term.name, begun)
-    elif (attraction := plan.scene.effect(Attraction)) is not None:
-        from .attraction_loop import solve_attracted
-
-        solved, contact = solve_attracted(plan, attraction, target, before, counter)
-    elif (history := plan.scene.effect(PlasticHistory)) is not None:
+def _solved(plan: ContactPlan, target: Target, counter: WorkCounter) -> Solved:
+    """Solve the contact, or follow the path of loads that an effect brings."""
+    if (history := plan.scene.effect(PlasticHistory)) is not None:
         from .plastic_history import follow_history
 
-        solved, contact, parts[PlasticHistory] = follow_history(plan, history, counter)
-    elif (slip := plan.scene.effect(PartialSlip)) is not None and slip.couples(plan.scene):
-        from .slip_loop import follow_coupled
+        return follow_history(plan, history, counter)
+    if (slip := plan.scene.effect(PartialSlip)) is not None and slip.couples(plan.scene):
+        from .slip_path import follow_coupled
 
-        solved, contact, parts[PartialSlip] = follow_coupled(plan, slip, counter)
-    else:
-        solved = solve_with_hardness(plan, target, counter)
-        contact = contact_of(plan, solved)
+        return follow_coupled(plan, slip, counter)
+    step = Step(plan, counter)
+    return step.finished(solve_loaded(step, target), target)
+
+
+def _observed(plan: ContactPlan, solved: Solved, counter: WorkCounter) -> Solved:
+    """Add the parts of the effects that observe the contact."""
+    contact, parts = solved.contact, dict(solved.parts)
     _check_fits(plan, contact, solved.solution.energy)
     for effect in effects_of(plan.scene):
         begun = time.perf_counter()
@@ -186,7 +171,7 @@ def _solve_all(
                 part = effect.estimated(part, self_consistent_force(plan, effect))
             parts[type(effect)] = part
             counter.clock(effect.name, begun)
-    return _Answer(solved, contact, parts)
+    return solved._replace(parts=parts)
 
 
 def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
@@ -205,9 +190,8 @@ def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
     )
 
 
-def _result(plan: ContactPlan, answer: _Answer, counter: WorkCounter) -> ContactResult:
-    solved, contact, parts = answer
-    solution = solved.solution
+def _result(plan: ContactPlan, solved: Solved, counter: WorkCounter) -> ContactResult:
+    solution, contact, parts = solved.solution, solved.contact, solved.parts
     touches = bool(contact.touching.any())
     status = "not converged" if solved.problem else ("converged" if touches else "no contact")
     message = solved.problem or (

@@ -35,6 +35,11 @@ class WorkCounter:
         self._has_fallen_back = False
         self._stages: dict[str, float] = {}
 
+    @property
+    def n_solves(self) -> int:
+        """Contacts solved so far."""
+        return self._solutions["n_solves"]
+
     def add(self, solution: Solution) -> None:
         """Count one more solve."""
         self._solutions.update(

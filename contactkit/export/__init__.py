@@ -6,4 +6,5 @@ frames    Data frames of pandas.
 html      Tables and lists as HTML.
 lines     A description in lines, as text and pages show it.
 pages     Pages of HTML that hold all they show.
+report    Report of a run of the command line, and the FMU that holds a scene.
 """

@@ -52,6 +52,8 @@ _RENAMED = {
     "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
     "tension": "strength, the tension at which the whole liquid tears",
     "sliding": """[loading] with kind = "sliding\"""",
+    "damping": """the planform of a body: upper = { shape = "flat", planform = { shape = "ring", """
+    """... } }""",
     "tension_limits": "strengths and cavity_pressures [Pa]: two numbers say how a liquid tears",
 }
 
@@ -294,22 +296,6 @@ def _edges(value: Any, _: Any) -> Any:
     return value
 
 
-def _damping(value: Any, wanted: type) -> Any:
-    """A table of a face, or of a law as a result file holds it."""
-    if isinstance(value, Mapping) and "law" in value:
-        return _of_family(wanted)(value, wanted)
-    from .face_tables import FACE_TABLES  # for the films that have one
-
-    if not isinstance(value, Mapping):
-        raise DescriptionError("face", value, "be a table with a key 'face'")
-    rest = dict(value)
-    name = rest.pop("face", None)
-    if name not in FACE_TABLES:
-        expected = "name a known kind"
-        raise DescriptionError("face", name, expected, hint=nearest(name, sorted(FACE_TABLES)))
-    return _CONVERTER.structure(rest, FACE_TABLES[name]).law()
-
-
 def _solid(value: Any, _: Any) -> Material | Stack | None:
     """A material, by name or as a table; a stack, which has a substrate; or "rigid"."""
     if value is None or value == "rigid":
@@ -345,7 +331,6 @@ for _matches, _hook in (
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),
-    (lambda kind: _is_base(kind) and kind.family == "damping law", _damping),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Generic, NamedTuple, TypeVar
 
-__all__ = ["bracketed_root", "first_true", "newton_root"]
+__all__ = ["Bracket", "Probe", "balance", "bracketed_root", "first_true", "newton_root"]
+
+Value = TypeVar("Value")
 
 
 def bracketed_root(
@@ -103,3 +106,127 @@ def newton_root(
         if moved <= rtol * abs(x):
             break
     return x
+
+
+class Probe(NamedTuple, Generic[Value]):
+    """Excess at a point, in the unit of the point, and whatever was computed for it.
+
+    `is_final` ends the search: what was computed is no use.
+    """
+
+    at: float
+    excess: float
+    value: Value
+    is_final: bool = False
+
+
+class Bracket(Generic[Value]):
+    """Interval around a balance: the excess is positive at its lower end, negative at the upper.
+
+    Parameters
+    ----------
+    low, high : float
+        Ends, which need not have been tried.
+
+    Attributes
+    ----------
+    below, above : Probe or None
+        Probes at the ends, where they have been tried.
+    before : Probe or None
+        The one that was at the lower end before `below`.
+    last : tuple of Probe
+        The last two, the newest first.
+    """
+
+    def __init__(self, low: float, high: float) -> None:
+        self.low, self.high = low, high
+        self.below: Probe[Value] | None = None
+        self.above: Probe[Value] | None = None
+        self.before: Probe[Value] | None = None
+        self.last: tuple[Probe[Value], ...] = ()
+
+    def take(self, probe: Probe[Value]) -> None:
+        """Shorten the interval to the side of the balance."""
+        self.last = (probe, *self.last[:1])
+        if probe.excess >= 0.0:
+            self.before = self.below
+            self.low, self.below = probe.at, probe
+        else:
+            self.high, self.above = probe.at, probe
+
+    @property
+    def best(self) -> Probe[Value]:
+        """Probe nearest to balance of those at the ends."""
+        tried = [one for one in (self.below, self.above) if one is not None]
+        return min(tried, key=lambda one: abs(one.excess))
+
+    def holds(self, x: float) -> bool:
+        """Whether a point lies inside, or at an end that has not been tried."""
+        is_low = x == self.low and self.below is None
+        return self.low < x < self.high or is_low or (x == self.high and self.above is None)
+
+    def is_settled(self, rtol: float) -> bool:
+        """Whether a probe balances, or the balance lies between two points that are about one."""
+        balances = abs(self.best.excess) <= rtol * self.best.at
+        return balances or self.high - self.low <= rtol * self.high
+
+
+def balance(
+    evaluate: Callable[[float, float], Probe[Value] | None],
+    bracket: Bracket[Value],
+    guess: Callable[[Bracket[Value]], float],
+    rtol: float,
+    *,
+    max_iterations: int = 60,
+) -> bool:
+    """Shorten a bracket to a balance, by guesses that know more of the function than its sign.
+
+    For functions so expensive that each evaluation counts: a guess may be a step of a fixed point,
+    a secant, or the zero of a model of the function. One outside the bracket halves it.
+
+    Parameters
+    ----------
+    evaluate : callable
+        ``evaluate(x, excess)`` gives the probe at x; `excess` is the smallest so far, to choose a
+        tolerance by. None where there is none, beyond the balance.
+    bracket : Bracket
+        With one probe at least; holds the balance in the end.
+    guess : callable
+        Next point, from the bracket.
+    rtol : float
+        Tolerance of the excess, or of the width of the bracket, over the point.
+    max_iterations : int
+        Maximum number of evaluations.
+
+    Returns
+    -------
+    bool
+        Whether it settled.
+
+    Examples
+    --------
+    The load on a contact that pulls itself together by a force of a tenth of it:
+
+    >>> bracket = Bracket(1.0, 2.0)
+    >>> bracket.take(Probe(1.0, 0.1, None))
+    >>> def probe(x, excess):
+    ...     return Probe(x, 1.0 + 0.1 * x - x, None)
+    >>> balance(probe, bracket, lambda now: now.low + now.below.excess, 1e-9)
+    True
+    >>> round(bracket.best.at, 8)
+    1.11111111
+    """
+    for _ in range(max_iterations):
+        if bracket.is_settled(rtol):
+            return True
+        x = guess(bracket)
+        if not bracket.holds(x):
+            x = 0.5 * (bracket.low + bracket.high)
+        probe = evaluate(x, abs(bracket.best.excess))
+        if probe is None:
+            bracket.high = x
+        else:
+            bracket.take(probe)
+            if probe.is_final:
+                return False
+    return bracket.is_settled(rtol)

@@ -4,7 +4,7 @@ style       Style of all figures: colours, axes, legends, panel letters, saving.
 axis_units  Units of axes: those in which a quantity of some size reads best, and labels.
 accessors   Figures of results as methods: ``result.plot``.
 maps        Maps over the window of a contact.
-contact     Figures of contacts: pressure, areas, sections, layers, load curves.
+contact     Figures of contacts: pressure, areas, sections, layers.
 stress      Stress below a contact: sections to scale, with the maximum marked.
 view3d      Surface, pressure and stress in three dimensions, through pyvista.
 explore     A map with sections that follow the mouse, and a slider over depth.

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,15 +13,10 @@ from ..errors import DescriptionError
 from ..scene.materials import Stack
 from .axis_units import axis_unit
 from .maps import extent, hide_holes, place
-from .study import Panel, draw_line
-from .style import Axes, ListedColormap, Patch, Rectangle, figure, legend, plain_log
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from .style import Axes, ListedColormap, Patch, Rectangle, figure, legend
 
 __all__ = [
     "contact_spots",
-    "load_curve",
     "pressure",
     "section",
     "stack_section",
@@ -174,69 +168,3 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
 
 def _block(row: int, colour: str) -> Any:
     return Rectangle((0.0, float(row)), 1.0, 1.0, facecolor=colour, edgecolor="w", lw=1.5)
-
-
-def load_curve(
-    curves: Sequence[tuple[str, Mapping[str, Any]]],
-    axes: Sequence[Axes],
-    panels: Sequence[Panel] | None = None,
-) -> Sequence[Axes]:
-    """Draw load curves, one panel for each quantity: over the approach where a contact is pulled.
-
-    Parameters
-    ----------
-    curves : sequence of (label, columns)
-        One for each line: columns by the names of `ContactResult.scalars`, over the pressure that
-        is imposed.
-    axes : sequence of Axes
-        One for each panel.
-    panels : sequence of (column, label, factor), optional
-        Quantities to draw; those of `LOAD_PANELS` that the columns have if not given.
-    """
-    is_pulled = any(np.any(np.asarray(c["mean_pressure"]) < 0.0) for _, c in curves)
-    drawn = panels_of(curves) if panels is None else panels
-    for ax, (name, label, factor) in zip(axes, drawn, strict=False):
-        for i, (title, columns) in enumerate(curves):
-            if name in columns:
-                draw_line(ax, _over(columns, is_pulled), columns, (name, label, factor), i, title)
-        ax.set_ylabel(label)
-        ax.set_xlabel("approach [nm]" if is_pulled else "mean pressure [MPa]")
-        ax.set_xscale("linear" if is_pulled else "log")
-        if not is_pulled and ax.get_xlim()[1] < 1e3 * ax.get_xlim()[0]:
-            plain_log(ax.xaxis)
-    return axes
-
-
-def _over(columns: Mapping[str, Any], is_pulled: bool) -> NDArray[np.float64]:
-    """Approach [nm] of contacts that are pulled, mean pressure [MPa] of others."""
-    if is_pulled:
-        return np.asarray(columns["approach"]) * 1e9
-    return np.asarray(columns.get("loading.pressure", columns["mean_pressure"])) / 1e6
-
-
-LOAD_PANELS: tuple[Panel, ...] = (
-    ("max_pressure", "maximum pressure [GPa]", 1e9),
-    ("contact_fraction", "contact area [% of the window]", 0.01),
-    ("plastic_fraction", "plastic area [% of the window]", 0.01),
-    ("max_displacement", "maximum displacement [nm]", 1e-9),
-    ("relative_meniscus_force", "meniscus force / load [-]", 1.0),
-)
-
-
-def panels_of(
-    curves: Sequence[tuple[str, Mapping[str, Any]]], more: Sequence[Panel] = ()
-) -> list[Panel]:
-    """Panels of `LOAD_PANELS`, and of `more`, for which at least one curve has a column.
-
-    The maximum pressure is in the unit in which it reads best.
-    """
-    found = [panel for panel in (*LOAD_PANELS, *more) if any(panel[0] in c for _, c in curves)]
-    return [_scaled(curves) if panel[0] == "max_pressure" else panel for panel in found]
-
-
-def _scaled(curves: Sequence[tuple[str, Mapping[str, Any]]]) -> Panel:
-    """Panel of the maximum pressure."""
-    values = [np.asarray(c["max_pressure"], float) for _, c in curves if "max_pressure" in c]
-    known = np.concatenate([one[np.isfinite(one)] for one in values])
-    factor, unit = axis_unit(float(known.max(initial=0.0)), "Pa")
-    return "max_pressure", f"maximum pressure [{unit}]", factor

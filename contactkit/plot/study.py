@@ -7,17 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .style import Axes, plain_log, series
+from ..studies.bands import RUNS, is_seed
+from ..studies.table import Study
+from .axis_units import axis_label, readable
+from .style import Axes, Figure, figure, letters, plain_log, series, shared_legend, title
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Panel", "draw_line", "over_parameter", "study_curves"]
+__all__ = ["Panel", "draw_line", "over_parameter", "overview", "study_curves"]
 
 Panel = tuple[str, str, float]
 """Name of a column, label of its axis, and what its values are divided by."""
 
 _WIDE = 20.0  # ratio of the ends of an axis from which it is logarithmic
+_MOST_PANELS = 12  # four rows of three: more are too small to read
 _DECADES = 1e3  # ratio from which powers of ten are enough to label it
 
 
@@ -73,12 +77,12 @@ def study_curves(
     """
     name, label, factor = over
     for ax, panel in zip(axes, panels, strict=False):
-        for i, (title, columns) in enumerate(curves):
+        for i, (name_of_line, columns) in enumerate(curves):
             if panel[0] not in columns:
                 continue
             x = over_parameter(columns[name], ax)
             x = x / factor if x.dtype.kind == "f" and factor != 1.0 else x
-            draw_line(ax, x, columns, panel, i, title)
+            draw_line(ax, x, columns, panel, i, name_of_line)
         ax.set(xlabel=label, ylabel=panel[1])
         for column, scale, axis in (
             (name, ax.set_xscale, ax.xaxis),
@@ -100,3 +104,44 @@ def _ratio(given: Sequence[Any]) -> float:
     values = np.concatenate(columns)
     known = values[np.isfinite(values)]
     return float(known.max() / known.min()) if known.size and known.min() > 0.0 else 1.0
+
+
+def overview(study: Study[Any], heading: str = "") -> Figure:
+    """Draw the numbers of a study that change, a panel for each, over one of its parameters.
+
+    That is the load or what else is imposed, if it varies, else the last parameter; there is a line
+    for each combination of the others.
+    """
+    path = _along(study)
+    lines = study.lines(path)
+    names = (study.telling() or tuple(study.points[0].scalars))[:_MOST_PANELS]
+    columns = min(3, len(names))
+    rows = -(-len(names) // columns)
+    made, axes = figure(rows, columns, size=(4.0 * columns, 3.4 * rows), squeeze=False)
+    flat = list(axes.flat)
+    panels = [_panel(study, name) for name in names]
+    over = _panel(study, path, " ".join(path.split(".")[-2:]))
+    study_curves([(one.label, one.columns) for one in lines], flat, panels, over)
+    for ax in flat[len(panels) :]:
+        ax.set_visible(False)
+    if heading:
+        title(flat[0], heading)
+    if len(panels) > 1:
+        letters(flat[: len(panels)])
+    if len(lines) > 1:
+        shared_legend(made, flat[0])
+    return made
+
+
+def _along(study: Study[Any]) -> str:
+    """Path that points are drawn over: what is imposed if it varies, else the last parameter."""
+    paths = [axis[0] for axis in study.paths if not is_seed(axis)] or [RUNS]
+    return ([path for path in paths if path.startswith("loading")] or paths)[-1]
+
+
+def _panel(study: Study[Any], name: str, label: str = "") -> Panel:
+    """Panel of a column, in the unit in which it reads best."""
+    column = study.column(name)
+    numbers = column.dtype.kind == "f"
+    factor, unit = readable(study.unit(name), column) if numbers else (1.0, "-")
+    return name, axis_label((label or name).replace("_", " "), unit), factor

@@ -106,12 +106,25 @@ class Interface(Described):
     @property
     def is_flat(self) -> bool:
         """Whether both bodies are flat."""
-        return all(body.surface.is_flat for body in self.bodies)
+        return all(isinstance(body.surface, Flat) for body in self.bodies)
+
+    @property
+    def faces(self) -> tuple[Flat, ...]:
+        """Faces of the flat bodies, the lower first."""
+        return tuple(body.surface for body in self.bodies if isinstance(body.surface, Flat))
+
+    @property
+    def has_discs(self) -> bool:
+        """Whether each flat body is an even disc, or an even face without end."""
+        return all(face.is_disc for face in self.faces)
 
     @property
     def rim_radius(self) -> float:
-        """Radius of the smaller face [m], beyond which the film cannot spread; inf if none."""
-        return min(body.surface.rim_radius for body in self.bodies)
+        """Radius of the smaller face [m], beyond which the film cannot spread; inf if none.
+
+        Of a face that is no disc the radius of a disc of the same area.
+        """
+        return min((face.equal_radius for face in self.faces), default=math.inf)
 
     @property
     def sphere_radius(self) -> float:

@@ -12,6 +12,7 @@ from attrs import fields
 from .._lazy import above
 from ..errors import DescriptionError
 from ..export.contents import Quantity
+from ..validity import ValidityNumber
 from .effect import Effect
 from .plan import ScenePlan
 from .scales import Scaled, Scales
@@ -51,6 +52,26 @@ class Result(Tabular):
     @abc.abstractmethod
     def columns(self) -> Mapping[str, NDArray[Any]]:
         """Curves or maps by their names; read-only arrays."""
+
+    @property
+    @abc.abstractmethod
+    def validity(self) -> tuple[ValidityNumber, ...]:
+        """Whether the models were inside their ranges."""
+
+    @property
+    @abc.abstractmethod
+    def work(self) -> Any:
+        """Cost of the run: a named tuple of counts ``n_...`` and ``seconds``."""
+
+    @property
+    def errata(self) -> tuple[Any, ...]:
+        """Printed equations that the run takes, each with the right value; none by default."""
+        return ()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What to know about the numbers and curves, in sentences; none by default."""
+        return ()
 
     @abc.abstractmethod
     def of(self, kind: Any) -> Any:

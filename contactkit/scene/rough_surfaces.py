@@ -382,6 +382,11 @@ class Heights(Surface):
         return hashlib.sha256(self.heights.tobytes()).hexdigest()
 
     @property
+    def void_pixels(self) -> Mask | None:
+        """See `Surface.void_pixels`."""
+        return self.holes
+
+    @property
     def own_grids(self) -> frozenset[OwnGrid]:
         """See `Surface.own_grids`."""
         size, (ny, nx) = self.pixel_size, self.heights.shape
@@ -433,9 +438,9 @@ class CombinedSurface(Surface):
         return tuple(name for part in self.parts for name in part.isolated_maps)
 
     @property
-    def holes(self) -> Mask | None:
-        """See `Surface.holes`."""
-        return union_of(part.holes for part in self.parts)
+    def void_pixels(self) -> Mask | None:
+        """See `Surface.void_pixels`."""
+        return union_of(part.void_pixels for part in self.parts)
 
     def shortest_waves(self, grid: Grid) -> tuple[ShortWave, ...]:
         """See `Surface.shortest_waves`."""

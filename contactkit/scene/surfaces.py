@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from attrs import field, frozen
+from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError, PlanError
 from ..units import si
-from ..validators import Described, optional, positive
+from ..validators import Described, as_pair, as_tuple, finite, optional, part, positive, refuse
+from .faces import FaceHole, Recess, Vent
+from .planforms import Disc, Planform
 from .window import Grid
 
 if TYPE_CHECKING:
@@ -72,7 +74,7 @@ class Surface(Described):
     family: ClassVar[str] = "surface"
     kind: ClassVar[str]
     bounds_film: ClassVar[bool] = False
-    """Whether the film between two such surfaces is known: that between flats and spheres is."""
+    """Whether the film between such surfaces is known: that of flats and of round apexes is."""
 
     @property
     def curvature(self) -> float | None:
@@ -85,16 +87,6 @@ class Surface(Described):
         return self.curvature or 0.0
 
     @property
-    def is_flat(self) -> bool:
-        """Whether it is a plane, with or without a rim."""
-        return False
-
-    @property
-    def rim_radius(self) -> float:
-        """Radius of the rim that bounds it [m]; inf without one."""
-        return math.inf
-
-    @property
     def own_grids(self) -> frozenset[OwnGrid]:
         """Grids of the height maps in it; a recipe takes any grid."""
         return frozenset()
@@ -105,7 +97,7 @@ class Surface(Described):
         return ()
 
     @property
-    def holes(self) -> Mask | None:
+    def void_pixels(self) -> Mask | None:
         """Pixels (ny, nx) that carry no load; None for a surface without holes."""
         return None
 
@@ -185,25 +177,85 @@ def union_of(holes: Iterable[Mask | None]) -> Mask | None:
     return union
 
 
+def _slopes(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if not isinstance(value, tuple) or len(value) != 2:
+        raise refuse(owner, attribute, value, "be a pair of slopes (x, y)")
+    for slope in value:
+        finite(owner, attribute, slope)
+
+
+def _curved(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    finite(owner, attribute, value)
+    if value == 0.0:
+        raise refuse(owner, attribute, value, "not be zero", "leave it out for an even face")
+
+
 @frozen(kw_only=True)
 class Flat(Surface):
-    """A flat face, round and bounded, or without end.
+    """A flat face with a rim, or without end: a disc, or any planform, tilted, crowned, recessed.
 
     Parameters
     ----------
     radius : float, optional
-        Radius of the face [m]; the film cannot spread beyond it. None: no rim within reach.
+        Radius of a disc [m]; the film cannot spread beyond it. None: no rim within reach, or that
+        of `planform`.
+    planform : Planform, optional
+        Outline of a face that is no disc: `Ring`, `Rectangle`, `Ellipse`, `Sector`, `Polygon`,
+        `Image`, and their sums and differences.
+    holes : tuple of Vent or SealedHole
+        Holes in the face.
+    recesses : tuple of Recess
+        Regions that are deeper; where they overlap, the deepest counts.
+    tilt : (float, float)
+        Slopes along x and y by which the face recedes from the other one [rad].
+    crown_radius : float, optional
+        Radius of curvature of a face that is slightly domed [m]; negative: hollow.
+
+    Notes
+    -----
+    The gap of two faces is the shortest distance between them within the film, recesses apart.
 
     Examples
     --------
     >>> Flat(radius=3.175e-3).curvature
     0.0
+    >>> from contactkit.scene.planforms import Ring
+    >>> Flat(planform=Ring(radius=2e-3, hole_radius=1e-3), tilt=(1e-4, 0.0)).is_disc
+    False
     """
 
     kind: ClassVar[str] = "flat"
     bounds_film: ClassVar[bool] = True
 
     radius: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
+    planform: Planform | None = field(default=None, validator=optional(part(Planform)))
+    holes: tuple[FaceHole, ...] = field(default=(), converter=as_tuple)
+    recesses: tuple[Recess, ...] = field(default=(), converter=as_tuple)
+    tilt: tuple[float, float] = field(
+        default=(0.0, 0.0), converter=as_pair, validator=_slopes, metadata=si("rad")
+    )
+    crown_radius: float | None = field(default=None, validator=optional(_curved), metadata=si("m"))
+
+    @holes.validator
+    def _check_holes(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
+        if not all(isinstance(hole, FaceHole) for hole in value):
+            raise refuse(self, attribute, value, "hold a Vent or a SealedHole each")
+
+    @recesses.validator
+    def _check_recesses(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
+        if not all(isinstance(recess, Recess) for recess in value):
+            raise refuse(self, attribute, value, "hold a Recess each")
+
+    def __attrs_post_init__(self) -> None:
+        """Refuse two outlines, and what has a place on a bounded face only."""
+        if self.radius is not None and self.planform is not None:
+            hint = "a disc has a radius, any other face a planform"
+            raise DescriptionError(
+                "Flat.radius", self.radius, "stand alone, without planform", unit="m", hint=hint
+            )
+        if self.outline is None and not self.is_even:
+            hint = "give its radius [m] or its planform"
+            raise DescriptionError("Flat", "without end", "have a rim", hint=hint)
 
     @property
     def curvature(self) -> float:
@@ -211,14 +263,37 @@ class Flat(Surface):
         return 0.0
 
     @property
-    def is_flat(self) -> bool:
-        """See `Surface.is_flat`."""
-        return True
+    def outline(self) -> Planform | None:
+        """Planform of the face; None if it has no rim within reach."""
+        return self.planform if self.radius is None else Disc(radius=self.radius)
 
     @property
-    def rim_radius(self) -> float:
-        """See `Surface.rim_radius`."""
-        return math.inf if self.radius is None else self.radius
+    def is_even(self) -> bool:
+        """Whether it has one height everywhere, and no hole."""
+        is_level = self.tilt == (0.0, 0.0) and self.crown_radius is None
+        return is_level and not self.holes and not self.recesses
+
+    @property
+    def is_disc(self) -> bool:
+        """Whether it is an even disc, or an even face without end."""
+        return self.is_even and isinstance(self.outline, Disc | None)
+
+    @property
+    def area(self) -> float:
+        """Area without the vents [m2]; inf without a rim."""
+        if self.outline is None:
+            return math.inf
+        vents = sum(hole.shape.area for hole in self.holes if isinstance(hole, Vent))
+        return self.outline.area - vents
+
+    @property
+    def equal_radius(self) -> float:
+        """Radius of the disc of the same area [m]; inf without a rim."""
+        return (
+            self.outline.radius
+            if self.is_disc and isinstance(self.outline, Disc)
+            else (math.sqrt(self.area / math.pi))
+        )
 
     def heights_on(self, grid: Grid) -> Map:
         """See `Surface.heights_on`."""

@@ -64,7 +64,7 @@ def check_rim(prepared: PreparedScene[SeparationScene]) -> None:
     beyond = {name: radius for name, radius in radii.items() if radius > rim}
     if not beyond:
         return
-    side = "lower" if interface.lower.surface.is_flat else "upper"
+    side = "upper" if interface.curvatures[0] else "lower"
     taken = " and ".join(f"{name} takes a circle of radius {r:.4g} m" for name, r in beyond.items())
     count = scene.meniscus.count
     shared = f", {rim:g} m for each of {count} menisci" if count > 1 else ""

@@ -108,6 +108,11 @@ class CurveResult(Result):
         )
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """See `Result.notes`."""
+        return (f"curves: {self.lines}",)
+
+    @property
     def time(self) -> Curve:
         """Time [s]."""
         return self["time"]

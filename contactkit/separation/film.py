@@ -9,7 +9,7 @@ from types import MappingProxyType
 from attrs import field, frozen
 
 from ..scene.column import Column
-from .cavity.law import CavityLaw
+from .cavity.law import Cavitation
 from .effects.base import ForceLaw, Limiter, LimitKind, SeparationForce
 from .effects.viscous import ViscousForce, ViscousLaw
 from .integrator.radau import Forces
@@ -32,7 +32,7 @@ class Film:
     limits: tuple[tuple[LimitKind, Limiter], ...]
     end: float
     full_gap: float
-    cavity: CavityLaw | None = None
+    cavity: Cavitation | None = None
     """How the film tears, where that is remembered; None if its limits need no memory."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)

@@ -22,7 +22,7 @@ from ..scene.scenes import SeparationScene
 from ..units import nm, quantity_text
 from ..validity import ValidityNumber
 from .bodies import check_bodies, check_rim
-from .cavity.law import CavityLaw
+from .cavity.law import Cavitation
 from .columns import COLUMNS
 from .effects.as_published import mixed
 from .effects.base import (
@@ -204,6 +204,11 @@ class Plan(ScenePlan):
             found.append("no mass: speeds are those at which the film balances the pull")
         if isinstance(loading, ImposedForce):
             found.append(closing_note(loading, self.film))
+        if not self.scene.interface.has_discs:
+            found.append(
+                f"the face is no even disc: all but the viscous force take it for one of the same "
+                f"area, of radius {quantity_text(self.scene.interface.rim_radius, 'm')}"
+            )
         own = (note for effect in effects_of(self.scene) for note in effect.notes(self.scene))
         return tuple(filter(None, (*found, *own)))
 
@@ -352,7 +357,7 @@ def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
 def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     laws: dict[type[SeparationForce], ForceLaw] = {}
     limits: list[tuple[LimitKind, Limiter]] = []
-    cavity: CavityLaw | None = None
+    cavity: Cavitation | None = None
     end = math.inf
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from scipy.interpolate import CubicHermiteSpline
 
-from .cavity.law import CavityLaw
+from .cavity.law import Cavitation
 from .film import Film
 from .torn_path import TornPoint, torn_points
 
@@ -47,7 +47,7 @@ class TornCycles:
 
 def torn_cycles(
     film: Film,
-    law: CavityLaw,
+    law: Cavitation,
     shaken: Callable[[float], tuple[float, float]],
     steady: Callable[[float], tuple[float, float]],
     times: Sequence[float],

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from .cavity.events import born, is_torn_by
-from .cavity.law import CavityLaw
+from .cavity.events import is_torn_by
+from .cavity.law import Cavitation
 from .cavity.path import Place, along_path
-from .cavity.stages import ShownCavity, shown_cavity
 from .cavity.state import FULL, Cavity, Phase
 from .effects.base import LimitKind
 from .film import Film
@@ -41,7 +40,7 @@ class Known(NamedTuple):
 
 def torn_points(
     film: Film,
-    law: CavityLaw,
+    law: Cavitation,
     place: Place,
     times: Sequence[float],
     rtol: float,
@@ -66,7 +65,7 @@ def torn_points(
     if times[0] not in known:
         first, cavity = place(times[0]), FULL
         if is_torn_by(law, cavity, *first):
-            cavity = born(law, *first)
+            cavity = law.inception(*first)
         known[times[0]] = Known(_point(film, law, cavity, place, times[0], 0.0), cavity, 0.0)
     for begin, end in pairwise(times):
         if end not in known:
@@ -76,7 +75,7 @@ def torn_points(
 
 def _after(
     film: Film,
-    law: CavityLaw,
+    law: Cavitation,
     place: Place,
     start: tuple[float, Known],
     end: float,
@@ -95,10 +94,10 @@ def _after(
 
 
 def _point(
-    film: Film, law: CavityLaw, cavity: Cavity, place: Place, time: float, impulse: float
+    film: Film, law: Cavitation, cavity: Cavity, place: Place, time: float, impulse: float
 ) -> TornPoint:
     gap, speed = place(time)
     if cavity.phase is Phase.FULL:
         return TornPoint(film.newtonian_force(gap, speed), impulse, LimitKind.NONE, 0.0, 0.0)
-    shown: ShownCavity = shown_cavity(law, cavity, gap, speed)
+    shown = law.shown(cavity, gap, speed)
     return TornPoint(shown.force, impulse, LimitKind.TENSION, shown.radius, shown.void)

@@ -75,7 +75,8 @@ def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
         The settings that paths beginning with ``accuracy.`` refer to.
     vary : mapping of str or tuple of str to sequence
         Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index for an
-        item of a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name).
+        item of a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name). With
+        the name of an effect alone, false leaves the effect out and true keeps it.
         Quantities may be texts with a unit. Several paths, a tuple or one text with commas, vary
         together: each of their values is a row with one for each path.
 
@@ -223,8 +224,9 @@ def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
         items = list(owner)
         for segment, below in tree.items():
             i = _places(owner)[segment]
-            items[i] = _rebuilt(items[i], below)
-        return tuple(items)
+            made = _rebuilt(items[i], below)
+            items[i] = items[i] if made is True else made
+        return tuple(item for item in items if item is not False)  # an effect that is left out
     changes = {name: _rebuilt(getattr(owner, name), below) for name, below in tree.items()}
     return attrs.evolve(owner, **changes)
 

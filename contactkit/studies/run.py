@@ -19,9 +19,8 @@ from ..contact.effects.base import Attraction
 from ..contact.plan import ContactPlan, unprepared_plan
 from ..errors import ContactkitError, ConvergenceError, InfeasibleError
 from ..files.results import AnyResult, to_bytes
-from ..planning import plan
+from ..planning import plan, run
 from ..scene.scenes import ContactScene
-from ..separation.simulate import simulate
 from ..validity import warn
 from .paths import Scene, changed
 from .store import Store, StudyPoint
@@ -90,7 +89,7 @@ class _Chain:
 
     def run(self, scene: Scene, accuracy: Accuracy) -> AnyResult:
         if not isinstance(scene, ContactScene):
-            return simulate(plan(scene, accuracy))
+            return run(plan(scene, accuracy))
         made = unprepared_plan(scene, accuracy)
         if self._plan is not None and not made.has_interface_of(self._plan):
             self._plan = None  # before the next one, so that two solvers are never in memory

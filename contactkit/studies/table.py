@@ -19,7 +19,7 @@ from ..files.results import save_npz
 from ..scene.result import Result
 from ..scene.scales import Scale
 from ..scene.tabular import Tabular
-from .bands import RUNS, banded_point, banded_units, seed_axes
+from .bands import BAND, RUNS, banded_point, banded_units, seed_axes
 from .store import StudyPoint
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 __all__ = ["Study", "StudyLine", "as_text", "study_contents"]
 
 _MAX_COLUMNS = 6  # of a table without named columns
+_ROUND_OFF = 1e-6  # change over the largest value; a solve is right to its rtol of 1e-8 or better
+# Ends of names that tables and figures leave out: measures of the solve, and the ends of bands.
+_NOT_TELLING = ("residual", "energy", *(end for end in BAND if end))
 _WIDEST = 40  # characters of a value without a name
 
 
@@ -156,7 +159,10 @@ class Study(Tabular, Generic[R_co]):
         fits = [i for i, paths in enumerate(self.paths) if any(p.startswith(wanted) for p in paths)]
         axis = fits[0] if fits else len(self.shape) - 1
         places = np.moveaxis(np.arange(len(self.points)).reshape(self.shape), axis, -1)
-        others = [p for i, paths in enumerate(self.paths) if i != axis for p in paths]
+        # A parameter of one value tells no line from another.
+        others = [
+            p for i, ps in enumerate(self.paths) if i != axis and self.shape[i] > 1 for p in ps
+        ]
         columns = {name: self.column(name) for name in self.units}
         return tuple(
             StudyLine(
@@ -168,11 +174,14 @@ class Study(Tabular, Generic[R_co]):
 
     def _named(self, path: str, value: Any) -> str:
         """A parameter in a legend: numbers with their name and unit, others as they are."""
-        if isinstance(value, bool) or not isinstance(value, int | float):
+        name = _ends(path)[0].replace("_", " ")
+        if isinstance(value, bool):
+            return name if value else f"not {name}"
+        if not isinstance(value, int | float):
             return as_text(value)
         unit = self.units[path]
         end = "" if unit == "-" else f" {unit}"
-        return f"{_ends(path)[0].replace('_', ' ')} {as_text(value)}{end}"
+        return f"{name} {as_text(value)}{end}"
 
     def bands(self, over: str | None = None) -> Study[R_co]:
         """Return the study over its other parameters, with a band over the seeds at each point.
@@ -306,10 +315,10 @@ class Study(Tabular, Generic[R_co]):
         Parameters
         ----------
         *names : str
-            Columns to show beside the parameters; none: the first six that vary.
+            Columns to show beside the parameters; none: the first six of `telling`.
         """
         varied = list(self.points[0].values)
-        shown = [*varied, *(names or self._telling(varied))]
+        shown = [*varied, *(names or self._main(varied))]
         labels = _labels(shown, varied)
         heads = [f"{labels[n]} [{self.unit(n)}]" for n in shown]
         cells = [[as_text(_number(p, n)) for n in shown] for p in self.points]
@@ -322,11 +331,30 @@ class Study(Tabular, Generic[R_co]):
         ]
         return "\n".join([*rows, *self._remarks()])
 
-    def _telling(self, varied: list[str]) -> list[str]:
-        """Scalar results that vary between the points."""
+    def telling(self) -> tuple[str, ...]:
+        """Names of the scalar results that change between the points, none that repeats another.
+
+        What is in proportion to a number before it says nothing new, as the fraction of the window
+        in contact beside the area. Changes at the level of rounding count as none; of a banded
+        study only the medians are taken.
+        """
+        known: list[NDArray[np.float64]] = []
+        found = list[str]()
+        for name in self.points[0].scalars:
+            if name in self._varied or name == RUNS or name.endswith(_NOT_TELLING):
+                continue
+            column = self.column(name)
+            if column.dtype.kind != "f" or not _changes(column):
+                continue
+            if not any(_in_proportion(column, one) for one in known):
+                found.append(name)
+                known.append(column)
+        return tuple(found)
+
+    def _main(self, varied: list[str]) -> list[str]:
+        """The first few numbers that change, else the first few."""
         scalars = [n for n in self.points[0].scalars if n not in varied]
-        differ = [n for n in scalars if len(np.unique(self.column(n), equal_nan=True)) > 1]
-        return (differ or scalars)[:_MAX_COLUMNS]
+        return (list(self.telling()) or scalars)[:_MAX_COLUMNS]
 
     def _remarks(self) -> list[str]:
         failed = [f"point {i}: {p.message}" for i, p in enumerate(self.points) if p.has_failed]
@@ -408,6 +436,26 @@ def study_contents(study: _Columns) -> Contents:
             values, unit = study.column(name).reshape(study.shape), study.units.get(name, "-")
             found[name] = Quantity(axes, values, unit, name.replace("_", " "))
     return Contents(axes, found, {"title": "study"})
+
+
+def _changes(column: NDArray[np.float64]) -> bool:
+    """Whether numbers differ by more than rounding."""
+    known = column[np.isfinite(column)]
+    return known.size > 0 and bool(np.ptp(known) > _ROUND_OFF * np.abs(known).max())
+
+
+def _in_proportion(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
+    """Whether two columns have a constant ratio, to rounding, where both are numbers."""
+    if not np.array_equal(np.isnan(one), np.isnan(other)):
+        return False
+    a, b = (values[np.isfinite(values)] for values in (one, other))
+    if a.size != b.size or not a.size:
+        return False
+    a, b = (values / max(float(np.abs(values).max()), 1e-300) for values in (a, b))
+    largest = int(np.abs(b).argmax())
+    if b[largest] == 0.0:
+        return False
+    return bool(np.abs(a - a[largest] / b[largest] * b).max() <= _ROUND_OFF)
 
 
 def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -> StudyPoint:

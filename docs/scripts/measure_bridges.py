@@ -19,9 +19,9 @@ from scipy.optimize import brentq
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.app.run.bridges import BandError, flat_errors, sphere_errors
 from contactkit.as_published.lookup import TABLE_4_1
 from contactkit.capillary.arc import sphere as arc_sphere
+from contactkit.models.liquid_bridges.closure_errors import BandError, flat_errors, sphere_errors
 
 DEG, NM = math.pi / 180.0, 1e-9
 FLATS = ((0, 0), (30, 30), (60, 60), (75, 75), (0, 60), (120, 120), (150, 150), (180, 120))

@@ -17,12 +17,13 @@ from measured_blocks import measure
 from PIL import Image
 from validation_tables import grid
 
+import contactkit as ck
 from contactkit.lubrication import reynolds
 from contactkit.lubrication.reynolds.face import Face
 
 R, OIL, GAP, RATE = 3.175e-3, 0.1, 1e-5, 1e-3
 SIZES = (64, 128, 256)
-DISC = reynolds.Disc(radius=R)
+DISC = ck.Disc(radius=R)
 IMG = Path(__file__).parents[1] / "img"
 
 
@@ -44,21 +45,21 @@ def accuracy() -> str:
         return squeeze(face, reynolds.gap_map(face, GAP, dome_radius=curvature))
 
     def recessed(n: int) -> float:
-        face, hole = reynolds.rasterise(DISC, n), reynolds.Disc(radius=1.5e-3)
-        recess = reynolds.Recess(shape=hole, depth=3e-5)
+        face, hole = reynolds.rasterise(DISC, n), ck.Disc(radius=1.5e-3)
+        recess = ck.Recess(shape=hole, depth=3e-5)
         return squeeze(face, reynolds.gap_map(face, GAP, recesses=[recess]))
 
     def masked(n: int) -> float:
         face = reynolds.rasterise(DISC, n)
         return squeeze(reynolds.face_from_mask(face.inside, face.pixel_size))
 
-    small = reynolds.Hole(shape=reynolds.Disc(radius=0.01 * R))
-    pocket = reynolds.Pocket(shape=reynolds.Disc(radius=0.5 * R))
+    small = reynolds.Hole(shape=ck.Disc(radius=0.01 * R))
+    pocket = reynolds.Pocket(shape=ck.Disc(radius=0.5 * R))
     cases = {
         "disc": (made(DISC), reynolds.disc_damping(R)),
         "disc, from a mask": (masked, reynolds.disc_damping(R)),
         "ring, hole 0.3 R vented": (
-            made(reynolds.Ring(radius=R, hole_radius=0.3 * R)),
+            made(ck.Ring(radius=R, hole_radius=0.3 * R)),
             reynolds.ring_damping(R, 0.3 * R),
         ),
         "ring, hole 0.01 R vented": (made(DISC, small), reynolds.ring_damping(R, 0.01 * R)),
@@ -67,19 +68,19 @@ def accuracy() -> str:
             reynolds.ring_damping(R, 0.5 * R, is_sealed=True),
         ),
         "square": (
-            made(reynolds.Rectangle(length=side, width=side)),
+            made(ck.Rectangle(length=side, width=side)),
             reynolds.rectangle_damping(side, side),
         ),
         "rectangle 2:1": (
-            made(reynolds.Rectangle(length=2 * side, width=side)),
+            made(ck.Rectangle(length=2 * side, width=side)),
             reynolds.rectangle_damping(2 * side, side),
         ),
         "ellipse 1.5:1": (
-            made(reynolds.Ellipse(semi_axes=(R, R / 1.5))),
+            made(ck.Ellipse(semi_axes=(R, R / 1.5))),
             reynolds.ellipse_damping((R, R / 1.5)),
         ),
         "equilateral triangle": (
-            made(reynolds.equilateral_triangle(side)),
+            made(ck.equilateral_triangle(side)),
             reynolds.triangle_damping(side),
         ),
         "disc under a dome": (domed, reynolds.dome_damping(R, curvature)),
@@ -164,8 +165,8 @@ def holed_face(cells: int) -> Face:
     """A disc with a vent in its middle and three holes around it."""
     turns = (0.0, 2.0 * math.pi / 3.0, 4.0 * math.pi / 3.0)
     places = [(0.6 * R * math.cos(t), 0.6 * R * math.sin(t)) for t in turns]
-    holes = [reynolds.Hole(shape=reynolds.Disc(radius=0.2 * R))]
-    holes += [reynolds.Hole(shape=reynolds.Disc(radius=0.08 * R, centre=p)) for p in places]
+    holes = [reynolds.Hole(shape=ck.Disc(radius=0.2 * R))]
+    holes += [reynolds.Hole(shape=ck.Disc(radius=0.08 * R, centre=p)) for p in places]
     return reynolds.rasterise(DISC, cells, holes=holes)
 
 

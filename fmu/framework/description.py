@@ -21,7 +21,6 @@ from ...units import parse_unit
 from .ports import TOLERANCE, Kind, Port, Value, display_conversion
 
 __all__ = [
-    "HELD",
     "Description",
     "details",
     "enumerations",
@@ -30,7 +29,6 @@ __all__ = [
     "model_description",
     "unit_definitions",
     "value_references",
-    "variability",
 ]
 
 _TAGS = {
@@ -40,9 +38,6 @@ _TAGS = {
     "enumeration": "Enumeration",
 }
 
-
-HELD = ("t_break", "t_release", "t_free", "t_land", "u")
-"""Real outputs that change at events only."""
 
 _AUTHOR = "The contactkit authors"
 _COPYRIGHT = "Copyright (c) 2026, the contactkit authors"
@@ -175,7 +170,7 @@ def _variable(port: Port, references: Mapping[str, int], start: Mapping[str, Val
         "valueReference": str(references[port.name]),
         "description": port.label,
         "causality": port.causality,
-        "variability": variability(port),
+        "variability": port.variability,
     }
     if is_parameter:
         attributes["initial"] = "exact"
@@ -187,13 +182,6 @@ def _variable(port: Port, references: Mapping[str, int], start: Mapping[str, Val
         tool = SubElement(SubElement(node, "Annotations"), "Tool", name="contactkit")
         SubElement(tool, "Dialog", group=port.group)
     return node
-
-
-def variability(port: Port) -> str:
-    """Variability of a variable, in the words of both versions of FMI."""
-    if port.causality == "parameter":
-        return "fixed"
-    return "discrete" if port.kind != "real" or port.name in HELD else "continuous"
 
 
 def details(

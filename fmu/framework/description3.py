@@ -18,7 +18,6 @@ from .description import (
     items,
     unit_definitions,
     value_references,
-    variability,
 )
 from .ports import Port
 
@@ -60,7 +59,7 @@ def model_description3(about: Description) -> Element:
             "valueReference": str(references[port.name]),
             "description": port.label,
             "causality": port.causality,
-            "variability": variability(port),
+            "variability": port.variability,
         }
         if port.causality != "input":
             attributes["initial"] = "exact" if port.causality == "parameter" else "calculated"

@@ -28,6 +28,7 @@ __all__ = [
     "STEP_LIMIT",
     "TOLERANCE",
     "Value",
+    "Variability",
     "display_conversion",
     "find_port",
     "grouped",
@@ -41,6 +42,7 @@ __all__ = [
 
 Causality = Literal["input", "output", "parameter"]
 Kind = Literal["real", "integer", "boolean", "enumeration"]
+Variability = Literal["fixed", "discrete", "continuous"]
 Value = float | int | bool
 
 _LARGEST = {"real": sys.float_info.max, "integer": 2**31 - 1}  # the range of FMI's own types
@@ -88,6 +90,10 @@ class Port:
         Group of parameters that it belongs to in a dialog; set by `grouped`.
     rate_of : str, optional
         Name of the variable whose derivative by time it is.
+    at_events : bool
+        A real output that changes at events only, such as the time of a rupture.
+    tabulated : bool
+        In a native FMU the tables of its scene hold it, so that it is no variable there.
     depends_on : tuple of str, optional
         Inputs and parameters that an output follows without a step in between; ``()`` says
         none. If not given, a tool has to assume all of them.
@@ -120,6 +126,8 @@ class Port:
     display_unit: str | None = field(kw_only=True, default=None)
     group: str = field(kw_only=True, default="")
     rate_of: str | None = field(kw_only=True, default=None)
+    at_events: bool = field(kw_only=True, default=False)
+    tabulated: bool = field(kw_only=True, default=False)
     depends_on: tuple[str, ...] | None = field(kw_only=True, default=None)
     start: Value = field(kw_only=True)
 
@@ -152,6 +160,13 @@ class Port:
         display_conversion(self.unit, self.display_unit or self.unit)
         if self.unit != "-" and self.kind != "real":
             raise DescriptionError(f"Port {self.name!r}.unit", self.unit, "be '-' unless real")
+
+    @property
+    def variability(self) -> Variability:
+        """Variability of the variable, in the words of both versions of FMI."""
+        if self.causality == "parameter":
+            return "fixed"
+        return "discrete" if self.kind != "real" or self.at_events else "continuous"
 
     @property
     def heading(self) -> str:

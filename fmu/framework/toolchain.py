@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from ...errors import ContactkitError, DescriptionError, MissingExtraError
 
-__all__ = ["PLATFORMS", "compile_kernel", "fmi_headers", "has_zig", "kernel_sources", "local"]
+__all__ = ["PLATFORMS", "compile_kernel", "fmi_headers", "has_zig", "local"]
 
 _FLAGS = (
     "-std=c99",
@@ -85,15 +85,6 @@ def local() -> str:
 def has_zig() -> bool:
     """Whether the ``ziglang`` package is installed."""
     return importlib.util.find_spec("ziglang") is not None
-
-
-def kernel_sources(fmi: int = 2) -> dict[str, bytes]:
-    """Return the sources of the kernel for a version of FMI, by file name."""
-    folder = Path(__file__).parents[1] / "native" / "kernel"
-    other = f"fmi{5 - fmi}"
-    found = (path for path in folder.rglob("*") if path.suffix in (".c", ".h"))
-    files = sorted(found, key=lambda path: path.name)
-    return {path.name: path.read_bytes() for path in files if not path.name.startswith(other)}
 
 
 def fmi_headers(fmi: int = 2) -> dict[str, bytes]:

@@ -4,13 +4,18 @@ build        Writing native FMUs: one C kernel for all models, and the tables of
 drive        Writing native FMUs without a film: ``valve-drive``, ``contact-stop``.
 tip          Writing the native FMU ``tip-contact``: film and site of a tip as tables, the tip
              in C.
-faces        The load-displacement curve of rough faces as the numbers that the C kernel reads.
-film         The film of a scene as the numbers that the C kernel of a native FMU reads.
+models       The models of the kernel: one description of each, which Python and C follow.
+record       Records: named members that Python writes and the C kernel reads, from one
+             declaration.
+records      What the file of a native FMU holds: films as tables, rough faces as curves.
+data         The file ``resources/film.bin`` of a native FMU: variables, tables and faces, for C.
+sources      The sources of the kernel of a native FMU: its files, and those made of the
+             description.
+faces        The load-displacement curve of rough faces as the record that the C kernel reads.
+film         The film of a scene as the tables that the C kernel of a native FMU reads.
 tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.
 ports        The variables of a native FMU: those of the Python FMU of that name that a table
              leaves free.
-data         The file ``resources/film.bin`` of a native FMU: variables and tables, for the C
-             kernel.
 description  Model descriptions and build descriptions of native FMUs, in both versions of FMI.
 page         The page of documentation in a native FMU.
 kernel       The C kernel of native FMUs.

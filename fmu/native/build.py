@@ -23,39 +23,37 @@ from ..contents.document import license_text
 from ..contents.packing import write_archive
 from ..contents.terminals import terminal_files
 from ..framework.description import Description
-from ..framework.ports import Value, find_port, start_value
+from ..framework.ports import Port, Value, find_port, start_value
 from ..framework.toolchain import (
     PLATFORMS,
     compile_kernel,
     fmi_headers,
     has_zig,
     join_macs,
-    kernel_sources,
     local,
 )
-from ..slaves.stiction_force import StictionForce
-from ..slaves.stiction_mass import StictionMass, scene_of
-from .data import data_file, digest, guid_of, port_numbers
+from ..slaves.stiction_mass import scene_of
+from .data import contents_of, data_file, digest, guid_of
 from .description import CATEGORIES, description_files
-from .film import film_numbers, moving
+from .film import moving, prepared_film
+from .models import native_model
 from .page import native_page
-from .ports import MODELS, Model, check_free, check_start, native_ports
+from .ports import Model, check_free, check_start, native_ports
+from .records import Faces, FilmTables
+from .sources import kernel_sources, layout
 
 __all__ = [
+    "NativeContent",
     "NativeScene",
     "build_native",
     "chosen_platforms",
+    "native_about",
     "native_scene",
     "target",
     "write_native",
 ]
 
-_SLAVES = {"stiction-mass": StictionMass, "stiction-force": StictionForce}
 _MASS = {"stiction-mass": "m", "stiction-force": "m_ref"}
-_SUMMARIES = {
-    "stiction-mass": StictionMass.summary,
-    "stiction-force": "Liquid film between two bodies: forces, impulses and doubts of coupling",
-}
 _COMPILED: dict[tuple[str, ...], bytes] = {}  # the kernel is the same for all scenes
 
 
@@ -84,10 +82,10 @@ def build_native(
         Start values by variable; a text carries its unit (``"20 g"``). The mass, ``m`` or
         ``m_ref``, must be among them if the scene has none.
     platforms : sequence of str, optional
-        Platforms to compile for, of `native_compile.PLATFORMS`. None: all if ziglang is
+        Platforms to compile for, of `toolchain.PLATFORMS`. None: all if ziglang is
         installed, else this computer's.
     compiler : {"auto", "zig", "cc"}
-        See `native_compile.compile_kernel`.
+        See `toolchain.compile_kernel`.
     fmi : {2, 3}
         Version of FMI. FMI 3.0 has event mode, with early return at a rupture.
 
@@ -104,34 +102,41 @@ def build_native(
         If the scene cannot be planned or tabulated, or a compiler is missing.
     """
     place = target(out, fmi)
-    if model not in MODELS:
-        raise DescriptionError("model", model, "be " + " or ".join(map(repr, MODELS)))
+    if model not in _MASS:
+        raise DescriptionError("model", model, "be " + " or ".join(map(repr, _MASS)))
     given = dict(start or {})
     name = _MASS[model]
     mass = _mass(model, given.pop(name)) if name in given else None
     if model == "stiction-force" and "h0" in given:
         given.setdefault("h", given["h0"])
     scene = moving(scene, mass)
-    film = film_numbers(scene)
+    film = prepared_film(scene)
     ports = native_ports(film.prepared, film.lowest, model, film.force)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
     check_start(ports, values)
-    title = f" ({scene.name})" if scene.name else ""
-    about = Description(
-        identifier=_identifier(model),
+    about = native_about(model, ports, values, f" ({scene.name})" if scene.name else "")
+    content = NativeContent(film.tables, None, scene)
+    return write_native(model, about, content, place, fmi, chosen_platforms(platforms), compiler)
+
+
+def native_about(
+    name: str, ports: tuple[Port, ...], start: Mapping[str, Value], more: str = ""
+) -> Description:
+    """What a native FMU says of itself, but for its GUID; `more` ends its summary."""
+    model = native_model(name)
+    return Description(
+        identifier=model.identifier,
         guid="",
         tool="contactkit",
         ports=ports,
-        start=values,
-        summary=_SUMMARIES[model] + title,
+        start=start,
+        summary=model.summary + more,
         log_categories=CATEGORIES,
-        experiment=_SLAVES[model].experiment,
+        experiment=model.slave.experiment,
         version=__version__,
     )
-    names = chosen_platforms(platforms)
-    return write_native(model, about, film.numbers, place, fmi, names, compiler, scene)
 
 
 def target(out: str | os.PathLike[str], fmi: int) -> Path:
@@ -149,15 +154,23 @@ def target(out: str | os.PathLike[str], fmi: int) -> Path:
     return Path(out)
 
 
+class NativeContent(NamedTuple):
+    """What follows the variables in the file of a native FMU, and the scene it was made from."""
+
+    tables: FilmTables | None = None
+    faces: Faces | None = None
+    scene: SeparationScene | None = None
+    """For the documentation."""
+
+
 def write_native(
     model: str,
     about: Description,
-    tables: Sequence[float],
+    content: NativeContent,
     place: Path,
     fmi: Literal[2, 3],
     platforms: Sequence[str],
     compiler: str,
-    scene: SeparationScene | None = None,
 ) -> Path:
     """Write a native FMU of any model.
 
@@ -167,20 +180,18 @@ def write_native(
         Name of the model.
     about : Description
         What it says; its GUID is made here.
-    tables : sequence of float
-        What follows the variables in its file of data.
+    content : NativeContent
+        Tables and faces.
     place : Path
         The file to write.
     fmi, platforms, compiler
         See `build_native`; the platforms by name.
-    scene : SeparationScene, optional
-        What the tables were made from, for the documentation.
     """
     ports, values = about.ports, about.start
     sources = kernel_sources(fmi) | fmi_headers(fmi)
-    numbers = [*port_numbers(model, ports, values), *tables]
+    numbers = contents_of(model, ports, values, content.tables, content.faces).numbers()
     guid = guid_of(sources, numbers, ports)
-    page = native_page(scene, ports, values, name=model, fmi=str(fmi))
+    page = native_page(content.scene, ports, values, name=model, fmi=str(fmi))
     files = {
         **description_files(
             fmi,
@@ -189,11 +200,11 @@ def write_native(
             takes_rate=model == "stiction-mass",
             gives_rates=model == "valve-drive",
         ),
-        "resources/film.bin": data_file(guid, numbers),
+        "resources/film.bin": data_file(guid, layout(), numbers),
         "documentation/index.html": page.encode(),
         "documentation/licenses/license.txt": _license().encode(),
         **terminal_files(ports, fmi=str(fmi)),
-        **{f"sources/{name}": content for name, content in sources.items()},
+        **{f"sources/{name}": text for name, text in sources.items()},
         **_binaries(about.identifier, fmi, sources, platforms, compiler),
     }
     return write_archive(files, place)
@@ -237,14 +248,14 @@ def native_scene(what: Any, model: Model | None = None) -> NativeScene:
             "valve-drive has no native form made of a scene, as it has no film; build it by its "
             "name, or by contactkit.fmu.native.drive.build_native_drive"
         )
-    if name not in _SLAVES:
+    if name not in _MASS:
         raise PlanError(
-            f"{name} has no native form as a film in this version, only {' and '.join(_SLAVES)} "
+            f"{name} has no native form as a film in this version, only {' and '.join(_MASS)} "
             "have; build the others by their names, or by contactkit.fmu.native.drive and "
             "contactkit.fmu.native.tip"
         )
     own: Model = "stiction-force" if name == "stiction-force" else "stiction-mass"
-    slave = _SLAVES[own]
+    slave = native_model(own).slave
     values = slave.start_values()
     values |= {key: start_value(slave.ports, key, value) for key, value in given.items()}
     if own == "stiction-force":  # the mass is the tool's, and so is the end of the motion
@@ -265,15 +276,10 @@ def chosen_platforms(given: Sequence[str] | None) -> list[str]:
     return list(given)
 
 
-def _identifier(model: str) -> str:
-    """Name of the library of a model, so that a host may load both."""
-    return model.replace("-", "_")
-
-
 def _mass(model: Model, value: Value | str) -> float:
     """Mass [kg], of a text with a unit too."""
     name = _MASS[model]
-    return float(start_value((find_port(MODELS[model], name),), name, value))
+    return float(start_value((find_port(native_model(model).ports, name),), name, value))
 
 
 def _license() -> str:

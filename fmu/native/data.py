@@ -1,4 +1,4 @@
-"""The file ``resources/film.bin`` of a native FMU: variables and tables, for the C kernel."""
+"""The file ``resources/film.bin`` of a native FMU: variables, tables and faces, for C."""
 
 from __future__ import annotations
 
@@ -6,130 +6,87 @@ import hashlib
 import struct
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from typing import ClassVar
+
+from attrs import frozen
 
 from ..framework.ports import Port, Value
+from .models import MODELS, VARIABLES, native_model
+from .record import Record, maybe, real, several, whole
+from .records import Faces, FilmTables
 
-__all__ = ["IDENTIFIERS", "data_file", "digest", "guid_of", "port_numbers"]
+__all__ = [
+    "CAUSALITIES",
+    "Contents",
+    "TYPES",
+    "Variable",
+    "contents_of",
+    "data_file",
+    "digest",
+    "guid_of",
+]
 
-# The same list, in the same order, as in native/model.h.
-IDENTIFIERS = (
-    "F_ext",
-    "dF_ext",
-    "h",
-    "v",
-    "F",
-    "F_m",
-    "F_v",
-    "J",
-    "J_m",
-    "W",
-    "state",
-    "limit",
-    "t_break",
-    "t_release",
-    "F_peak",
-    "n_break",
-    "n_release",
-    "m",
-    "h0",
-    "v0",
-    "k_s",
-    "h_rel",
-    "h_min",
-    "h_break",
-    "eta",
-    "gamma",
-    "dp_cav",
-    "tau_lim",
-    "rtol",
-    "c",
-    "k",
-    "F_mean",
-    "coupling_error",
-    "H_stable",
-    "in_doubt",
-    "n_doubt",
-    "h_above",
-    "h_below",
-    "m_ref",
-    "exchange",
-    "F_mag",
-    "F_spring",
-    "F_stop",
-    "i",
-    "u",
-    "flux",
-    "R_coil",
-    "N_turns",
-    "A_pole",
-    "g_air",
-    "g_iron",
-    "B_sat",
-    "k_spring",
-    "F_preload",
-    "h_stop",
-    "k_stop",
-    "d_stop",
-    "t_delay",
-    "T_period",
-    "t_on",
-    "U_boost",
-    "t_boost",
-    "U_hold",
-    "U_off",
-    "n_cycles",
-    "F_el",
-    "contact_area",
-    "plastic_area",
-    "d",
-    "d_max",
-    "d_res",
-    "W_d",
-    "n_beyond",
-    "h_touch",
-    "side",
-    "scale",
-    "k_body",
-    "d_max0",
-    "z",
-    "vz",
-    "az",
-    "F_film",
-    "W_visc",
-    "W_land",
-    "t_free",
-    "t_land",
-    "n_land",
-    "F_max",
-    "W_plastic",
-    "N",
-    "h_free",
-    "r_cav",
-    "V_void",
-    "dp_tear",
-    "dp_hold",
-    "max_steps",
-)
-_MODELS = ("stiction-mass", "stiction-force", "valve-drive", "contact-stop", "tip-contact")
-_TYPES = {"real": 1.0, "integer": 2.0, "enumeration": 4.0, "boolean": 8.0}
-_CAUSALITIES = ("input", "output", "parameter")
-_MAGIC = b"CKFILM05"
+TYPES = {"real": 1, "integer": 2, "enumeration": 4, "boolean": 8}
+"""Types of variables as bits: a call of one version of FMI may take several of them."""
+CAUSALITIES = ("input", "output", "parameter")
+"""Causalities of variables, by their numbers."""
 
 
-def port_numbers(model: str, ports: Sequence[Port], start: Mapping[str, Value]) -> list[float]:
-    """Numbers of the model and the variables of an FMU, as ``native/data.c`` reads them."""
-    numbers = [float(_MODELS.index(model)), float(len(ports))]
-    for port in ports:
-        low, high = port.limits
-        numbers += [
-            float(IDENTIFIERS.index(port.name)),
-            _TYPES[port.kind],
-            float(_CAUSALITIES.index(port.causality)),
-            float(low),
-            float(high),
-            float(start[port.name]),
-        ]
-    return numbers
+@frozen(kw_only=True)
+class Variable(Record):
+    """A variable of an FMU; its value reference is its place, from 1."""
+
+    id: int = whole("which one of all there may be", 0, len(VARIABLES) - 1)
+    type: int = whole("one bit", 1, max(TYPES.values()))
+    causality: int = whole("input, output or parameter", 0, len(CAUSALITIES) - 1)
+    low: float = real("smallest value")
+    high: float = real("largest value")
+    start: float = real("value before anything was set")
+    checked: ClassVar[bool] = True
+
+
+@frozen(kw_only=True)
+class Contents(Record):
+    """What the file of an FMU holds."""
+
+    model: int = whole("which one", 0, len(MODELS) - 1)
+    variables: tuple[Variable, ...] = several(
+        Variable, "by their value references", most=len(VARIABLES), least=1
+    )
+    tables: FilmTables | None = maybe(FilmTables, "film of a scene, or of a tip")
+    faces: Faces | None = maybe(Faces, "faces of a stop, or of the site of a tip")
+
+
+def contents_of(
+    model: str,
+    ports: Sequence[Port],
+    start: Mapping[str, Value],
+    tables: FilmTables | None = None,
+    faces: Faces | None = None,
+) -> Contents:
+    """Contents of the file of an FMU.
+
+    Raises
+    ------
+    DescriptionError
+        If the model does not have what is given, or lacks something.
+    """
+    native_model(model).check(tables, faces)
+    variables = tuple(_variable(port, start[port.name]) for port in ports)
+    number = [*MODELS].index(model)
+    return Contents(model=number, variables=variables, tables=tables, faces=faces)
+
+
+def _variable(port: Port, start: Value) -> Variable:
+    low, high = port.limits
+    return Variable(
+        id=VARIABLES.index(port.name),
+        type=TYPES[port.kind],
+        causality=CAUSALITIES.index(port.causality),
+        low=float(low),
+        high=float(high),
+        start=float(start),
+    )
 
 
 def digest(sources: Mapping[str, bytes]) -> str:
@@ -147,17 +104,26 @@ def guid_of(sources: Mapping[str, bytes], numbers: Sequence[float], ports: Seque
     return "-".join(build[i:j] for i, j in pairwise((0, 8, 12, 16, 20, 32)))
 
 
-def data_file(guid: str, numbers: Sequence[float]) -> bytes:
+def data_file(guid: str, layout: str, numbers: Sequence[float]) -> bytes:
     """Bytes of the file.
+
+    Parameters
+    ----------
+    guid : str
+        GUID of the FMU.
+    layout : str
+        Eight letters that the kernel knows the order of the numbers by.
+    numbers : sequence of float
+        Those of its `Contents`.
 
     Examples
     --------
-    >>> len(data_file("8c4e810f", [1.0, 2.0]))
+    >>> len(data_file("8c4e810f", "CK012345", [1.0, 2.0]))
     80
     """
     content = struct.pack(f"<{len(numbers)}d", *numbers)
     name = guid.encode().ljust(40, b"\0")
-    return _MAGIC + struct.pack("<QQ", _fnv1a(content), len(numbers)) + name + content
+    return layout.encode() + struct.pack("<QQ", _fnv1a(content), len(numbers)) + name + content
 
 
 def _fnv1a(content: bytes) -> int:

@@ -7,17 +7,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from ..._version import __version__
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
 from ..framework.ports import Value, start_value
-from ..framework.slave import PortSlave
-from ..slaves.contact_stop import ContactStop
-from ..slaves.valve_drive import ValveDrive, check_drive
-from .build import chosen_platforms, target, write_native
-from .description import CATEGORIES
-from .faces import face_numbers, stop_numbers
+from ..slaves.valve_drive import check_drive
+from .build import NativeContent, chosen_platforms, native_about, target, write_native
+from .faces import faces_of
+from .models import native_model
 
 __all__ = ["build_native_drive", "build_native_stop"]
 
@@ -46,7 +43,7 @@ def build_native_drive(
     curve : LoadDisplacementCurve, optional
         Rough faces in front of the spring ``k_stop``.
     platforms, compiler, fmi
-        See `native_build.build_native`. In FMI 3.0 a step may end early where the voltage switches.
+        See `build.build_native`. In FMI 3.0 a step may end early where the voltage switches.
 
     Returns
     -------
@@ -66,12 +63,13 @@ def build_native_drive(
     given = dict(start or {})
     if curve is not None:
         given["curve"] = curve
-    faces = bake("valve-drive", given).get("curve")
-    about = _description("valve-drive", ValveDrive, given)
+    baked = bake("valve-drive", given).get("curve")
+    faces = faces_of(LoadDisplacementCurve.from_data(baked)) if baked is not None else None
+    about = _about("valve-drive", given)
     check_drive(about.start)
-    tables = face_numbers(LoadDisplacementCurve.from_data(faces) if faces is not None else None)
+    content = NativeContent(faces=faces)
     names = chosen_platforms(platforms)
-    return write_native("valve-drive", about, tables, place, fmi, names, compiler)
+    return write_native("valve-drive", about, content, place, fmi, names, compiler)
 
 
 def build_native_stop(
@@ -106,24 +104,15 @@ def build_native_stop(
     given = dict(start or {})
     if curve is not None:
         given["curve"] = curve
-    faces = LoadDisplacementCurve.from_data(bake("contact-stop", given)["curve"])
-    about = _description("contact-stop", ContactStop, given)
+    faces = faces_of(LoadDisplacementCurve.from_data(bake("contact-stop", given)["curve"]))
+    about, content = _about("contact-stop", given), NativeContent(faces=faces)
     names = chosen_platforms(platforms)
-    return write_native("contact-stop", about, stop_numbers(faces), place, fmi, names, compiler)
+    return write_native("contact-stop", about, content, place, fmi, names, compiler)
 
 
-def _description(name: str, slave: type[PortSlave], given: Mapping[str, Any]) -> Description:
+def _about(name: str, given: Mapping[str, Any]) -> Description:
     """Description of the native counterpart of a slave, with start values."""
+    ports, slave = native_model(name).ports, native_model(name).slave
     values: dict[str, Value] = slave.start_values()
     values |= {key: start_value(slave.ports, key, value) for key, value in given.items()}
-    return Description(
-        identifier=name.replace("-", "_"),
-        guid="",
-        tool="contactkit",
-        ports=slave.ports,
-        start=values,
-        summary=slave.summary,
-        log_categories=CATEGORIES,
-        experiment=slave.experiment,
-        version=__version__,
-    )
+    return native_about(name, ports, values)

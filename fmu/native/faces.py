@@ -1,4 +1,4 @@
-"""The load-displacement curve of rough faces as the numbers that the C kernel reads."""
+"""The load-displacement curve of rough faces as the record that the C kernel reads."""
 
 from __future__ import annotations
 
@@ -8,63 +8,60 @@ from itertools import pairwise
 
 from ...analyses.load_displacement.curve import HERTZ, LoadDisplacementCurve, normalized
 from ...errors import PlanError
-from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
+from ...numerics.monotone_cubic import Curve as Cubic
+from ...numerics.monotone_cubic import monotone_curve, power_curve
+from .records import Curve, Faces, PowerCurve, Unloading
 
-__all__ = ["face_numbers", "stop_numbers"]
+__all__ = ["faces_of"]
 
-_MOST_UNLOADING_CURVES = 64  # CK_UNLOADING_CURVES of native/kernel/drive.h
+_MOST_UNLOADING_CURVES = 64  # of `Faces`
 _PIECES = 64  # of the dissipated work, between two unloading curves
 
 
-def face_numbers(curve: LoadDisplacementCurve | None) -> list[float]:
-    """Numbers of rough faces, in the order in which ``native/data.c`` reads them.
+def faces_of(curve: LoadDisplacementCurve) -> Faces:
+    """Rough faces with force, areas and the work they dissipate.
 
-    Every curve is its nodes, values and slopes, those of forces in logarithms.
+    Every curve is its nodes, values and slopes, those of forces and of areas of contact in
+    logarithms.
 
     Raises
     ------
     PlanError
         If there are more unloading curves than the kernel holds.
     """
-    if curve is None:
-        return [0.0]
     out = curve.unloading
     if len(out) > _MOST_UNLOADING_CURVES:
         raise PlanError(
             f"a native FMU holds {_MOST_UNLOADING_CURVES} unloading curves of rough faces, "
             f"these have {len(out)}; make them with fewer, or leave out --native"
         )
-    numbers = [1.0, curve.elastic_limit, float(len(out))]
-    numbers += _in_logarithms(power_curve(curve.approach, curve.force, HERTZ), curve.approach)
-    if out:
-        nodes = (curve.elastic_limit, *(one.max_approach for one in out))
-        left = (0.0, *(one.residual_approach for one in out))
-        numbers += _plain(monotone_curve(nodes, left), nodes)
-    for one in out:
-        numbers += [one.max_approach, *_in_logarithms(normalized(one).force, one.fractions)]
-    return numbers
+    loaded = (0.0, *curve.approach)
+    return Faces(
+        limit=curve.elastic_limit,
+        first=_power(power_curve(curve.approach, curve.force, HERTZ), curve.approach),
+        area=_power(power_curve(curve.approach, curve.contact_area, 1.0), curve.approach),
+        plastic=_plain(monotone_curve(loaded, (0.0, *curve.plastic_area)), loaded),
+        residual=_residual(curve) if out else None,
+        dissipated=_dissipated(curve) if out else None,
+        unloading=tuple(
+            Unloading(
+                end=one.max_approach,
+                force=_power(normalized(one).force, one.fractions),
+                area=_power(normalized(one).area, one.fractions),
+            )
+            for one in out
+        ),
+    )
 
 
-def stop_numbers(curve: LoadDisplacementCurve) -> list[float]:
-    """Numbers of faces with their areas and the work they dissipate, after those of the force.
-
-    Raises
-    ------
-    PlanError
-        See `face_numbers`.
-    """
-    numbers = face_numbers(curve)
-    numbers += _in_logarithms(power_curve(curve.approach, curve.contact_area, 1.0), curve.approach)
-    nodes = (0.0, *curve.approach)
-    numbers += _plain(monotone_curve(nodes, (0.0, *curve.plastic_area)), nodes)
-    if curve.unloading:
-        numbers += _dissipated(curve)
-    for one in curve.unloading:
-        numbers += _in_logarithms(normalized(one).area, one.fractions)
-    return numbers
+def _residual(curve: LoadDisplacementCurve) -> Curve:
+    """Approach that is left after a maximum approach."""
+    nodes = (curve.elastic_limit, *(one.max_approach for one in curve.unloading))
+    left = (0.0, *(one.residual_approach for one in curve.unloading))
+    return _plain(monotone_curve(nodes, left), nodes)
 
 
-def _dissipated(curve: LoadDisplacementCurve) -> list[float]:
+def _dissipated(curve: LoadDisplacementCurve) -> Curve:
     """Work dissipated up to a maximum approach: smooth between the unloading curves."""
     ends = [curve.elastic_limit, *(one.max_approach for one in curve.unloading), curve.max_approach]
     nodes = [ends[0]]
@@ -83,21 +80,21 @@ def _ascending(values: Sequence[float]) -> list[float]:
     return found
 
 
-def _plain(curve: Curve, nodes: Sequence[float]) -> list[float]:
-    points = [curve(x) for x in nodes]
-    return [
-        float(len(nodes)),
-        *nodes,
-        *(value for value, _ in points),
-        *(slope for _, slope in points),
-    ]
+def _plain(curve: Cubic, nodes: Sequence[float]) -> Curve:
+    values, slopes = zip(*(curve(x) for x in nodes), strict=True)
+    return Curve(x=tuple(nodes), y=values, slope=slopes)
 
 
-def _in_logarithms(curve: Curve, nodes: Sequence[float]) -> list[float]:
-    points = [curve(x) for x in nodes]
-    return [
-        float(len(nodes)),
-        *map(math.log, nodes),
-        *(math.log(value) for value, _ in points),
-        *(slope * x / value for x, (value, slope) in zip(nodes, points, strict=True)),
-    ]
+def _power(curve: Cubic, nodes: Sequence[float]) -> PowerCurve:
+    points = [(x, *curve(x)) for x in nodes]
+    return PowerCurve(
+        begin=points[0][0],
+        end=points[-1][0],
+        low=points[0][1],
+        high=points[-1][1],
+        log=Curve(
+            x=tuple(math.log(x) for x, _, _ in points),
+            y=tuple(math.log(value) for _, value, _ in points),
+            slope=tuple(slope * x / value for x, value, slope in points),
+        ),
+    )

@@ -1,4 +1,4 @@
-"""The film of a scene as the numbers that the C kernel of a native FMU reads."""
+"""The film of a scene as the tables that the C kernel of a native FMU reads."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...errors import ConvergenceError, DescriptionError
+from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
@@ -21,25 +21,24 @@ from ...separation.effects.viscous import (
     ViscousLaw,
     viscous_film,
 )
-from ...separation.film import Film
 from ...separation.plan import Plan, plan
-from .tables import Table, tabulate
+from .records import Film, FilmTables, Law, Scale, Table
+from .tables import tabulate
 
-__all__ = ["FINE", "FilmNumbers", "can_tear", "film_numbers", "free_liquid", "moving"]
+__all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepared_film"]
 
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
 
 _FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
 _FARTHER = 100.0  # the same of forces that lose no digits there
-_FIXED, _SURFACE, _VISCOSITY = 0.0, 1.0, 2.0
 _INF = math.inf
 
 
-class FilmNumbers(NamedTuple):
-    """Numbers that the kernel reads about a scene, and what they were made of."""
+class PreparedFilm(NamedTuple):
+    """Tables that the kernel reads about a scene, and what they were made of."""
 
-    numbers: list[float]
+    tables: FilmTables
     lowest: float
     """Lowest gap of the tables [m]."""
     force: float
@@ -96,113 +95,110 @@ def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     return FreeLiquid(viscosity, tension)
 
 
-def film_numbers(scene: SeparationScene, accuracy: Accuracy = FINE) -> FilmNumbers:
-    """Numbers of the films of a scene, in the order in which ``native/data.c`` reads them.
+def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> PreparedFilm:
+    """Tables of the films of a scene.
 
     Raises
     ------
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
-    prepared = plan(scene, accuracy)
-    reaching = _reaching(prepared)
-    interface, loading = scene.interface, scene.loading
-    fractions = [1.0]
-    fraction = scene.meniscus.rewetting
-    if scene.meniscus.volume is not None and 0.0 < fraction < 1.0:
-        fractions.append(fraction)
+    _check_face(scene)
+    made = plan(scene, accuracy)
+    interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
+    returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
-    reynolds = tension is not None and tension.cavity == "reynolds"
-    is_sphere = not interface.is_flat
-    lowest = max(1e-13, 1e-3 * loading.initial_gap)
-    numbers = [
-        float(is_sphere),
-        interface.sphere_radius,
-        float(scene.meniscus.count),
-        float(reynolds),
-        fraction,
-        float(len(fractions)),
-    ]
-    for one in fractions:
-        numbers += _film(reaching, one, lowest)
-    force = prepared.film.static_force(loading.initial_gap)
-    return FilmNumbers(numbers, lowest, force, prepared.prepared)
+    common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
+    tables = FilmTables(
+        is_sphere=not interface.is_flat,
+        sphere_radius=interface.sphere_radius,
+        menisci=float(scene.meniscus.count),
+        reynolds=tension is not None and tension.cavity == "reynolds",
+        rewetting=fraction,
+        films=tuple(_film(common, one) for one in ((1.0, fraction) if returns else (1.0,))),
+    )
+    force = made.film.static_force(loading.initial_gap)
+    return PreparedFilm(tables, common.lowest, force, made.prepared)
 
 
-def _reaching(made: Plan) -> Plan:
-    """Plan whose tables reach the ends of its laws: in a host a motion may exceed `final_gap`."""
-    loading = made.scene.imposed_force
-    ends = [law.end for law in made.film.laws.values() if loading.final_gap < law.end < _INF]
-    if not ends:
-        return made
-    loading = evolve(loading, final_gap=max(ends))
-    return plan(evolve(made.scene, loading=loading), made.accuracy)
+def _check_face(scene: SeparationScene) -> None:
+    """Refuse a cavity whose memory is a map."""
+    if scene.effect(TensionLimit) is not None and not scene.interface.has_discs:
+        raise PlanError(
+            "TensionLimit has no native form on a face that is no even disc: what its cavity "
+            "remembers is a map of the liquid, which the kernel does not hold; leave it out for a "
+            "film that never tears, or run the scene by ck.simulate"
+        )
 
 
-def _film(made: Plan, fraction: float, lowest: float) -> list[float]:
-    """Numbers of the film with a fraction of the volume."""
+class _Common(NamedTuple):
+    """What the tables of a plan have in common: liquid that stays free, and their lowest gap."""
+
+    plan: Plan
+    free: FreeLiquid
+    lowest: float
+
+    @property
+    def final_gap(self) -> float:
+        """Gap [m] that is reached: in a host a motion goes on beyond that of the scene.
+
+        At least up to the ends of the laws, so that a table holds all of a bridge.
+        """
+        given = self.plan.scene.loading.final_gap
+        ends = (law.end for law in self.plan.film.laws.values())
+        return max((given, *(end for end in ends if end < _INF)))
+
+
+def _film(common: _Common, fraction: float) -> Film:
+    """Tables of the film with a fraction of the volume."""
+    made = common.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
-    breaks = _INF
-    for effect in made.scene.effects:
-        if isinstance(effect, FilmEnd):
-            breaks = effect.prepare(prepared)
-    ends = min([_INF, *(law.end for law in film.laws.values())])
-    numbers = [ends, breaks, film.full_gap, float(len(film.laws))]
-    for effect in made.scene.effects:
-        if isinstance(effect, SeparationForce):
-            numbers += _law(made.prepared, effect, film.laws[type(effect)], lowest)
-    return numbers + _shape(prepared, film, lowest).numbers() + _disc(prepared, film)
+    forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
+    rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
+    shape = viscous_film(prepared) if film.has_viscous else None
+    disc = shape if can_tear(made.scene) else None
+    return Film(
+        end=min(law.end for law in film.laws.values()),
+        breaks=min(rules, default=_INF),
+        full_gap=film.full_gap,
+        laws=tuple(_law(common, effect, film.laws[type(effect)]) for effect in forces),
+        shape=_shape(common, shape),
+        rim_square=disc.rim * disc.rim if disc else 0.0,
+        volume=disc.volume if disc else 0.0,
+    )
 
 
 def can_tear(scene: SeparationScene) -> bool:
-    """Whether the film of a scene may have a cavity: one between flats, with a viscous force."""
-    return scene.interface.is_flat and scene.effect(ViscousForce) is not None
+    """Whether the film of a scene may have a cavity: one between discs, with a viscous force."""
+    interface = scene.interface
+    is_disc = interface.is_flat and interface.has_discs
+    return is_disc and scene.effect(ViscousForce) is not None
 
 
-def _disc(prepared: PreparedScene[SeparationScene], film: Film) -> list[float]:
-    """Square of the rim [m2] and volume [m3] of one film, for its cavity; 0 if it can have none."""
-    if not can_tear(prepared.scene):
-        return [0.0, 0.0]
-    shape = viscous_film(prepared)
-    return [shape.rim * shape.rim, shape.volume]
-
-
-def _law(
-    prepared: PreparedScene[SeparationScene],
-    effect: SeparationForce,
-    law: ForceLaw,
-    lowest: float,
-) -> list[float]:
-    scene = prepared.scene
-    viscosity, surface_tension = free_liquid(prepared)
+def _law(common: _Common, effect: SeparationForce, law: ForceLaw) -> Law:
+    viscosity, surface_tension = common.free
     speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
-    scale, unit = _FIXED, 1.0
-    proportional_to = effect.proportional_to(scene)
+    scale, unit = Scale.FIXED, 1.0
+    proportional_to = effect.proportional_to(common.plan.scene)
     if proportional_to == "viscosity" and viscosity:
-        scale, unit = _VISCOSITY, viscosity
+        scale, unit = Scale.VISCOSITY, viscosity
     elif proportional_to == "surface_tension" and surface_tension:
-        scale, unit = _SURFACE, surface_tension
-    table = _law_table(scene, effect, law, lowest, lambda gap: law.force(gap, speed) / unit)
-    return [
-        scale,
-        float(effect.needs_film),
-        law.end,
-        law.release,
-        law.recontact,
-        float(len(law.kinks)),
-        *law.kinks,
-        *table.numbers(),
-    ]
+        scale, unit = Scale.SURFACE_TENSION, surface_tension
+    return Law(
+        scale=scale,
+        needs_film=effect.needs_film,
+        end=law.end,
+        release=law.release,
+        recontact=law.recontact,
+        kinks=tuple(map(float, law.kinks)),
+        table=_law_table(common, effect, law, lambda gap: law.force(gap, speed) / unit),
+    )
 
 
 def _law_table(
-    scene: SeparationScene,
-    effect: SeparationForce,
-    law: ForceLaw,
-    lowest: float,
-    force: Callable[[float], float],
+    common: _Common, effect: SeparationForce, law: ForceLaw, force: Callable[[float], float]
 ) -> Table:
-    final, high = scene.loading.final_gap, min(law.end, law.known_to)
+    lowest, final, high = common.lowest, common.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
         high = _FAR * final if isinstance(law, ViscousLaw) else _FARTHER * final
@@ -222,12 +218,11 @@ def _law_table(
         ) from error
 
 
-def _shape(prepared: PreparedScene[SeparationScene], film: Film, lowest: float) -> Table:
+def _shape(common: _Common, shape: FilmShape | None) -> Table:
     """Reach of the film, for the limits of the liquid."""
-    high = _FAR * prepared.scene.loading.final_gap
-    if not film.has_viscous:
+    lowest, high = common.lowest, _FAR * common.final_gap
+    if shape is None:
         return tabulate(lambda gap: 1.0, (lowest, high))
-    shape = viscous_film(prepared)
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}
     return tabulate(_reach(shape), (lowest, *sorted(marks), high))
 

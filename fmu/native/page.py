@@ -9,6 +9,7 @@ from attrs import evolve
 from ...scene.scenes import SeparationScene
 from ..contents.document import Page, index_page
 from ..framework.ports import Port, Value
+from .models import native_model
 
 __all__ = ["native_page"]
 
@@ -16,13 +17,6 @@ _WITHOUT_FILM = (
     "A C library that needs nothing else. Its sources are in sources/; resources/film.bin holds "
     "what its variables are and, if its stop is rough, the faces as tables over their approach."
 )
-_ABOUT = {
-    "stiction-mass": ("StictionMass", "Mass held by a liquid film"),
-    "stiction-force": ("StictionForce", "Liquid film between two bodies"),
-    "valve-drive": ("ValveDrive", "Electromagnet, return spring and opposite stop of a valve"),
-    "contact-stop": ("ContactStop", "Rough faces that meet at an end stop"),
-    "tip-contact": ("TipContact", "Spring tips on a landing site"),
-}
 
 
 def native_page(
@@ -48,8 +42,14 @@ def native_page(
     fmi : {"2", "3"}
         Version of FMI.
     """
-    title, summary = _ABOUT.get(name, (name, ""))
+    model = native_model(name)
     page = Page.of_native(
-        name=name, title=title, summary=summary, ports=ports, start=start, fmi=fmi, scene=scene
+        name=name,
+        title=model.slave.__name__,
+        summary=model.summary,
+        ports=ports,
+        start=start,
+        fmi=fmi,
+        scene=scene,
     )
     return index_page(page if scene is not None else evolve(page, needs=_WITHOUT_FILM))

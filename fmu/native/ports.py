@@ -19,21 +19,15 @@ from ...separation.effects.prepared import PreparedScene
 from ...separation.effects.viscous import TensionLimit, ViscousForce, keeps_radius
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
-from ..slaves.stiction_force import PORTS as FORCE_PORTS
 from ..slaves.stiction_mass import PLACES, with_numbers
-from ..slaves.stiction_mass import PORTS as MASS_PORTS
 from ..slaves.tension import TENSIONS, tension_limit, tension_values
-from .data import IDENTIFIERS
 from .film import can_tear, free_liquid
+from .models import native_model
 
-__all__ = ["MODELS", "Model", "check_free", "check_start", "native_ports", "start_of"]
+__all__ = ["Model", "check_free", "check_start", "native_ports", "start_of"]
 
 Model = Literal["stiction-mass", "stiction-force"]
-MODELS: Mapping[Model, tuple[Port, ...]] = {
-    "stiction-mass": MASS_PORTS,
-    "stiction-force": FORCE_PORTS,
-}
-"""Models that have a native form, and the variables of their Python FMUs."""
+"""Models of the film of any scene."""
 
 _OF_MASS = {
     name: name
@@ -60,8 +54,8 @@ def native_ports(
     force: float = 0.0,
 ) -> tuple[Port, ...]:
     """Variables of the FMU of a scene whose tables begin at a gap [m], with a typical force [N]."""
-    own = MODELS[model]
-    there = {port.name for port in own} & set(IDENTIFIERS) - _absent(prepared, model)
+    own = native_model(model).ports
+    there = {port.name for port in own} - _absent(prepared, model)
     start = start_of(prepared, model) | {STEP_LIMIT: NATIVE_STEPS}
     sizes = _sizes(prepared.scene, abs(force))
     ports = []
@@ -100,7 +94,8 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
         return evolve(port, exclusive=False, minimum=low, maximum=port.start if held else None)
     if model == "stiction-force" and port.name == "h":
         return evolve(port, exclusive=False, minimum=lowest)
-    if port.name in ("dp_cav", "tau_lim") and scene.effect(ViscousForce) is None:
+    is_limited = scene.interface.has_discs and scene.effect(ViscousForce) is not None
+    if port.name in ("dp_cav", "tau_lim") and not is_limited:
         return evolve(port, maximum=0.0)  # there is nothing to limit, but a master asks for them
     return port
 
@@ -108,7 +103,7 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
 def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
     """Parameters that mean nothing for a scene, or that its tables have fixed."""
     viscosity, surface_tension = free_liquid(prepared)
-    absent = {"N"}
+    absent = set[str]()
     if not viscosity:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
     if not surface_tension:
@@ -148,7 +143,7 @@ def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value 
     """
     free = {port.name for port in ports}
     for name, value in given.items():
-        if name not in free and name in {port.name for port in MODELS[model]}:
+        if name not in free and name in {port.name for port in native_model(model).slave.ports}:
             raise DescriptionError(
                 name,
                 value,

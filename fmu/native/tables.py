@@ -11,9 +11,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from ...errors import ConvergenceError
+from .records import Piece, Table
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["Piece", "Table", "tabulate"]
+__all__ = ["tabulate"]
 
 _DEGREE = 14
 _NARROW = 0.05  # a stretch of x that is not divided further: what is left is noise of rounding
@@ -32,35 +33,6 @@ _NOISE = 1e-7  # largest that is taken for noise
 _NOTHING = 1e-10  # of the largest value of a piece; less than this may be noise altogether
 _MOST_NODES = 60_000
 _STEEPEST = 8
-
-
-class Piece(NamedTuple):
-    """A stretch of a table between two gaps [m]; `folds` says which coordinate x is."""
-
-    low: float
-    high: float
-    folds: bool
-    power: int
-    x: list[float]
-    y: list[float]
-    slope: list[float]
-    curve: list[float]
-
-
-class Table(NamedTuple):
-    """A function of the gap; whether it stays what it was where the last piece ends."""
-
-    pieces: tuple[Piece, ...]
-    stays: bool
-
-    def numbers(self) -> list[float]:
-        """Return the table as the kernel reads it."""
-        found = [float(self.stays), float(len(self.pieces))]
-        for p in self.pieces:
-            end = p.high if p.folds else 1.0
-            found += [p.low, p.high, end, float(p.folds), float(p.power), float(len(p.x))]
-            found += [*p.x, *p.y, *p.slope, *p.curve]
-        return found
 
 
 def tabulate(
@@ -101,7 +73,7 @@ def tabulate(
     for low, high in pairwise(edges):
         power = _power(function, low, high)
         pieces.append(_piece(function, low, high, high in folds, power, rtol))
-    return Table(tuple(pieces), stays)
+    return Table(stays=stays, pieces=tuple(pieces))
 
 
 def _power(function: Callable[[float], float], low: float, high: float) -> int:
@@ -154,7 +126,16 @@ def _piece(
                 "edges where its slope jumps",
                 x,
             )
-    return Piece(low, high, folds, power, x, y, slope, curve)
+    return Piece(
+        low=low,
+        high=high,
+        folds=folds,
+        power=power,
+        x=tuple(x),
+        y=tuple(y),
+        slope=tuple(slope),
+        curve=tuple(curve),
+    )
 
 
 def _series(
@@ -214,7 +195,7 @@ def _places(series: Any, a: float, b: float, rtol: float) -> Floats:
 
 
 def _quintics(t: Floats, y: Floats, m: Floats, w: Floats) -> tuple[Floats, Floats]:
-    """Values and slopes at fractions t of the intervals between nodes; as in ``native/data.c``."""
+    """Values and slopes at fractions t of the intervals between nodes; as ``kernel/data.c``."""
     rise, m0, m1, w0, w1 = y[1:] - y[:-1], m[:-1], m[1:], w[:-1], w[1:]
     c = 10.0 * rise - 6.0 * m0 - 4.0 * m1 - 1.5 * w0 + 0.5 * w1
     d = -15.0 * rise + 8.0 * m0 + 7.0 * m1 + 1.5 * w0 - w1

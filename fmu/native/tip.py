@@ -9,21 +9,16 @@ from typing import Any, Literal
 
 from attrs import evolve
 
-from ..._version import __version__
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
-from ..framework.description import Description
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value, start_value
 from ..slaves.tip_contact import PORTS, TipContact, check_tip, tip_scene
-from .build import chosen_platforms, target, write_native
-from .description import CATEGORIES
-from .faces import stop_numbers
-from .film import FilmNumbers, film_numbers, free_liquid
+from .build import NativeContent, chosen_platforms, native_about, target, write_native
+from .faces import faces_of
+from .film import PreparedFilm, free_liquid, prepared_film
+from .models import native_model
 
 __all__ = ["build_native_tip"]
-
-_FIXED = frozenset(("R", "A_H", "V", "theta1", "theta2", "profile"))
-"""Parameters that the tables of the forces hold."""
 
 
 def build_native_tip(
@@ -51,7 +46,7 @@ def build_native_tip(
     curve : LoadDisplacementCurve, optional
         Apex and site; a rigid site without one.
     platforms, compiler, fmi
-        See `native_build.build_native`. In FMI 3.0 a step never ends early.
+        See `build.build_native`. In FMI 3.0 a step never ends early.
 
     Returns
     -------
@@ -74,31 +69,21 @@ def build_native_tip(
     values |= {name: start_value(PORTS, name, value) for name, value in given.items()}
     check_tip(values, has_curve=site is not None)
     scene = tip_scene(values)
-    film = film_numbers(scene)
+    film = prepared_film(scene)
     ports = _ports(film)
-    about = Description(
-        identifier="tip_contact",
-        guid="",
-        tool="contactkit",
-        ports=ports,
-        start={port.name: values[port.name] for port in ports},
-        summary=TipContact.summary.partition(" (")[0],
-        log_categories=CATEGORIES,
-        experiment=TipContact.experiment,
-        version=__version__,
-    )
-    faces = [0.0] if site is None else stop_numbers(LoadDisplacementCurve.from_data(site))
-    tables = [*film.numbers, *faces]
+    about = native_about("tip-contact", ports, {port.name: values[port.name] for port in ports})
+    faces = None if site is None else faces_of(LoadDisplacementCurve.from_data(site))
+    content = NativeContent(film.tables, faces, scene)
     names = chosen_platforms(platforms)
-    return write_native("tip-contact", about, tables, place, fmi, names, compiler, scene)
+    return write_native("tip-contact", about, content, place, fmi, names, compiler)
 
 
-def _ports(film: FilmNumbers) -> tuple[Port, ...]:
+def _ports(film: PreparedFilm) -> tuple[Port, ...]:
     """Variables of the Python FMU that the tables leave free, and within what they hold."""
     viscosity, surface_tension = free_liquid(film.prepared)
     liquid = {"eta": viscosity, "gamma": surface_tension}
-    absent = _FIXED | {name for name, value in liquid.items() if not value}
-    there = [port for port in PORTS if port.name not in absent]
+    absent = {name for name, value in liquid.items() if not value}
+    there = [port for port in native_model("tip-contact").ports if port.name not in absent]
     names = {port.name for port in there}
     return tuple(_port(port, names, film.lowest) for port in there)
 

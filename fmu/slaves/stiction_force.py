@@ -159,6 +159,7 @@ _PORTS = (
         "time of the latest rupture, -1 before",
         start=-1.0,
         nominal=1e-3,
+        at_events=True,
     ),
     output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
     output_port(

@@ -113,6 +113,7 @@ _PORTS = (
         "time of the latest rupture, -1 before",
         start=-1.0,
         nominal=1e-3,
+        at_events=True,
     ),
     output_port(
         "t_release",
@@ -120,6 +121,7 @@ _PORTS = (
         "time of the latest release, at h_rel, -1 before",
         start=-1.0,
         nominal=1e-3,
+        at_events=True,
     ),
     output_port("F_peak", "N", "largest force of the film so far", minimum=0.0, nominal=10.0),
     output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
@@ -135,13 +137,38 @@ _PORTS = (
     size_port("h_rel", "m", "gap at which the bodies are released", 1e-4, "um", exclusive=True),
     size_port("h_min", "m", "gap at which asperities stop closing; 0: none", 0.0, "um"),
     size_port("h_break", "m", "gap at which the film breaks; 0: where the bridge does", 0.0, "um"),
-    size_port("rewet", "-", "fraction of V that is there when the bodies return", 1.0, maximum=1.0),
-    size_port("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True),
+    size_port(
+        "rewet",
+        "-",
+        "fraction of V that is there when the bodies return",
+        1.0,
+        maximum=1.0,
+        tabulated=True,
+    ),
+    size_port("R", "m", "radius of the faces", 3.175e-3, "mm", exclusive=True, tabulated=True),
     size_port("eta", "Pa.s", "dynamic viscosity of the liquid", 0.1, "mPa.s", exclusive=True),
     size_port("gamma", "N/m", "surface tension; 0: no meniscus force", 0.03, "mN/m"),
-    size_port("theta1", "rad", "contact angle on the fixed body", 0.2, "deg", maximum=math.pi),
-    size_port("theta2", "rad", "contact angle on the moving body", 0.2, "deg", maximum=math.pi),
-    size_port("V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3"),
+    size_port(
+        "theta1",
+        "rad",
+        "contact angle on the fixed body",
+        0.2,
+        "deg",
+        maximum=math.pi,
+        tabulated=True,
+    ),
+    size_port(
+        "theta2",
+        "rad",
+        "contact angle on the moving body",
+        0.2,
+        "deg",
+        maximum=math.pi,
+        tabulated=True,
+    ),
+    size_port(
+        "V", "m3", "volume of the liquid; 0: full to the rim (flooded)", 0.0, "mm3", tabulated=True
+    ),
     Port(
         "N",
         "-",
@@ -150,6 +177,7 @@ _PORTS = (
         kind="integer",
         start=1,
         minimum=1,
+        tabulated=True,
     ),
     Port(
         "meniscus_law",
@@ -159,6 +187,7 @@ _PORTS = (
         kind="enumeration",
         enumeration=MeniscusLaw,
         start=MeniscusLaw.EXACT,
+        tabulated=True,
     ),
     size_port("dp_cav", "Pa", "tension at which the pressure is cut off; 0: no limit", 0.0, "bar"),
     size_port(
@@ -258,6 +287,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     needs = {
         "two flats": interface.is_flat,
         "a face with a radius [m]": math.isfinite(interface.rim_radius),
+        "even discs": interface.has_discs,
         "loading = ImposedForce(...) with a mass [kg]": isinstance(loading, ImposedForce)
         and loading.mass is not None,
     }

@@ -136,6 +136,7 @@ _PORTS = (
         "time of the latest rupture, -1 before",
         start=-1.0,
         nominal=1e-6,
+        at_events=True,
     ),
     output_port(
         "t_free",
@@ -143,6 +144,7 @@ _PORTS = (
         "time at which the tips were free for the last time, -1 before",
         start=-1.0,
         nominal=1e-6,
+        at_events=True,
     ),
     output_port(
         "t_land",
@@ -150,6 +152,7 @@ _PORTS = (
         "time of the latest landing, -1 before",
         start=-1.0,
         nominal=1e-6,
+        at_events=True,
     ),
     output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
     output_port("n_land", "-", "number of landings so far", kind="integer", minimum=0),
@@ -200,13 +203,23 @@ _PORTS = (
     size_port(
         "h_free", "m", "gap beyond which solids do not attract a tip", 5e-8, "nm", exclusive=True
     ),
-    size_port("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True),
-    size_port("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19),
-    size_port("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0),
+    size_port("R", "m", "radius of the apex of a tip", 1e-7, "nm", exclusive=True, tabulated=True),
+    size_port("A_H", "J", "Hamaker constant; 0: no van der Waals force", 1e-19, tabulated=True),
+    size_port("V", "m3", "volume of the liquid under one tip; 0: dry", 0.0, tabulated=True),
     size_port("gamma", "N/m", "surface tension of the liquid", 0.0727, "mN/m", exclusive=True),
     size_port("eta", "Pa.s", "viscosity of the liquid; 0: no viscous force", 1e-3, "mPa.s"),
-    size_port("theta1", "rad", "contact angle on the landing site", 0.7, "deg", maximum=math.pi),
-    size_port("theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi),
+    size_port(
+        "theta1",
+        "rad",
+        "contact angle on the landing site",
+        0.7,
+        "deg",
+        maximum=math.pi,
+        tabulated=True,
+    ),
+    size_port(
+        "theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi, tabulated=True
+    ),
     Port(
         "profile",
         "-",
@@ -215,6 +228,7 @@ _PORTS = (
         kind="enumeration",
         enumeration=TipLaw,
         start=TipLaw.EXACT,
+        tabulated=True,
     ),
     size_port("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),

@@ -108,6 +108,7 @@ _PORTS = (
             "n_cycles",
         ),
         nominal=10.0,
+        at_events=True,
     ),
     output_port("flux", "Wb", "flux linkage", minimum=0.0, nominal=1e-3, display_unit="mWb"),
     size_port("R_coil", "ohm", "resistance of the circuit", 1.0, exclusive=True),

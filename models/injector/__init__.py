@@ -8,5 +8,6 @@ delays      Delays of a spool valve by its film: how long it sticks, and how lat
 assumptions  Plausible ranges of what is assumed about the fuel injector, with reasons.
 monolithic  Monolithic model of spool, film and coil, by another method than
             `contactkit.separation.motion`.
+report      Running the fuel injector from the command line.
 torn_pieces  Cavity of the film in a monolithic simulation: its equation, its events, its memory.
 """

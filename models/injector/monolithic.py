@@ -388,7 +388,8 @@ class _Run:
             self._longest = 2.0 * math.sqrt(mass / self.valve.stop.stiffness)
         speed = 0.0 if self.mode.in_contact else loading.initial_speed
         self.state = np.array([loading.initial_gap, speed, 0.0, 0.0, 0.0, 0.0])
-        scale = torn_pieces.void_scale(plan.film.cavity, loading.initial_gap)
+        cavity = torn_pieces.round_cavity(plan.film.cavity)
+        scale = torn_pieces.void_scale(cavity, loading.initial_gap)
         self.units = np.array([loading.initial_gap, 1.0, FLUX, 1.0, 1.0, scale])
         self.pieces: list[Piece] = []
         self.events: list[Event] = []
@@ -426,7 +427,7 @@ class _Run:
     @property
     def tearing(self) -> CavityLaw | None:
         """Law of the cavity of the film; None where it has none, or nothing is left to tear."""
-        return self.film.cavity if self.film is not None else None
+        return torn_pieces.round_cavity(self.film.cavity) if self.film is not None else None
 
     def _pull(self, time: float, flux: float, gap: float, speed: float) -> float:
         if isinstance(self.drive, Valve):

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from attrs import evolve, field, frozen
 
 from ...errors import DescriptionError
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
-from ...scene.scenes import InWords, SeparationScene
+from ...scene.scenes import SeparationScene
 from ...separation.effects.base import SeparationEffect
 from ...separation.effects.viscous import TensionLimit
 from ...units import celsius, si
 from ...validators import as_tuple, finite, part, positive
+from ..device import Device
 from .valve import Valve
 
 if TYPE_CHECKING:
@@ -71,8 +72,10 @@ class Study:
 
 
 @frozen(kw_only=True)
-class InjectorScene(InWords):
+class InjectorScene(Device):
     """A separation scene whose pull comes from a valve, and the temperatures to run it at."""
+
+    reported_by: ClassVar[str] = f"{__package__}.report.run"
 
     name: str = "fuel injector"
     temperature: float = field(default=celsius(20.0), validator=positive, metadata=si("K"))

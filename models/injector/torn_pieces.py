@@ -15,14 +15,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...errors import PlanError
 from ...lubrication.disc_cavity import receding_edge
 from ...lubrication.torn_film import cut, outermost, piece_along, torn_to, void_within
-from ...separation.cavity.law import CavityLaw
+from ...separation.cavity.law import Cavitation, CavityLaw
 from ...separation.cavity.stages import force_at, spot_at
 from ...separation.cavity.state import FULL, Cavity, Phase
 from ...separation.integrator.tableau import NODES
 
 __all__ = [
+    "round_cavity",
     "HEALED",
     "TornFilm",
     "grows_again",
@@ -45,6 +47,22 @@ class TornFilm(NamedTuple):
 
     force: float
     growth: float
+
+
+def round_cavity(law: Cavitation | None) -> CavityLaw | None:
+    """Law of a film between discs; None of one that does not cavitate.
+
+    Raises
+    ------
+    PlanError
+        If the face is no disc: this reference integrates the edge of a round cavity.
+    """
+    if law is None or isinstance(law, CavityLaw):
+        return law
+    raise PlanError(
+        "the reference of the injector needs an even disc for its TensionLimit: on another face "
+        "run the film alone, by ck.simulate(plan)"
+    )
 
 
 def void_scale(law: CavityLaw | None, gap: float) -> float:

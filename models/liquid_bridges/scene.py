@@ -6,12 +6,14 @@ Every bridge is scaled to unit volume, so no liquid is named.
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 from attrs import field, frozen
 
 from ...errors import DescriptionError
 from ...units import si
 from ...validators import angle, as_tuple, count, fraction, optional, positive
+from ..device import Device
 
 __all__ = ["BridgeCase", "Bridges"]
 
@@ -68,7 +70,7 @@ class BridgeCase:
 
 
 @frozen(kw_only=True)
-class Bridges:
+class Bridges(Device):
     """Bridges whose closures are compared.
 
     Parameters
@@ -80,6 +82,8 @@ class Bridges:
     reach : float
         End of the curve over the exact limit [-].
     """
+
+    reported_by: ClassVar[str] = f"{__package__}.report.run"
 
     name: str = "liquid bridges"
     bridges: tuple[BridgeCase, ...] = field(converter=as_tuple)

@@ -12,6 +12,7 @@ flight          A free spring tip about a root that is steadily accelerated: its
                 it lands.
 landing         Landing of a spring tip on its site: force, dissipated work and rebound.
 release         Release of a micromirror: by the spring alone, or by the smallest reset pulse.
+report          Running the micromirror from the command line.
 assumptions     Plausible ranges of what is assumed about the micromirror, with reasons.
 coupling        Mirror and tips, coupled step by step: the mirror here, each side's tips wherever
                 they live.

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from attrs import evolve, field, frozen
 
 from ...errors import DescriptionError
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
-from ...scene.scenes import InWords, SeparationScene
+from ...scene.scenes import SeparationScene
 from ...separation.effects.base import SeparationEffect
 from ...separation.plan import Plan
 from ...units import celsius, si
 from ...validators import as_tuple, fraction, part, positive
+from ..device import Device
 from .coupling import LocalTip, TipSides
 from .flight import Root
 from .mirror import Attitude, Mirror, electrode_volts, landed_tilt, root_height
@@ -70,8 +71,10 @@ class MirrorStudy:
 
 
 @frozen(kw_only=True)
-class MicromirrorScene(InWords):
+class MicromirrorScene(Device):
     """Everything the file of a micromirror says; `interface` and `loading` are those of one tip."""
+
+    reported_by: ClassVar[str] = f"{__package__}.report.run"
 
     interface: Interface = field(validator=part(Interface))
     loading: ImposedForce = field(validator=part(ImposedForce))

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
@@ -19,6 +18,7 @@ from contactkit.fmu.native.build import build_native, native_scene
 from contactkit.fmu.native.drive import build_native_drive
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_mass import StictionMass
+from contactkit.models.injector.report.cosimulation import build_fmus
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 import contactkit as ck
-from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.master.injector import cosimulate
 from contactkit.models.injector.monolithic import simulate as monolithic
+from contactkit.models.injector.report.cosimulation import build_fmus
 from contactkit.separation.motion.state import start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")

@@ -21,9 +21,10 @@ pytest.importorskip("fmpy")
 
 from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
 from contactkit.fmu.framework.instance import Instance
-from contactkit.fmu.framework.toolchain import fmi_headers, kernel_sources, local
+from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.native.drive import build_native_drive
+from contactkit.fmu.native.sources import write_sources
 from contactkit.fmu.native.tip import build_native_tip
 from contactkit.fmu.python.build import build
 
@@ -56,8 +57,7 @@ RUNS = {
 @pytest.fixture(scope="module")
 def host(tmp_path_factory):
     folder = tmp_path_factory.mktemp("host")
-    for name, content in (kernel_sources() | fmi_headers()).items():
-        (folder / name).write_bytes(content)
+    write_sources(folder)
     files = [str(HOST), *(path.name for path in folder.glob("*.c"))]
     command = ["cc", *FLAGS, "-I.", *files, "-o", "host", "-lm"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)

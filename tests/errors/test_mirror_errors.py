@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 
 from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
-from contactkit.app.scenes import OpenedMicromirror, open_scene
+from contactkit.app.scenes import OpenedDevice, open_scene
 from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
 from contactkit.models.micromirror import monolithic, tip_impact
 from contactkit.models.micromirror.electrostatics import Electrode
@@ -112,7 +112,7 @@ def test_cost_needs_a_pulse_that_releases(scene):
     weak = evolve(scene, mirror=evolve(scene.mirror, waveform=wave))
     weak = evolve(weak, study=evolve(weak.study, patience=1e-6))
     with pytest.raises(PlanError, match="cost needs a pulse that releases; 24 V do not"):
-        OpenedMicromirror(weak).cost(None, lambda fraction: None, 1e-6)
+        OpenedDevice(weak).cost(None, lambda fraction: None, 1e-6)
 
 
 # Failures of what is computed: each names a cure --------------------------------------------------

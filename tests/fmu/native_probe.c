@@ -24,11 +24,11 @@ int main(int count, char **words) {
         free(data.numbers);
         return 1;
     }
-    scene = data.scene;
+    scene.tables = &data.contents.tables;
     scene.viscosity = atof(words[2]), scene.surface_tension = atof(words[3]);
     scene.tension = atof(words[4]), scene.strength = atof(words[5]);
     scene.initial_gap = 1.0;
-    scene.ends[0] = scene.films[0].end;
+    scene.ends[0] = scene.tables->films[0].end;
     ck_act(&scene, 0, 0, 0, &acting);
     while (scanf("%lf %lf", &gap, &speed) == 2) {
         ck_forces f;

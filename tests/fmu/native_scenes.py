@@ -10,7 +10,6 @@ import subprocess
 from pathlib import Path
 
 import contactkit as ck
-from contactkit.fmu.framework.toolchain import fmi_headers, kernel_sources
 
 HERE = Path(__file__).parent
 CC = os.environ.get("CC", "cc").split()[0]
@@ -104,6 +103,14 @@ SCENES |= {
 }
 
 
+RING = ck.Flat(planform=ck.Ring(radius=3.175e-3, hole_radius=1e-3))
+PAD = ck.Flat(planform=ck.Rectangle(length=4e-3, width=3e-3), tilt=(1e-3, 0.0))
+SCENES |= {
+    "ring": scene(lower=ck.Flat(), upper=RING, stiffness=0.0),
+    "tilted": scene(lower=ck.Flat(), upper=PAD, effects=(ck.ViscousForce(),), stiffness=0.0),
+}
+
+
 # Degrees, which a liquid repelled by one or both faces ends at as no power of what is left.
 ANGLES = [(180, 180), (179.9, 179.9), (120, 60)]
 
@@ -126,9 +133,9 @@ def bare_meniscus(lower, upper):
 
 def write_sources(folder):
     """Write the sources of the kernel and the headers of FMI to a folder."""
-    folder.mkdir(exist_ok=True)
-    for name, content in (kernel_sources() | fmi_headers()).items():
-        (folder / name).write_bytes(content)
+    from contactkit.fmu.native import sources  # which needs pythonfmu
+
+    sources.write_sources(folder)
     return folder
 
 

@@ -93,9 +93,12 @@ def test_a_force_too_rough_for_a_table_is_named():
         end, release, recontact, kinks = 1e-4, float("inf"), 0.0, ()
         known_to = float("inf")
 
+    common = native_film._Common(
+        ck.plan(scene(volume=DROP)), native_film.FreeLiquid(0.0, 0.0), 1e-8
+    )
     rough = lambda gap: 1.0 + 1e-3 * (hash(gap) % 1000)  # noqa: E731
     with pytest.raises(ck.ConvergenceError, match=r"MeniscusForce has no native form.*without"):
-        native_film._law_table(scene(volume=DROP), MeniscusForce(), Rough(), 1e-8, rough)
+        native_film._law_table(common, MeniscusForce(), Rough(), rough)
 
 
 @needs_cc

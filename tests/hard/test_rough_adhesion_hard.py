@@ -156,7 +156,7 @@ def test_the_end_of_a_law_is_no_narrower_than_matters():
 
 
 def test_what_does_not_settle_names_the_width_of_the_end(monkeypatch):
-    monkeypatch.setattr("contactkit.contact.attraction_loop._MAX_ITERATIONS", 3)
+    monkeypatch.setattr("contactkit.contact.outer.iteration.MAX_MONOTONIC", 3)
     with pytest.raises(ck.ConvergenceError, match=r"end_width = 2\.4e-10 m, now") as caught:
         on_stiff_film()
     monkeypatch.undo()
@@ -392,16 +392,3 @@ def test_a_reversible_loop_is_none_within_its_error():
     assert curve.is_closed
     assert 0.0 < abs(curve.loop_energy) <= curve.loop_error
     assert curve.loop_error < 0.2 * math.pi * 0.05 * 1e-6 * 1e-9
-
-
-def test_a_study_that_pulls_is_drawn_over_its_approach():
-    plot = pytest.importorskip("contactkit.plot.contact")
-    figures = pytest.importorskip("contactkit.plot.style")
-    columns = {
-        "mean_pressure": [0.0, -2e5, 1e5],
-        "approach": [-2e-9, 0.0, 1e-9],
-        "contact_fraction": [0.0, 0.1, 0.2],
-    }
-    ax = plot.load_curve([("", columns)], [figures.figure()[1]])[0]
-    assert (ax.get_xscale(), ax.get_xlabel()) == ("linear", "approach [nm]")
-    np.testing.assert_allclose(ax.get_lines()[0].get_xdata(), [-2.0, 0.0, 1.0])

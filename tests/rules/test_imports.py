@@ -38,6 +38,8 @@ FLOORS = [
     ["plot"],
     ["models"],
     ["fmu"],
+    ["benchmarks"],
+    ["models report"],
     ["app"],
     ["gallery"],
     ["commands"],
@@ -45,8 +47,12 @@ FLOORS = [
     ["__main__"],
 ]
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries.
+# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, what
+# plans and runs a kind of scene, a device and its report.
 IMPORT_BY_NAME = {
+    "contactkit.models.device",
+    "contactkit.models.library",
+    "contactkit.planning",
     "contactkit._lazy",
     "contactkit.registry",
     "contactkit.plot.accessors.base",
@@ -69,7 +75,11 @@ MODULES = _modules()
 
 
 def room(name):
-    return name.split(".")[1] if "." in name else ""
+    """Room of a module; the reports of devices run FMUs, whose models are below these."""
+    parts = name.split(".")
+    if parts[1:2] == ["models"] and parts[3:4] == ["report"]:
+        return "models report"
+    return parts[1] if "." in name else ""
 
 
 def is_for_types(node):

@@ -15,30 +15,31 @@ import contactkit
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
-FOLDERS = PROJECT["tool"]["setuptools"]["package-dir"]
+spec = importlib.util.spec_from_file_location("setup_of_contactkit", ROOT / "setup.py")
+setup = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(setup)
 DATA = (".toml", ".json", ".c", ".h", ".png", ".svg", ".typed")
 
 
 def folder_of(package):
     """Folder of a package in the repository."""
-    parent = max((p for p in FOLDERS if f"{package}.".startswith(f"{p}.")), key=len)
-    return ROOT / FOLDERS[parent] / package.removeprefix(parent).lstrip(".").replace(".", "/")
+    parent = max((p for p in setup.FOLDERS if f"{package}.".startswith(f"{p}.")), key=len)
+    return ROOT / setup.FOLDERS[parent] / package.removeprefix(parent).lstrip(".").replace(".", "/")
 
 
 def shipped():
     """Files of the packages by their paths in a wheel."""
     return {
         f"{package.replace('.', '/')}/{path.name}"
-        for package in PROJECT["tool"]["setuptools"]["packages"]
+        for package in setup.packages()
         for path in folder_of(package).iterdir()
         if path.suffix in (".py", *DATA)
     }
 
 
-def test_every_package_is_listed():
-    listed = {folder_of(p) for p in PROJECT["tool"]["setuptools"]["packages"]}
-    found = {p.parent for top in set(FOLDERS.values()) for p in (ROOT / top).rglob("__init__.py")}
-    assert found == listed
+def test_every_folder_of_python_files_is_a_package():
+    found = {p.parent for top in setup.FOLDERS.values() for p in (ROOT / top).rglob("*.py")}
+    assert found == {folder_of(p) for p in setup.packages()}
 
 
 def test_there_is_one_version():
@@ -60,9 +61,6 @@ def test_conda_needs_what_pip_needs():
 
 
 def test_links_of_the_readme_hold_on_an_index():
-    spec = importlib.util.spec_from_file_location("setup_of_contactkit", ROOT / "setup.py")
-    setup = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(setup)
     text = setup.absolute_links((ROOT / "README.md").read_text("utf-8"))
     links = re.findall(r"\]\(([^)]*)\)", text)
     assert links

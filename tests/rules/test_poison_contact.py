@@ -151,25 +151,13 @@ def press(effects, edges, shape="heights"):
 
 
 def is_refused(effects):
-    """Whether two laws of friction are listed, or an attraction with what cannot take tension."""
+    """Whether two laws of friction are listed, or an attraction with a film."""
     given = [effect for effect in effects if isinstance(effect, ContactEffect)]
     kinds = {type(effect) for effect in given}
     if ck.PartialSlip in kinds and {ck.FrictionTraction, ck.SubsurfaceStress} & kinds:
         return True  # two laws of friction; a stress without the traction of the first
-    if not any(isinstance(effect, ck.Adhesion) for effect in given):
-        return False
-    fixed = ("material", "constant")
-    return any(
-        not effect.takes_tension
-        or (isinstance(effect, ck.HardnessLimit) and effect.rule not in fixed)
-        for effect in given
-    )
-
-
-def suits_a_history(kinds):
-    """A history needs a hardness, and no film, coupling or attraction beside it."""
-    apart = {ck.FrictionCoupling, ck.FilmMeniscus, ck.IslandBridges, ck.Adhesion}
-    return ck.HardnessLimit in kinds and not kinds & apart
+    has_tension = any(isinstance(effect, ck.Adhesion) for effect in given)
+    return has_tension and not all(effect.takes_tension for effect in given)
 
 
 def cases():
@@ -180,7 +168,7 @@ def cases():
     for case in product_of({"law": laws, "edges": EDGES, **others}):
         kinds = {type(level) for level in case.values()}
         is_complete = ck.FrictionTraction in kinds or ck.FrictionCoupling not in kinds
-        is_complete &= ck.PlasticHistory not in kinds or suits_a_history(kinds)
+        is_complete &= ck.PlasticHistory not in kinds or ck.HardnessLimit in kinds
         if is_complete and not is_refused(case.values()):
             found.append(case)
     wanted = pairwise(found)

@@ -6,9 +6,9 @@ import math
 import pytest
 
 import contactkit as ck
-from contactkit.app.run.bridges import flat_errors, sphere_errors
 from contactkit.app.scenes import open_scene
 from contactkit.cli import main
+from contactkit.models.liquid_bridges.closure_errors import flat_errors, sphere_errors
 
 DEG = math.pi / 180.0
 FEW = """\

@@ -296,21 +296,20 @@ def test_every_solver_finds_the_same_contact(method, periodic):
 
 
 @pytest.mark.parametrize(
-    ("loop", "effects", "problem"),
+    ("effects", "problem"),
     [
         (
-            "friction_loop",
             (ck.FrictionTraction(coefficient=0.5), ck.FrictionCoupling()),
             "friction",
         ),
-        ("film_loop", (ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True),), "film"),
+        ((ck.FilmMeniscus(film_thickness=1e-9, self_consistent=True),), "film"),
     ],
     ids=["friction", "film"],
 )
 def test_outer_iterations_that_run_out_say_so_and_hand_over_what_they_reached(
-    loop, effects, problem, monkeypatch
+    effects, problem, monkeypatch
 ):
-    monkeypatch.setattr(f"contactkit.contact.{loop}._MAX_ITERATIONS", 1)
+    monkeypatch.setattr("contactkit.contact.outer.iteration.MAX_ITERATIONS", 1)
     plan = made(*effects, grid=32, loading=ck.Pressing(pressure=3e8))
     with pytest.raises(ck.ConvergenceError, match=problem) as caught:
         ck.solve(plan)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.fmu.native.film import film_numbers
+from contactkit.fmu.native.film import prepared_film
 from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS
 from contactkit.plot import separation as separation_plot
 
@@ -200,15 +200,13 @@ def test_the_tables_of_the_docs_have_a_line_of_it(plates, tables):
 def test_a_native_fmu_tabulates_it(plates):
     """Its table alone: a force that falls as h^-2 is a constant times h^-2, from two nodes."""
     alone = scene(plates.ElectrostaticForce(voltage=VOLTAGE), force=1.0, mass=1e-3)
-    numbers = film_numbers(alone).numbers
-    film = numbers[6:]
-    n_forces, law = film[3], film[4:]
-    scale, needs_film, *ends, n_kinks, stays, n_pieces = law[:8]
-    assert (n_forces, scale, needs_film, n_kinks, stays, n_pieces) == (1, 0, 0, 0, 0, 1)
-    assert ends == [math.inf, math.inf, 0.0]
-    power, n_nodes = law[12:14]
-    assert (power, n_nodes) == (2, 2)
-    assert law[16:18] == pytest.approx([attraction(1.0)] * 2, rel=1e-12)
+    (film,) = prepared_film(alone).tables.films
+    (law,) = film.laws
+    (piece,) = law.table.pieces
+    assert (law.scale, law.needs_film, law.kinks, law.table.stays) == (0, False, (), False)
+    assert (law.end, law.release, law.recontact) == (math.inf, math.inf, 0.0)
+    assert (piece.power, len(piece.x)) == (2, 2)
+    assert piece.y == pytest.approx([attraction(1.0)] * 2, rel=1e-12)
 
 
 @pytest.mark.slow
@@ -251,7 +249,7 @@ def test_an_end_of_the_film_ends_it_in_results_files_and_native_fmus(folder, tab
         assert ck.load_scene(ck.save_scene(made, tmp_path / "lian.toml")) == made
         assert "| end of the film |" in tables.TABLES["effects"]()
         moving = attrs.evolve(made, loading=scene(force=0.0, mass=1e-3).loading)
-        assert film_numbers(moving).numbers[7] == lian(volume, 0.0)
+        assert prepared_film(moving).tables.films[0].breaks == lian(volume, 0.0)
 
 
 def test_an_observer_of_a_contact_has_its_number_everywhere(folder, tables, tmp_path):

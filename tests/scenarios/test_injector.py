@@ -13,14 +13,14 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.cost.separation import other_menisci
-from contactkit.app.run.injector.cosimulation import cosimulate_cases
-from contactkit.app.run.injector.cycles import cycles, run_error
-from contactkit.app.run.injector.report import report
 from contactkit.app.scenes import open_scene
+from contactkit.benchmarks.separation import other_menisci
 from contactkit.files.scenes import structure
 from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.models.injector.delays import delay, dry_delay
+from contactkit.models.injector.report.cosimulation import cosimulate_cases
+from contactkit.models.injector.report.cycles import cycles, run_error
+from contactkit.models.injector.report.run import report
 from contactkit.models.injector.scene import Study
 from contactkit.separation.effects.base import LimitKind
 from contactkit.units import celsius

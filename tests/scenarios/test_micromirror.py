@@ -10,11 +10,11 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.run.micromirror.cosimulation import cosimulate_flips
-from contactkit.app.run.micromirror.report import report, run_errors
-from contactkit.app.scenes import OpenedMicromirror, open_scene
+from contactkit.app.scenes import OpenedDevice, open_scene
 from contactkit.models.micromirror.coupling import FREE
 from contactkit.models.micromirror.release import landing, release, release_curve, smallest_reset
+from contactkit.models.micromirror.report.cosimulation import cosimulate_flips
+from contactkit.models.micromirror.report.run import report, run_errors
 from contactkit.models.micromirror.tip_film import adhesion, tip_law
 
 
@@ -29,7 +29,7 @@ def short(device):
     scene = device.scene
     wave = evolve(scene.mirror.waveform, period=60e-6, start_delay=0.5e-6)
     study = evolve(scene.study, humidities=(0.0, 0.9), communication_step=40e-9)
-    return OpenedMicromirror(evolve(scene, mirror=evolve(scene.mirror, waveform=wave), study=study))
+    return OpenedDevice(evolve(scene, mirror=evolve(scene.mirror, waveform=wave), study=study))
 
 
 @pytest.fixture(scope="module")

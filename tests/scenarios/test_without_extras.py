@@ -73,8 +73,8 @@ COMMANDS = {
     "run film.toml --json --out json": ('"release_time"', {"result.npz", "result.csv"}, PLOT),
     "run slide.toml --out slide": ("couette_impulse", {"result.npz", "result.csv"}, PLOT),
     "run touch.toml --out touch": (
-        "load curve",
-        {"load-curve.csv", "load-curve.npz", "result.npz"},
+        "study:",
+        {"study.csv", "study.npz", "result.npz"},
         PLOT,
     ),
     "run film.toml": ("release_time", set(), ""),
@@ -96,7 +96,7 @@ SCRIPT = """
 import contextlib, functools, io, json, sys
 extras = "matplotlib mpl_toolkits pythonfmu fmpy ziglang numba ducc0 SurfaceTopography distributed"
 sys.modules.update(dict.fromkeys(extras.split()))  # None: as if not installed
-import contactkit.app.cost.contact as contact, contactkit.app.cost.separation as separation
+import contactkit.benchmarks.contact as contact, contactkit.benchmarks.separation as separation
 separation.TOLERANCES = separation.TOLERANCES[:1]
 separation.sweep = functools.partial(separation.sweep, repeats=0)
 contact._TOLERANCES = {"active-set": (1e-2,)}

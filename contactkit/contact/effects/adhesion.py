@@ -126,8 +126,9 @@ class Adhesion(Attraction[AdhesionPart]):
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         missing = [
-            f"no {type(effect).__name__} beside it, which takes pressures to be positive: leave "
-            "one of them out"
+            f"no {type(effect).__name__} beside it: where liquid fills the gap, the solids do not "
+            "attract each other as they do across air; give the film by "
+            "DugdaleAttraction.from_meniscus, or leave one of them out"
             for effect in effects_of(scene)
             if not effect.takes_tension
         ]

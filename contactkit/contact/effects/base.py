@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from ...validity import ValidityNumber
+    from ..outer.unknown import Unknown
     from .attraction_laws import TensionLaw
 
     Map = NDArray[np.float64]
@@ -45,6 +46,7 @@ __all__ = [
     "FixedHardness",
     "FrictionalContact",
     "HardnessLaw",
+    "InterfaceView",
     "LoadHistory",
     "LoadTerm",
     "Observer",
@@ -115,6 +117,20 @@ class Contact(NamedTuple):
         return is_pressed
 
     @property
+    def contact_pressure(self) -> Map:
+        """Pressure [Pa] that the bodies in contact exert on each other, (ny, nx).
+
+        With an `Attraction` it carries the tension as well, which acts across the gap too: friction
+        is that of this pressure (Derjaguin), and there is none where the bodies do not touch.
+        """
+        if self.attracted is None:
+            return self.pressure
+        import numpy as np
+
+        pressed = self.pressure + self.attracted.tension
+        return np.where(self.attracted.touching, np.maximum(pressed, 0.0), 0.0)
+
+    @property
     def liquid(self) -> LiquidState:
         """Properties of the liquid; refused where no effect of the scene needs them."""
         if self.liquid_state is None:
@@ -152,6 +168,21 @@ class VaryingHardness(NamedTuple):
 
 HardnessLaw = FixedHardness | VaryingHardness
 """Upper bound of the pressure."""
+
+
+class InterfaceView(NamedTuple):
+    """What unknowns of effects are made from: the prepared contact, whatever its load.
+
+    `self_influence` is the displacement of a pixel under unit pressure on itself [m/Pa],
+    `displacements` gives that of each body for a pressure [Pa] and the displacement of both [m],
+    `coupling` the displacement [m] that a `DisplacementTerm` causes under a pressure [Pa].
+    """
+
+    grid: Grid
+    self_influence: float
+    displacements: Callable[[Map, Map], tuple[Map, ...]]
+    hardness: HardnessLaw | None
+    coupling: Callable[[Map], Map] | None
 
 
 class Balance(NamedTuple):
@@ -210,7 +241,7 @@ class ContactEffect(Effect, Generic[Part]):
         return self.sources
 
     takes_tension: ClassVar[bool] = True
-    """Whether it holds beside an `Attraction`, where the pressure may be negative."""
+    """Whether it holds beside an `Attraction`, where solids pull on each other across the gap."""
 
     takes_holes: ClassVar[bool] = False
     """Whether it is right with pixels that carry no load and whose gap is not known."""
@@ -219,6 +250,10 @@ class ContactEffect(Effect, Generic[Part]):
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
+        return ()
+
+    def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
+        """Return the maps that this effect adds to the unknowns of the contact."""
         return ()
 
     def observe(self, contact: Contact) -> Part | None:
@@ -246,6 +281,15 @@ class PressureBound(ContactEffect[Part]):
     @abc.abstractmethod
     def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
         """Do the work that does not depend on the pressure."""
+
+    def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
+        """See `ContactEffect.unknowns`: the hardness, if it is one for each pixel."""
+        law, grid = view.hardness, view.grid
+        if not isinstance(law, VaryingHardness) or not law.is_local:
+            return ()
+        from ..outer.local_hardness import LocalHardness
+
+        return (LocalHardness(law, view.displacements, grid.shape, grid.area, self.name),)
 
     @abc.abstractmethod
     def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> Part:
@@ -307,6 +351,16 @@ class DisplacementTerm(ContactEffect[Part]):
     def prepare(self, scene: ContactScene, grid: Grid) -> Callable[[Map], Map]:
         """Return the displacement into the lower body [m] as a function of the pressure [Pa]."""
 
+    def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
+        """See `ContactEffect.unknowns`: the displacement."""
+        from ..outer.displacement import TractionDisplacement
+
+        caused_by = view.coupling
+        if caused_by is None:
+            return ()
+        own = view.self_influence
+        return (TractionDisplacement(caused_by, view.grid.shape, own, self.name),)
+
     @abc.abstractmethod
     def observe_frictional(self, contact: Contact, frictional: FrictionalContact) -> Part:
         """Return what the displacement changes in a solved contact."""
@@ -323,6 +377,12 @@ class Attraction(ContactEffect[Part]):
     @abc.abstractmethod
     def prepare(self, self_influence: float) -> TensionLaw:
         """Return the law on a grid whose pixels have an influence on themselves of [m/Pa]."""
+
+    def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
+        """See `ContactEffect.unknowns`: the tension."""
+        from ..outer.tension import Tension
+
+        return (Tension(self.prepare(view.self_influence), view.grid.shape, self.name),)
 
     @abc.abstractmethod
     def observe_attracted(self, contact: Contact, attracted: AttractedContact) -> Part:

@@ -63,7 +63,8 @@ class FrictionTraction(Observer[FrictionPart]):
 
     The traction on the lower body points where the upper body slides, the one on the upper body
     against it: ``sigma_xz(0) = -mu p`` for sliding along +x. The pressure is that of the contact
-    without friction (Goodman); `FrictionCoupling` takes the difference into account.
+    without friction (Goodman); `FrictionCoupling` takes the difference into account. Beside
+    `Adhesion` it is the pressure of contact, which carries load and tension (Derjaguin 1934).
 
     Parameters
     ----------
@@ -76,7 +77,6 @@ class FrictionTraction(Observer[FrictionPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-traction"
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"
-    takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (FrictionPart,)
     arrays: ClassVar[tuple[Array, ...]] = (
         Array("traction_x", "Pa", attrgetter("traction_x")),
@@ -110,7 +110,7 @@ class FrictionTraction(Observer[FrictionPart]):
 
     def observe(self, contact: Contact) -> FrictionPart:
         """See `Observer.observe`."""
-        ratio, pressure = self.components(), contact.pressure
+        ratio, pressure = self.components(), contact.contact_pressure
         load = float(pressure.sum()) * contact.grid.pixel_area
         return FrictionPart(ratio.x * pressure, ratio.y * pressure, self.coefficient * load)
 
@@ -128,7 +128,6 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "friction-coupling"
     summary: ClassVar[str] = "normal displacement caused by the tangential traction"
-    takes_tension: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (CouplingPart,)
     scalars: ClassVar[tuple[Scalar, ...]] = (
         Scalar("coupling_pressure_change", "-", attrgetter("pressure_change")),
@@ -162,7 +161,8 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
         """See `DisplacementTerm.observe_frictional`: against the same load without coupling."""
         without = frictional.pressure_without
         maximum = max(float(without.max()), sys.float_info.min)
-        change = float(abs(contact.pressure - without).max()) / maximum
+        pressure = contact.contact_pressure
+        change = float(abs(pressure - without).max()) / maximum
         n_without = max(int((without > 0.0).sum()), 1)
-        area = int((contact.pressure > 0.0).sum()) / n_without - 1.0
+        area = int((pressure > 0.0).sum()) / n_without - 1.0
         return CouplingPart(frictional.displacement, change, area)

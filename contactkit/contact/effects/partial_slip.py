@@ -23,7 +23,7 @@ from ...validators import (
 )
 from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
-from .base import Array, Contact, LoadHistory, LoadTerm, Observer, Scalar
+from .base import Array, Contact, LoadHistory, Observer, Scalar
 from .elasticity import bodies_of, contact_modulus, layers_of
 from .friction import FrictionTraction
 
@@ -94,7 +94,7 @@ def _last(name: str) -> Any:
 class PartialSlip(Observer[PartialSlipPart]):
     r"""Stick and slip of the contact under a tangential load that follows a path.
 
-    The pressure is that of the contact without friction, and stays: exact for two equal bodies and
+    The pressure is that of contact without friction, and stays: exact for two equal bodies and
     for incompressible ones. Otherwise pressure and tractions displace each other's surfaces, which
     `coupled` takes into account and the default leaves out; `validity` has its size. Each sub-step
     is implicit,
@@ -184,7 +184,6 @@ class PartialSlip(Observer[PartialSlipPart]):
     name: ClassVar[str] = "partial-slip"
     summary: ClassVar[str] = "stick and slip under a tangential load path"
     figures: ClassVar[tuple[str, ...]] = ("slip_zones", "traction", "hysteresis")
-    takes_tension: ClassVar[bool] = False
     takes_holes: ClassVar[bool] = True
     takes_free_sheets: ClassVar[bool] = False
     records: ClassVar[tuple[type, ...]] = (PartialSlipPart, SlipCoupling)
@@ -283,11 +282,6 @@ class PartialSlip(Observer[PartialSlipPart]):
                 "coupled=False beside PlasticHistory, or PlasticHistory left out: each follows a "
                 "path of its own"
             )
-        term = scene.effect(LoadTerm)
-        if term is not None and term.self_consistent:
-            missing.append(
-                f"coupled=False beside {type(term).__name__}(self_consistent=True), or that False"
-            )
         return missing
 
     def observe(self, contact: Contact) -> PartialSlipPart:
@@ -295,7 +289,8 @@ class PartialSlip(Observer[PartialSlipPart]):
         from ..slip.load_path import follow
 
         stacks = tuple(layers_of(stack) for stack in contact.scene.interface.stacks)
-        return follow(contact.pressure, contact.grid, stacks, self.path, self.law, contact.threads)
+        pressure = contact.contact_pressure
+        return follow(pressure, contact.grid, stacks, self.path, self.law, contact.threads)
 
     def validity(
         self, contact: Contact, part: PartialSlipPart | None
@@ -382,9 +377,9 @@ def _coupling(contact: Contact, part: PartialSlipPart) -> float:
     if lower == upper or not (x.any() or y.any()):
         return 0.0
     caused_by = coupling_of(contact.grid, lower, upper, contact.threads)
-    size = float(contact.pressure.max()) / contact_modulus(contact.scene) * contact.grid.area**0.5
+    strain = float(contact.contact_pressure.max()) / contact_modulus(contact.scene)
     caused = caused_by(x if x.any() else None, y if y.any() else None)
-    return relative_coupling(caused, contact.displacement, size)
+    return relative_coupling(caused, contact.displacement, strain * contact.grid.area**0.5)
 
 
 def _slip_width(contact: Contact, part: PartialSlipPart, coefficient: float) -> float | None:
@@ -395,7 +390,7 @@ def _slip_width(contact: Contact, part: PartialSlipPart, coefficient: float) -> 
     """
     import numpy as np
 
-    full = coefficient * float(contact.pressure.sum()) * contact.grid.pixel_area
+    full = coefficient * float(contact.contact_pressure.sum()) * contact.grid.pixel_area
     ends = [part.end_of(step) for step in range(int(part.step[-1]) + 1)]
     widths = []
     for zones, end in zip(part.zones, ends, strict=False):  # a path may have failed before its end

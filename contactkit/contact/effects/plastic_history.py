@@ -12,7 +12,7 @@ from ...scene.loading import Approach, ContactLoading, Pressing
 from ...units import si
 from ...validators import as_tuple, as_whole, count, non_negative
 from ...validity import ValidityNumber
-from .base import Array, Compliance, Contact, LoadHistory, Observer, PressureBound, Scalar
+from .base import Array, Contact, LoadHistory, PressureBound, Scalar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -177,12 +177,6 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
         missing = []
         if not any(isinstance(effect, PressureBound) for effect in scene.effects):
             missing.append("HardnessLimit() beside it: without a hardness nothing deforms for good")
-        kinds = (Compliance, PressureBound, Observer, PlasticHistory)
-        missing += [
-            f"no {type(effect).__name__} beside it: press its residual_surface with that"
-            for effect in scene.effects
-            if not isinstance(effect, kinds)
-        ]
         given = [bool(one) for one in (self.pressures, self.forces, self.approaches)]
         if sum(given) != 1:
             missing.append("exactly one of pressures [Pa], forces [N] and approaches [m]")

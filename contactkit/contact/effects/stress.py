@@ -19,7 +19,7 @@ from ...elasticity.stress.reading import READINGS, Reading
 from ...elasticity.stress.tractions import Tractions
 from ...units import si
 from ...validators import choice, fraction, non_negative, positive, refuse
-from .base import Array, Contact, DisplacementTerm, Observer, Scalar
+from .base import Array, Attraction, Contact, DisplacementTerm, Observer, Scalar
 from .elasticity import layers_of
 from .friction import FrictionTraction
 
@@ -151,7 +151,7 @@ class SubsurfaceStress(Observer[StressPart]):
     takes_holes: ClassVar[bool] = True
     name: ClassVar[str] = "subsurface-stress"
     summary: ClassVar[str] = "stress below the surface of the lower body"
-    figures: ClassVar[tuple[str, ...]] = ("stress", "stress_3d")
+    figures: ClassVar[tuple[str, ...]] = ("stress", "stress_close_up", "stress_3d")
     records: ClassVar[tuple[type, ...]] = (StressPart, Maximum, FrictionStress)
     arrays: ClassVar[tuple[Array, ...]] = (
         Array("component", "-", lambda part: list(_COMPONENTS), ("component",)),
@@ -200,6 +200,11 @@ class SubsurfaceStress(Observer[StressPart]):
         missing += _below_base(self.depths, scene.interface.lower.stack)
         if self.coefficients and scene.effect(FrictionTraction) is None:
             missing.append("FrictionTraction(coefficient=...) beside it for its coefficients [-]")
+        if self.coefficients and scene.effect(Attraction) is not None:
+            missing.append(
+                "one scene for each of its coefficients [-] beside an attraction, with which "
+                "friction is not proportional to the net pressure"
+            )
         if self.coefficients and scene.effect(DisplacementTerm) is not None:
             missing.append(
                 "one scene for each of its coefficients [-] (or no FrictionCoupling, with which "
@@ -298,8 +303,12 @@ class _Planes:
         # With further coefficients friction is kept apart: its stress is that of one of them.
         own = friction.coefficient if friction is not None and effect.coefficients else 0.0
         self._sliding = (own, *effect.coefficients)
+        x, y = None, None
+        if contact.attracted is not None and ratio is not None:  # no friction across the gap
+            pressed = contact.contact_pressure
+            x, y, ratio = ratio.x * pressed, ratio.y * pressed, None
         self._field = StressField(
-            Tractions(contact.grid.pixel_size, contact.pressure),
+            Tractions(contact.grid.pixel_size, contact.pressure, x, y),
             layers_of(stack),
             mean=contact.grid.along or ("periodic" if contact.grid.periodic else "free"),
             padding=effect.window,

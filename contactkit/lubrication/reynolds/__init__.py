@@ -1,6 +1,5 @@
 """Reynolds' equation of a film on any face, in 2-D, with mass-conserving cavitation.
 
-shapes           Planforms: discs, rings, rectangles, ellipses, sectors, polygons, their sums.
 face             A face on a grid: cells of film, reservoirs, pockets, walls.
 gaps             Gap maps: flat, tilted, domed, wavy, with recesses, measured.
 film             A film and its states: forces, volumes, power.
@@ -18,7 +17,8 @@ linear_systems   Sparse linear systems by SuperLU, CHOLMOD or multigrid.
 Examples
 --------
 >>> from contactkit.lubrication import reynolds
->>> face = reynolds.rasterise(reynolds.Ring(radius=3e-3, hole_radius=1e-3), 64)
+>>> from contactkit.scene.planforms import Ring
+>>> face = reynolds.rasterise(Ring(radius=3e-3, hole_radius=1e-3), 64)
 >>> film = reynolds.Film(face=face, viscosity=0.1)
 >>> pull = reynolds.solve_pressure(film, 1e-5, 1e-5).force
 """
@@ -27,35 +27,24 @@ from ..._lazy import lazy_names
 
 _HOMES = {
     "DampingLaw": "damping",
-    "Difference": "shapes",
-    "Disc": "shapes",
     "DomeDamping": "damping",
-    "Ellipse": "shapes",
     "Face": "face",
     "Film": "film",
     "FilmState": "film",
     "FlowFactors": "rough_flow",
     "Hole": "face",
     "HoleState": "film",
-    "Intersection": "shapes",
     "Leakage": "rough_flow",
     "Pocket": "face",
-    "Polygon": "shapes",
     "PowerDamping": "damping",
     "PullState": "motion",
-    "Recess": "gaps",
-    "Rectangle": "shapes",
-    "Ring": "shapes",
-    "Sector": "shapes",
     "TabulatedDamping": "damping",
-    "Union": "shapes",
     "Waviness": "gaps",
     "at_rest": "solve",
     "carried_rate": "solve",
     "disc_damping": "damping",
     "dome_damping": "damping",
     "ellipse_damping": "damping",
-    "equilateral_triangle": "shapes",
     "face_damping": "shape_factor",
     "face_from_image": "face",
     "face_from_level": "face",

@@ -16,7 +16,6 @@ import math
 from bisect import bisect_right
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar
 
 from attrs import Attribute, field, frozen
 
@@ -103,9 +102,6 @@ class DampingLaw(abc.ABC):
         Where it comes from.
     """
 
-    family: ClassVar[str] = "damping law"
-    kind: ClassVar[str]
-
     area: float = field(validator=positive, metadata=si("m2"))
     source: str = ""
 
@@ -191,8 +187,6 @@ class PowerDamping(DampingLaw):
     47.886826
     """
 
-    kind: ClassVar[str] = "power"
-
     terms: tuple[tuple[float, float, float], ...] = field(metadata=si("m"))
 
     @property
@@ -242,8 +236,6 @@ class DomeDamping(DampingLaw):
         Height U of the dome over its rim [m]; of a hollow face its depth, negative. Its rim is
         closed at a gap of -U in the middle, below which there is no law.
     """
-
-    kind: ClassVar[str] = "dome"
 
     curvature_radius: float = field(validator=_curved, metadata=si("m"))
     rise: float = field(validator=_curved, metadata=si("m"))
@@ -342,8 +334,6 @@ class TabulatedDamping(DampingLaw):
     >>> [round(law.coefficient(h), 9) for h in (0.5, 1.5, 4.0)], round(law.impulse(1.0, 2.0), 9)
     ([64.0, 2.37037037, 0.125], 3.0)
     """
-
-    kind: ClassVar[str] = "table"
 
     gaps: tuple[float, ...] = field(metadata=si("m"))
     coefficients: tuple[float, ...] = field(metadata=si("m"))

@@ -10,15 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
-from attrs import evolve, field, frozen
+from attrs import Attribute, evolve, field, frozen
 
 from ...errors import DescriptionError
 from ...units import si
-from ...validators import Described, finite, non_negative, part
-from .shapes import Difference, Disc, Ring, Shape
+from ...validators import Described, finite, non_negative, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -30,7 +29,9 @@ __all__ = [
     "Face",
     "Hole",
     "HoleCells",
+    "Outline",
     "Pocket",
+    "distance_of_image",
     "face_from_image",
     "face_from_level",
     "face_from_mask",
@@ -42,6 +43,29 @@ FILM, RESERVOIR, SOLID = 0, -1, -2
 _FINER = 8
 
 
+class Outline(Protocol):
+    """A region of the plane, such as a `contactkit.scene.planforms.Planform`."""
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest x, largest x, smallest y and largest y [m]."""
+
+    @property
+    def circle(self) -> tuple[float, float, float] | None:
+        """Centre (x, y) and radius [m] of a disc; None of all others."""
+
+    def level(self, x: Any, y: Any) -> Array:
+        """Signed distance [m] of points to the edge, positive inside."""
+
+    def without_round_holes(self) -> tuple[Outline, Sequence[Outline]]:
+        """The region without the round holes in it, and these."""
+
+
+def _outline(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if not all(hasattr(value, name) for name in ("bounds", "circle", "level")):
+        raise refuse(owner, attribute, value, "be a planform, such as ck.Disc(radius=...)")
+
+
 @frozen(kw_only=True)
 class Hole(Described):
     """A hole in a face, held at a pressure: a vent, a feed, the recess of a hydrostatic pad.
@@ -51,13 +75,13 @@ class Hole(Described):
 
     Parameters
     ----------
-    shape : Shape
-        Its outline; a `Disc` may be smaller than a cell, other shapes must cover one.
+    shape : Outline
+        Its outline; a disc may be smaller than a cell, other shapes must cover one.
     pressure : float
         Pressure in the hole [Pa], from the same zero as that of the rim.
     """
 
-    shape: Shape = field(validator=part(Shape))
+    shape: Outline = field(validator=_outline)
     pressure: float = field(default=0.0, validator=finite, metadata=si("Pa"))
 
 
@@ -67,8 +91,8 @@ class Pocket(Described):
 
     Parameters
     ----------
-    shape : Shape
-        Its outline; a `Disc` may be smaller than a cell, other shapes must cover one.
+    shape : Outline
+        Its outline; a disc may be smaller than a cell, other shapes must cover one.
     volume : float
         Volume of liquid in it beyond that of the gap [m3].
     compressibility : float
@@ -79,7 +103,7 @@ class Pocket(Described):
     Its pressure acts on its area, which counts to the force.
     """
 
-    shape: Shape = field(validator=part(Shape))
+    shape: Outline = field(validator=_outline)
     volume: float = field(default=0.0, validator=non_negative, metadata=si("m3"))
     compressibility: float = field(default=0.0, validator=non_negative, metadata=si("1/Pa"))
 
@@ -184,7 +208,7 @@ class Face:
 
 
 def rasterise(
-    shape: Shape,
+    shape: Outline,
     cells: int = 256,
     *,
     holes: Sequence[Hole | Pocket] = (),
@@ -196,7 +220,7 @@ def rasterise(
 
     Parameters
     ----------
-    shape : Shape
+    shape : Outline
         Planform of the film.
     cells : int
         Cells along the longer side of the grid, with those outside the rim.
@@ -224,14 +248,15 @@ def rasterise(
 
     Examples
     --------
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> rasterise(Disc(radius=1e-3), 64).shape
     (64, 64)
     >>> vented = rasterise(Disc(radius=1e-3), 64, holes=[Hole(shape=Disc(radius=1e-6))])
     >>> print(*vented.notes)
     round hole of radius 1e-06 m at (0, 0) m: smaller than a cell of 3.22581e-05 m, as a point
     """
-    body, extra = _without_round_holes(shape, pressure)
+    body, round_holes = shape.without_round_holes()
+    extra = tuple(Hole(shape=hole, pressure=pressure) for hole in round_holes)
     if not isinstance(cells, int) or isinstance(cells, bool) or cells < 4:
         raise DescriptionError("rasterise.cells", cells, "be a whole number of at least 4")
     (x, dx), (y, dy) = _axes(body.bounds, window, cells, periodic)
@@ -365,7 +390,7 @@ def face_from_image(image: ArrayLike, pixel_size: float | tuple[float, float], *
         cure = "divide an image of 8 bits by 255"
         raise DescriptionError("face.image", bad, "lie between 0 and 1", hint=cure)
     size = (pixel_size, pixel_size) if isinstance(pixel_size, int | float) else pixel_size
-    return face_from_level(_distance(coverage, *size), size, **more)
+    return face_from_level(distance_of_image(coverage, size), size, **more)
 
 
 def _map(name: str, values: ArrayLike, shape: tuple[int, int] | None, unit: str) -> Array:
@@ -380,24 +405,6 @@ def _map(name: str, values: ArrayLike, shape: tuple[int, int] | None, unit: str)
         bad = float(given[~np.isfinite(given)].flat[0])
         raise DescriptionError(f"face.{name}", bad, "be finite in every cell", unit=unit)
     return given if shape is None else np.broadcast_to(given, shape)
-
-
-def _without_round_holes(shape: Shape, pressure: float) -> tuple[Shape, tuple[Hole, ...]]:
-    """Round holes of a planform as holes at the pressure of the reservoir."""
-    if isinstance(shape, Ring):
-        hole = Disc(radius=shape.hole_radius, centre=shape.centre)
-        whole = Disc(radius=shape.radius, centre=shape.centre)
-        return whole, (Hole(shape=hole, pressure=pressure),)
-    if isinstance(shape, Difference) and isinstance(shape.second, Disc):
-        body, holes = _without_round_holes(shape.first, pressure)
-        # One that cuts the rim is a notch, and none that the flow runs into from all around.
-        disc = shape.second
-        turn = np.linspace(0.0, 2.0 * np.pi, 64)
-        x = disc.centre[0] + disc.radius * np.cos(turn)
-        y = disc.centre[1] + disc.radius * np.sin(turn)
-        if (body.level(x, y) > 0.0).all():
-            return body, (*holes, Hole(shape=disc, pressure=pressure))
-    return shape, ()
 
 
 def _axes(
@@ -439,8 +446,8 @@ def _with_hole(face: Face, hole: Hole | Pocket) -> Face:
         cure = "holes that meet are one: give the union of their shapes"
         raise DescriptionError("hole.shape", hole.shape, "not overlap another hole", hint=cure)
     circles, circle, notes = face.circles, face.circle, face.notes
-    if isinstance(hole.shape, Disc):
-        (x, y), radius = hole.shape.centre, hole.shape.radius
+    if hole.shape.circle is not None:
+        x, y, radius = hole.shape.circle
         if not covered.any():
             covered, note = _point(face, x, y, radius)
             notes = (*notes, note)
@@ -475,7 +482,7 @@ def _with_hole(face: Face, hole: Hole | Pocket) -> Face:
     )
 
 
-def _area_of_hole(face: Face, shape: Shape, level: Array) -> float:
+def _area_of_hole(face: Face, shape: Outline, level: Array) -> float:
     """Area of a hole [m2] in the film and within the grid."""
     low_x, high_x, low_y, high_y = shape.bounds
     (dy, dx), (ny, nx) = face.pixel_size, face.shape
@@ -483,11 +490,11 @@ def _area_of_hole(face: Face, shape: Shape, level: Array) -> float:
     near = 1e-9 * (high_x - low_x)
     within = (low_x >= left - near) and (high_x <= left + nx * dx + near)
     within &= (low_y >= bottom - near) and (high_y <= bottom + ny * dy + near)
-    if isinstance(shape, Disc) and within and (face.level > 0.0)[level > 0.0].all():
-        return float(np.pi * shape.radius**2)
-    if isinstance(shape, Disc) and not (level > 0.0).any():
+    if shape.circle is not None and within and (face.level > 0.0)[level > 0.0].all():
+        return float(np.pi * shape.circle[2] ** 2)
+    if shape.circle is not None and not (level > 0.0).any():
         window = (left, left + nx * dx, bottom, bottom + ny * dy)
-        return _fraction_in_window(shape, window) * float(np.pi * shape.radius**2)
+        return _fraction_in_window(shape.circle, window) * float(np.pi * shape.circle[2] ** 2)
     # Cells of an eighth, those at its edge by their distance to it.
     columns = np.flatnonzero((face.x[0] > low_x - dx) & (face.x[0] < high_x + dx))
     rows = np.flatnonzero((face.y[:, 0] > low_y - dy) & (face.y[:, 0] < high_y + dy))
@@ -500,9 +507,11 @@ def _area_of_hole(face: Face, shape: Shape, level: Array) -> float:
     return float(part.sum()) * face.cell_area / _FINER**2
 
 
-def _fraction_in_window(disc: Disc, window: tuple[float, float, float, float]) -> float:
+def _fraction_in_window(
+    disc: tuple[float, float, float], window: tuple[float, float, float, float]
+) -> float:
     """Fraction of a small disc within a window; centres on its edges count a half or a quarter."""
-    (x, y), radius = disc.centre, disc.radius
+    x, y, radius = disc
     whole = 1.0
     for place, low, high in ((x, window[0], window[1]), (y, window[2], window[3])):
         if min(place - low, high - place) < 1e-9 * radius:
@@ -524,12 +533,12 @@ def _point(face: Face, x: float, y: float, radius: float) -> tuple[NDArray[np.bo
     return covered, f"{place}: smaller than a cell of {max(dx, dy):g} m, as a point"
 
 
-def _distance(coverage: Array, height: float, width: float) -> Array:
-    """Signed distance to the rim of a grey image."""
+def distance_of_image(coverage: Array, size: tuple[float, float]) -> Array:
+    """Signed distance to the rim of a grey image [m], of pixels of a height and a width [m]."""
     from scipy.ndimage import distance_transform_edt, sobel
 
+    height, width = size
     film = coverage > 0.5
-    size = (height, width)
     half = 0.5 * min(size)
     plain = np.where(
         film,

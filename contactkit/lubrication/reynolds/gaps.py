@@ -8,40 +8,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from attrs import field, frozen
 
 from ...errors import DescriptionError
 from ...units import si
-from ...validators import Described, finite, part, positive
-from .shapes import Shape
+from ...validators import Described, finite, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from .face import Face
+    from .face import Face, Outline
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Recess", "Waviness", "gap_map"]
+__all__ = ["Deepening", "Waviness", "gap_map"]
 
 
-@frozen(kw_only=True)
-class Recess(Described):
-    """A region of a face that is deeper than the rest: a groove, a dimple, a pocket with a floor.
+class Deepening(Protocol):
+    """A region that is deeper than the rest, such as a `contactkit.scene.faces.Recess`."""
 
-    Parameters
-    ----------
-    shape : Shape
-        Its outline.
-    depth : float
-        Depth below the face [m].
-    """
+    @property
+    def shape(self) -> Outline:
+        """Its outline."""
 
-    shape: Shape = field(validator=part(Shape))
-    depth: float = field(validator=positive, metadata=si("m"))
+    @property
+    def depth(self) -> float:
+        """Depth below the face [m]."""
 
 
 @frozen(kw_only=True)
@@ -73,7 +68,7 @@ def gap_map(
     tilt: tuple[float, float] = (0.0, 0.0),
     dome_radius: float = math.inf,
     waves: Sequence[Waviness] = (),
-    recesses: Sequence[Recess] = (),
+    recesses: Sequence[Deepening] = (),
     heights: ArrayLike = 0.0,
 ) -> Array:
     r"""Gap between two faces [m].
@@ -93,7 +88,7 @@ def gap_map(
         Radius of curvature R of a dome [m]; negative for a hollow one.
     waves : sequence of Waviness
         Waves.
-    recesses : sequence of Recess
+    recesses : sequence of Deepening
         Recesses; where they overlap, the deepest counts.
     heights : array_like, shape () or (ny, nx)
         Heights s of both faces towards each other [m], such as measured roughness.
@@ -106,7 +101,7 @@ def gap_map(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=1e-3), 32)
     >>> tilted = gap_map(face, 1e-5, tilt=(1e-3, 0.0))
     >>> bool((tilted[:, -1] > tilted[:, 0]).all())

@@ -72,7 +72,7 @@ def follow_gap(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=1e-3), 24)
     >>> film = Film(face=face, viscosity=0.1, cavity_pressure=-1e5)
     >>> states = follow_gap(film, lambda t: 1e-5 + 1e-3 * t, [0.0, 1e-4, 2e-4])

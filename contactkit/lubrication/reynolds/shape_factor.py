@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import evolve
@@ -27,10 +27,37 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["face_damping", "rough_damping", "tabulate_damping"]
+__all__ = ["UnitDamping", "face_damping", "rough_damping", "tabulate_damping", "unit_damping"]
 
 POINTS = 24
 """Gaps of a table, evenly spaced in their logarithms."""
+
+
+class UnitDamping(NamedTuple):
+    """Film of unit viscosity that opens at unit speed."""
+
+    coefficient: float
+    """Damping over viscosity [m]."""
+    mean_inverse_gap: float
+    """Mean of 3/h weighted by the dissipation, -d ln c/dh [1/m]."""
+    onset: float
+    """Largest pressure deficit over viscosity and speed [1/m]."""
+
+
+def unit_damping(face: Face, gap: Array, solver: str | None = None) -> UnitDamping:
+    """Damping of a film of one gap map, by one solution.
+
+    Examples
+    --------
+    >>> from contactkit.lubrication.reynolds.face import rasterise
+    >>> from contactkit.scene.planforms import Disc
+    >>> face = rasterise(Disc(radius=1.0), 48)
+    >>> abs(unit_damping(face, np.ones(face.shape)).coefficient / (1.5 * np.pi) - 1.0) < 3e-3
+    True
+    """
+    state = _unit_state(face, gap, solver)
+    onset = float(-state.pressure[face.loaded].min())
+    return UnitDamping(state.force, _mean_inverse_gap(state), onset)
 
 
 def face_damping(face: Face, *, copies: int = 1, solver: str | None = None) -> PowerDamping:
@@ -55,14 +82,13 @@ def face_damping(face: Face, *, copies: int = 1, solver: str | None = None) -> P
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Ring
+    >>> from contactkit.scene.planforms import Ring
     >>> law = face_damping(rasterise(Ring(radius=1.0, hole_radius=0.3), 64))
     >>> abs(law.shape_factor / 1.433008 - 1.0) < 3e-3
     True
     """
-    state = _unit_state(face, np.ones(face.shape), solver)
-    onset = float(-state.pressure[face.loaded].min())
-    terms = ((copies * state.force, onset, 0.0),)
+    found = unit_damping(face, np.ones(face.shape), solver)
+    terms = ((copies * found.coefficient, found.onset, 0.0),)
     area = copies * float(face.loaded.sum()) * face.cell_area
     cells = "x".join(map(str, face.shape))
     return PowerDamping(area=area, terms=terms, source=f"Reynolds' equation, {cells} cells")
@@ -109,7 +135,7 @@ def tabulate_damping(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=1e-3), 24)
     >>> law = tabulate_damping(face, (1e-6, 1e-4), (face.x**2 + face.y**2) / 2.0, points=8)
     >>> 1.0 < law.exponent(1e-7) < law.exponent(1e-5) < law.exponent(1e-3) < 3.0
@@ -120,10 +146,10 @@ def tabulate_damping(
     nodes = _nodes(gaps, offset, points)
     coefficients, exponents, onsets = [], [], []
     for gap in nodes:
-        state = _unit_state(face, added + gap, solver)
-        coefficients.append(copies * state.force)
-        exponents.append((gap + offset) * _mean_inverse_gap(state))
-        onsets.append(float(-state.pressure[face.loaded].min()))
+        found = unit_damping(face, added + gap, solver)
+        coefficients.append(copies * found.coefficient)
+        exponents.append((gap + offset) * found.mean_inverse_gap)
+        onsets.append(found.onset)
     cells = "x".join(map(str, face.shape))
     return TabulatedDamping(
         area=copies * float(face.loaded.sum()) * face.cell_area,
@@ -181,7 +207,7 @@ def rough_damping(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=1e-3), 24)
     >>> ridges = 1e-6 * np.cos(2.0 * np.pi * np.arange(32) / 32) * np.ones((4, 1))
     >>> law = rough_damping(face, (2e-6, 1e-4), ridges, 1e-6, points=6)

@@ -67,6 +67,8 @@ class Task(NamedTuple):
     has_memory: bool
     """Whether voids store liquid and are carried; else the floor is that of Swift and Stieber."""
     solver: str | None
+    full: NDArray[np.bool_] | None = None
+    """Guess of the full cells; None: those that are full before the step."""
 
 
 def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> FilmState:
@@ -89,7 +91,7 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Rectangle
+    >>> from contactkit.scene.planforms import Rectangle
     >>> face = rasterise(Rectangle(length=1e-3, width=1e-3), 18)
     >>> round(at_rest(Film(face=face, viscosity=0.1), 1e-6).liquid_volume, 18)
     1e-12
@@ -162,7 +164,7 @@ def solve_pressure(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> from contactkit.lubrication.squeeze_film import disc_force
     >>> face = rasterise(Disc(radius=3.175e-3), 64)
     >>> state = solve_pressure(Film(face=face, viscosity=0.1), 1e-5, 1e-5)
@@ -181,8 +183,12 @@ def unchecked_pressure(
     rate: ArrayLike = 0.0,
     velocities: tuple[Velocity, Velocity] = (_AT_REST, _AT_REST),
     solver: str | None = None,
+    full: NDArray[np.bool_] | None = None,
 ) -> FilmState:
-    """See `solve_pressure`, without its numbers of validity: of unit films."""
+    """See `solve_pressure`, without its numbers of validity: of unit films.
+
+    `full` is a guess of the cells without a cavity, (ny, nx).
+    """
     face = film.face
     lower_velocity, upper_velocity = velocities
     height = checked_gap(face, gap)
@@ -199,6 +205,7 @@ def unchecked_pressure(
         dt=math.inf,
         has_memory=False,
         solver=solver,
+        full=full,
     )
     balance, found = _solve(task)
     state = _state(task, balance, found._replace(void=np.zeros_like(found.void)))
@@ -303,7 +310,7 @@ def step_film(
     Examples
     --------
     >>> from contactkit.lubrication.reynolds.face import rasterise
-    >>> from contactkit.lubrication.reynolds.shapes import Disc
+    >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=3.175e-3), 32)
     >>> film = Film(face=face, viscosity=0.1, cavity_pressure=-1e6)
     >>> before = at_rest(film, 5e-6)
@@ -325,8 +332,12 @@ def unchecked_step(
     dt: float,
     velocities: tuple[Velocity, Velocity] = (_AT_REST, _AT_REST),
     solver: str | None = None,
+    full: NDArray[np.bool_] | None = None,
 ) -> FilmState:
-    """See `step_film`, without its numbers of validity: of trial steps."""
+    """See `step_film`, without its numbers of validity: of trial steps.
+
+    `full` is a guess of the cells without a cavity, (ny, nx).
+    """
     film, face = state.film, state.film.face
     lower_velocity, upper_velocity = velocities
     if not (0.0 < dt < math.inf):
@@ -344,6 +355,7 @@ def unchecked_step(
         dt=dt,
         has_memory=True,
         solver=solver,
+        full=full,
     )
     torn = state.is_torn
     balance, found = _solve(task)
@@ -504,7 +516,7 @@ def _is_full(task: Task) -> NDArray[np.bool_]:
 def _solve(task: Task) -> tuple[Balance, Solution]:
     """Active set from the guess; then from that of a coarser grid; then Fischer-Burmeister."""
     balance, problem = _problem(task)
-    full = _at_unknowns(balance.mesh, _is_full(task))
+    full = _at_unknowns(balance.mesh, _is_full(task) if task.full is None else task.full)
     is_small = max(task.face.shape) < SMALLEST_GRID
     found = solve_active_set(problem, full, 99 if is_small else PATIENCE)
     count = found.iterations
@@ -532,6 +544,7 @@ def _guess_from_coarser(task: Task) -> NDArray[np.bool_] | None:
         # Outside the planform all is full, and so are cells that are partly outside.
         fraction=block_means(task.fraction),
         pressure=block_means(task.pressure),
+        full=None if task.full is None else block_means(task.full * 1.0) >= 0.5,
     )
     balance, found = _solve(coarse)
     full = np.ones(face.level.size, bool)

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
+from collections.abc import Callable
+from functools import partial, singledispatch
 from importlib import import_module
-from inspect import isfunction
+from inspect import isfunction, signature
 from typing import Any, Generic, TypeVar
 
+from ...scene.figures import Drawn
 from ...scene.tabular import Tabular
 from ..curves import curve_names, curves
 from ..style import Axes
 
-__all__ = ["CurveFigures", "Figures", "figures_of", "of_absent_effects", "registered_figures"]
+__all__ = [
+    "CurveFigures",
+    "Figures",
+    "figures_of",
+    "of_absent_effects",
+    "pictures",
+    "registered_figures",
+]
 
 _ROOMS = ("analyses", "contact", "separation", "studies")  # each with a module of figures here
 
@@ -44,6 +53,11 @@ def figures_of(owner: Any) -> Figures[Any]:
     return registered_figures(owner)
 
 
+def pictures(owner: Any) -> dict[str, Callable[[], Axes]]:
+    """Figures that runs and pages draw of a result or a plan, by name; none of what has none."""
+    return figures_of(owner).pictures() if isinstance(owner, Drawn) else {}
+
+
 class Figures(Generic[T]):
     """Figures of one object as methods; those in a plane take ``ax=`` and return the axes.
 
@@ -57,7 +71,7 @@ class Figures(Generic[T]):
     @property
     def available(self) -> tuple[str, ...]:
         """Names of the figures that can be drawn."""
-        hidden = self._hidden()
+        hidden = self._hidden() | {"pictures"}
         offered = (pair for kind in reversed(type(self).__mro__) for pair in vars(kind).items())
         figures = dict.fromkeys(n for n, one in offered if n[0] != "_" and isfunction(one))
         return tuple(name for name in figures if name not in hidden)
@@ -65,6 +79,11 @@ class Figures(Generic[T]):
     def _hidden(self) -> frozenset[str]:
         """Names of methods that this object has nothing for."""
         return frozenset()
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """Figures in a plane that need no argument, by name: what runs and pages draw."""
+        found = {name: getattr(self, name) for name in self.available}
+        return {name: draw for name, draw in found.items() if _needs_nothing(draw)}
 
     def __dir__(self) -> list[str]:
         offered = [name for name in object.__dir__(self) if name[0] != "_"]
@@ -74,8 +93,26 @@ class Figures(Generic[T]):
         return f"figures: {', '.join(self.available)}"
 
 
+def _needs_nothing(draw: Callable[..., Any]) -> bool:
+    """Whether a figure goes on axes, and has a default for everything else."""
+    known = signature(draw).parameters
+    return "ax" in known and all(one.default is not one.empty for one in known.values())
+
+
+@registered_figures.register(Tabular)
 class CurveFigures(Figures[C]):
-    """Figures of curves by their names."""
+    """Figures of curves by their names; those of a result that has no others."""
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`; without any, all curves of a unit in a figure."""
+        if found := super().pictures():
+            return found
+        quantities = self._owner.contents().quantities
+        units: dict[str, list[str]] = {}
+        for name in self.curve_names:
+            if name not in quantities[name].axes:
+                units.setdefault(quantities[name].unit, []).append(name)
+        return {names[0]: partial(self.curves, *names) for names in units.values()}
 
     def curves(self, *names: str, over: str = "", ax: Axes | None = None) -> Axes:
         """Draw curves of one unit over another one.

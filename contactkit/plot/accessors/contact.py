@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 from ...analyses.subsurface import MeasureName
@@ -12,7 +14,7 @@ from .. import contact as of_contact
 from .. import maps, plastic_history, slip, stress, view3d
 from ..explore import Explorer, explore
 from ..roughness import heights_map
-from ..style import Axes
+from ..style import Axes, figure
 from .base import Figures, of_absent_effects, registered_figures
 
 if TYPE_CHECKING:
@@ -27,6 +29,14 @@ class ContactFigures(Figures[ContactResult]):
 
     def _hidden(self) -> frozenset[str]:
         return of_absent_effects(self._owner.plan)
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`; also the maps of effects that have no figures of their own."""
+        result = self._owner
+        kinds = [kind for kind in result.parts if not kind.figures]
+        arrays = [one for kind in kinds for one in kind.arrays if one.unit != "-"]
+        shown = {one.name for one in arrays} & set(maps.map_names(result))
+        return super().pictures() | {name: partial(self.map, name) for name in sorted(shown)}
 
     def pressure(self, *, ax: Axes | None = None) -> Axes:
         """Draw the map of the pressure; white where there is neither contact nor attraction."""
@@ -64,6 +74,13 @@ class ContactFigures(Figures[ContactResult]):
         ax: Axes | None = None,
     ) -> Axes:
         """Draw contours of the stress below the maximum pressure; see `plot.stress.below`."""
+        return stress.below(self._owner, measure, ax, depth=depth)
+
+    def stress_close_up(
+        self, measure: MeasureName = "von_mises", *, ax: Axes | None = None
+    ) -> Axes:
+        """Draw contours of the stress in the upper fifth of the depth of `stress`: its layers."""
+        depth = 0.2 * stress.depth_shown(self._owner)
         return stress.below(self._owner, measure, ax, depth=depth)
 
     def surface_3d(
@@ -106,22 +123,38 @@ class ContactPlanFigures(Figures[ContactPlan]):
     """Figures of a contact before it is solved."""
 
     def _hidden(self) -> frozenset[str]:
-        bodies = (self._owner.scene.interface.lower, self._owner.scene.interface.upper)
-        return frozenset() if any(one.stack for one in bodies) else frozenset({"stack"})
+        interface = self._owner.scene.interface
+        bodies = {"stack": interface.lower, "upper_stack": interface.upper}
+        return frozenset(name for name, body in bodies.items() if body.stack is None)
 
     def heights(self, *, ax: Axes | None = None) -> Axes:
         """Draw the map of the heights of both bodies."""
         return heights_map(self._owner.heights, self._owner.grid.pixel_size, ax)
 
-    def stack(self, body: Literal["lower", "upper"] = "lower", *, ax: Axes | None = None) -> Axes:
-        """Draw the layers of a body, not to scale.
+    def stack(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the layers of the lower body, not to scale.
 
         Raises
         ------
         PlanError
             If the body is rigid.
         """
+        return self._section("lower", ax)
+
+    def upper_stack(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the layers of the upper body, not to scale.
+
+        Raises
+        ------
+        PlanError
+            If the body is rigid.
+        """
+        return self._section("upper", ax)
+
+    def _section(self, body: Literal["lower", "upper"], ax: Axes | None) -> Axes:
         stack = getattr(self._owner.scene.interface, body).stack
         if stack is None:
             raise PlanError(f"the {body} body is rigid: give interface.{body}.solid, a Stack")
+        if ax is None:
+            ax = figure(size=(6.0, 0.9 * len(stack.materials) + 0.6))[1]
         return of_contact.stack_section(stack, ax, f"{body} body (not to scale)")

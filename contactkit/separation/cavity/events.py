@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from ...lubrication.disc_cavity import receding_edge
 from ...lubrication.torn_film import (
@@ -18,7 +18,7 @@ from ...lubrication.torn_film import (
     void_within,
 )
 from ...numerics.events import EventStep, step_to_event
-from .law import CavityLaw
+from .disc_film import DiscFilm
 from .stages import CavityStages
 from .state import FULL, Cavity, Phase
 
@@ -33,6 +33,19 @@ __all__ = [
 ]
 
 S = TypeVar("S")
+
+
+class Tense(Protocol):
+    """Film that cavitates where its tension reaches its strength."""
+
+    @property
+    def strength(self) -> float:
+        """Tension at which the whole liquid cavitates [Pa], as a drop below ambient pressure."""
+
+    def tension(self, gap: float, speed: float, void: float = 0.0) -> float:
+        """Highest tension in the full film [Pa] at a gap [m] and a speed [m/s]."""
+
+
 _HEALED = 1e-9  # void over the film at which it counts as full
 _NOTHING = 1e-8  # the same of a cavity that never was deeper than `_SHALLOW`
 _SAME = 1e-12  # squares of the edge that are closer, relatively, are one
@@ -40,12 +53,12 @@ _SHALLOW = 1e-6  # depth of the void at the edge, over the gap, where round-off 
 _RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than rounding
 
 
-def is_torn_by(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> bool:
+def is_torn_by(law: Tense, cavity: Cavity, gap: float, speed: float) -> bool:
     """Whether a full film tears at a gap [m] and a speed [m/s]."""
     return cavity.phase is Phase.FULL and law.tension(gap, speed) >= law.strength
 
 
-def born(law: CavityLaw, gap: float, speed: float) -> Cavity:
+def born(law: DiscFilm, gap: float, speed: float) -> Cavity:
     """Cavity that opens at once where the liquid tears: from its strength to its cavity."""
     rim, _ = law.rim(gap, 0.0)
     fraction = receding_edge(law.tension(gap, speed) / law.drop)
@@ -54,7 +67,7 @@ def born(law: CavityLaw, gap: float, speed: float) -> Cavity:
 
 
 def beyond_event(
-    law: CavityLaw,
+    law: DiscFilm,
     cavity: Cavity,
     solved: CavityStages | None,
     begin: tuple[float, float],
@@ -112,7 +125,7 @@ def first_event(
     return step_to_event(attempt, lambda one: beyond(one)[1], behind, taken, length, enough)
 
 
-def _nothing(law: CavityLaw, cavity: Cavity, gap: float) -> float:
+def _nothing(law: DiscFilm, cavity: Cavity, gap: float) -> float:
     """Void [m3] up to which a film counts as full."""
     rim, _ = law.rim(gap, cavity.void)
     film = math.pi * rim * gap
@@ -144,7 +157,7 @@ def after_step(
     return cavity._replace(void=void, fraction=spot.fraction, torn=torn, largest=largest)
 
 
-def after_event(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cavity:
+def after_event(law: DiscFilm, cavity: Cavity, gap: float, speed: float) -> Cavity:
     """Cavity after the event at the end of a step, at a gap [m] and a speed [m/s]."""
     if cavity.phase is Phase.FULL:
         return born(law, gap, speed)
@@ -157,7 +170,7 @@ def after_event(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cav
     return cavity._replace(phase=Phase.RECEDING, torn=torn)
 
 
-def after_jump(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Cavity:
+def after_jump(law: DiscFilm, cavity: Cavity, gap: float, speed: float) -> Cavity:
     """Cavity at a gap [m] after the speed has jumped to another one [m/s].
 
     The full film tears, or the edge jumps to where the liquid then recedes from it, at one gap; if

@@ -10,16 +10,8 @@ from ...errors import ConvergenceError
 from ...numerics.events import EventStep
 from ...numerics.step_size import StepSize
 from ..integrator.tableau import NODES, WEIGHTS
-from .events import (
-    after_event,
-    after_jump,
-    after_step,
-    beyond_event,
-    first_event,
-    is_torn_by,
-)
-from .law import CavityLaw
-from .stages import CavityStages, solved_stages
+from .events import first_event, is_torn_by
+from .law import Cavitation, SolvedStages
 from .state import Cavity, Phase
 
 __all__ = ["PathPoint", "along_path"]
@@ -48,7 +40,7 @@ class PathPoint(NamedTuple):
 class _Try(NamedTuple):
     """A step of a path: its voids, or None for a film that is full; begin, and stages."""
 
-    solved: CavityStages | None
+    solved: SolvedStages | None
     begin: tuple[float, float]
     places: list[tuple[float, float]]
 
@@ -58,7 +50,7 @@ class _Try(NamedTuple):
 
 
 def along_path(
-    law: CavityLaw,
+    law: Cavitation,
     cavity: Cavity,
     place: Place,
     begin: float,
@@ -92,11 +84,12 @@ def along_path(
         If no step meets the tolerance, or there are more of them than that.
     """
     time, planned = begin, step or _FIRST * (end - begin)
-    cavity = after_jump(law, cavity, *place(begin))
+    cavity = law.after_jump(cavity, *place(begin))
+    rtol = law.time_rtol(rtol)
     for _ in range(most_steps):
         here = place(time)
         if is_torn_by(law, cavity, *here):
-            cavity = after_event(law, cavity, *here)
+            cavity = law.after_event(cavity, *here)
             yield PathPoint(time, cavity, 0.0, planned)
         if end - time <= 1e-14 * abs(end):
             return
@@ -109,12 +102,12 @@ def along_path(
             (taken, length), whole = cut, length
             planned = max(length, 1e-3 * whole)
         if length > 0.0:
-            cavity, impulse = _after(cavity, taken, length)
+            cavity, impulse = _after(law, cavity, taken, length)
             time = end if length >= (end - time) * (1.0 - 1e-14) else time + length
         else:
             impulse = 0.0
         if cut is not None:
-            cavity = after_event(law, cavity, *(taken.end if length > 0.0 else taken.begin))
+            cavity = law.after_event(cavity, *(taken.end if length > 0.0 else taken.begin))
         yield PathPoint(time, cavity, impulse, planned)
     raise ConvergenceError(
         f"{most_steps} steps of the cavity led from {begin:g} s to {time:g} s, not to {end:g} s; "
@@ -123,26 +116,28 @@ def along_path(
     )
 
 
-def _after(cavity: Cavity, taken: _Try, length: float) -> tuple[Cavity, float | None]:
+def _after(
+    law: Cavitation, cavity: Cavity, taken: _Try, length: float
+) -> tuple[Cavity, float | None]:
     """Cavity after a step, and its impulse [N.s]; None of a full film."""
     if taken.solved is None:
         return cavity, None
     forces = zip(WEIGHTS, taken.solved.forces, strict=True)
     impulse = length * sum(weight * held.force for weight, held in forces)
     gaps = [gap for gap, _ in taken.places]
-    return after_step(cavity, taken.solved, taken.begin[0], gaps), impulse
+    return law.after_step(cavity, taken.solved, taken.begin[0], gaps), impulse
 
 
-def _attempt(law: CavityLaw, cavity: Cavity, place: Place, time: float, dt: float) -> _Try | None:
+def _attempt(law: Cavitation, cavity: Cavity, place: Place, time: float, dt: float) -> _Try | None:
     begin, places = place(time), [place(time + node * dt) for node in NODES]
     if cavity.phase is Phase.FULL:
         return _Try(None, begin, places)
-    solved = solved_stages(law, cavity, begin, dt, places)
+    solved = law.stages(cavity, begin, dt, places)
     return None if solved is None else _Try(solved, begin, places)
 
 
 def _accepted(
-    law: CavityLaw, cavity: Cavity, place: Place, time: float, length: float, rtol: float
+    law: Cavitation, cavity: Cavity, place: Place, time: float, length: float, rtol: float
 ) -> tuple[_Try, float, float]:
     """Longest step that meets the tolerance, its length [s] and its error over the tolerance."""
     for _ in range(80):
@@ -158,12 +153,12 @@ def _accepted(
 
 
 def _cut(
-    law: CavityLaw, cavity: Cavity, place: Place, time: float, taken: _Try, length: float
+    law: Cavitation, cavity: Cavity, place: Place, time: float, taken: _Try, length: float
 ) -> EventStep[_Try] | None:
     """Step that ends at the first event, and its length; None if there is none."""
 
     def both(one: _Try) -> tuple[float, float]:
-        return beyond_event(law, cavity, one.solved, one.begin, one.places)
+        return law.beyond_event(cavity, one.solved, one.begin, one.places)
 
     return first_event(
         lambda dt: _attempt(law, cavity, place, time, dt), both, taken, length, _EVENT

@@ -20,7 +20,7 @@ from ...lubrication.disc_cavity import film_ring, inflow, receding_edge
 from ...lubrication.torn_film import edge_of
 from ...numerics.three import Three, solved_three
 from ..integrator.tableau import ERROR, GAMMA, STAGES
-from .law import CavityLaw
+from .disc_film import DiscFilm
 from .state import Cavity, Phase
 
 __all__ = [
@@ -74,7 +74,7 @@ class CavityStages(NamedTuple):
     error: float
 
 
-def spot_at(law: CavityLaw, cavity: Cavity, gap: float, speed: float, void: float) -> Spot:
+def spot_at(law: DiscFilm, cavity: Cavity, gap: float, speed: float, void: float) -> Spot:
     """Edge of the cavity at a gap [m], a speed [m/s] and a void [m3], in the phase it is in."""
     rim, rim_by_void = law.rim(gap, void)
     k = law.conductance(gap)
@@ -93,7 +93,7 @@ def spot_at(law: CavityLaw, cavity: Cavity, gap: float, speed: float, void: floa
     return Spot(edge / rim, edge, rim, flow.growth, by_void, flow.returns)
 
 
-def force_at(law: CavityLaw, spot: Spot, gap: float, speed: float) -> CavityForce:
+def force_at(law: DiscFilm, spot: Spot, gap: float, speed: float) -> CavityForce:
     """Force of the films with a cavity at a gap [m] and a speed [m/s]."""
     ring = film_ring(spot.fraction, spot.rim_square, law.conductance(gap), law.drop, speed)
     n = law.menisci
@@ -108,7 +108,7 @@ class ShownCavity(NamedTuple):
     void: float
 
 
-def shown_cavity(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> ShownCavity:
+def shown_cavity(law: DiscFilm, cavity: Cavity, gap: float, speed: float) -> ShownCavity:
     """Force and cavity of the films at a gap [m] and a speed [m/s], with the void it has."""
     spot = spot_at(law, cavity, gap, speed, cavity.void)
     force = force_at(law, spot, gap, speed).force
@@ -116,7 +116,7 @@ def shown_cavity(law: CavityLaw, cavity: Cavity, gap: float, speed: float) -> Sh
 
 
 def solved_stages(
-    law: CavityLaw,
+    law: DiscFilm,
     cavity: Cavity,
     begin: tuple[float, float],
     dt: float,

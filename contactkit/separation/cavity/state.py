@@ -24,7 +24,8 @@ class Cavity(NamedTuple):
 
     `void` is the volume without liquid [m3], `fraction` that of the disc within the edge, (c/R)^2;
     `torn` remembers at which gap each radius was torn, and `largest` is the largest void
-    that it had [m3].
+    that it had [m3]. Of a face that is no disc, `liquid` has the thickness of the liquid [m] in
+    each cell of its grid, in place of `torn`.
     """
 
     phase: Phase = Phase.FULL
@@ -32,6 +33,7 @@ class Cavity(NamedTuple):
     fraction: float = 0.0
     torn: Torn = ()
     largest: float = 0.0
+    liquid: tuple[tuple[float, ...], ...] = ()
 
 
 FULL = Cavity()
@@ -43,9 +45,10 @@ def restored_cavity(saved: Sequence[Any]) -> Cavity:
 
     Examples
     --------
-    >>> restored_cavity([0, 0.0, 0.0, [], 0.0]) == FULL
+    >>> restored_cavity([0, 0.0, 0.0, [], 0.0, []]) == FULL
     True
     """
-    phase, void, fraction, torn, largest = saved
+    phase, void, fraction, torn, largest, liquid = saved
     pieces = tuple(tuple(float(number) for number in piece) for piece in torn)
-    return Cavity(Phase(phase), float(void), float(fraction), pieces, float(largest))
+    rows = tuple(tuple(float(number) for number in row) for row in liquid)
+    return Cavity(Phase(phase), float(void), float(fraction), pieces, float(largest), rows)

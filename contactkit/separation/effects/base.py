@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene, SlidingScene
     from ...validity import ValidityNumber
-    from ..cavity.law import CavityLaw
+    from ..cavity.law import Cavitation
     from .prepared import PreparedScene
 
     Curve = NDArray[np.float64]
@@ -325,7 +325,7 @@ class FilmLimit(SeparationEffect):
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """Do the work that depends on neither gap nor speed."""
 
-    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> CavityLaw | None:
+    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
         """Film that tears, for a limit with a memory; it then has no `Limiter`."""
         return None
 

@@ -49,7 +49,7 @@ def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
         wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
         return () if wetting > 0.0 else ("contact angles that add up to less than 180 deg",)
     if interface.is_flat and meniscus.volume is None and math.isinf(interface.rim_radius):
-        return ("interface.meniscus.volume [m3], or the radius [m] of a Flat face",)
+        return ("interface.meniscus.volume [m3], or the radius [m] or planform of a Flat face",)
     return ()
 
 
@@ -61,7 +61,7 @@ def film_shape(
     n = meniscus.count
     volume = math.inf if meniscus.volume is None else meniscus.volume / n
     # The faces are shared out: n films, each with its part of the area.
-    rim = _face_radius(scene) / math.sqrt(n)
+    rim = scene.interface.rim_radius / math.sqrt(n)
     pressure = scene.liquid_pressure
     if pressure is not None:
         return _at_pressure(scene, liquid.surface_tension, pressure, rim)
@@ -74,12 +74,6 @@ def film_shape(
         height = float(squeeze.sphere_film_height(start, volume, sphere))
         rim, volume = min(rim, math.sqrt(2.0 * sphere * (height - start))), math.inf
     return under_sphere(n, volume, rim, sphere)
-
-
-def _face_radius(scene: SeparationScene | SlidingScene) -> float:
-    """Radius [m] of the face, or of a disc as large as the one that an effect brings."""
-    brought = (getattr(effect, "face_radius", None) for effect in scene.effects)
-    return next((radius for radius in brought if radius), scene.interface.rim_radius)
 
 
 def between_flats(n: int, volume: float, rim: float) -> FilmShape:

@@ -63,7 +63,7 @@ def film_numbers(
     strength : float
         Tension at which the liquid tears [Pa], below ambient pressure; inf if it never does.
     """
-    loads = list(_loads(film, prepared.liquid.viscosity, path, strength))
+    loads = list(_loads(prepared, film, path, strength))
     return (
         _compression(prepared, loads),
         *_soft_faces(prepared, loads),
@@ -72,14 +72,21 @@ def film_numbers(
 
 
 def _loads(
-    film: FilmShape, viscosity: float, path: Sequence[tuple[float, float]], strength: float
+    prepared: PreparedScene[SeparationScene],
+    film: FilmShape,
+    path: Sequence[tuple[float, float]],
+    strength: float,
 ) -> Iterator[_Load]:
-    is_flat = math.isinf(film.sphere_radius)
+    is_flat, face = math.isinf(film.sphere_radius), prepared.face_film
+    viscosity = prepared.liquid.viscosity
     for gap, speed in path:
         if speed < 0.0 and math.isfinite(strength):
             continue
         rate, radius, height = viscosity * abs(speed), film.radius(gap), film.height(gap)
-        if is_flat:
+        if face is not None:
+            pressure, spread = rate * face.onset(gap), radius
+            deflection = 4.0 / 3.0 * pressure * radius
+        elif is_flat:
             pressure, spread = _between_flats(rate, gap, radius), radius
             deflection = 4.0 / 3.0 * pressure * radius
         else:

@@ -133,7 +133,7 @@ class MeniscusForce(SeparationForce):
             return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
-        if self.profile == "as-published" and not scene.interface.lower.surface.is_flat:
+        if self.profile == "as-published" and scene.interface.curvatures[0]:
             missing += ("the sphere as the upper body: Eq. (3.12) is printed for that",)
         return missing + needs_extent(scene)
 

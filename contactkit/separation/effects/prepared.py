@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from attrs import evolve, frozen
 
 from ...accuracy import Accuracy
 from ...errors import PlanError
+from ...scene.loading import Sliding
 from .film_shape import FilmShape, film_shape
 
 if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
+    from ..face.film import FaceFilm
 
 __all__ = [
     "Angles",
@@ -63,6 +66,18 @@ class PreparedScene(Generic[S_co]):
     def curvatures(self) -> Curvatures:
         """Curvatures of the bodies [1/m]."""
         return Curvatures(*self.scene.interface.curvatures)
+
+    @cached_property
+    def face_film(self) -> FaceFilm | None:
+        """Full film on a face that is no disc; None between discs and under a sphere on one."""
+        loading = self.scene.loading
+        if self.scene.interface.has_discs or isinstance(loading, Sliding):
+            return None
+        from ..face.film import face_film
+        from ..face.shape import shape_of
+
+        gaps = loading.smallest_gap, loading.final_gap
+        return face_film(shape_of(self.scene.interface), gaps, self.accuracy.film_rtol)
 
     @property
     def wetting(self) -> float:

@@ -12,14 +12,14 @@ from ...errors import DescriptionError
 from ...lubrication import dimensionless as numbers
 from ...lubrication import film_limits
 from ...lubrication import squeeze_film as squeeze
-from ...lubrication.reynolds.damping import DampingLaw
 from ...scene.column import Column
 from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
 from ...units import si
-from ...validators import choice, finite, optional, part, positive
+from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
-from ..cavity.law import CavityLaw
+from ..cavity.law import Cavitation, CavityLaw
+from ..face.shape import closed_form, shape_of
 from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
@@ -30,6 +30,7 @@ from .published_film import published_film
 if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
+    from ..face.film import FaceFilm
     from .base import Curve, PlanView, RunView
     from .prepared import PreparedScene
 
@@ -143,14 +144,14 @@ class ViscousForce(SeparationForce):
         those of the arc of the source, which ``MeniscusForce(profile="as-published")`` has as
         well, and not those of an upright rim: of ``Meniscus.from_radius(profile="arc")`` the
         radius that is given. That is up to 5 % of the force at a radius of 50 gaps.
-    damping : DampingLaw, optional
-        Law c(h) of a face that is no plain disc: a ring, a rectangle, a recess, any planform or gap
-        map, made once by `contactkit.lubrication.reynolds` (in a file: ``damping = { face =
-        "ring", radius = "3 mm", hole_radius = "1 mm" }``). The film is flooded to its rims and
-        does not tear. None: the disc of the interface, or the sphere.
 
     Notes
     -----
+    Between discs, and under a sphere, in closed form; so are rings, rectangles, ellipses,
+    equilateral triangles, a round recess, a crown. Any other face is solved on a grid, within
+    ``Accuracy(film_rtol=...)``, once in a plan. The film of a face that is no disc is flooded to
+    its rims.
+
     Valid for r/h > 5 and for a reduced Reynolds number below 1: both are printed with a result.
     Compression of the liquid, deformation of the bodies and the weight of the film are left out;
     how large they are is printed too, where the liquid has a bulk modulus and a density, and a
@@ -167,12 +168,6 @@ class ViscousForce(SeparationForce):
         default="volume-conserving",
         validator=choice("volume-conserving", "flooded", "as-published"),
     )
-    damping: DampingLaw | None = field(default=None, validator=optional(part(DampingLaw)))
-
-    @property
-    def face_radius(self) -> float | None:
-        """Radius [m] of a disc as large as the face of `damping`; None without one."""
-        return None if self.damping is None else math.sqrt(self.damping.area / math.pi)
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -185,8 +180,10 @@ class ViscousForce(SeparationForce):
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.cites`."""
         flats, sphere = self.sources
-        if self.damping is not None:
-            return (f"Reynolds 1886: {self.damping.source}",)
+        if not scene.interface.has_discs:
+            known = closed_form(shape_of(scene.interface))
+            by = "finite volumes" if known is None else known.law.source
+            return (f"Reynolds 1886: {by}",)
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     @classmethod
@@ -212,7 +209,7 @@ class ViscousForce(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
-        if self.damping is not None:
+        if not scene.interface.has_discs:
             return _needs_of_face(scene)
         missing: tuple[str, ...] = ()
         if scene.liquid_pressure is not None and self.closure != "volume-conserving":
@@ -260,37 +257,34 @@ class ViscousForce(SeparationForce):
 
 
 def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
-    """What the law of a face does not go with."""
-    interface, meniscus = scene.interface, scene.meniscus
+    """What a film on a face that is no disc does not go with."""
+    meniscus, viscous = scene.meniscus, scene.effect(ViscousForce)
     needs = {
-        "two flats": interface.is_flat,
-        "a flooded film, without interface.meniscus.volume or a pressure": meniscus.volume is None
+        "a flooded film, without interface.meniscus.volume or a pressure: the rim of one that "
+        "draws in from a face that is no disc is not known": meniscus.volume is None
         and scene.liquid_pressure is None,
-        "interface.meniscus.count = 1: a law is that of the whole face": meniscus.count == 1,
-        "no radius of a Flat face: the law has its own extent": scene.effect(MeniscusForce)
-        is not None
-        or math.isinf(interface.rim_radius),
-        "no TensionLimit or ShearLimit: they know a disc only": scene.effect(TensionLimit) is None
-        and scene.effect(ShearLimit) is None,
-        'closure="volume-conserving", which a flooded face leaves alone': not keeps_radius(scene),
+        "interface.meniscus.count = 1: a face that is no disc is not shared out": meniscus.count
+        == 1,
+        "an even disc, of a given radius, for the equations as published": viscous is None
+        or not viscous.takes_printed(),
     }
     return tuple(need for need, is_met in needs.items() if not is_met)
 
 
-def _face_law(damping: DampingLaw, viscosity: float) -> ViscousLaw:
+def _face_law(film: FaceFilm, viscosity: float) -> ViscousLaw:
     def force(gap: float, speed: float) -> float:
-        return viscosity * damping.coefficient(gap) * speed
+        return viscosity * film.coefficient(gap) * speed
 
     def impulse(start: float, end: float) -> float:
-        return viscosity * damping.impulse(start, end)
+        return viscosity * film.impulse(start, end)
 
-    return ViscousLaw(force, exponent=damping.exponent, impulse=impulse)
+    return ViscousLaw(force, exponent=film.exponent, impulse=impulse)
 
 
 def _law(prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
-    effect = prepared.scene.effect(ViscousForce)
-    if effect is not None and effect.damping is not None:
-        return _face_law(effect.damping, prepared.liquid.viscosity)
+    face = prepared.face_film
+    if face is not None:
+        return _face_law(face, prepared.liquid.viscosity)
     return _law_of(viscous_film(prepared), prepared.liquid.viscosity)
 
 
@@ -476,6 +470,9 @@ class TensionLimit(FilmLimit):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
+        if not scene.interface.has_discs:
+            is_field = self.cavity == "mass-conserving"
+            return () if is_field else ('cavity="mass-conserving" on a face that is no disc',)
         if self.cavity != "truncated" and not scene.interface.is_flat:
             return ('two flats (or cavity="truncated")',)
         if self.cavity == "mass-conserving" and scene.effect(ShearLimit) is not None:
@@ -489,13 +486,22 @@ class TensionLimit(FilmLimit):
         tears, drop = self.tension / 1e5, self.cavity_drop / 1e5
         return (f"the liquid tears {tears:g} bar below ambient, a cavity is {drop:g} bar below it",)
 
-    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> CavityLaw | None:
+    def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
         """See `FilmLimit.cavity_law`."""
         if self.cavity != "mass-conserving":
             return None
+        if prepared.face_film is not None:
+            return self._face_cavity(prepared, prepared.face_film)
         film = viscous_film(prepared)
         viscosity, rim = prepared.liquid.viscosity, film.rim * film.rim
         return CavityLaw(film.menisci, rim, film.volume, viscosity, self.tension, self.cavity_drop)
+
+    def _face_cavity(self, prepared: PreparedScene[SeparationScene], film: FaceFilm) -> Cavitation:
+        from ..face.cavity import FaceCavity
+
+        grid = film.gridded(prepared.scene.loading.smallest_gap)
+        viscosity, rtol = prepared.liquid.viscosity, prepared.accuracy.film_rtol
+        return FaceCavity(film, grid, viscosity, self.tension, self.cavity_drop, rtol)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
@@ -553,6 +559,8 @@ class ShearLimit(FilmLimit):
 
     def lacks(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
+        if not isinstance(scene, SlidingScene) and not scene.interface.has_discs:
+            return ("an even disc: on other faces its limit is not known",)
         if self.law != "truncated" and not isinstance(scene, SlidingScene):
             return ('law="truncated": the others are for a SlidingScene',)
         return ()
@@ -653,6 +661,24 @@ def _validity(
             source="Reynolds 1886; at a flooded rim 16 h/(3 pi r), Hasimoto 1958",
         ),
         *film_numbers(prepared, viscous_film(prepared), path, _strength(prepared.scene)),
+        *_grid_error(prepared),
+    )
+
+
+def _grid_error(prepared: PreparedScene[SeparationScene]) -> tuple[ValidityNumber, ...]:
+    """Error of a film that is solved on a grid."""
+    face = prepared.face_film
+    if face is None or not face.cells:
+        return ()
+    return (
+        ValidityNumber(
+            name="error of the film on its grid",
+            value=face.error,
+            high=2.0 * prepared.accuracy.film_rtol,
+            detail=f"relative, of the force of a full film on {face.cells} cells across; ask for a "
+            "smaller Accuracy.film_rtol",
+            source="change from half the cells, and of the table between its gaps",
+        ),
     )
 
 

@@ -13,7 +13,6 @@ from ...errors import ConvergenceError, DescriptionError
 from ...numerics.events import EventStep, step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
-from ..cavity.events import after_event
 from ..cavity.state import FULL, Phase
 from ..effects.viscous import ViscousForce
 from ..integrator.dense_output import peak, work
@@ -170,7 +169,7 @@ def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[
 def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -> Problem:
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
     loading, mass = plan.scene.imposed_force, _mass(plan)
-    gap, speed = state.gap, state.speed
+    gap, speed, rtol = state.gap, state.speed, plan.accuracy.time_rtol
     torn = cavity_film(film, state.cavity, (gap, speed))
     forces = film.forces if film is not None else _no_forces
     forces = forces if torn is None else torn.forces
@@ -189,7 +188,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         exponent=film.exponent(gap) if film is not None else 0.0,
         begin=Point(state.time, gap, speed),
         first=first,
-        rtol=plan.accuracy.time_rtol,
+        rtol=rtol if torn is None else torn.law.time_rtol(rtol),
         size=size,
         delivered=state.applied_impulse + mass * abs(speed),
         # Where no force acts yet, a film still has a scale: differences of speed count.
@@ -261,10 +260,10 @@ def _stepped(
         if turn is not None:
             (taken, length), event = turn, None
         if length == 0.0:
-            return state._replace(cavity=after_event(law, cavity, state.gap, state.speed))
-        cavity = after(cavity, taken, problem.begin.gap)
+            return state._replace(cavity=law.after_event(cavity, state.gap, state.speed))
+        cavity = after(law, cavity, taken, problem.begin.gap)
         if turn is not None:
-            cavity = after_event(law, cavity, *taken.stages[2][1:])
+            cavity = law.after_event(cavity, *taken.stages[2][1:])
     _, gap, speed = taken.stages[2]
     grown = _impulses(film, taken, length)
     highest, when = _peak(state, problem, taken, length)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from attrs import field, frozen
 
 from ...numerics.events import EventStep
-from ..cavity.events import after_event, after_step, beyond_event, first_event, is_torn_by
-from ..cavity.law import CavityLaw
-from ..cavity.stages import CavityForce, Spot, force_at, solved_stages, spot_at
+from ..cavity.events import first_event, is_torn_by
+from ..cavity.law import Cavitation
+from ..cavity.stages import CavityForce
 from ..cavity.state import Cavity, Phase
 from ..effects.base import LimitKind
 from ..film import Film
@@ -26,18 +26,18 @@ class CavityFilm:
     """A film, its cavity at the start of a step, and where its edge is."""
 
     film: Film
-    law: CavityLaw
+    law: Cavitation
     cavity: Cavity
     begin: _ONE
-    _spot: Spot = field(init=False, repr=False)
+    _held: Callable[[float, float], CavityForce] = field(init=False, repr=False)
 
-    @_spot.default
-    def _find_spot(self) -> Spot:
-        return spot_at(self.law, self.cavity, *self.begin, self.cavity.void)
+    @_held.default
+    def _find_held(self) -> Callable[[float, float], CavityForce]:
+        return self.law.held_force(self.cavity, self.begin)
 
     def forces(self, gap: float, speed: float) -> Forces:
         """Forces near the start, with an edge and a rim that stay."""
-        return self._forces(gap, force_at(self.law, self._spot, gap, speed))
+        return self._forces(gap, self._held(gap, speed))
 
     def _forces(self, gap: float, held: CavityForce) -> Forces:
         static, by_gap = self.film.static_slope(gap)
@@ -45,7 +45,7 @@ class CavityFilm:
 
     def remembered(self, dt: float, places: Sequence[_ONE]) -> Memory | None:
         """Forces at the stages of a step, with the voids that belong to them."""
-        solved = solved_stages(self.law, self.cavity, self.begin, dt, places)
+        solved = self.law.stages(self.cavity, self.begin, dt, places)
         if solved is None:
             return None
         one, two, three = (
@@ -54,12 +54,12 @@ class CavityFilm:
         return Memory((one, two, three), solved.error, solved)
 
 
-def after(cavity: Cavity, taken: Step, begin_gap: float) -> Cavity:
+def after(law: Cavitation, cavity: Cavity, taken: Step, begin_gap: float) -> Cavity:
     """Cavity at the end of a step of a film that has one."""
     if taken.memory is None:
         return cavity
     gaps = [point.gap for point in taken.stages]
-    return after_step(cavity, taken.memory.found, begin_gap, gaps)
+    return law.after_step(cavity, taken.memory.found, begin_gap, gaps)
 
 
 def cavity_film(film: Film | None, cavity: Cavity, begin: _ONE) -> CavityFilm | None:
@@ -73,11 +73,11 @@ def cut_before_step(film: Film | None, cavity: Cavity, place: _ONE) -> Cavity | 
     """Cavity of a film that tears where it is; None if it does not."""
     if film is None or film.cavity is None or not is_torn_by(film.cavity, cavity, *place):
         return None
-    return after_event(film.cavity, cavity, *place)
+    return film.cavity.after_event(cavity, *place)
 
 
 def cut_at_event(
-    problem: Problem, law: CavityLaw, cavity: Cavity, taken: Step, length: float
+    problem: Problem, law: Cavitation, cavity: Cavity, taken: Step, length: float
 ) -> EventStep[Step] | None:
     """Step that ends at the first event of a cavity; None if there is none in it.
 
@@ -88,6 +88,6 @@ def cut_at_event(
     def both(one: Step) -> tuple[float, float]:
         solved = one.memory.found if one.memory is not None else None
         places = [(point.gap, point.speed) for point in one.stages]
-        return beyond_event(law, cavity, solved, begin, places)
+        return law.beyond_event(cavity, solved, begin, places)
 
     return first_event(lambda dt: step(problem, dt), both, taken, length, _EVENT)

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 from attrs import field, frozen
 
 from ...units import si
-from ..cavity.events import born, is_torn_by
-from ..cavity.stages import shown_cavity
+from ..cavity.events import is_torn_by
 from ..cavity.state import FULL, Cavity, Phase, restored_cavity
 from ..effects.base import FilmStatus, LimitKind
 from ..plan import Film, Plan
@@ -107,7 +106,7 @@ def start(plan: Plan) -> MotionState:
     law = plan.film.cavity
     if law is None or not is_torn_by(law, FULL, gap, speed):
         return begun
-    return begun._replace(cavity=born(law, gap, speed), tear_time=0.0, n_tears=1)
+    return begun._replace(cavity=law.inception(gap, speed), tear_time=0.0, n_tears=1)
 
 
 def acting_film(plan: Plan, state: MotionState) -> Film | None:
@@ -125,7 +124,7 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
     static, (viscous, limit) = film.static_force(gap), film.viscous_force(gap, speed)
     radius = void = 0.0
     if film.cavity is not None and state.cavity.phase is not Phase.FULL:
-        shown = shown_cavity(film.cavity, state.cavity, gap, speed)
+        shown = film.cavity.shown(state.cavity, gap, speed)
         viscous, radius, void, limit = *shown, LimitKind.TENSION
     net = pull - loading.stiffness * (gap - loading.initial_gap) - static
     if speed <= 0.0 < pull and net <= 0.0:

@@ -15,14 +15,14 @@ import numpy as np
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.app.cost.injector import injector_settings
-from contactkit.app.cost.micromirror import mirror_sweep
-from contactkit.app.cost.separation import monolithic_release, separation_sweep
-from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
+from contactkit.benchmarks.separation import monolithic_release, separation_sweep
 from contactkit.capillary.arc.bridge import arc_bridge
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.contact.effects.base import Compliance, PressureBound
+from contactkit.models.injector.report.cosimulation import build_fmus
+from contactkit.models.injector.report.cost import injector_settings
+from contactkit.models.micromirror.report.cost import mirror_sweep
 from contactkit.reference import elliptic_bridge
 from contactkit.separation.motion_curves import pull_law
 from contactkit.work_precision import WorkPrecision, sweep

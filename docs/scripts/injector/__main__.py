@@ -25,7 +25,6 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from contactkit import plan
-from contactkit.app.run.injector.cosimulation import drive_start
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
@@ -33,6 +32,7 @@ from contactkit.fmu.master.injector import cosimulate
 from contactkit.fmu.native.build import build_native, native_scene
 from contactkit.fmu.native.drive import build_native_drive
 from contactkit.models.injector.monolithic import simulate as simulate_monolithic
+from contactkit.models.injector.report.cosimulation import drive_start
 
 MU0, US = 4e-7 * math.pi, 1e-6
 FILM = ("m", "h0", "h_rel", "R", "eta", "dp_tear", "dp_hold")

@@ -10,7 +10,7 @@ from attrs import evolve
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.app.scenes import OpenedInjector, open_scene
+from contactkit.app.scenes import open_scene
 from contactkit.gallery.measured.cases import case
 from contactkit.liquids.viscosity import WaltherViscosity
 from contactkit.models.injector.monolithic import simulate
@@ -77,7 +77,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 
 def _injector() -> InjectorScene:
     opened = open_scene("fuel-injector")
-    if not isinstance(opened, OpenedInjector):
+    if not isinstance(opened.scene, InjectorScene):
         raise TypeError("fuel-injector: not a scene of an injector")
     return opened.scene
 

@@ -1,10 +1,12 @@
 /* The file that an FMU brings: which variables it has, and the tables of its film, and of the faces of
    a drive, a stop or the site of tips. It is called film.bin in all of them.
 
-   Written by fmu/native/data.py: 8 letters, a checksum and a count of 8 bytes each, 40 letters of
-   the GUID, then that many doubles; little-endian. Nothing in it is trusted. */
+   Written by fmu/native/data.py: 8 letters that stand for the order of what follows, a checksum and a
+   count of 8 bytes each, 40 letters of the GUID, then that many doubles; little-endian. Which member
+   of which record a number is, says description.c. Nothing in the file is trusted. */
 
 #include "model.h"
+#include "reader.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,44 +28,30 @@ uint64_t ck_checksum(const void *bytes, size_t count) {
     return hash;
 }
 
-typedef struct {
-    const double *next, *end;
-    int fine;
-    int *hints;     /* of the pieces still to come */
-    ck_cell *cells; /* of these, too */
-} stream;
-
-static double number(stream *s) {
-    if (s->next >= s->end) s->fine = 0;
-    return s->fine ? *s->next++ : 0.0;
+double ck_read_real(ck_reader *r, double low, double high) {
+    double value = r->next < r->end ? *r->next : 0.0;
+    if (r->next == r->end || !(value >= low && value <= high)) r->fine = 0; /* nor is nan */
+    return r->fine ? *r->next++ : low;
 }
 
-/* A whole number within bounds. */
-static int whole(stream *s, int low, int high) {
-    double value = number(s);
-    if (!(value >= low && value <= high) || value != floor(value)) {
-        s->fine = 0;
-        return low;
-    }
-    return (int)value;
+int ck_read_whole(ck_reader *r, int low, int high) {
+    double value = ck_read_real(r, low, high);
+    if (value != floor(value)) r->fine = 0;
+    return r->fine ? (int)value : low;
 }
 
-static double positive(stream *s) {
-    double value = number(s);
-    if (!(value > 0.0)) s->fine = 0;
-    return value;
-}
+int ck_read_nodes(ck_reader *r) { return ck_read_whole(r, 2, 1000000); }
 
-static const double *column(stream *s, int count, int ascends) {
-    const double *first = s->next;
+const double *ck_read_column(ck_reader *r, int count, int ascends) {
+    const double *first = r->next;
     int i;
-    if (!s->fine || s->end - s->next < count) {
-        s->fine = 0;
+    if (!r->fine || r->end - r->next < count) {
+        r->fine = 0;
         return NULL;
     }
     for (i = 0; i < count; i++)
-        if (!isfinite(first[i]) || (ascends && i > 0 && !(first[i] > first[i - 1]))) s->fine = 0;
-    s->next += count;
+        if (!isfinite(first[i]) || (ascends && i > 0 && !(first[i] > first[i - 1]))) r->fine = 0;
+    r->next += count;
     return first;
 }
 
@@ -80,121 +68,38 @@ static void fill(ck_cell *cell, double x0, double x1, const double y[2], const d
     cell->c[5] = 6.0 * rise - 3.0 * (b0 + b1) - 0.5 * (c0 - c1);
 }
 
-static void read_table(stream *s, ck_table *table) {
-    const double *x, *y, *slope, *curve;
-    int i, k, nodes;
-    table->stays = whole(s, 0, 1);
-    table->count = whole(s, 1, CK_PIECES);
-    for (i = 0; s->fine && i < table->count; i++) {
-        ck_piece *piece = &table->pieces[i];
-        piece->low = positive(s);
-        piece->high = positive(s);
-        piece->end = positive(s);
-        piece->log_end = log(piece->end);
-        piece->folds = whole(s, 0, 1);
-        piece->power = whole(s, 0, 8);
-        nodes = whole(s, 2, 1000000);
-        piece->hint = s->hints++;
-        x = column(s, nodes, 1);
-        y = column(s, nodes, 0);
-        slope = column(s, nodes, 0);
-        curve = column(s, nodes, 0);
-        if (!s->fine) return;
-        piece->count = nodes - 1;
-        piece->cells = s->cells;
-        for (k = 0; k < piece->count; k++)
-            fill(s->cells++, x[k], x[k + 1], &y[k], &slope[k], &curve[k]);
-        if (!(piece->low < piece->high) || (i > 0 && piece->low != table->pieces[i - 1].high))
-            s->fine = 0;
-    }
+void ck_made_piece(ck_reader *r, ck_piece *made) {
+    int k;
+    if (!(made->low < made->high)) r->fine = 0;
+    made->log_end = log(made->high);
+    made->hint = r->hints++;
+    made->cells = r->cells;
+    for (k = 0; k + 1 < made->n_nodes; k++)
+        fill(r->cells++, made->x[k], made->x[k + 1], &made->y[k], &made->slope[k], &made->curve[k]);
 }
 
-static void read_film(stream *s, ck_film *film) {
-    int i, k;
-    film->end = positive(s);
-    film->breaks = positive(s);
-    film->full_gap = number(s);
-    film->count = whole(s, 1, CK_LAWS);
-    for (i = 0; s->fine && i < film->count; i++) {
-        ck_law *law = &film->laws[i];
-        law->scale = whole(s, CK_FIXED, CK_VISCOSITY);
-        law->needs_film = whole(s, 0, 1);
-        law->end = positive(s);
-        law->release = positive(s);
-        law->recontact = number(s);
-        law->kink_count = whole(s, 0, CK_KINKS);
-        for (k = 0; s->fine && k < law->kink_count; k++) law->kinks[k] = positive(s);
-        read_table(s, &law->table);
-    }
-    read_table(s, &film->shape);
-    film->rim_square = number(s);
-    film->volume = number(s);
-    if (!(film->rim_square >= 0.0 && film->volume >= 0.0)) s->fine = 0;
-}
-
-static void read_ports(stream *s, ck_data *data) {
+void ck_made_table(ck_reader *r, ck_table *made) {
     int i;
-    data->kind = whole(s, CK_STICTION_MASS, CK_TIP_CONTACT);
-    data->port_count = whole(s, 1, CK_VARIABLES);
-    for (i = 0; s->fine && i < data->port_count; i++) {
-        ck_port *port = &data->ports[i];
-        port->id = whole(s, 0, CK_VARIABLES - 1);
-        port->type = whole(s, CK_REAL, CK_BOOLEAN);
-        if (port->type & (port->type - 1)) s->fine = 0; /* one bit */
-        port->causality = whole(s, CK_INPUT, CK_PARAMETER);
-        port->low = number(s);
-        port->high = number(s);
-        port->start = number(s);
-        if (!(port->low <= port->high) || !isfinite(port->start)) s->fine = 0;
-        if (port->causality != CK_OUTPUT && !(port->start >= port->low && port->start <= port->high))
-            s->fine = 0;
-    }
+    for (i = 1; i < made->n_pieces; i++)
+        if (made->pieces[i].low != made->pieces[i - 1].high) r->fine = 0;
 }
 
-static void read_curve(stream *s, ck_curve *curve, int is_log) {
-    curve->count = whole(s, 2, 1000000);
-    curve->x = column(s, curve->count, 1);
-    curve->y = column(s, curve->count, 0);
-    curve->slope = column(s, curve->count, 0);
-    if (!s->fine || !is_log) return;
-    curve->begin = exp(curve->x[0]), curve->end = exp(curve->x[curve->count - 1]);
-    curve->low = exp(curve->y[0]), curve->high = exp(curve->y[curve->count - 1]);
+void ck_made_variable(ck_reader *r, ck_variable *made) {
+    int fits = made->start >= made->low && made->start <= made->high;
+    if (made->type & (made->type - 1)) r->fine = 0; /* one bit */
+    if (!(made->low <= made->high) || !isfinite(made->start)) r->fine = 0;
+    if (made->causality != CK_OUTPUT && !fits) r->fine = 0;
 }
 
-static void read_faces(stream *s, ck_faces *faces) {
-    int i;
-    faces->is_there = whole(s, 0, 1);
-    if (!faces->is_there) return;
-    faces->limit = number(s);
-    faces->count = whole(s, 0, CK_UNLOADING_CURVES);
-    read_curve(s, &faces->first, 1);
-    if (faces->count) read_curve(s, &faces->residual, 0);
-    for (i = 0; s->fine && i < faces->count; i++) {
-        faces->ends[i] = positive(s);
-        read_curve(s, &faces->unloading[i], 1);
-    }
+/* There are losses where there is an unloading curve. */
+void ck_made_faces(ck_reader *r, ck_faces *made) {
+    int yields = made->n_unloading > 0;
+    if (made->has_residual != yields || made->has_dissipated != yields) r->fine = 0;
 }
 
-/* What a stop has besides, and the site of tips, if it deforms: areas, and the work that is dissipated. */
-static void read_stop(stream *s, ck_faces *faces) {
-    int i;
-    read_faces(s, faces);
-    if (!faces->is_there) return;
-    read_curve(s, &faces->area, 1);
-    read_curve(s, &faces->plastic, 0);
-    if (faces->count) read_curve(s, &faces->dissipated, 0);
-    for (i = 0; s->fine && i < faces->count; i++) read_curve(s, &faces->areas[i], 1);
-}
-
-static void read_scene(stream *s, ck_scene *scene) {
-    int i;
-    scene->is_sphere = whole(s, 0, 1);
-    scene->sphere_radius = positive(s);
-    scene->menisci = positive(s);
-    scene->reynolds = whole(s, 0, 1);
-    scene->rewetting = number(s);
-    scene->film_count = whole(s, 1, CK_FILMS);
-    for (i = 0; s->fine && i < scene->film_count; i++) read_film(s, &scene->films[i]);
+static int suits(const ck_contents *c) {
+    int faces = ck_has_faces[c->model];
+    return c->has_tables == ck_has_film[c->model] && (faces < 0 || c->has_faces == faces);
 }
 
 static FILE *open_file(const char *path) {
@@ -210,7 +115,7 @@ static FILE *open_file(const char *path) {
 static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
     char magic[8];
     uint64_t head[2];
-    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, "CKFILM05", 8) != 0)
+    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, CK_LAYOUT, 8) != 0)
         return "it is no file of this FMU";
     if (fread(head, 8, 2, file) != 2 || fread(data->guid, 1, 40, file) != 40)
         return "it is cut short";
@@ -232,25 +137,17 @@ const char *ck_data_read(const char *path, ck_data *data) {
     FILE *file = open_file(path);
     uint64_t count = 0;
     const char *problem;
-    stream s;
+    ck_reader r;
     memset(data, 0, sizeof *data);
     if (!file) return "it cannot be opened";
     problem = read_numbers(file, data, &count);
     fclose(file);
     if (problem) return problem;
-    s.next = data->numbers, s.end = data->numbers + count, s.fine = 1;
-    s.hints = data->hints;
-    read_ports(&s, data);
-    if (data->kind == CK_VALVE_DRIVE) {
-        read_faces(&s, &data->faces);
-    } else if (data->kind == CK_CONTACT_STOP) {
-        read_stop(&s, &data->faces);
-        if (!data->faces.is_there) s.fine = 0;
-    } else { /* a node of a table has four numbers, and there are fewer cells than nodes */
-        data->cells = s.cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
-        if (!s.cells) return "there is no memory for it";
-        read_scene(&s, &data->scene);
-        if (data->kind == CK_TIP_CONTACT) read_stop(&s, &data->faces);
-    }
-    return s.fine && s.next == s.end ? NULL : "what it says makes no sense";
+    /* a node of a table has four numbers, and there are fewer cells than nodes */
+    data->cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
+    if (!data->cells) return "there is no memory for it";
+    r.next = data->numbers, r.end = data->numbers + count, r.fine = 1;
+    r.hints = data->hints, r.cells = data->cells;
+    ck_read_contents(&r, &data->contents);
+    return r.fine && r.next == r.end && suits(&data->contents) ? NULL : "what it says makes no sense";
 }

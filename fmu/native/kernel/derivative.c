@@ -15,14 +15,14 @@
 
 static int refuse(ck_model *model, int unknown, int known, const char *why) {
     char message[300];
-    snprintf(message, sizeof message, "getDirectionalDerivative: of %s by %s: %s", ck_name(unknown),
-             ck_name(known), why);
+    snprintf(message, sizeof message, "getDirectionalDerivative: of %s by %s: %s", ck_names[unknown],
+             ck_names[known], why);
     model->say(model->host, CK_ERROR, "logStatusError", message);
     return CK_ERROR;
 }
 
 /* An output with one value moved; 0 where that value cannot be. */
-static int moved(ck_model *model, int unknown, const ck_port *known, double at, double *found) {
+static int moved(ck_model *model, int unknown, const ck_variable *known, double at, double *found) {
     ck_state saved = model->state;
     int fine = known->low <= at && at <= known->high;
     model->state.values[known->id] = at;
@@ -33,7 +33,7 @@ static int moved(ck_model *model, int unknown, const ck_port *known, double at, 
     return fine;
 }
 
-static int difference(ck_model *model, int unknown, const ck_port *known, double *slope) {
+static int difference(ck_model *model, int unknown, const ck_variable *known, double *slope) {
     double at = model->state.values[known->id], step = STEP * (at != 0.0 ? fabs(at) : 1.0);
     double up, down, high = at + step, low = at - step;
     if (!moved(model, unknown, known, high, &up)) {
@@ -49,7 +49,7 @@ static int difference(ck_model *model, int unknown, const ck_port *known, double
 }
 
 /* Slope of one output by one value. */
-static int one(ck_model *model, int unknown, const ck_port *known, double *slope) {
+static int one(ck_model *model, int unknown, const ck_variable *known, double *slope) {
     const ck_kind *kind = ck_model_kind(model);
     int starts = model->state.phase == CK_INITIALIZATION, id = known->id, done;
     *slope = 0.0;
@@ -77,11 +77,11 @@ int ck_model_derivative(ck_model *model, const unsigned unknown[], size_t n,
     if (model->state.failed) return CK_ERROR;
     ck_model_follow(model);
     for (i = 0; i < n; i++) {
-        const ck_port *of = ck_model_port(model, unknown[i], CK_REAL, call), *by;
+        const ck_variable *of = ck_model_variable(model, unknown[i], CK_REAL, call), *by;
         double sum = 0.0, slope;
         if (!of) return CK_ERROR;
         for (k = 0; k < m; k++) {
-            if (!(by = ck_model_port(model, known[k], CK_REAL, call))) return CK_ERROR;
+            if (!(by = ck_model_variable(model, known[k], CK_REAL, call))) return CK_ERROR;
             if (of->causality != CK_OUTPUT) return refuse(model, of->id, by->id, "the first is no output");
             if (one(model, of->id, by, &slope) != CK_OK) return CK_ERROR;
             sum += seed[k] * slope;

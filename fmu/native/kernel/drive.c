@@ -83,8 +83,8 @@ static ck_pressed press(const ck_model *model, double gap) {
     const ck_drive *drive = &model->drive;
     double depth = gap - drive->stop_gap;
     ck_pressed found = {0.0, 0.0, 0.0};
-    if (model->data.faces.is_there)
-        return ck_faces_pressed(&model->data.faces, depth, model->state.driven.largest,
+    if (model->data.contents.has_faces)
+        return ck_faces_pressed(&model->data.contents.faces, depth, model->state.driven.largest,
                                 drive->stop_stiffness);
     if (!(depth <= 0.0)) { /* nan is for others to find */
         found.slope = drive->stop_stiffness;
@@ -180,7 +180,7 @@ static int too_many(ck_model *model, double length, double count) {
 
 /* Say once that the faces are pressed further than was solved. */
 static void warn_beyond(ck_model *model, double known, double time) {
-    double end = model->data.faces.first.end, now = model->state.driven.largest;
+    double end = model->data.contents.faces.first.end, now = model->state.driven.largest;
     char message[400];
     if (!(known <= end && end < now)) return;
     snprintf(message, sizeof message,

@@ -6,7 +6,7 @@
 #ifndef CK_DRIVE_H
 #define CK_DRIVE_H
 
-#define CK_UNLOADING_CURVES 64 /* most unloading curves of rough faces */
+#include "description.h"
 
 /* An electromagnet with two poles: `pole` is inductance times length of air [H.m], `knee` the flux
    linkage [Wb] at which the iron resists twice as much. */
@@ -18,26 +18,6 @@ typedef struct {
 typedef struct {
     double delay, period, on_time, boost_time, boost, hold, off, cycles;
 } ck_profile;
-
-/* Cubics through nodes with the slopes there, that keep the order of the values. */
-typedef struct {
-    int count;
-    const double *x, *y, *slope;
-    double begin, end, low, high; /* the first and the last point, without logarithms */
-} ck_curve;
-
-/* Force of rough faces over their approach, and the unloading curves from maximum approaches `ends`.
-   Curves of forces and areas of contact are in logarithms. */
-typedef struct {
-    int is_there, count;
-    double limit; /* approach up to which all is reversible */
-    ck_curve first, residual;
-    double ends[CK_UNLOADING_CURVES];
-    ck_curve unloading[CK_UNLOADING_CURVES];
-    /* only of a stop and of tips: areas over the approach, and over those at the ends of the unloading curves,
-       and the work dissipated up to a maximum approach */
-    ck_curve area, plastic, dissipated, areas[CK_UNLOADING_CURVES];
-} ck_faces;
 
 typedef struct {
     ck_coil coil;
@@ -59,8 +39,6 @@ double ck_coil_force(const ck_coil *coil, double flux);
    may still be taken. How far it got [s]: `duration`, if it did not fail. */
 double ck_coil_advance(const ck_coil *coil, double *flux, double gap, double speed, double voltage,
                        double duration, long *budget);
-
-enum { CK_FREE = 1, CK_LOADING = 2, CK_UNLOADING = 3, CK_BEYOND = 4 };
 
 /* Areas of contact and of plastic flow, and the branch of the load-displacement curve. */
 typedef struct {

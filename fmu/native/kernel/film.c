@@ -20,7 +20,7 @@ static double place(const ck_piece *piece, double gap, double log_gap, double *b
         return log_gap;
     }
     depth = piece->log_end - log_gap;
-    if (depth < 1e-3) depth = gap < piece->end ? log1p((piece->end - gap) / gap) : 0.0;
+    if (depth < 1e-3) depth = gap < piece->high ? log1p((piece->high - gap) / gap) : 0.0;
     if (depth <= 1e-12) { /* the slope of a fold has no bound */
         *by_gap = 0.0;
         return depth > 0.0 ? sqrt(depth) : 0.0;
@@ -32,7 +32,7 @@ static double place(const ck_piece *piece, double gap, double log_gap, double *b
 
 static const ck_cell *cell_at(const ck_piece *piece, double x) {
     const ck_cell *cells = piece->cells;
-    int low = *piece->hint, high = piece->count;
+    int low = *piece->hint, high = piece->n_nodes - 1;
     if (cells[low].x <= x && (low + 1 == high || x < cells[low + 1].x)) return &cells[low];
     low = 0;
     while (high - low > 1) {
@@ -55,7 +55,7 @@ static double value_at(const ck_piece *piece, double x, double *by_x) {
 
 /* Value at a gap whose logarithm is known, and its slope. Beyond the table y stays. */
 double ck_table_at(const ck_table *table, double gap, double log_gap, double *by_gap) {
-    const ck_piece *piece = &table->pieces[0], *last = &table->pieces[table->count - 1];
+    const ck_piece *piece = &table->pieces[0], *last = &table->pieces[table->n_pieces - 1];
     double x, y, by_x, factor, x_by_gap;
     int beyond = 0;
     if (gap > last->high) {
@@ -105,12 +105,12 @@ static void limited(const ck_acting *a, double gap, double log_gap, double speed
         if (a->is_sphere) ck_sphere_tension(force / n, a->sphere_radius, gap, shape, a->tension, &left);
         else if (a->reynolds) ck_disc_tension_reynolds(force / n, CK_PI * shape, a->tension, &left);
         else ck_disc_tension(force / n, CK_PI * shape, a->tension, &left);
-        take(&least, &left, n, a->is_sphere ? 1.0 : CK_PI, 1, &found->limit);
+        take(&least, &left, n, a->is_sphere ? 1.0 : CK_PI, CK_LIMIT_KIND_TENSION, &found->limit);
     }
     if (a->strength > 0.0) {
         if (a->is_sphere) ck_sphere_shear(force / n, a->sphere_radius, gap, shape, a->strength, &left);
         else ck_disc_shear(force / n, shape, gap, a->strength, &left);
-        take(&least, &left, n, 1.0, 2, &found->limit);
+        take(&least, &left, n, 1.0, CK_LIMIT_KIND_SHEAR, &found->limit);
     }
     found->viscous = least.value;
     found->viscous_by_gap = least.by_force * found->viscous_by_gap + least.by_gap + least.by_shape * by_gap;
@@ -121,18 +121,18 @@ static void limited(const ck_acting *a, double gap, double log_gap, double speed
 void ck_forces_at(const ck_acting *a, double gap, double speed, ck_forces *found) {
     double log_gap = log(gap);
     int i;
-    const ck_forces nothing = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0};
+    const ck_forces nothing = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, CK_LIMIT_KIND_NONE, 0};
     *found = nothing;
-    for (i = 0; a->any && i < a->film->count; i++) {
+    for (i = 0; a->any && i < a->film->n_laws; i++) {
         const ck_law *law = &a->film->laws[i];
         double value, by_gap;
         if (!a->acts[i]) continue;
         value = ck_table_at(&law->table, gap, log_gap, &by_gap);
-        if (law->scale == CK_VISCOSITY) {
+        if (law->scale == CK_SCALE_VISCOSITY) {
             found->resistance = a->viscosity * value;
             found->resistance_by_gap = a->viscosity * by_gap;
         } else {
-            double scale = law->scale == CK_TENSION_SURFACE ? a->surface_tension : 1.0;
+            double scale = law->scale == CK_SCALE_SURFACE_TENSION ? a->surface_tension : 1.0;
             found->fixed += scale * value;
             found->fixed_by_gap += scale * by_gap;
         }
@@ -184,7 +184,7 @@ static int add(travel *w, double gap, double time, int limit, ck_impulse *sum) {
 /* One panel; a limit begins or ends to act inside if it differs between the ends and the nodes. */
 static void panel(travel *w, double begin, double end, int depth) {
     double middle = 0.5 * (begin + end), half = 0.5 * (end - begin), time = half * w->pace;
-    int six = fabs(half) > 0.5 * NARROW * middle, i, is_smooth = 1, limit = 0;
+    int six = fabs(half) > 0.5 * NARROW * middle, i, is_smooth = 1, limit = CK_LIMIT_KIND_NONE;
     ck_impulse sum = {0.0, 0.0};
     if (w->acting->limited) {
         ck_forces f;

@@ -217,7 +217,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
     if (n > 0 && (!vr || !order || !value))
         return fail(own, "setRealInputDerivatives: arguments are missing");
     for (i = 0; i < n; i++) {
-        const ck_port *port = ck_model_port(&own->model, vr[i], CK_REAL, "setRealInputDerivatives");
+        const ck_variable *port = ck_model_variable(&own->model, vr[i], CK_REAL, "setRealInputDerivatives");
         if (!port) return fmi2Error;
         if (port->id != CK_F_EXT || port->causality != CK_INPUT || order[i] != 1 || !isfinite(value[i]))
             return fail(own, "setRealInputDerivatives: only the first derivative of F_ext is taken, "

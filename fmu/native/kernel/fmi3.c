@@ -181,7 +181,7 @@ static int fit(ck_own *own, const void *vr, size_t n, const void *values, size_t
 }
 
 static int get(ck_own *own, fmi3ValueReference vr, int type, double *found) {
-    if (type != CK_REAL || vr != (fmi3ValueReference)own->model.data.port_count + 1)
+    if (type != CK_REAL || vr != (fmi3ValueReference)own->model.data.contents.n_variables + 1)
         return ck_model_get(&own->model, vr, type, found);
     *found = own->model.state.time; /* the variable that comes after all others */
     return CK_OK;

@@ -15,7 +15,6 @@
 #define MOST_STOPS 1000
 #define MOST_STEPS 5000 /* of a cavity, in one step of the host: 20 to 40 us each where values are hostile */
 
-enum { EXCHANGE_FORCE = 1 };
 
 static const char *apply(ck_model *model) { return ck_common_parameters(model); }
 
@@ -105,15 +104,15 @@ static void marks(const ck_model *model, const ck_acting *acting, int broken, do
                   double *above, double *below) {
     int i, k;
     *above = HUGE_VAL, *below = 0.0;
-    for (i = 0; i < acting->film->count; i++)
-        for (k = 0; acting->acts[i] && k < acting->film->laws[i].kink_count; k++)
+    for (i = 0; i < acting->film->n_laws; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++)
             if (acting->film->laws[i].kinks[k] < acting->end)
                 consider(acting->film->laws[i].kinks[k], gap, above, below);
     if (acting->any) {
         consider(acting->end, gap, above, below);
         consider(acting->release, gap, above, below);
     }
-    if (broken && model->scene.rewetting > 0.0 && model->scene.initial_gap < gap &&
+    if (broken && model->scene.tables->rewetting > 0.0 && model->scene.initial_gap < gap &&
         *below < model->scene.initial_gap)
         *below = model->scene.initial_gap;
     if (model->state.memory.detached) consider(model->scene.recontact, gap, above, below);
@@ -132,11 +131,11 @@ static int show(ck_model *model) {
     v[CK_F] = f.fixed + f.viscous, v[CK_F_M] = f.fixed, v[CK_F_V] = f.viscous;
     v[CK_C] = f.viscous_by_speed, v[CK_K] = f.fixed_by_gap + f.viscous_by_gap;
     v[CK_H_STABLE] = v[CK_C] > 0.0 ? fmin(v[CK_M_REF] / v[CK_C], DBL_MAX) : DBL_MAX;
-    v[CK_STATE] = broken || !acting.any                              ? CK_BROKEN
-                  : gap <= acting.film->full_gap * (1.0 + SAME) ? CK_FULL
-                                                                : CK_BRIDGE;
-    v[CK_LIMIT] = f.limit + 1;
-    v[CK_R_CAV] = radius, v[CK_V_VOID] = broken ? 0.0 : model->scene.menisci * model->state.memory.cavity.hollow;
+    v[CK_STATE] = broken || !acting.any                              ? CK_FILM_STATUS_BROKEN
+                  : gap <= acting.film->full_gap * (1.0 + SAME) ? CK_FILM_STATUS_FULL
+                                                                : CK_FILM_STATUS_BRIDGE;
+    v[CK_LIMIT] = f.limit;
+    v[CK_R_CAV] = radius, v[CK_V_VOID] = broken ? 0.0 : model->scene.tables->menisci * model->state.memory.cavity.hollow;
     v[CK_H_ABOVE] = above < HUGE_VAL ? above : 0.0;
     v[CK_H_BELOW] = below;
     return 1;
@@ -150,7 +149,7 @@ static void settle(ck_model *model, double time) {
         memset(&memory->cavity, 0, sizeof memory->cavity);
         v[CK_T_BREAK] = time, v[CK_N_BREAK] += 1.0;
     } else if (memory->pending == CK_REWETTING) {
-        memory->broken = 0, memory->film = model->scene.film_count - 1;
+        memory->broken = 0, memory->film = model->scene.tables->n_films - 1;
     }
     memory->pending = CK_NONE;
 }
@@ -158,13 +157,13 @@ static void settle(ck_model *model, double time) {
 /* Apply the event at the gap that the motion has reached: rupture, pull-off, re-wetting, contact. */
 static void apply_event(ck_model *model, double gap, int rising, double time) {
     ck_memory *memory = &model->state.memory;
-    int next = model->scene.film_count - 1;
+    int next = model->scene.tables->n_films - 1;
     ck_acting acting;
     ck_act(&model->scene, memory->film, memory->broken, memory->detached, &acting);
     if (!memory->broken && gap >= acting.end * (1.0 - SAME)) {
         memory->pending = CK_RUPTURE;
     } else if (memory->broken && !rising && gap <= model->scene.initial_gap * (1.0 + SAME) &&
-               model->scene.rewetting > 0.0 && model->scene.ends[next] * (1.0 - SAME) > gap) {
+               model->scene.tables->rewetting > 0.0 && model->scene.ends[next] * (1.0 - SAME) > gap) {
         memory->pending = CK_REWETTING;
     }
     if (!model->scene.pauses) settle(model, time);
@@ -257,7 +256,7 @@ static void doubt(ck_model *model, double step, double damping) {
     double error = scale > 0.0 ? fabs(v[CK_F] - gone) / scale : 0.0;
     double stiffest = fmax(damping, model->state.memory.damping);
     int unstable = step * stiffest > mass, was = v[CK_IN_DOUBT] != 0.0;
-    int doubted = v[CK_EXCHANGE] == EXCHANGE_FORCE && (unstable || error > DOUBT);
+    int doubted = v[CK_EXCHANGE] == CK_EXCHANGE_FORCE && (unstable || error > DOUBT);
     v[CK_COUPLING_ERROR] = error;
     v[CK_IN_DOUBT] = doubted;
     v[CK_N_DOUBT] += doubted;

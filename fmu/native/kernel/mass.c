@@ -38,8 +38,8 @@ static int show(ck_model *model) {
     v[CK_F] = found.fixed + found.viscous, v[CK_F_M] = found.fixed, v[CK_F_V] = found.viscous;
     v[CK_J] = motion->viscous_impulse, v[CK_J_M] = motion->fixed_impulse, v[CK_W] = motion->work;
     v[CK_STATE] = ck_status(&model->scene, motion, &acting, &found, model->state.pull);
-    v[CK_LIMIT] = found.limit + 1;
-    v[CK_R_CAV] = sqrt(spot.edge), v[CK_V_VOID] = model->scene.menisci * motion->cavity.hollow;
+    v[CK_LIMIT] = found.limit;
+    v[CK_R_CAV] = sqrt(spot.edge), v[CK_V_VOID] = model->scene.tables->menisci * motion->cavity.hollow;
     v[CK_T_BREAK] = motion->breaks ? clock_at(model, motion->break_time) : -1.0;
     v[CK_T_RELEASE] = motion->releases ? clock_at(model, motion->release_time) : -1.0;
     v[CK_F_PEAK] = motion->peak_force;

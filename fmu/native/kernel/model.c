@@ -14,30 +14,9 @@
 #define REST 1e-9 /* fraction of a step up to which another is put off, as masters end with round-off */
 #define OFF 1e-6  /* fraction of a step by which it may start or end off its time */
 
-static const char *const NAMES[CK_VARIABLES] = {
-    "F_ext", "dF_ext",
-    "h", "v", "F", "F_m", "F_v", "J", "J_m", "W", "state", "limit", "t_break",
-    "t_release", "F_peak", "n_break", "n_release",
-    "m", "h0", "v0", "k_s", "h_rel", "h_min", "h_break", "eta", "gamma", "dp_cav",
-    "tau_lim", "rtol",
-    "c", "k", "F_mean", "coupling_error", "H_stable", "in_doubt", "n_doubt", "h_above", "h_below",
-    "m_ref", "exchange",
-    "F_mag", "F_spring", "F_stop", "i", "u", "flux",
-    "R_coil", "N_turns", "A_pole", "g_air", "g_iron", "B_sat", "k_spring", "F_preload",
-    "h_stop", "k_stop", "d_stop", "t_delay", "T_period", "t_on", "U_boost", "t_boost",
-    "U_hold", "U_off", "n_cycles",
-    "F_el", "contact_area", "plastic_area", "d", "d_max", "d_res", "W_d", "n_beyond",
-    "h_touch", "side", "scale", "k_body", "d_max0",
-    "z", "vz", "az", "F_film", "W_visc", "W_land", "t_free", "t_land", "n_land", "F_max", "W_plastic",
-    "N", "h_free",
-    "r_cav", "V_void", "dp_tear", "dp_hold", "max_steps"};
-
-const char *ck_name(int id) { return NAMES[id]; }
-
 const ck_kind *ck_model_kind(const ck_model *model) {
-    static const ck_kind *const kinds[] = {&ck_stiction_mass, &ck_stiction_force, &ck_valve_drive,
-                                           &ck_contact_stop, &ck_tip_contact};
-    return kinds[model->data.kind];
+    static const ck_kind *const kinds[CK_MODELS] = {CK_KINDS};
+    return kinds[model->data.contents.model];
 }
 
 int ck_model_fail(ck_model *model, const char *message) {
@@ -85,8 +64,8 @@ void ck_model_reset(ck_model *model) {
     model->state.checksum = model->data.checksum;
     model->state.stop_time = HUGE_VAL;
     model->state.shown = 1;
-    for (i = 0; i < model->data.port_count; i++)
-        model->state.values[model->data.ports[i].id] = model->data.ports[i].start;
+    for (i = 0; i < model->data.contents.n_variables; i++)
+        model->state.values[model->data.contents.variables[i].id] = model->data.contents.variables[i].start;
 }
 
 int ck_model_is_in(ck_model *model, int phase, const char *call) {
@@ -100,12 +79,12 @@ int ck_model_is_in(ck_model *model, int phase, const char *call) {
     return 0;
 }
 
-const ck_port *ck_model_port(ck_model *model, unsigned reference, int types, const char *call) {
+const ck_variable *ck_model_variable(ck_model *model, unsigned reference, int types, const char *call) {
     const char *what = types & CK_REAL ? "a real" : types & CK_BOOLEAN ? "a boolean" : "an integer";
     char message[200];
-    if (reference >= 1 && reference <= (unsigned)model->data.port_count &&
-        model->data.ports[reference - 1].type & types)
-        return &model->data.ports[reference - 1];
+    if (reference >= 1 && reference <= (unsigned)model->data.contents.n_variables &&
+        model->data.contents.variables[reference - 1].type & types)
+        return &model->data.contents.variables[reference - 1];
     snprintf(message, sizeof message,
              "%s: value reference %u is not that of %s variable; reset the FMU and keep to the "
              "variables of its model description",
@@ -114,15 +93,15 @@ const ck_port *ck_model_port(ck_model *model, unsigned reference, int types, con
     return NULL;
 }
 
-static int refuse(ck_model *model, const ck_port *port, double value, const char *expected) {
+static int refuse(ck_model *model, const ck_variable *port, double value, const char *expected) {
     char message[300];
     snprintf(message, sizeof message, "%s must %s, got %.17g; reset the FMU, then set it so",
-             NAMES[port->id], expected, value);
+             ck_names[port->id], expected, value);
     return ck_model_fail(model, message);
 }
 
 int ck_model_set(ck_model *model, unsigned reference, int types, double value) {
-    const ck_port *port = ck_model_port(model, reference, types, "set");
+    const ck_variable *port = ck_model_variable(model, reference, types, "set");
     char expected[100];
     if (!port) return CK_ERROR;
     if (model->state.failed) return CK_ERROR;
@@ -154,15 +133,15 @@ static double film_end(const ck_scene *scene, const ck_film *film) {
     double end = HUGE_VAL;
     int i;
     if (scene->surface_tension != 0.0) return film->end;
-    for (i = 0; i < film->count; i++)
-        if (film->laws[i].scale != CK_TENSION_SURFACE) end = fmin(end, film->laws[i].end);
+    for (i = 0; i < film->n_laws; i++)
+        if (film->laws[i].scale != CK_SCALE_SURFACE_TENSION) end = fmin(end, film->laws[i].end);
     return end;
 }
 
 const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit) {
     const double *v = model->state.values;
-    snprintf(model->wrong, sizeof model->wrong, "%s must %s %s = %.9g %s, got %.9g %s", ck_name(id),
-             must, ck_name(other), v[other], unit, v[id], unit);
+    snprintf(model->wrong, sizeof model->wrong, "%s must %s %s = %.9g %s, got %.9g %s", ck_names[id],
+             must, ck_names[other], v[other], unit, v[id], unit);
     return model->wrong;
 }
 
@@ -176,10 +155,10 @@ static const char *tear(ck_model *model, double strength, double hold) {
         return ck_wrong(model, CK_DP_TEAR, "be 0 beside", CK_DP_CAV, "Pa");
     if (strength > 0.0 && v[CK_TAU_LIM] > 0.0)
         return ck_wrong(model, CK_DP_TEAR, "be 0 beside", CK_TAU_LIM, "Pa");
-    for (i = 0; i < scene->film_count; i++) {
-        const ck_film *film = &scene->films[i];
+    for (i = 0; i < scene->tables->n_films; i++) {
+        const ck_film *film = &scene->tables->films[i];
         ck_cavity_law *law = &scene->laws[i];
-        law->menisci = scene->menisci, law->viscosity = scene->viscosity;
+        law->menisci = scene->tables->menisci, law->viscosity = scene->viscosity;
         law->rim_square = film->rim_square, law->volume = film->volume;
         law->strength = film->rim_square > 0.0 ? strength : 0.0;
         law->drop = hold > 0.0 ? hold : strength;
@@ -193,7 +172,8 @@ const char *ck_common_parameters(ck_model *model) {
     ck_scene *scene = &model->scene;
     const char *problem;
     int i;
-    *scene = model->data.scene;
+    memset(scene, 0, sizeof *scene);
+    scene->tables = &model->data.contents.tables;
     scene->pauses = model->pauses;
     if (v[CK_H_BREAK] > 0.0 && v[CK_H_BREAK] <= v[CK_H0])
         return ck_wrong(model, CK_H_BREAK, "be 0 or exceed", CK_H0, "m");
@@ -202,16 +182,16 @@ const char *ck_common_parameters(ck_model *model) {
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];
     problem = tear(model, v[CK_DP_TEAR], v[CK_DP_HOLD]);
     if (problem) return problem;
-    for (i = 0; i < scene->film_count; i++) {
-        double breaks = v[CK_H_BREAK] > 0.0 ? v[CK_H_BREAK] : scene->films[i].breaks;
-        double end = film_end(scene, &scene->films[i]);
+    for (i = 0; i < scene->tables->n_films; i++) {
+        double breaks = v[CK_H_BREAK] > 0.0 ? v[CK_H_BREAK] : scene->tables->films[i].breaks;
+        double end = film_end(scene, &scene->tables->films[i]);
         scene->ends[i] = end < breaks ? end : breaks;
     }
     if (scene->ends[0] <= v[CK_H0])
         return "no meniscus spans h0: lower it, or build the FMU from a scene with more liquid";
     scene->recontact = 0.0;
-    for (i = 0; i < scene->films[0].count; i++) {
-        const ck_law *law = &scene->films[0].laws[i];
+    for (i = 0; i < scene->tables->films[0].n_laws; i++) {
+        const ck_law *law = &scene->tables->films[0].laws[i];
         if (law->release < HUGE_VAL && law->release <= v[CK_H0])
             return "h0 must be below the gap at which the solids detach";
         if (law->recontact > scene->recontact) scene->recontact = law->recontact;
@@ -237,7 +217,7 @@ const char *ck_model_prepare(ck_model *model) {
 }
 
 static int show(ck_model *model) {
-    double seen[CK_HELD];
+    double seen[CK_DISCRETE];
     int fine;
     ck_events_lift(model, seen);
     fine = ck_model_kind(model)->show(model);
@@ -263,7 +243,7 @@ void ck_model_follow(ck_model *model) {
 }
 
 int ck_model_get(ck_model *model, unsigned reference, int types, double *value) {
-    const ck_port *port = ck_model_port(model, reference, types, "get");
+    const ck_variable *port = ck_model_variable(model, reference, types, "get");
     if (!port) return CK_ERROR;
     if (model->state.stale || !model->state.shown) ck_model_follow(model);
     *value = model->state.values[port->id];
@@ -272,11 +252,11 @@ int ck_model_get(ck_model *model, unsigned reference, int types, double *value) 
 
 /* Take the tolerance of the host for `rtol`, unless that was set; 0: there is none. */
 static void take_tolerance(ck_model *model, double tolerance) {
-    const ck_port *port = NULL;
+    const ck_variable *port = NULL;
     double *rtol = &model->state.values[CK_RTOL];
     int i;
-    for (i = 0; i < model->data.port_count; i++)
-        if (model->data.ports[i].id == CK_RTOL) port = &model->data.ports[i];
+    for (i = 0; i < model->data.contents.n_variables; i++)
+        if (model->data.contents.variables[i].id == CK_RTOL) port = &model->data.contents.variables[i];
     if (!port || tolerance == 0.0 || model->state.has_rtol) return;
     *rtol = ck_smaller(ck_larger(tolerance, port->low), port->high);
     if (*rtol != tolerance) {
@@ -289,14 +269,14 @@ static void take_tolerance(ck_model *model, double tolerance) {
 }
 
 int ck_model_rate(ck_model *model, unsigned reference, int order, double *value) {
-    const ck_port *port = ck_model_port(model, reference, CK_REAL, "derivative of an output");
+    const ck_variable *port = ck_model_variable(model, reference, CK_REAL, "derivative of an output");
     const ck_kind *kind = ck_model_kind(model);
     char message[200];
     if (!port) return CK_ERROR;
     if (order == 1 && port->causality == CK_OUTPUT && kind->rate && kind->rate(model, port->id, value))
         return CK_OK;
     snprintf(message, sizeof message,
-             "there is no derivative of order %d of %s; go on without it", order, NAMES[port->id]);
+             "there is no derivative of order %d of %s; go on without it", order, ck_names[port->id]);
     return ck_model_discard(model, message);
 }
 
@@ -356,7 +336,7 @@ int ck_model_step(ck_model *model, double time, double step) {
     ck_state *state = &model->state;
     double lag = time - state->time, last = state->last_step, off = OFF * fabs(step);
     double clock = CLOCK * fabs(state->time), nothing = ck_larger(clock, REST * last), length;
-    double seen[CK_HELD];
+    double seen[CK_DISCRETE];
     int status;
     if (state->failed || !ck_model_is_in(model, CK_STEPPING, "doStep")) return CK_DISCARD;
     if (!(fabs(lag) <= nothing + off && isfinite(step)) || step < -ck_larger(clock, OFF * last)) {
@@ -393,7 +373,7 @@ int ck_model_step(ck_model *model, double time, double step) {
 }
 
 int ck_model_restore(ck_model *model, const ck_state *state) {
-    int count = model->data.kind >= CK_VALVE_DRIVE ? 1 : model->data.scene.film_count;
+    int count = model->data.contents.has_tables ? model->data.contents.tables.n_films : 1;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
         state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
         state->memory.film < 0 || state->memory.film >= count ||
@@ -410,10 +390,6 @@ int ck_model_restore(ck_model *model, const ck_state *state) {
 
 /* Outputs that are no continuous numbers change in event mode only, and the event a step ended for
    is applied in it. Between two events the host sees what it has seen; `latest` is what is true. */
-static const int HELD[CK_HELD] = {CK_STATE,     CK_LIMIT,    CK_T_BREAK, CK_T_RELEASE, CK_N_BREAK,
-                                  CK_N_RELEASE, CK_IN_DOUBT, CK_N_DOUBT, CK_U, CK_N_BEYOND,
-                                  CK_T_FREE,    CK_T_LAND,   CK_N_LAND};
-
 static int holds(const ck_model *model) {
     return model->event_mode && model->state.phase == CK_STEPPING;
 }
@@ -425,28 +401,28 @@ int ck_model_pends(const ck_model *model) {
 
 void ck_events_note(ck_model *model) {
     int i;
-    for (i = 0; i < CK_HELD; i++) model->state.latest[i] = model->state.values[HELD[i]];
+    for (i = 0; i < CK_DISCRETE; i++) model->state.latest[i] = model->state.values[ck_discrete[i]];
 }
 
-void ck_events_lift(ck_model *model, double seen[CK_HELD]) {
+void ck_events_lift(ck_model *model, double seen[CK_DISCRETE]) {
     int i;
     if (!holds(model)) return;
-    for (i = 0; i < CK_HELD; i++) {
-        seen[i] = model->state.values[HELD[i]];
-        model->state.values[HELD[i]] = model->state.latest[i];
+    for (i = 0; i < CK_DISCRETE; i++) {
+        seen[i] = model->state.values[ck_discrete[i]];
+        model->state.values[ck_discrete[i]] = model->state.latest[i];
     }
 }
 
-void ck_events_hold(ck_model *model, const double seen[CK_HELD]) {
+void ck_events_hold(ck_model *model, const double seen[CK_DISCRETE]) {
     int i;
     if (!holds(model)) return;
     ck_events_note(model);
-    for (i = 0; i < CK_HELD; i++) model->state.values[HELD[i]] = seen[i];
+    for (i = 0; i < CK_DISCRETE; i++) model->state.values[ck_discrete[i]] = seen[i];
 }
 
 int ck_events_lag(const ck_model *model) {
     int lags = ck_model_pends(model), i;
-    for (i = 0; i < CK_HELD; i++) lags |= model->state.latest[i] != model->state.values[HELD[i]];
+    for (i = 0; i < CK_DISCRETE; i++) lags |= model->state.latest[i] != model->state.values[ck_discrete[i]];
     return lags;
 }
 
@@ -454,7 +430,7 @@ int ck_model_update(ck_model *model) {
     int i;
     if (model->state.failed || !ck_model_is_in(model, CK_EVENT, "updateDiscreteStates"))
         return CK_ERROR;
-    for (i = 0; i < CK_HELD; i++) model->state.values[HELD[i]] = model->state.latest[i];
+    for (i = 0; i < CK_DISCRETE; i++) model->state.values[ck_discrete[i]] = model->state.latest[i];
     if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
     model->state.event = model->state.shown = 0;
     ck_model_follow(model);
@@ -467,7 +443,7 @@ void ck_events_skip(ck_model *model) {
     if (model->event_mode) return;
     if (model->state.phase == CK_EVENT) model->state.phase = CK_STEPPING;
     if (!model->state.event) return;
-    for (i = 0; i < CK_HELD; i++) model->state.values[HELD[i]] = model->state.latest[i];
+    for (i = 0; i < CK_DISCRETE; i++) model->state.values[ck_discrete[i]] = model->state.latest[i];
     if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
     model->state.event = model->state.shown = 0;
 }

@@ -1,6 +1,6 @@
 /* The models behind both versions of FMI: their variables, phases, what they refuse.
 
-   Common to all models (model.c): ports, phases, refusals. `stiction-mass` is in mass.c, a mass
+   Common to all models (model.c): variables, phases, refusals. `stiction-mass` is in mass.c, a mass
    with its film; `stiction-force` in force.c, a film for a tool that owns the mass; `valve-drive`
    in drive.c and `contact-stop` in stop.c, which have no film; `tip-contact` in tip.c, spring tips with
    theirs. Which of them an instance is says its file of data.
@@ -17,55 +17,17 @@
 
 #include <stdint.h>
 
-enum {
-    CK_STICTION_MASS = 0, CK_STICTION_FORCE = 1, CK_VALVE_DRIVE = 2, CK_CONTACT_STOP = 3,
-    CK_TIP_CONTACT = 4
-};
-/* Types of variables, as bits: a call of one version of FMI may take several of them. */
-enum { CK_REAL = 1, CK_INTEGER = 2, CK_ENUMERATION = 4, CK_BOOLEAN = 8 };
-enum { CK_INPUT = 0, CK_OUTPUT = 1, CK_PARAMETER = 2 };
 enum { CK_INSTANTIATED = 0, CK_INITIALIZATION = 1, CK_STEPPING = 2, CK_EVENT = 3, CK_TERMINATED = 4 };
 enum { CK_OK = 0, CK_WARNING = 1, CK_DISCARD = 2, CK_ERROR = 3 }; /* as in FMI 2 and 3 */
 
-/* Every variable there may be; fmu/native/data.py has the same list in the same order. */
-enum {
-    CK_F_EXT, CK_DF_EXT,
-    CK_H, CK_V, CK_F, CK_F_M, CK_F_V, CK_J, CK_J_M, CK_W, CK_STATE, CK_LIMIT, CK_T_BREAK,
-    CK_T_RELEASE, CK_F_PEAK, CK_N_BREAK, CK_N_RELEASE,
-    CK_M, CK_H0, CK_V0, CK_K_S, CK_H_REL, CK_H_MIN, CK_H_BREAK, CK_ETA, CK_GAMMA, CK_DP_CAV,
-    CK_TAU_LIM, CK_RTOL,
-    CK_C, CK_K, CK_F_MEAN, CK_COUPLING_ERROR, CK_H_STABLE, CK_IN_DOUBT, CK_N_DOUBT, CK_H_ABOVE,
-    CK_H_BELOW, CK_M_REF, CK_EXCHANGE,
-    CK_F_MAG, CK_F_SPRING, CK_F_STOP, CK_I, CK_U, CK_FLUX,
-    CK_R_COIL, CK_N_TURNS, CK_A_POLE, CK_G_AIR, CK_G_IRON, CK_B_SAT, CK_K_SPRING, CK_F_PRELOAD,
-    CK_H_STOP, CK_K_STOP, CK_D_STOP, CK_T_DELAY, CK_T_PERIOD, CK_T_ON, CK_U_BOOST, CK_T_BOOST,
-    CK_U_HOLD, CK_U_OFF, CK_N_CYCLES,
-    CK_F_EL, CK_CONTACT_AREA, CK_PLASTIC_AREA, CK_D, CK_D_MAX, CK_D_RES, CK_W_D, CK_N_BEYOND,
-    CK_H_TOUCH, CK_SIDE, CK_SCALE, CK_K_BODY, CK_D_MAX0,
-    CK_Z, CK_VZ, CK_AZ, CK_F_FILM, CK_W_VISC, CK_W_LAND, CK_T_FREE, CK_T_LAND, CK_N_LAND, CK_F_MAX,
-    CK_W_PLASTIC, CK_N, CK_H_FREE,
-    CK_R_CAV, CK_V_VOID, CK_DP_TEAR, CK_DP_HOLD, CK_MAX_STEPS,
-    CK_VARIABLES
-};
-
-enum { CK_HELD = 13 }; /* outputs that change at events only */
-
-typedef struct {
-    int id, type, causality;
-    double low, high, start;
-} ck_port;
-
-/* What the file of an FMU holds; the tables point into `cells`. */
+/* What the file of an FMU holds (description.h); its tables point into `numbers` and `cells`. */
 typedef struct {
     char guid[40];
     uint64_t checksum;
-    int kind, port_count;
-    ck_port ports[CK_VARIABLES];
-    ck_scene scene; /* of a film */
-    ck_faces faces; /* of a drive, a stop, or the site of tips */
+    ck_contents contents;
     double *numbers;
     ck_cell *cells;
-    int hints[CK_FILMS * (CK_LAWS + 1) * CK_PIECES];
+    int hints[CK_MOST_FILMS * (CK_MOST_LAWS + 1) * CK_MOST_PIECES];
 } ck_data;
 
 /* What a film without its mass remembers: where the last step ended, and what happened so far. */
@@ -107,7 +69,7 @@ typedef struct {
 typedef struct {
     uint64_t checksum; /* of the data it belongs to */
     double values[CK_VARIABLES];
-    double latest[CK_HELD]; /* of outputs that event mode changes */
+    double latest[CK_DISCRETE]; /* of outputs that event mode changes */
     double time, start_time, stop_time, last_step, rate, pull;
     double end; /* of the last step, where it paused */
     ck_motion motion; /* of stiction-mass, and of a tip */
@@ -147,7 +109,7 @@ typedef struct {
     int (*rate)(const ck_model *model, int output, double *rate);
 } ck_kind;
 
-extern const ck_kind ck_stiction_mass, ck_stiction_force, ck_valve_drive, ck_contact_stop, ck_tip_contact;
+extern const ck_kind CK_KIND_NAMES;
 
 /* Reading the file (data.c); the message says what is wrong with it, NULL if nothing is. */
 const char *ck_data_read(const char *path, ck_data *data);
@@ -173,7 +135,7 @@ int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size)
 int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state);
 
 /* Variables by value reference, from 1; `types` says which the call takes. */
-const ck_port *ck_model_port(ck_model *model, unsigned reference, int types, const char *call);
+const ck_variable *ck_model_variable(ck_model *model, unsigned reference, int types, const char *call);
 int ck_model_set(ck_model *model, unsigned reference, int types, double value);
 int ck_model_get(ck_model *model, unsigned reference, int types, double *value);
 
@@ -189,8 +151,8 @@ int ck_model_rate(ck_model *model, unsigned reference, int order, double *value)
 int ck_model_update(ck_model *model); /* let happen what the step ended for */
 int ck_model_pends(const ck_model *model);
 void ck_events_note(ck_model *model);
-void ck_events_lift(ck_model *model, double seen[CK_HELD]);
-void ck_events_hold(ck_model *model, const double seen[CK_HELD]);
+void ck_events_lift(ck_model *model, double seen[CK_DISCRETE]);
+void ck_events_hold(ck_model *model, const double seen[CK_DISCRETE]);
 int ck_events_lag(const ck_model *model); /* whether event mode has anything to show */
 void ck_events_skip(ck_model *model); /* if it is not used nothing waits for it */
 
@@ -205,6 +167,5 @@ int ck_step_limit(const ck_model *model); /* parameter max_steps */
 /* What a parameter must do to another one of its unit, with the values of both. */
 const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit);
 void ck_model_follow(ck_model *model);                           /* outputs nobody has read yet */
-const char *ck_name(int id);
 
 #endif

@@ -34,12 +34,12 @@ void ck_start(const ck_scene *scene, ck_motion *state) {
 
 /* What acts: all, or what a broken film and parted solids leave. */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting) {
-    const ck_film *film = &scene->films[number];
+    const ck_film *film = &scene->tables->films[number];
     int i;
     acting->film = film;
     acting->any = 0;
     acting->release = HUGE_VAL;
-    for (i = 0; i < film->count; i++) {
+    for (i = 0; i < film->n_laws; i++) {
         const ck_law *law = &film->laws[i];
         acting->acts[i] = !(broken && law->needs_film) && !(detached && law->release < HUGE_VAL);
         acting->any |= acting->acts[i];
@@ -47,14 +47,14 @@ void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acti
     }
     acting->end = broken ? HUGE_VAL : scene->ends[number];
     acting->limited = !broken && (scene->tension > 0.0 || scene->strength > 0.0);
-    acting->is_sphere = scene->is_sphere;
-    acting->reynolds = scene->reynolds;
+    acting->is_sphere = scene->tables->is_sphere;
+    acting->reynolds = scene->tables->reynolds;
     acting->viscosity = scene->viscosity;
     acting->surface_tension = scene->surface_tension;
     acting->tension = scene->tension;
     acting->strength = scene->strength;
-    acting->sphere_radius = scene->sphere_radius;
-    acting->menisci = scene->menisci;
+    acting->sphere_radius = scene->tables->sphere_radius;
+    acting->menisci = scene->tables->menisci;
     acting->law = !broken && scene->laws[number].strength > 0.0 ? &scene->laws[number] : NULL;
 }
 
@@ -77,11 +77,11 @@ void ck_forces_of(const ck_acting *acting, const ck_motion *state, ck_forces *fo
 int ck_status(const ck_scene *scene, const ck_motion *state, const ck_acting *acting,
               const ck_forces *forces, double pull) {
     double net = pull - scene->stiffness * (state->gap - scene->initial_gap) - forces->fixed;
-    if (!acting->any) return CK_BROKEN;
-    if (pull > 0.0 && net <= 0.0 && state->speed <= 0.0) return CK_STUCK;
-    if (state->in_contact) return CK_CONTACT;
-    if (state->broken) return CK_BROKEN;
-    return state->gap <= acting->film->full_gap ? CK_FULL : CK_BRIDGE;
+    if (!acting->any) return CK_FILM_STATUS_BROKEN;
+    if (pull > 0.0 && net <= 0.0 && state->speed <= 0.0) return CK_FILM_STATUS_STUCK;
+    if (state->in_contact) return CK_FILM_STATUS_CONTACT;
+    if (state->broken) return CK_FILM_STATUS_BROKEN;
+    return state->gap <= acting->film->full_gap ? CK_FILM_STATUS_FULL : CK_FILM_STATUS_BRIDGE;
 }
 
 /* Rest on the asperities until the pull exceeds what holds the bodies together. */
@@ -210,8 +210,8 @@ static double next_event(const ck_scene *scene, const ck_acting *acting, const c
     int i, k;
     m.rising = gap > state->gap;
     m.begin = state->gap, m.end = gap, m.found = -1.0;
-    for (i = 0; i < acting->film->count; i++)
-        for (k = 0; acting->acts[i] && k < acting->film->laws[i].kink_count; k++)
+    for (i = 0; i < acting->film->n_laws; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++)
             if (acting->film->laws[i].kinks[k] < acting->end)
                 consider(&m, acting->film->laws[i].kinks[k]);
     if (m.rising) {
@@ -365,14 +365,14 @@ void ck_resolve(const ck_scene *scene, ck_motion *state) {
         state->break_time = state->time;
         state->breaks++;
     } else if (state->pending == CK_REWETTING) {
-        state->broken = 0, state->film = scene->film_count - 1;
+        state->broken = 0, state->film = scene->tables->n_films - 1;
     }
     state->pending = CK_NONE;
 }
 
 /* Apply the event at a gap: release, rupture, rest or re-wetting. */
 static void apply_event(const ck_scene *scene, const ck_acting *acting, ck_motion *state, double event) {
-    int rising = state->speed > 0.0, next = scene->film_count - 1;
+    int rising = state->speed > 0.0, next = scene->tables->n_films - 1;
     state->gap = event;
     if (rising && event == scene->release_gap) {
         state->armed = 0;
@@ -386,7 +386,7 @@ static void apply_event(const ck_scene *scene, const ck_acting *acting, ck_motio
     if (event <= closed_gap(scene)) state->armed = 1;
     if (event <= scene->recontact) state->detached = 0;
     if (event > scene->initial_gap) return;
-    if (state->broken && scene->rewetting > 0.0 && scene->ends[next] > event)
+    if (state->broken && scene->tables->rewetting > 0.0 && scene->ends[next] > event)
         state->pending = CK_REWETTING;
     if (event == scene->rest_gap) state->in_contact = 1, state->speed = 0.0;
 }

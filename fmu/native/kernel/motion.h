@@ -7,18 +7,17 @@
 
 #include <stdint.h>
 
-/* A scene with its parameters in; `films[1]` is what is there when the bodies return, `max_steps`
-   bounds the cost of a step of the host. */
+/* The films of a scene with the parameters in; the second one is what is there when the bodies return,
+   `max_steps` bounds the cost of a step of the host. */
 typedef struct {
-    int film_count, is_sphere, reynolds, max_steps;
+    const ck_film_tables *tables;
+    int max_steps;
     int pauses; /* whether a motion ends where the film breaks or wets the bodies again */
-    double sphere_radius, menisci, rewetting;
-    ck_film films[CK_FILMS];
-    double ends[CK_FILMS];
+    double ends[CK_MOST_FILMS];
     double recontact; /* gap of re-contact of detached solids */
     double mass, initial_gap, initial_speed, stiffness, release_gap, rest_gap, rtol;
     double viscosity, surface_tension, tension, strength;
-    ck_cavity_law laws[CK_FILMS]; /* of films that tear and remember it, where strength is not 0 */
+    ck_cavity_law laws[CK_MOST_FILMS]; /* of films that tear and remember it, where strength is not 0 */
 } ck_scene;
 
 typedef struct {
@@ -42,7 +41,6 @@ enum { CK_DONE = 0, CK_NO_STEP = 1, CK_TOO_MANY_STEPS = 2 };
 /* Cost of a step of a torn film over that of a whole one: 20 to 40 us against 1 to 2 us where values
    are hostile. */
 enum { CK_TORN_COST = 20 };
-enum { CK_CONTACT = 1, CK_STUCK = 2, CK_FULL = 3, CK_BRIDGE = 4, CK_BROKEN = 5 };
 
 void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);

@@ -78,7 +78,7 @@ static double net_of(const ck_problem *p, const ck_point *at, const ck_forces *f
 
 static void hold(const ck_held *held, ck_forces *found) {
     found->viscous = held->force, found->viscous_by_gap = held->by_gap;
-    found->viscous_by_speed = held->by_speed, found->limit = 1;
+    found->viscous_by_speed = held->by_speed, found->limit = CK_LIMIT_KIND_TENSION;
 }
 
 void ck_forces_with(const ck_acting *acting, const ck_spot *spot, ck_place at, ck_forces *found) {
@@ -110,8 +110,8 @@ static void carry(ck_forces *f, const ck_point *from, const ck_point *to) {
     double dh = to->gap - from->gap;
     f->fixed += f->fixed_by_gap * dh;
     f->resistance += f->resistance_by_gap * dh;
-    if (f->limit) f->viscous += f->viscous_by_gap * dh + f->viscous_by_speed * (to->speed - from->speed);
-    else f->viscous = f->resistance * to->speed;
+    if (f->limit == CK_LIMIT_KIND_NONE) f->viscous = f->resistance * to->speed;
+    else f->viscous += f->viscous_by_gap * dh + f->viscous_by_speed * (to->speed - from->speed);
 }
 
 /* Solve a 3 by 3 system by Cramer's rule; 0 if it is singular. */
@@ -221,7 +221,7 @@ static double held_by(const ck_problem *p, double dt, const ck_forces *end) {
 static double lag_error(const ck_problem *p, const ck_step *taken, double acceleration) {
     const ck_forces *end = &taken->forces[2];
     double damping = end->viscous_by_speed, speed = taken->stages[2].speed, rate, led, lag;
-    if (!(damping > 0.0) || end->limit || speed == 0.0) return 0.0;
+    if (!(damping > 0.0) || end->limit != CK_LIMIT_KIND_NONE || speed == 0.0) return 0.0;
     rate = p->pull.rate + 2.0 * p->pull.bend * (taken->stages[2].time - p->pull.time);
     led = (rate - (p->spring + end->fixed_by_gap + end->viscous_by_gap) * speed) / damping;
     lag = p->mass / damping * led;

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { ABOVE = 1 }; /* of `side` */
 
 /* What the faces answer to the gap and the speed that are set. */
 typedef struct {
@@ -18,12 +17,12 @@ typedef struct {
 } answer;
 
 static double side(const ck_model *model) {
-    return model->state.values[CK_SIDE] == ABOVE ? 1.0 : -1.0;
+    return model->state.values[CK_SIDE] == CK_STOP_SIDE_ABOVE ? 1.0 : -1.0;
 }
 
 static answer look_up(const ck_model *model) {
     const double *v = model->state.values;
-    const ck_faces *faces = &model->data.faces;
+    const ck_faces *faces = &model->data.contents.faces;
     double largest = model->state.stopped.largest, scale = v[CK_SCALE];
     answer a;
     ck_pressed pressed;
@@ -39,7 +38,7 @@ static answer look_up(const ck_model *model) {
 }
 
 static const char *apply(ck_model *model) {
-    double most = model->data.faces.first.end;
+    double most = model->data.contents.faces.first.end;
     if (model->state.values[CK_D_MAX0] <= most) return NULL;
     snprintf(model->wrong, sizeof model->wrong,
              "d_max0 must not exceed %.6g m, where the tables end, got %.9g m", most,
@@ -51,12 +50,12 @@ static const char *apply(ck_model *model) {
 static void keep(ck_stopped *now, const answer *a) {
     now->depth = ck_larger(a->depth, 0.0);
     now->damping = a->elastic * (a->gain - 1.0);
-    now->beyond = a->branch == CK_BEYOND;
+    now->beyond = a->branch == CK_BRANCH_BEYOND;
 }
 
 static void remember(ck_model *model) {
     double *v = model->state.values, largest = model->state.stopped.largest;
-    const ck_faces *faces = &model->data.faces;
+    const ck_faces *faces = &model->data.contents.faces;
     v[CK_D_MAX] = largest, v[CK_D_RES] = ck_faces_residual(faces, largest);
     v[CK_W] = ck_faces_dissipated(faces, largest) - ck_faces_dissipated(faces, v[CK_D_MAX0]);
     v[CK_W] *= v[CK_SCALE];
@@ -89,7 +88,7 @@ static void warn(ck_model *model, double approach, double time) {
     snprintf(message, sizeof message,
              "the faces are pressed by %.4g m at t = %.9g s, beyond %.4g m where their tables end: "
              "the force goes on along its tangent; build the FMU with larger loads",
-             approach, time, model->data.faces.first.end);
+             approach, time, model->data.contents.faces.first.end);
     model->say(model->host, CK_WARNING, "logStatusWarning", message);
 }
 
@@ -100,7 +99,7 @@ static int step(ck_model *model, double time, double length) {
     answer a = look_up(model);
     int fine = show(model);
     keep(now, &a);
-    now->largest = ck_larger(now->largest, ck_smaller(a.approach, model->data.faces.first.end));
+    now->largest = ck_larger(now->largest, ck_smaller(a.approach, model->data.contents.faces.first.end));
     if (now->largest > before.stopped.largest) remember(model);
     v[CK_W_D] += 0.5 * (before.stopped.damping + now->damping) * (now->depth - before.stopped.depth);
     v[CK_N_BEYOND] += now->beyond;

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipk
 
 import contactkit as ck
-from contactkit.contact import slip_loop
+from contactkit.contact import slip_path
 from contactkit.contact.effects.elasticity import bodies_of
 from contactkit.contact.slip.coupling import coupling_of
 from contactkit.contact.slip.operator import tangential_operator
@@ -72,7 +72,7 @@ def test_the_stick_circle_does_not_depend_on_the_load():
 
 def test_without_tractions_in_the_gap_the_stick_circle_is_that_of_spence(monkeypatch):
     monkeypatch.setattr(
-        slip_loop._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
+        slip_path._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
     )
     _, part = pressed(grid=64, pressing_steps=16)
     beta = (1.0 - 2.0 * 0.2) / (2.0 * (1.0 - 0.2))
@@ -102,7 +102,7 @@ def punch(nu, coefficient, path=REST, grid=32, **choices):
 def test_a_flat_punch_sticks_as_far_as_a_sphere(monkeypatch, ratio):
     """Spence: all punches of a power law have one stick radius; pressing this one is one step."""
     monkeypatch.setattr(
-        slip_loop._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
+        slip_path._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
     )
     beta = (1.0 - 2.0 * 0.2) / (2.0 * (1.0 - 0.2))
     part = punch(0.2, ratio * beta, grid=96).of(ck.PartialSlip)
@@ -182,13 +182,14 @@ def test_the_number_of_pressing_steps_follows_from_the_tolerance(monkeypatch, rt
 
     def pressed_in(run, n, last=0.0):
         state = SimpleNamespace(traction=np.full((2, 1, 1), 0.5**0.5 * (1.0 + 0.3 / n)))
-        return SimpleNamespace(taken=SimpleNamespace(state=state, bound=np.ones(1)), problem="")
+        taken = SimpleNamespace(state=state, bound=np.ones(1))
+        return SimpleNamespace(taken=taken, solved=SimpleNamespace(problem=""))
 
-    monkeypatch.setattr(slip_loop, "_pressed", pressed_in)
+    monkeypatch.setattr(slip_path, "_pressed", pressed_in)
     effect = ck.PartialSlip(
         coefficient=0.3, path=REST, components=2, coupled=True, pressing_rtol=rtol
     )
-    found = slip_loop._press(None, effect)
+    found = slip_path._press(None, effect)
     assert found.steps == steps
     assert found.error == pytest.approx(0.3 / steps)
 

@@ -330,16 +330,6 @@ def test_a_history_is_kept_in_files_and_pickles(tmp_path):
             ck.Approach(approach=1e-9),
             r"loading = Pressing",
         ),
-        (
-            (
-                MATERIAL,
-                ck.PlasticHistory(pressures=(1e6,)),
-                ck.FrictionTraction(coefficient=0.1),
-                ck.FrictionCoupling(),
-            ),
-            ck.Pressing(pressure=1e6),
-            "no FrictionCoupling beside it",
-        ),
     ],
 )
 def test_what_does_not_fit_a_history_is_refused(effects, loading, message):

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+import contactkit as ck
 from contactkit.lubrication import reynolds
 
 DATA = Path(__file__).parents[2] / "data" / "film.json"
@@ -27,14 +28,14 @@ def inputs(name):
 def strip(length, cells, **more):
     """A strip along x between reservoirs, one cell wide; its width."""
     width = length / (cells - 2)
-    shape = reynolds.Rectangle(length=length, width=4.0 * width, centre=(0.5 * length, 0.0))
+    shape = ck.Rectangle(length=length, width=4.0 * width, centre=(0.5 * length, 0.0))
     window = (0.0, length, -0.5 * width, 0.5 * width)
     return reynolds.rasterise(shape, cells, window=window, **more), width
 
 
 def quarter_disc(radius, cells, **more):
     return reynolds.rasterise(
-        reynolds.Disc(radius=radius), cells, window=(0.0, radius, 0.0, radius), **more
+        ck.Disc(radius=radius), cells, window=(0.0, radius, 0.0, radius), **more
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import contactkit as ck
 from contactkit.errors import DescriptionError
 from contactkit.lubrication import reynolds
 
@@ -18,7 +19,7 @@ R = 3.175e-3
 @pytest.fixture(scope="module")
 def steps():
     """A quarter of a disc that is pulled apart."""
-    face = reynolds.rasterise(reynolds.Disc(radius=R), 16, window=(0.0, R, 0.0, R))
+    face = reynolds.rasterise(ck.Disc(radius=R), 16, window=(0.0, R, 0.0, R))
     film = reynolds.Film(face=face, viscosity=0.1, cavity_pressure=-1e6)
     return list(
         reynolds.pull_apart(film, 5e-6, mass=0.02, force=40.0, final=5e-6, growth=0.1, copies=4)

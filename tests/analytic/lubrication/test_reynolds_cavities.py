@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+import contactkit as ck
 from contactkit.lubrication import reynolds
 from contactkit.lubrication.reynolds import complementarity
 from tests.analytic.lubrication.reynolds_cases import (
@@ -23,7 +24,7 @@ from tests.analytic.lubrication.reynolds_cases import (
 # Their tensions and grids are chosen for the numbers, not for a liquid.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-DISC = reynolds.Disc(radius=R)
+DISC = ck.Disc(radius=R)
 
 
 def gained(before, after):
@@ -302,8 +303,8 @@ def test_a_textured_slider_and_both_methods():
     level = np.minimum(np.arange(n) - 0.5, n - 1.5 - np.arange(n))[None, :] * np.ones((n, 1))
     face = reynolds.face_from_level(level * 1e-5, 1e-5, periodic=(True, False))
     dimples = [
-        reynolds.Recess(
-            shape=reynolds.Disc(radius=4e-5, centre=((i + 0.5) * 1.2e-4, (j + 0.5) * 1.2e-4)),
+        ck.Recess(
+            shape=ck.Disc(radius=4e-5, centre=((i + 0.5) * 1.2e-4, (j + 0.5) * 1.2e-4)),
             depth=3e-6,
         )
         for i in range(4)
@@ -340,7 +341,7 @@ def test_a_textured_slider_and_both_methods():
 
 def test_a_cavity_is_born_where_the_film_is_thinnest():
     """In the corner of a tilted square, and at the rim of a sliding pad whose gap diverges."""
-    square = reynolds.rasterise(reynolds.Rectangle(length=1e-3, width=1e-3), 34)
+    square = reynolds.rasterise(ck.Rectangle(length=1e-3, width=1e-3), 34)
     gap = reynolds.gap_map(square, 1e-5, tilt=(1.9e-2 / 2, 1.9e-2 / 2))
     film = reynolds.Film(face=square, viscosity=OIL, cavity_pressure=-1e5)
     state = reynolds.step_film(reynolds.at_rest(film, gap), gap + 2e-12, 1e-9)
@@ -359,7 +360,7 @@ def test_a_cavity_is_born_where_the_film_is_thinnest():
 
 def test_a_ring_of_cavity_closes():
     """Between the rim and a vent a ring tears, and closes again without losing liquid."""
-    vented = reynolds.Ring(radius=R, hole_radius=0.3 * R)
+    vented = ck.Ring(radius=R, hole_radius=0.3 * R)
     face = reynolds.rasterise(vented, 48)
     film = reynolds.Film(face=face, viscosity=OIL, cavity_pressure=-1e5)
     before = reynolds.at_rest(film, 1e-5)
@@ -414,7 +415,7 @@ def test_a_thousand_cycles_do_not_drift():
 def test_a_pocket_empties_and_fills_without_losing_liquid():
     """Its volume beyond the gap has the liquid fraction of the pocket, before and after a step."""
     pocket = reynolds.Pocket(
-        shape=reynolds.Rectangle(length=0.4 * R, width=0.3 * R, angle=0.3), volume=1e-11
+        shape=ck.Rectangle(length=0.4 * R, width=0.3 * R, angle=0.3), volume=1e-11
     )
     face = reynolds.rasterise(DISC, 24, holes=[pocket])
     film = reynolds.Film(face=face, viscosity=OIL, cavity_pressure=-1e5)

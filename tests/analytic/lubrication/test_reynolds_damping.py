@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+import contactkit as ck
 from contactkit.errors import DescriptionError
 from contactkit.lubrication import reynolds
 from tests.analytic.lubrication.reynolds_cases import (
@@ -23,7 +24,7 @@ from tests.analytic.lubrication.reynolds_cases import (
 # Their tensions and grids are chosen for the numbers, not for a liquid.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-DISC = reynolds.Disc(radius=R)
+DISC = ck.Disc(radius=R)
 LAWS = {
     "disc": reynolds.disc_damping(R),
     "annulus_vented_0.3": reynolds.ring_damping(R, 0.3 * R),
@@ -38,13 +39,11 @@ LAWS = {
 }
 FACES = {
     "disc": reynolds.rasterise(DISC, 64),
-    "vented": reynolds.rasterise(reynolds.Ring(radius=R, hole_radius=0.3 * R), 64),
-    "sealed": reynolds.rasterise(
-        DISC, 64, holes=[reynolds.Pocket(shape=reynolds.Disc(radius=0.5 * R))]
-    ),
-    "rectangle": reynolds.rasterise(reynolds.Rectangle(length=8e-3, width=4e-3), 64),
-    "ellipse": reynolds.rasterise(reynolds.Ellipse(semi_axes=(R, R / 1.5)), 64),
-    "triangle": reynolds.rasterise(reynolds.equilateral_triangle(4e-3), 64),
+    "vented": reynolds.rasterise(ck.Ring(radius=R, hole_radius=0.3 * R), 64),
+    "sealed": reynolds.rasterise(DISC, 64, holes=[reynolds.Pocket(shape=ck.Disc(radius=0.5 * R))]),
+    "rectangle": reynolds.rasterise(ck.Rectangle(length=8e-3, width=4e-3), 64),
+    "ellipse": reynolds.rasterise(ck.Ellipse(semi_axes=(R, R / 1.5)), 64),
+    "triangle": reynolds.rasterise(ck.equilateral_triangle(4e-3), 64),
 }
 EXACT = {
     "disc": LAWS["disc"],
@@ -260,7 +259,7 @@ def test_leakage_does_not_depend_on_its_direction():
 
 def test_a_rough_flat_by_its_map_and_by_flow_factors():
     """Ridges across a square, as a map and as a patch: the same law but for the rim."""
-    face = reynolds.rasterise(reynolds.Rectangle(length=4e-3, width=4e-3), 130)
+    face = reynolds.rasterise(ck.Rectangle(length=4e-3, width=4e-3), 130)
     wave = 2e-6 * np.cos(2.0 * math.pi * (np.arange(8) + 0.5) / 8)
     heights = np.zeros(face.shape)
     heights[:, 1:-1] = np.tile(wave, 16)[None, :]
@@ -295,7 +294,7 @@ REFUSED = [
     (
         lambda: reynolds.face_damping(
             reynolds.rasterise(
-                DISC, 32, holes=[reynolds.Hole(shape=reynolds.Disc(radius=1e-3), pressure=1e5)]
+                DISC, 32, holes=[reynolds.Hole(shape=ck.Disc(radius=1e-3), pressure=1e5)]
             )
         ),
         "same in all reservoirs",
@@ -313,6 +312,6 @@ def test_the_case_of_the_recess_is_met_by_the_grid():
     name = "disc_recess_0.0015_4e-05"
     given = inputs(name)
     face = quarter_disc(R, 49)
-    hole = reynolds.Disc(radius=given["recess_radius"])
-    gap = reynolds.gap_map(face, 1e-5, recesses=[reynolds.Recess(shape=hole, depth=3e-5)])
+    hole = ck.Disc(radius=given["recess_radius"])
+    gap = reynolds.gap_map(face, 1e-5, recesses=[ck.Recess(shape=hole, depth=3e-5)])
     assert 4.0 * squeeze(face, gap).force == pytest.approx(reference(name), rel=3e-3)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+import contactkit as ck
 from contactkit.errors import DescriptionError, InfeasibleError, MissingExtraError
 from contactkit.lubrication import reynolds
 from tests.analytic.lubrication.reynolds_cases import (
@@ -23,15 +24,15 @@ from tests.analytic.lubrication.reynolds_cases import (
 # Their tensions and grids are chosen for the numbers, not for a liquid.
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-DISC = reynolds.Disc(radius=R)
+DISC = ck.Disc(radius=R)
 PLANFORMS = {
     "disc": (DISC, ()),
-    "annulus_vented_0.3": (reynolds.Ring(radius=R, hole_radius=0.3 * R), ()),
-    "annulus_sealed_0.5": (DISC, [reynolds.Pocket(shape=reynolds.Disc(radius=0.5 * R))]),
-    "annulus_vented_0.01": (DISC, [reynolds.Hole(shape=reynolds.Disc(radius=0.01 * R))]),
-    "rectangle_1": (reynolds.Rectangle(length=4e-3, width=4e-3), ()),
-    "rectangle_2": (reynolds.Rectangle(length=8e-3, width=4e-3), ()),
-    "ellipse_1.5": (reynolds.Ellipse(semi_axes=(R, R / 1.5)), ()),
+    "annulus_vented_0.3": (ck.Ring(radius=R, hole_radius=0.3 * R), ()),
+    "annulus_sealed_0.5": (DISC, [reynolds.Pocket(shape=ck.Disc(radius=0.5 * R))]),
+    "annulus_vented_0.01": (DISC, [reynolds.Hole(shape=ck.Disc(radius=0.01 * R))]),
+    "rectangle_1": (ck.Rectangle(length=4e-3, width=4e-3), ()),
+    "rectangle_2": (ck.Rectangle(length=8e-3, width=4e-3), ()),
+    "ellipse_1.5": (ck.Ellipse(semi_axes=(R, R / 1.5)), ()),
 }
 ERRORS = {
     64: dict(zip(PLANFORMS, (1e-4, 3e-3, 2e-4, 4e-3, 2e-4, 6e-4, 3e-4), strict=True)),
@@ -47,7 +48,7 @@ def test_a_flat_opens_as_its_closed_form_says(name, cells):
     assert abs(force / reference(name) - 1.0) < ERRORS[cells][name]
 
 
-@pytest.mark.parametrize("shape", [DISC, reynolds.Ellipse(semi_axes=(R, 0.8 * R))])
+@pytest.mark.parametrize("shape", [DISC, ck.Ellipse(semi_axes=(R, 0.8 * R))])
 def test_a_level_set_is_of_second_order(shape):
     a, b = (shape.radius, shape.radius) if shape is DISC else shape.semi_axes
     exact = 3.0 * math.pi * a**3 * b**3 / (a * a + b * b) * OIL * 1e-3 / 1e-15
@@ -56,14 +57,14 @@ def test_a_level_set_is_of_second_order(shape):
 
 
 def test_an_equilateral_triangle():
-    face = reynolds.rasterise(reynolds.equilateral_triangle(4e-3), 96)
+    face = reynolds.rasterise(ck.equilateral_triangle(4e-3), 96)
     exact = 12.0 * math.sqrt(3.0) / 320.0 * 4e-3**4 * OIL * 1e-3 / 1e-15
     assert squeeze(face).force == pytest.approx(exact, rel=3e-3)
 
 
 def test_a_turned_rectangle_is_the_same_rectangle():
-    turned = reynolds.Rectangle(length=6e-3, width=4e-3, angle=0.4)
-    straight = reynolds.Rectangle(length=6e-3, width=4e-3)
+    turned = ck.Rectangle(length=6e-3, width=4e-3, angle=0.4)
+    straight = ck.Rectangle(length=6e-3, width=4e-3)
     forces = [squeeze(reynolds.rasterise(shape, 128)).force for shape in (turned, straight)]
     assert forces[0] == pytest.approx(forces[1], rel=2e-3)
 
@@ -89,7 +90,7 @@ def test_symmetry_walls_stand_for_the_rest():
 def test_a_recess_and_a_dome():
     face = quarter_disc(R, 65)
     given = inputs("disc_recess_0.0015_4e-05")
-    recess = reynolds.Recess(shape=reynolds.Disc(radius=given["recess_radius"]), depth=3e-5)
+    recess = ck.Recess(shape=ck.Disc(radius=given["recess_radius"]), depth=3e-5)
     force = 4.0 * squeeze(face, reynolds.gap_map(face, 1e-5, recesses=[recess])).force
     assert force == pytest.approx(reference("disc_recess_0.0015_4e-05"), rel=2e-3)
     force = 4.0 * squeeze(face, reynolds.gap_map(face, 1e-5, dome_radius=1.0)).force
@@ -97,11 +98,11 @@ def test_a_recess_and_a_dome():
 
 
 def test_a_deep_recess_is_a_sealed_pocket():
-    face, hole = quarter_disc(R, 65), reynolds.Disc(radius=0.5 * R)
+    face, hole = quarter_disc(R, 65), ck.Disc(radius=0.5 * R)
     depths = {
         depth: squeeze(
             face,
-            reynolds.gap_map(face, 1e-5, recesses=[reynolds.Recess(shape=hole, depth=depth)]),
+            reynolds.gap_map(face, 1e-5, recesses=[ck.Recess(shape=hole, depth=depth)]),
         )
         for depth in (1e-4, 1e-3, 1e-1)
     }
@@ -185,7 +186,7 @@ def test_torque_of_a_tilting_film_is_antisymmetric():
 
 def test_damping_is_symmetric():
     """Force of a tilt rate and moment of a normal speed are the same."""
-    face = reynolds.rasterise(reynolds.Ellipse(semi_axes=(R, 0.7 * R)), 40)
+    face = reynolds.rasterise(ck.Ellipse(semi_axes=(R, 0.7 * R)), 40)
     gap = reynolds.gap_map(face, 1e-5, tilt=(1e-3, 5e-4))
     normal, tilting = squeeze(face, gap, 1.0), squeeze(face, gap, face.x + 0.0 * face.y)
     assert normal.torque[0] == pytest.approx(tilting.force, rel=3e-3)
@@ -221,7 +222,7 @@ def test_a_hydrostatic_pad_has_the_force_and_the_flow_of_its_closed_form():
     log = math.log(R / recess)
     lift = math.pi * pressure * (R**2 - recess**2) / (2.0 * log)
     flow = math.pi * gap**3 * pressure / (6.0 * OIL * log)
-    hole = reynolds.Hole(shape=reynolds.Disc(radius=recess), pressure=pressure)
+    hole = reynolds.Hole(shape=ck.Disc(radius=recess), pressure=pressure)
     whole = squeeze(reynolds.rasterise(DISC, 128, holes=[hole]), gap, 0.0)
     (found,) = whole.holes
     assert found.area == pytest.approx(math.pi * recess**2, rel=1e-14)
@@ -238,8 +239,8 @@ def test_a_hydrostatic_pad_has_the_force_and_the_flow_of_its_closed_form():
 
 def test_each_hole_has_its_flow():
     """A feed and a square drain in one face; a pin hole in a corner."""
-    feed = reynolds.Hole(shape=reynolds.Disc(radius=2e-4, centre=(1e-3, 0.0)), pressure=4e5)
-    square = reynolds.Rectangle(length=4e-4, width=4e-4, centre=(-1e-3, 0.0))
+    feed = reynolds.Hole(shape=ck.Disc(radius=2e-4, centre=(1e-3, 0.0)), pressure=4e5)
+    square = ck.Rectangle(length=4e-4, width=4e-4, centre=(-1e-3, 0.0))
     drain = reynolds.Hole(shape=square, pressure=-1e5)
     state = squeeze(reynolds.rasterise(DISC, 97, holes=[feed, drain]), rate=0.0)
     found = state.holes
@@ -249,10 +250,10 @@ def test_each_hole_has_its_flow():
     assert abs(state.inflow) < 1e-9 * found[0].flow  # what enters leaves, by a hole or the rim
     still = squeeze(reynolds.rasterise(DISC, 97, holes=[feed]), rate=0.0)
     assert found[0].flow > still.holes[0].flow  # the drain draws more out of the feed
-    pin = reynolds.Hole(shape=reynolds.Disc(radius=1e-6), pressure=1e5)
+    pin = reynolds.Hole(shape=ck.Disc(radius=1e-6), pressure=1e5)
     quarter = reynolds.rasterise(DISC, 33, holes=[pin], window=(0.0, R, 0.0, R))
     assert quarter.holes[0].area == pytest.approx(0.25 * math.pi * 1e-12, rel=1e-12)
-    assert squeeze(reynolds.rasterise(reynolds.Ring(radius=R, hole_radius=1e-3), 33)).holes == ()
+    assert squeeze(reynolds.rasterise(ck.Ring(radius=R, hole_radius=1e-3), 33)).holes == ()
     assert reynolds.at_rest(reynolds.Film(face=quarter, viscosity=OIL), 1e-5).holes[0].flow == 0.0
 
 
@@ -267,7 +268,7 @@ def test_periodic_films_do_not_know_where_they_begin():
 
 def test_a_compressible_pocket_gives_way():
     """A stiff pocket is a sealed one; a soft one is a vent for a short time."""
-    disc = reynolds.Disc(radius=0.5 * R)
+    disc = ck.Disc(radius=0.5 * R)
     forces = {}
     for soft in (0.0, 1e-18, 1e-3):
         pocket = reynolds.Pocket(shape=disc, volume=1e-9, compressibility=soft)
@@ -292,15 +293,15 @@ def test_solvers_agree():
 
 
 def test_holes_do_not_vanish():
-    point = reynolds.rasterise(DISC, 32, holes=[reynolds.Hole(shape=reynolds.Disc(radius=1e-8))])
+    point = reynolds.rasterise(DISC, 32, holes=[reynolds.Hole(shape=ck.Disc(radius=1e-8))])
     assert "as a point" in point.notes[0]
     assert squeeze(point).force < 0.95 * reference("disc")
-    slit = reynolds.Hole(shape=reynolds.Rectangle(length=1e-6, width=1e-3, centre=(1e-5, 0.0)))
+    slit = reynolds.Hole(shape=ck.Rectangle(length=1e-6, width=1e-3, centre=(1e-5, 0.0)))
     with pytest.raises(DescriptionError, match="smaller cells"):
         reynolds.rasterise(DISC, 32, holes=[slit])
     with pytest.raises(DescriptionError, match="lie in the film"):
         reynolds.rasterise(
-            DISC, 32, holes=[reynolds.Hole(shape=reynolds.Disc(radius=1e-8, centre=(1.0, 0.0)))]
+            DISC, 32, holes=[reynolds.Hole(shape=ck.Disc(radius=1e-8, centre=(1.0, 0.0)))]
         )
 
 
@@ -313,14 +314,12 @@ def test_one_cell_of_film():
 
 
 def test_sectors_and_sums_have_the_area_of_their_parts():
-    pad = reynolds.Sector(radius=2.0, hole_radius=1.0, start=0.3, end=0.3 + math.pi / 2)
+    pad = ck.Sector(radius=2.0, hole_radius=1.0, start=0.3, end=0.3 + math.pi / 2)
     cases = {
         0.75 * math.pi: pad,
-        16.0 - math.pi: reynolds.Rectangle(length=4.0, width=4.0) - reynolds.Disc(radius=1.0),
-        16.0 + 8.0: reynolds.Rectangle(length=4.0, width=4.0)
-        | reynolds.Rectangle(length=8.0, width=2.0),
-        2.0: reynolds.Rectangle(length=2.0, width=4.0)
-        & reynolds.Rectangle(length=2.0, width=1.0, angle=1e-9),
+        16.0 - math.pi: ck.Rectangle(length=4.0, width=4.0) - ck.Disc(radius=1.0),
+        16.0 + 8.0: ck.Rectangle(length=4.0, width=4.0) | ck.Rectangle(length=8.0, width=2.0),
+        2.0: ck.Rectangle(length=2.0, width=4.0) & ck.Rectangle(length=2.0, width=1.0, angle=1e-9),
     }
     for area, shape in cases.items():
         face = reynolds.rasterise(shape, 400)
@@ -328,15 +327,15 @@ def test_sectors_and_sums_have_the_area_of_their_parts():
 
 
 REFUSED = [
-    (lambda: reynolds.Disc(radius=0.0), "Disc.radius must be positive"),
-    (lambda: reynolds.Ring(radius=1.0, hole_radius=2.0), "smaller than the radius"),
-    (lambda: reynolds.Sector(radius=1.0, start=1.0, end=1.0), "larger than the start"),
+    (lambda: ck.Disc(radius=0.0), "Disc.radius must be positive"),
+    (lambda: ck.Ring(radius=1.0, hole_radius=2.0), "smaller than the radius"),
+    (lambda: ck.Sector(radius=1.0, start=1.0, end=1.0), "larger than the start"),
     (lambda: reynolds.rasterise(DISC, 2), "whole number of at least 4"),
     (lambda: reynolds.rasterise(DISC, 32, window=(1.0, 2.0, 0.0, 1.0)), "overlap the planform"),
     (lambda: reynolds.face_from_level(np.full((3, 3), -1.0), 1.0), "positive in a cell"),
     (
         lambda: reynolds.rasterise(
-            DISC, 32, holes=[reynolds.Hole(shape=reynolds.Disc(radius=0.3 * R))] * 2
+            DISC, 32, holes=[reynolds.Hole(shape=ck.Disc(radius=0.3 * R))] * 2
         ),
         "not overlap another hole",
     ),

@@ -8,11 +8,12 @@ import warnings
 import numpy as np
 import pytest
 
+import contactkit as ck
 from contactkit.errors import ValidityWarning
 from contactkit.lubrication import reynolds
 from tests.analytic.lubrication.reynolds_cases import OIL, R
 
-FACE = reynolds.rasterise(reynolds.Disc(radius=R), 48)
+FACE = reynolds.rasterise(ck.Disc(radius=R), 48)
 FILM = reynolds.Film(face=FACE, viscosity=OIL)
 
 
@@ -80,7 +81,7 @@ def test_slopes_are_those_of_the_map_and_no_steps():
     gentle = reynolds.gap_map(FACE, 1e-5, dome_radius=1.0)
     state = reynolds.solve_pressure(FILM, gentle)
     assert numbers(state)["slope of the gap"].value == pytest.approx(R, rel=0.1)  # r/R_c
-    recess = reynolds.Recess(shape=reynolds.Disc(radius=0.5 * R), depth=2e-4)
+    recess = ck.Recess(shape=ck.Disc(radius=0.5 * R), depth=2e-4)
     stepped, nothing = warned(
         lambda: reynolds.solve_pressure(FILM, reynolds.gap_map(FACE, 1e-5, recesses=[recess]))
     )
@@ -102,7 +103,7 @@ def test_thin_and_thick_films(gap, name, value):
 
 
 def test_a_coarse_grid():
-    coarse = reynolds.Film(face=reynolds.rasterise(reynolds.Disc(radius=R), 12), viscosity=OIL)
+    coarse = reynolds.Film(face=reynolds.rasterise(ck.Disc(radius=R), 12), viscosity=OIL)
     state, (said,) = warned(lambda: reynolds.solve_pressure(coarse, 1e-5, 1e-6))
     assert said.startswith("cells across the film = ")
     right = 1.5 * math.pi * OIL * 1e-6 * R**4 / 1e-15

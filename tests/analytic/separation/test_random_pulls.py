@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from random_pulls import GAP, Pulled, exact, pulls, scene_of, units
+from random_pulls import GAP, Pulled, exact, kept, pulls, scene_of, units
 
 import contactkit as ck
 
@@ -52,13 +52,20 @@ def test_a_release_is_right_to_its_tolerance(pull):
         assert n_steps <= 60.0 * (1e-4 / rtol) ** 0.25
 
 
+@pytest.mark.parametrize("i", [0, 333, 999])
+def test_the_solutions_that_are_kept_are_of_these_pulls(i):
+    found, again = kept("pulls")[i], exact(pulls(1000)[i])
+    assert found[:2] == pytest.approx(again[:2], rel=REFERENCE)
+    assert found.before == pytest.approx(again.before, rel=1e-6)
+
+
 @pytest.mark.slow
 def test_a_thousand_releases_are_right_to_their_tolerance():
     """Time within one tolerance, impulse within a fifth, speed within one but for few."""
     worse = 0
-    for i, pull in enumerate(pulls(1000)):
+    for i, (pull, right) in enumerate(zip(pulls(1000), kept("pulls"), strict=True)):
         rtol = (1e-4, 1e-6, 1e-8, 1e-10)[i % 4]
-        time, speed, impulse, _ = errors(pull, exact(pull), rtol)
+        time, speed, impulse, _ = errors(pull, right, rtol)
         assert time <= rtol + 3.0 * REFERENCE, (pull, rtol)
         assert speed <= 3.0 * rtol + 3.0 * REFERENCE, (pull, rtol)
         assert impulse <= 0.2 * rtol, (pull, rtol)

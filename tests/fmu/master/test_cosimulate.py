@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactkit.app.run.injector.cosimulation import build_fmus
 from contactkit.app.scenes import open_scene
 from contactkit.errors import ContactkitError, ConvergenceError, DescriptionError, InfeasibleError
 from contactkit.fmu.framework.instance import Instance
@@ -18,6 +17,7 @@ from contactkit.fmu.master.injector import cosimulate
 from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.valve_drive import ValveDrive
 from contactkit.models.injector.monolithic import simulate
+from contactkit.models.injector.report.cosimulation import build_fmus
 from contactkit.separation.plan import plan
 
 FMI3 = """<?xml version="1.0" encoding="UTF-8"?>

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from contactkit.app.cost.injector import coupling_settings
-from contactkit.app.cost.separation import monolithic_release
 from contactkit.app.scenes import open_scene
+from contactkit.benchmarks.separation import monolithic_release
 from contactkit.fmu.master.couple import Fmu, Mass, couple
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.stiction_force import PORTS
 from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.fmu.slaves.valve_drive import drive_values
+from contactkit.models.injector.report.cost import coupling_settings
 
 pytestmark = pytest.mark.slow
 

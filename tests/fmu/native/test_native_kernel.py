@@ -29,15 +29,18 @@ pytest.importorskip("fmpy")
 if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
+import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.errors import ConvergenceError
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
-from contactkit.fmu.native.data import data_file
-from contactkit.fmu.native.film import FINE, film_numbers, moving
+from contactkit.fmu.native.data import contents_of, data_file
+from contactkit.fmu.native.film import FINE, moving, prepared_film
+from contactkit.fmu.native.sources import layout
 from contactkit.fmu.native.tables import tabulate
 from contactkit.fmu.slaves.stiction_mass import PORTS, MeniscusLaw, scene_of
+from contactkit.separation.effects.base import LimitKind
 from contactkit.separation.motion.advance import advance
 from contactkit.separation.motion.state import Pull, outputs, start
 from contactkit.separation.plan import plan
@@ -54,23 +57,23 @@ def probe(shelf):
 
 
 @pytest.fixture(scope="module")
-def numbers():
+def tables():
     """Tables of the scenes, made once each."""
     made = {}
 
     def of(name):
         if name not in made:
-            made[name] = film_numbers(moving(SCENES[name], None))
+            made[name] = prepared_film(moving(SCENES[name], None))
         return made[name]
 
     return of
 
 
-def kernel_forces(probe, film, folder, gaps, speeds, tension=0.0, strength=0.0):
+def kernel_forces(probe, prepared, folder, gaps, speeds, tension=0.0, strength=0.0):
     """Fixed force, its slope, viscous force, its slopes, and the limit."""
-    (folder / "film.bin").write_bytes(
-        data_file("g", [0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.5, *film])
-    )
+    start = {port.name: port.start for port in PORTS}
+    numbers = contents_of("stiction-mass", PORTS[:1], start, prepared.tables).numbers()
+    (folder / "film.bin").write_bytes(data_file("g", layout(), numbers))
     words = [str(probe), str(folder), str(OIL.viscosity), str(OIL.surface_tension)]
     said = subprocess.run(
         [*words, repr(tension), repr(strength)],
@@ -89,17 +92,17 @@ def slope(function, gap, fraction=4e-4):
 
 
 @pytest.mark.parametrize("name", quick(SCENES, 0, 2, 4, 6, 8, 10, 12))
-def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, tmp_path):
+def test_forces_and_slopes_are_those_of_the_python_model(name, probe, tables, tmp_path):
     scene = moving(SCENES[name], None)
     film = plan(scene, FINE).film
     high = min(0.98 * film.end, 0.98 * film.release, 2.0 * scene.loading.final_gap)
-    gaps = np.geomspace(1.1 * numbers(name).lowest, high, 301).tolist()
+    gaps = np.geomspace(1.1 * tables(name).lowest, high, 301).tolist()
     speeds = np.linspace(-1e-3, 1.0, 301).tolist()
     limits = {effect.name: effect for effect in scene.effects}
     tension = getattr(limits.get("tension-limit"), "tension", 0.0)
     strength = getattr(limits.get("shear-limit"), "strength", 0.0)
     fixed, fixed_slope, viscous, _, _, _ = kernel_forces(
-        probe, numbers(name).numbers, tmp_path, gaps, speeds, tension, strength
+        probe, tables(name), tmp_path, gaps, speeds, tension, strength
     )
     expected = np.array([film.static_force(gap) for gap in gaps])
     nothing = 1e-12 * np.max(np.abs(expected))  # the tail of a bell curve is not followed further
@@ -110,9 +113,7 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     differences = np.array([slope(film.static_force, gap) for gap in gaps])
     size = np.abs(expected) + np.abs(differences) + nothing
     assert np.max((np.abs(fixed_slope * gaps - differences) / size)[smooth]) < 1e-9
-    _, _, viscous, by_gap, by_speed, _ = kernel_forces(
-        probe, numbers(name).numbers, tmp_path, gaps, speeds
-    )
+    _, _, viscous, by_gap, by_speed, _ = kernel_forces(probe, tables(name), tmp_path, gaps, speeds)
     resistance = np.array([film.damping(gap) for gap in gaps])
     np.testing.assert_allclose(by_speed, resistance, rtol=1e-10)
     differences = np.array([slope(film.damping, gap) for gap in gaps]) * speeds
@@ -120,14 +121,30 @@ def test_forces_and_slopes_are_those_of_the_python_model(name, probe, numbers, t
     assert np.max(wrong[smooth]) <= 0.0
 
 
+def test_a_scene_is_planned_once(monkeypatch):
+    """Though the bridge ends beyond its final gap, up to which the tables go on."""
+    from contactkit.separation.effects import meniscus
+
+    solved, final = [], 8e-6
+    law = meniscus.exact_law
+    monkeypatch.setattr(meniscus, "exact_law", lambda *given: solved.append(given) or law(*given))
+    made = moving(
+        attrs.evolve(SCENES["drop"], loading=attrs.evolve(SCENES["drop"].loading, final_gap=final)),
+        None,
+    )
+    assert prepared_film(made).prepared.scene == made
+    assert len(solved) == 1
+    assert plan(made).film.end > final
+
+
 @pytest.mark.parametrize("degrees", ANGLES, ids=str)
 def test_a_meniscus_is_the_bridge_solved_at_every_gap_up_to_its_end(degrees, probe, tmp_path):
     """Values and slopes, by a solver that knows no table; next to the end the gap has no digits."""
     scene = moving(bare_meniscus(*degrees), None)
-    numbers, end = film_numbers(scene), plan(scene, FINE).film.end
+    made, end = prepared_film(scene), plan(scene, FINE).film.end
     left = np.concatenate((np.geomspace(2e-5, 0.5, 60), 1.0 - np.geomspace(1e-3, 0.5, 30)))
     gaps = end * (1.0 - left)
-    found = kernel_forces(probe, numbers.numbers, tmp_path, gaps.tolist(), [0.0] * gaps.size)
+    found = kernel_forces(probe, made, tmp_path, gaps.tolist(), [0.0] * gaps.size)
     state = bridge(gaps, 1e-12, *map(math.radians, degrees))
     force, slope = (OIL.surface_tension * value for value in (state.force, gaps * state.stiffness))
     size = np.abs(force) + np.abs(slope)
@@ -138,7 +155,7 @@ def test_a_meniscus_is_the_bridge_solved_at_every_gap_up_to_its_end(degrees, pro
 
 
 @pytest.mark.parametrize("name", ["stieber", "shear", "sphere"])
-def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, tmp_path):
+def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, tables, tmp_path):
     scene = moving(SCENES[name], None)
     film = plan(scene, FINE).film
     gap = 2.0 * scene.loading.initial_gap
@@ -147,9 +164,9 @@ def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, t
         (0.0, 1e5) if name == "shear" else (1e5 if name == "stieber" else 101325.0, 0.0)
     )
     found = kernel_forces(
-        probe, numbers(name).numbers, tmp_path, [gap] * 9, speeds.tolist(), tension, strength
+        probe, tables(name), tmp_path, [gap] * 9, speeds.tolist(), tension, strength
     )
-    assert found[5].max() == (2.0 if name == "shear" else 1.0)
+    assert found[5].max() == (LimitKind.SHEAR if name == "shear" else LimitKind.TENSION)
     for speed, by_gap, by_speed in zip(speeds.tolist(), found[3], found[4], strict=True):
         expected = slope(lambda h, v=speed: film.viscous_force(h, v)[0], gap) / gap
         assert by_gap == pytest.approx(expected, rel=1e-7)
@@ -160,7 +177,7 @@ def test_slopes_of_limited_forces_are_those_of_the_force(name, probe, numbers, t
 @pytest.mark.parametrize(("tension", "strength"), [(0.0, 3e3), (0.0, 1e5), (2e4, 1e4)])
 @pytest.mark.parametrize("ratio", [1.2, 5.0, 60.0])
 def test_slopes_under_a_sphere_are_differences_of_the_kernel_itself(
-    tension, strength, ratio, probe, numbers, tmp_path
+    tension, strength, ratio, probe, tables, tmp_path
 ):
     """With a limiting shear strength, which the scenes do not have under a sphere."""
     gap, fraction = ratio * SCENES["sphere"].loading.initial_gap, 1e-4
@@ -168,9 +185,7 @@ def test_slopes_under_a_sphere_are_differences_of_the_kernel_itself(
     for speed in (-0.3, 1e-3, 0.3):
         gaps = [gap] + [gap * (1.0 + k * fraction) for k in places] + [gap] * 4
         speeds = [speed] * 5 + [speed * (1.0 + k * fraction) for k in places]
-        found = kernel_forces(
-            probe, numbers("sphere").numbers, tmp_path, gaps, speeds, tension, strength
-        )
+        found = kernel_forces(probe, tables("sphere"), tmp_path, gaps, speeds, tension, strength)
         if len(set(found[5])) > 1:
             continue  # the limit sets in within the difference
         weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * fraction)
@@ -192,10 +207,19 @@ MOTIONS = {
     "humid tip": ([1e-5] * 5, 1e-6, {}),
     "tip that sticks": ([2e-6] * 10, 1e-6, {}),
     "rough": ([0.1] * 10, 1e-5, {}),
+    "ring": ([40.0] * 30, 1e-3, {}),
+    "tilted": ([40.0] * 30, 1e-4, {}),
 }
 
 
-QUICK = ("rewetting", "sphere", "shear", "tip that sticks", "rough")
+QUICK = ("rewetting", "sphere", "shear", "tip that sticks", "rough", "tilted")
+
+
+def test_a_cavity_on_a_face_that_is_no_disc_has_no_native_form():
+    ring = SCENES["ring"]
+    torn = attrs.evolve(ring, effects=(*ring.effects, ck.TensionLimit()))
+    with pytest.raises(ck.PlanError, match=r"TensionLimit has no native form.*ck\.simulate"):
+        prepared_film(moving(torn, None))
 
 
 @pytest.mark.parametrize("name", quick(MOTIONS, *map([*MOTIONS].index, QUICK)))

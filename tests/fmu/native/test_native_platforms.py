@@ -31,8 +31,8 @@ from contactkit.fmu.framework.toolchain import (  # noqa: E402
     _more,
     compile_kernel,
     fmi_headers,
-    kernel_sources,
 )
+from contactkit.fmu.native.sources import kernel_sources  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
 
 pytestmark = pytest.mark.slow

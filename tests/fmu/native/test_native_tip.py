@@ -17,13 +17,13 @@ if not HAS_CC:
 from attrs import evolve
 from fmpy.fmi1 import FMICallException
 
-from contactkit.app.run.micromirror.cosimulation import couple_fmus, tip_start
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.tip import build_native_tip
 from contactkit.fmu.python.build import build, validate
 from contactkit.fmu.slaves.tip_contact import PORTS, TipContact, TipLaw, TipStatus
+from contactkit.models.micromirror.report.cosimulation import couple_fmus, tip_start
 
 ONE = {"platforms": [local()], "compiler": "cc"}
 OK, DISCARD = 0, 2

@@ -9,12 +9,12 @@ import sys
 import fmpy
 import pytest
 
-from contactkit.app.run.micromirror.cosimulation import tip_start
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, PlanError
 from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.tip_contact import TipContact, TipLaw, TipStatus, tip_scene
 from contactkit.models.micromirror.flight import Root
+from contactkit.models.micromirror.report.cosimulation import tip_start
 from contactkit.models.micromirror.tip import advance_tip, landed_start
 from contactkit.models.micromirror.tip_film import adhesion, tip_law
 from contactkit.models.micromirror.tip_film import tip_scene as scene_of_tip

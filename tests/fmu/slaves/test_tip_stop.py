@@ -10,8 +10,6 @@ import pytest
 from attrs import evolve
 
 from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve, Unloading
-from contactkit.app.run.micromirror.cosimulation import couple_fmus, tip_start
-from contactkit.app.run.micromirror.landing_sites import landing_numbers
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError, InfeasibleError
 from contactkit.files.scenes import unstructure
@@ -22,6 +20,8 @@ from contactkit.models.end_stop.solve import _curve_of, solved
 from contactkit.models.micromirror.coupling import couple
 from contactkit.models.micromirror.flight import Root
 from contactkit.models.micromirror.monolithic import simulate_monolithic
+from contactkit.models.micromirror.report.cosimulation import couple_fmus, tip_start
+from contactkit.models.micromirror.report.landing_sites import landing_numbers
 from contactkit.models.micromirror.tip import advance_tip, free_start, landed_start, tip_force
 from contactkit.models.micromirror.tip_film import tip_law
 from contactkit.models.micromirror.tip_impact import TipStop, rebound_work

@@ -68,7 +68,7 @@ def test_run_writes_curves_and_figures(scene, tmp_path, capsys):
         "result.npz",
         "result.csv",
         "forces.png",
-        "motion.png",
+        "gap.png",
         "contactkit.json",
     }
     assert "written" in capsys.readouterr().out
@@ -201,14 +201,14 @@ grid = 24
 SLIP = (
     'effect = "partial-slip"\ncoefficient = 0.3\npath = [{ ratio = 0.6, steps = 2 }]',
     '"effects.partial-slip.coefficient" = [0.1, 0.2]',
-    "slip.png",
+    "slip-zones.png",
     ["tangential_force", "friction_work"],
 )
 HISTORY = (
     'effect = "hardness-limit"\nrule = "constant"\nhardness = "1 GPa"\n'
     '[[effects]]\neffect = "plastic-history"\nforces = [2.0]\nsteps = 3',
     '"effects.plastic-history.forces" = [[1.5], [2.0, 0.1]]',
-    "loading-history.png",
+    "force-approach.png",
     ["plastic_work", "max_residual_depth"],
 )
 
@@ -228,8 +228,7 @@ def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
     written = {each.name for each in (tmp_path / "out").iterdir()}
     assert {figure, "study.csv", "study.png"} <= written
-    assert not any(name.startswith("load-curve") for name in written)
-    table = capsys.readouterr().out.partition("\nstudy, dry:\n")[2].partition("\n")[0]
+    table = capsys.readouterr().out.partition("\nstudy:\n")[2].partition("\n")[0]
     assert all(name in table for name in names)
     shown = {ax.get_ylabel().partition(" [")[0]: ax for ax in drawn[0] if ax.lines}
     assert {name.replace("_", " ") for name in names} <= set(shown)
@@ -240,4 +239,4 @@ def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
             "plastic-history forces",
         )
     # Friction does not change the pressure: no panel shows a straight line.
-    assert ("maximum pressure" in shown) == (figure != "slip.png")
+    assert ("max pressure" in shown) == (figure != "slip-zones.png")

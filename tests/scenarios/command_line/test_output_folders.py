@@ -40,8 +40,9 @@ def out(tmp_path):
 @pytest.fixture(autouse=True)
 def _without_pictures(monkeypatch):
     """Pictures take most of the time, and are files like others."""
-    monkeypatch.setattr("contactkit.app.run.separation.draw_separation", lambda *_: ())
-    monkeypatch.setattr("contactkit.app.run.study.draw_studies", lambda *_: ())
+    monkeypatch.setattr("contactkit.app.run.draw_result", lambda *_: [])
+    for module in ("run", "study"):
+        monkeypatch.setattr(f"contactkit.app.{module}.draw_study", lambda *_: None)
 
 
 def command(name, scene, out, *more):
@@ -118,7 +119,7 @@ def test_what_a_run_wrote_before_it_failed_is_its_own(scene, out, monkeypatch, c
     def broken(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("contactkit.app.run.separation.write_studies", broken)
+    monkeypatch.setattr("contactkit.app.run.write_study", broken)
     assert command("run", scene, out) == 130
     assert set(record(out)["files"]) == {"result.npz", "result.csv"}
     monkeypatch.undo()

@@ -155,7 +155,7 @@ def test_a_plan_of_a_contact_draws_heights_and_layers(tmp_path):
     with pytest.raises(
         ck.PlanError, match=r"the upper body is rigid: give interface\.upper\.solid"
     ):
-        plan.plot.stack("upper")
+        plan.plot.upper_stack()
 
 
 @pytest.mark.parametrize(("gap", "lengths"), [(5e-6, "µm"), (50e-9, "nm")])

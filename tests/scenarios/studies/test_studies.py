@@ -597,12 +597,13 @@ def test_a_load_curve_is_a_line_for_each_combination(tmp_path):
 
 
 def test_every_line_is_drawn():
-    plot = pytest.importorskip("contactkit.plot.contact")
+    plot = pytest.importorskip("contactkit.plot.study")
     drawing = pytest.importorskip("contactkit.plot.style")
     columns = {"mean_pressure": np.array([1e6, 2e6]), "max_pressure": np.array([1e9, 2e9])}
     curves = [(str(i), columns) for i in range(7)]
     figure, ax = drawing.figure()
-    plot.load_curve(curves, [ax])
+    over = ("mean_pressure", "mean pressure [MPa]", 1e6)
+    plot.study_curves(curves, [ax], [("max_pressure", "maximum pressure [GPa]", 1e9)], over)
     assert len(ax.lines) == 7
     assert len({(line.get_linestyle(), line.get_color()) for line in ax.lines}) == 7
     assert figure is ax.figure

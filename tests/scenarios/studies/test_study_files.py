@@ -130,14 +130,14 @@ def test_a_sliding_file_is_studied(file, tmp_path):
 def test_seeds_are_shown_as_medians_and_written_as_bands(file, tmp_path, capsys):
     assert main(["study", file(CONTACT), "--out", str(tmp_path)]) == 0
     text = capsys.readouterr().out
-    assert text.startswith("load curve, dry, medians of 3 seeds:\n")
-    every, bands = (table(tmp_path / f"load-curve{end}.csv") for end in ("", "-bands"))
+    assert text.startswith("study, medians of 3 seeds:\n")
+    every, bands = (table(tmp_path / f"study{end}.csv") for end in ("", "-bands"))
     fractions = np.array(every["contact_fraction [-]"], float).reshape(3, 3)
     for end, of in (("", np.median), ("_low", np.min), ("_high", np.max)):
         assert np.array(bands[f"contact_fraction{end} [-]"], float) == pytest.approx(
             of(fractions, axis=0), rel=1e-8
         )
-    assert (tmp_path / "load-curve-bands.npz").is_file()
+    assert (tmp_path / "study-bands.npz").is_file()
 
 
 @pytest.mark.parametrize("kind", FILES)
@@ -145,22 +145,21 @@ def test_a_study_is_drawn_with_its_bands(file, tmp_path, monkeypatch, kind):
     plot = pytest.importorskip("contactkit.plot.study")
     drawn = []
     draw = plot.draw_line
-    for module in ("study", "contact"):
-        monkeypatch.setattr(
-            f"contactkit.plot.{module}.draw_line",
-            lambda ax, *args: (drawn.append(ax), draw(ax, *args)),
-        )
+    monkeypatch.setattr(plot, "draw_line", lambda ax, *args: (drawn.append(ax), draw(ax, *args)))
     assert main(["study", file(FILES[kind]), "--out", str(tmp_path)]) == 0
-    name = "load-curve" if kind == "contact" else "study"
-    assert (tmp_path / f"{name}.png").stat().st_size > 10_000
+    assert (tmp_path / "study.png").stat().st_size > 10_000
     for ax in drawn:
         assert ax.get_ylabel()
         assert bool(ax.collections) == (kind == "contact")
     lines = {"separation": 2, "sliding": 1, "contact": 1}[kind]
     assert {len(ax.lines) for ax in drawn} == {lines}
     labels = {ax.get_xlabel() for ax in drawn}
-    wanted = {"separation": "loading initial gap [µm]", "sliding": "loading gap [µm]"}
-    assert labels == {wanted.get(kind, "mean pressure [MPa]")}
+    wanted = {
+        "separation": "loading initial gap [µm]",
+        "sliding": "loading gap [µm]",
+        "contact": "loading pressure [MPa]",
+    }
+    assert labels == {wanted[kind]}
 
 
 @pytest.mark.parametrize("kind", FILES)
@@ -170,15 +169,14 @@ def test_a_study_over_its_reference_scales(file, tmp_path, capsys, kind):
     text = capsys.readouterr().out
     scale = {"separation": "F0", "sliding": "x", "contact": "E*"}[kind]
     assert f"\n  {scale}: " in text.partition("in units of")[2]
-    name = "load-curve" if kind == "contact" else "study"
-    head = set(table(tmp_path / f"{name}.csv"))
+    head = set(table(tmp_path / "study.csv"))
     wanted = {
         "separation": "viscous_impulse [I0]",
         "sliding": "peak_tangential_force [F0]",
         "contact": "load [E* A]",
     }
     assert wanted[kind] in head
-    assert (tmp_path / f"{name}.png").is_file()
+    assert (tmp_path / "study.png").is_file()
 
 
 def test_the_study_as_json_has_columns(file, capsys):

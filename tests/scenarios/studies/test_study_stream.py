@@ -217,7 +217,7 @@ def test_a_plan_of_a_study_states_time_memory_and_disk(tmp_path):
 @pytest.fixture
 def failing(monkeypatch):
     """Function that has points of a given time raise; the number of their solves so far."""
-    simulate, count = study_run.simulate, {}
+    simulate, count = study_run.run, {}
 
     def install(errors):
         def solve(plan):
@@ -227,7 +227,7 @@ def failing(monkeypatch):
                 raise errors[time][0]
             return simulate(plan)
 
-        monkeypatch.setattr(study_run, "simulate", solve)
+        monkeypatch.setattr(study_run, "run", solve)
         monkeypatch.setattr(study_run.time, "sleep", lambda seconds: None)
         return count
 
@@ -308,14 +308,14 @@ sys.path.insert(0, sys.argv[1])
 import test_study_stream as tests
 from contactkit.studies import run as study_run
 
-simulate = study_run.simulate
+simulate = study_run.run
 
 def solve(plan):
     if plan.scene.loading.time == 2e-3:
         os.kill(os.getpid(), signal.SIGKILL)
     return simulate(plan)
 
-study_run.simulate = solve  # here and in the workers, which run this file too
+study_run.run = solve  # here and in the workers, which run this file too
 if __name__ == "__main__":
     import contactkit as ck
     vary = {tests.TIMES: tests.VARY[tests.TIMES]}

@@ -14,10 +14,9 @@
 
 #define PIECE 3 /* cost of a piece of the motion beside its steps, in internal steps of 1 to 2 us */
 
-enum { LANDED = 1, HELD = 2, FREE = 3 }; /* of `state` */
 enum { TOO_MANY_SWINGS = 10, TOO_MANY_PIECES = 11, IMPACT = 20 }; /* troubles; and those of impacts */
 
-static int gives(const ck_model *model) { return model->data.faces.is_there; }
+static int gives(const ck_model *model) { return model->data.contents.has_faces; }
 
 /* Gap beyond which a tip is free: that of solids, or where the film breaks beyond. */
 static double free_gap(const ck_scene *scene) {
@@ -34,7 +33,7 @@ static double attraction(const ck_model *model) {
 }
 
 static ck_site site_of(const ck_model *model, const ck_root *root) {
-    ck_site site = {&model->data.faces, model->state.values[CK_D_STOP], 0.0, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}};
+    ck_site site = {&model->data.contents.faces, model->state.values[CK_D_STOP], 0.0, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}};
     site.attraction = attraction(model);
     site.stiffness = model->scene.stiffness, site.mass = model->scene.mass, site.root = *root;
     return site;
@@ -51,7 +50,7 @@ static ck_root root_of(const ck_model *model, double time) {
 
 /* Refuse a tip that starts beyond the end of its curve. */
 static const char *pressed_in(ck_model *model) {
-    const ck_faces *faces = &model->data.faces;
+    const ck_faces *faces = &model->data.contents.faces;
     ck_root root = root_of(model, 0.0);
     ck_motion saved = model->state.motion;
     ck_site site;
@@ -97,7 +96,7 @@ static const char *apply(ck_model *model) {
 /* Remember how deep the faces are pressed, and the residual indentation. */
 static void press(ck_model *model, double depth) {
     ck_tip *tip = &model->state.tip;
-    const ck_faces *faces = &model->data.faces;
+    const ck_faces *faces = &model->data.contents.faces;
     double unused;
     tip->depth = depth;
     tip->largest = ck_larger(tip->largest, depth);
@@ -176,12 +175,12 @@ static void touch(ck_model *model) {
     const ck_scene *scene = &model->scene;
     ck_motion *motion = &model->state.motion;
     ck_tip *tip = &model->state.tip;
-    int wets = scene->rewetting > 0.0, strikes = gives(model);
+    int wets = scene->tables->rewetting > 0.0, strikes = gives(model);
     land(model, strikes ? 0.0 : 0.5 * scene->mass * motion->speed * motion->speed);
     motion->gap = scene->initial_gap, motion->in_contact = !strikes;
     if (!strikes) motion->speed = 0.0;
     motion->broken = !wets, motion->armed = 1, motion->detached = 0;
-    if (wets) motion->film = scene->film_count - 1;
+    if (wets) motion->film = scene->tables->n_films - 1;
     tip->free = 0, tip->touching = strikes;
 }
 
@@ -223,7 +222,7 @@ static int strike(ck_model *model, const ck_root *root, double end) {
     tip->touching = hit.end == CK_GOES_ON;
     tip->impulse += hit.impulse, tip->loss += hit.dissipated;
     tip->depth = hit.depth, tip->largest = hit.largest, tip->peak = hit.peak;
-    tip->residual = ck_faces_residual(&model->data.faces, hit.largest);
+    tip->residual = ck_faces_residual(&model->data.contents.faces, hit.largest);
     return trouble ? IMPACT + trouble : CK_DONE;
 }
 
@@ -239,7 +238,7 @@ static int rest(ck_model *model, const ck_root *root, const ck_root *raised, dou
     elapsed = motion->time - begin;
     for (i = 0; i < 3; i++) {
         double time = begin + 0.5 * i * elapsed, depth = ck_rest_depth(&site, tip->largest, time);
-        if (ck_is_too_deep(&model->data.faces, depth)) {
+        if (ck_is_too_deep(&model->data.contents.faces, depth)) {
             tip->depth = depth;
             return IMPACT + CK_TOO_DEEP;
         }
@@ -315,13 +314,13 @@ static int show(ck_model *model) {
     v[CK_F] = force, v[CK_F_FILM] = film;
     v[CK_H] = motion->gap - (tip->depth - tip->residual), v[CK_V] = motion->speed;
     v[CK_J] = n * tip->impulse, v[CK_W_VISC] = n * motion->work, v[CK_W_LAND] = n * tip->loss;
-    v[CK_STATE] = motion->in_contact || tip->touching ? LANDED : tip->free ? FREE : HELD;
+    v[CK_STATE] = motion->in_contact || tip->touching ? CK_TIP_STATUS_LANDED : tip->free ? CK_TIP_STATUS_FREE : CK_TIP_STATUS_HELD;
     v[CK_T_BREAK] = clock_at(model, motion->break_time);
     v[CK_T_FREE] = clock_at(model, tip->free_time);
     v[CK_T_LAND] = clock_at(model, tip->landing_time);
     v[CK_N_BREAK] = motion->breaks, v[CK_N_LAND] = tip->landings;
     v[CK_D] = tip->depth, v[CK_D_MAX] = tip->largest, v[CK_F_MAX] = tip->peak;
-    v[CK_W_PLASTIC] = gives(model) ? n * ck_faces_dissipated(&model->data.faces, tip->largest) : 0.0;
+    v[CK_W_PLASTIC] = gives(model) ? n * ck_faces_dissipated(&model->data.contents.faces, tip->largest) : 0.0;
     /* of all tips, which may be too much where that of one is not */
     return isfinite(v[CK_J] + v[CK_W_VISC] + v[CK_W_LAND] + v[CK_W_PLASTIC]);
 }
@@ -329,7 +328,7 @@ static int show(ck_model *model) {
 /* Steps ----------------------------------------------------------------------------------------- */
 
 static int no_step(ck_model *model, int trouble, double length, const ck_motion *where, double depth) {
-    const ck_faces *faces = &model->data.faces;
+    const ck_faces *faces = &model->data.contents.faces;
     double time = clock_at(model, where->time);
     char message[400];
     if (trouble == IMPACT + CK_TOO_DEEP)

@@ -1,0 +1,91 @@
+"""Film between two faces on a grid: planform, holes, and the gap beside the shortest distance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ...errors import DescriptionError
+from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
+from ...scene.faces import FaceHole, SealedHole
+from .shape import FaceShape
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.floating[Any]]
+
+__all__ = ["FaceGrid", "gridded"]
+
+_FINE = 512  # points across the planform for its nearest place: 1/512 of tilt and crown is missed
+
+
+class FaceGrid(NamedTuple):
+    """A film on a grid."""
+
+    face: Face
+    relief: Map
+    """Gap beside the shortest distance of the faces [m], (ny, nx)."""
+    is_even: bool
+    """Whether the gap is the same everywhere."""
+
+
+def gridded(shape: FaceShape, cells: int) -> FaceGrid:
+    """Lay a grid over a film.
+
+    Parameters
+    ----------
+    shape : FaceShape
+        Planform, holes, recesses, tilt and crown.
+    cells : int
+        Cells along the longer side.
+
+    Raises
+    ------
+    DescriptionError
+        If a hole or a recess is not resolved, or lies outside the film.
+    """
+    holes = [_hole(hole) for hole in shape.holes]
+    face = rasterise(shape.outline, cells, holes=holes)
+    if shape.is_even:
+        return FaceGrid(face, np.zeros(face.shape), True)
+    nearest = _smooth(shape, *_points(shape))
+    smooth = _smooth(shape, face.x, face.y) - float(np.nanmin(nearest))
+    # Outside the film, where liquid comes from, it may not be nearer than within.
+    return FaceGrid(face, np.maximum(smooth, 0.0) + _depths(shape, face), False)
+
+
+def _hole(hole: FaceHole) -> Hole | Pocket:
+    if isinstance(hole, SealedHole):
+        return Pocket(shape=hole.shape, volume=hole.volume)
+    return Hole(shape=hole.shape)
+
+
+def _points(shape: FaceShape) -> tuple[Map, Map]:
+    """Points in the film and on its rim; nan outside."""
+    left, right, low, high = shape.outline.bounds
+    x, y = np.meshgrid(np.linspace(left, right, _FINE), np.linspace(low, high, _FINE))
+    outside = shape.outline.level(x, y) < -1e-9 * max(right - left, high - low)
+    return np.where(outside, np.nan, x), np.where(outside, np.nan, y)
+
+
+def _smooth(shape: FaceShape, x: Map, y: Map) -> Map:
+    found: Map = shape.tilt[0] * x + shape.tilt[1] * y
+    return found + 0.5 * shape.curvature * (x * x + y * y)
+
+
+def _depths(shape: FaceShape, face: Face) -> Map:
+    """Depth of the recesses [m]; where they overlap, the deepest counts."""
+    depth = np.zeros(face.shape)
+    for recess in shape.recesses:
+        covered = np.broadcast_to(recess.shape.level(face.x, face.y) > 0.0, face.shape)
+        if not (covered & face.inside).any():
+            raise DescriptionError(
+                "Recess.shape",
+                recess.shape,
+                f"cover a cell of {max(face.pixel_size):.3g} m of the film",
+                hint="move it, leave it out, or ask for a smaller Accuracy.film_rtol",
+            )
+        depth = np.where(covered, np.maximum(depth, recess.depth), depth)
+    return depth

@@ -1,0 +1,141 @@
+"""The models of the kernel: one description of each, which Python and C follow.
+
+A variable is added or removed where the model lists its ports (``PORTS`` of its module in
+`contactkit.fmu.slaves`): model descriptions, the file of an FMU, and the names, numbers and
+enumerations of the kernel follow from it. A model is added by one line here and its `ck_kind` in C.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import IntEnum
+from typing import Literal
+
+from attrs import frozen
+
+from ...errors import DescriptionError
+from ..framework.ports import Port
+from ..framework.slave import PortSlave
+from ..slaves.contact_stop import ContactStop
+from ..slaves.stiction_force import StictionForce
+from ..slaves.stiction_mass import StictionMass
+from ..slaves.tip_contact import TipContact
+from ..slaves.valve_drive import ValveDrive
+from .records import Faces, FilmTables
+
+__all__ = ["DISCRETE", "MODELS", "NativeModel", "VARIABLES", "enumerations", "native_model"]
+
+
+@frozen(kw_only=True)
+class NativeModel:
+    """A model of the kernel: its variables, and what its file holds besides them."""
+
+    name: str
+    slave: type[PortSlave]
+    """Its Python FMU, of which it has the variables that its tables leave free."""
+    summary: str
+    has_film: bool
+    faces: Literal["never", "maybe", "always"]
+
+    @property
+    def identifier(self) -> str:
+        """Name of its library, so that a host may load several."""
+        return self.name.replace("-", "_")
+
+    @property
+    def ports(self) -> tuple[Port, ...]:
+        """Variables that it may have."""
+        return tuple(port for port in self.slave.ports if not port.tabulated)
+
+    def check(self, tables: FilmTables | None, faces: Faces | None) -> None:
+        """Refuse a file without what the model steps, or with more.
+
+        Raises
+        ------
+        DescriptionError
+            Naming the record.
+        """
+        expected = {"never": faces is None, "maybe": True, "always": faces is not None}
+        if (tables is not None) is not self.has_film:
+            raise DescriptionError(f"tables of {self.name}", tables, self._must(self.has_film))
+        if not expected[self.faces]:
+            must = self._must(self.faces == "always")
+            raise DescriptionError(f"faces of {self.name}", faces, must)
+
+    @staticmethod
+    def _must(be: bool) -> str:
+        return "be given" if be else "be None: the model has none"
+
+
+_ALL = (
+    NativeModel(
+        name="stiction-mass",
+        slave=StictionMass,
+        summary=StictionMass.summary,
+        has_film=True,
+        faces="never",
+    ),
+    NativeModel(
+        name="stiction-force",
+        slave=StictionForce,
+        summary="Liquid film between two bodies: forces, impulses and doubts of coupling",
+        has_film=True,
+        faces="never",
+    ),
+    NativeModel(
+        name="valve-drive",
+        slave=ValveDrive,
+        summary=ValveDrive.summary,
+        has_film=False,
+        faces="maybe",
+    ),
+    NativeModel(
+        name="contact-stop",
+        slave=ContactStop,
+        summary=ContactStop.summary,
+        has_film=False,
+        faces="always",
+    ),
+    NativeModel(
+        name="tip-contact",
+        slave=TipContact,
+        summary=TipContact.summary.partition(" (")[0],  # what Python needs
+        has_film=True,
+        faces="maybe",
+    ),
+)
+MODELS: Mapping[str, NativeModel] = {model.name: model for model in _ALL}
+"""Models of the kernel by their names, in the order of their numbers there."""
+
+_PORTS = tuple(port for model in _ALL for port in model.ports)
+
+VARIABLES = tuple(dict.fromkeys(port.name for port in _PORTS))
+"""Names of all variables there may be, in the order of their numbers in the kernel."""
+
+DISCRETE = tuple(
+    dict.fromkeys(
+        port.name
+        for port in _PORTS
+        if port.causality == "output" and port.variability == "discrete"
+    )
+)
+"""Names of the outputs that change at events only."""
+
+
+def enumerations() -> tuple[type[IntEnum], ...]:
+    """Enumerations of the variables, each once."""
+    found = dict.fromkeys(port.enumeration for port in _PORTS)
+    return tuple(one for one in found if one is not None)
+
+
+def native_model(name: str) -> NativeModel:
+    """Model of a name.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none.
+    """
+    if name not in MODELS:
+        raise DescriptionError("model", name, "be " + " or ".join(map(repr, MODELS)))
+    return MODELS[name]

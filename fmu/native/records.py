@@ -1,0 +1,155 @@
+"""What the file of a native FMU holds: films as tables, rough faces as curves."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import ClassVar
+
+from attrs import frozen
+
+from .record import (
+    Real,
+    Record,
+    column,
+    flag,
+    maybe,
+    member_of,
+    non_negative,
+    part,
+    positive,
+    real,
+    several,
+    whole,
+)
+
+__all__ = [
+    "Curve",
+    "Faces",
+    "Film",
+    "FilmTables",
+    "Law",
+    "Piece",
+    "PowerCurve",
+    "Scale",
+    "Table",
+    "Unloading",
+]
+
+
+class Scale(IntEnum):
+    """Parameter that a force is proportional to."""
+
+    FIXED = 0
+    SURFACE_TENSION = 1
+    VISCOSITY = 2
+
+
+@frozen(kw_only=True)
+class Piece(Record):
+    """A stretch of a table: y over x, quintic Hermite, where y stands for f h^power."""
+
+    low: float = positive("gap at which it begins [m]")
+    high: float = positive("gap at which it ends [m]")
+    folds: bool = flag("whether x is sqrt(ln(high/h)), not ln h: the slope has no bound there")
+    power: int = whole("of the fall that is taken away [-]", 0, 8)
+    x: tuple[float, ...] = column("place of a node [-]", ascends=True)
+    y: tuple[float, ...] = column("value there")
+    slope: tuple[float, ...] = column("dy/dx")
+    curve: tuple[float, ...] = column("d2y/dx2")
+    derived: ClassVar[tuple[str, ...]] = (
+        "double log_end; /* ln(high), where it folds */",
+        "const struct ck_cell *cells; /* between the nodes */",
+        "int *hint; /* where the last search ended; it saves time and changes nothing */",
+    )
+
+
+@frozen(kw_only=True)
+class Table(Record):
+    """A function of the gap, of pieces that follow each other; beyond them y stays."""
+
+    stays: bool = flag("whether beyond the last piece the function itself stays")
+    pieces: tuple[Piece, ...] = several(Piece, "in the order of their gaps", most=12, least=1)
+    checked: ClassVar[bool] = True
+
+
+@frozen(kw_only=True)
+class Law(Record):
+    """A force of a film or of its solids [N], over the parameter it is proportional to."""
+
+    scale: Scale = member_of(Scale, "that parameter")
+    needs_film: bool = flag("whether it ends where the film breaks")
+    end: float = positive("gap beyond which there is none [m]")
+    release: float = positive("gap at which solids pull off [m]")
+    recontact: float = non_negative("gap at which they touch again [m]")
+    kinks: tuple[float, ...] = several(Real(0.0), "gaps at which its slope jumps [m]", most=8)
+    table: Table = part(Table, "force")
+
+
+@frozen(kw_only=True)
+class Film(Record):
+    """A film: its forces, and how far it reaches."""
+
+    end: float = positive("gap at which its laws end [m]")
+    breaks: float = positive("gap at which a rule breaks it [m]")
+    full_gap: float = real("gap up to which it is full to the rim [m]")
+    laws: tuple[Law, ...] = several(Law, "its forces", most=8, least=1)
+    shape: Table = part(Table, "square of the radius between flats, height less gap under a sphere")
+    rim_square: float = non_negative("square of the rim for a cavity [m2]; 0: it can have none")
+    volume: float = non_negative("volume for a cavity [m3]")
+
+
+@frozen(kw_only=True)
+class FilmTables(Record):
+    """The film of a scene, and what is left of it after a rupture."""
+
+    is_sphere: bool = flag("whether one body is a sphere")
+    sphere_radius: float = positive("its radius [m]")
+    menisci: float = positive("number of equal menisci [-]")
+    reynolds: bool = flag("whether cavities begin where the pressure has its minimum")
+    rewetting: float = real("fraction of the volume that is there after a rupture [-]", 0.0, 1.0)
+    films: tuple[Film, ...] = several(Film, "as given, and re-wetted", most=2, least=1)
+
+
+@frozen(kw_only=True)
+class Curve(Record):
+    """A function as a cubic between nodes, which keeps the order of its values."""
+
+    x: tuple[float, ...] = column("place of a node", ascends=True)
+    y: tuple[float, ...] = column("value there")
+    slope: tuple[float, ...] = column("dy/dx")
+
+
+@frozen(kw_only=True)
+class PowerCurve(Record):
+    """A function as a curve of its logarithm over that of x: a power law before its first node."""
+
+    begin: float = positive("first x")
+    end: float = positive("last x")
+    low: float = positive("value at the first x")
+    high: float = positive("value at the last x")
+    log: Curve = part(Curve, "ln y over ln x")
+
+
+@frozen(kw_only=True)
+class Unloading(Record):
+    """Unloading of rough faces from a maximum approach, over the fraction of its length."""
+
+    end: float = positive("maximum approach [m]")
+    force: PowerCurve = part(PowerCurve, "force over that at the maximum approach [-]")
+    area: PowerCurve = part(PowerCurve, "area of contact over that there [-]")
+
+
+@frozen(kw_only=True)
+class Faces(Record):
+    """Rough faces that are pressed against each other: loading, unloading, losses."""
+
+    limit: float = non_negative("approach up to which all is reversible [m]")
+    first: PowerCurve = part(PowerCurve, "force of loading [N] over the approach [m]")
+    area: PowerCurve = part(PowerCurve, "area of contact of loading [m2] over the approach [m]")
+    plastic: Curve = part(Curve, "area that has yielded [m2] over the maximum approach [m]")
+    residual: Curve | None = maybe(Curve, "approach left [m] over the maximum approach [m]")
+    dissipated: Curve | None = maybe(Curve, "work dissipated [J] over the maximum approach [m]")
+    unloading: tuple[Unloading, ...] = several(
+        Unloading, "in the order of their ends; there are losses where there is one", most=64
+    )
+    checked: ClassVar[bool] = True
