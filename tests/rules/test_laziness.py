@@ -137,7 +137,7 @@ UNUSED = {
 }
 # What of the rooms that it does call for a scene does without.
 LEFT_OUT = {
-    "oil film": {"separation.effects.adhesion", "separation.effects.asperities"},
+    "oil film": {"separation.effects.adhesion", "separation.face.cavity"},
     "dry contact": {
         *(f"contact.effects.{name}" for name in ("film", "stress", "adhesion", "island_bridges")),
         *(

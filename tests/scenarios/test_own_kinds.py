@@ -12,7 +12,7 @@ from attrs import evolve, field, frozen
 import contactkit as ck
 from contactkit.contact.effects.attraction_laws import AttractionLaw, TensionLaw
 from contactkit.errors import DescriptionError
-from contactkit.fmu.native.film import film_numbers, free_liquid
+from contactkit.fmu.native.film import free_liquid, prepared_film
 from contactkit.liquids.temperature_laws import TemperatureLaw
 from contactkit.scene.loading import ContactLoading, ImposedForce
 from contactkit.scene.surfaces import ShortWave, Surface
@@ -221,7 +221,7 @@ def test_a_viscosity_of_ones_own_is_in_film_file_and_native_fmu(tmp_path):
     )
     assert ck.load_scene(ck.save_scene(scene, tmp_path / "film.toml")) == scene
     moved = evolve(scene, loading=StandardPull(force=1.0, initial_gap=2e-6, final_gap=1e-5))
-    assert free_liquid(film_numbers(moved).prepared).viscosity == pytest.approx(viscosity)
+    assert free_liquid(prepared_film(moved).prepared).viscosity == pytest.approx(viscosity)
 
 
 @pytest.mark.usefixtures("registered")
