@@ -54,10 +54,17 @@ if TYPE_CHECKING:
     from .contact.effects.elasticity import HalfSpace, LayeredHalfSpace
     from .contact.effects.film import FilmMeniscus
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
+    from .contact.effects.hardness_rules import (
+        ConstantHardness,
+        ContinuousHardness,
+        HardnessMap,
+        LiteralHardness,
+        MaterialHardness,
+    )
     from .contact.effects.island_bridges import IslandBridges
     from .contact.effects.partial_slip import PartialSlip
     from .contact.effects.plastic_history import PlasticHistory
-    from .contact.effects.plasticity import HardnessLimit, HardnessMap
+    from .contact.effects.plasticity import HardnessLimit
     from .contact.effects.stress import SubsurfaceStress
     from .contact.plan import ContactPlan
     from .contact.press import press
@@ -173,7 +180,11 @@ _HOMES = {
     "GaussianRoughness": "scene.rough_surfaces",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
-    "HardnessMap": "contact.effects.plasticity",
+    "ConstantHardness": "contact.effects.hardness_rules",
+    "ContinuousHardness": "contact.effects.hardness_rules",
+    "LiteralHardness": "contact.effects.hardness_rules",
+    "MaterialHardness": "contact.effects.hardness_rules",
+    "HardnessMap": "contact.effects.hardness_rules",
     "Heights": "scene.rough_surfaces",
     "Image": "scene.planforms",
     "ImposedForce": "scene.loading",
@@ -280,11 +291,13 @@ __all__ = [
     "AsperityPopulation",
     "Body",
     "CombinedSurface",
+    "ConstantHardness",
     "ContactAngleHysteresis",
     "ContactPlan",
     "ContactResult",
     "ContactScene",
     "ContactkitError",
+    "ContinuousHardness",
     "ConvergenceError",
     "CouetteForce",
     "DescriptionError",
@@ -319,7 +332,9 @@ __all__ = [
     "LennardJonesAttraction",
     "LimitKind",
     "Liquid",
+    "LiteralHardness",
     "Material",
+    "MaterialHardness",
     "Measured",
     "Meniscus",
     "MeniscusForce",

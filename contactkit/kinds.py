@@ -16,6 +16,7 @@ __all__ = [
     "CONTACT_LOADINGS",
     "EFFECTS",
     "FACE_HOLES",
+    "HARDNESS_RULES",
     "KINDS",
     "LOADINGS",
     "PLANFORMS",
@@ -158,6 +159,19 @@ ATTRACTION_LAWS: Registry[Any] = Registry(
     role="AttractionLaw",
 )
 
+HARDNESS_RULES: Registry[Any] = Registry(
+    "hardness rule",
+    {
+        "continuous": "contact.effects.hardness_rules:ContinuousHardness",
+        "literal": "contact.effects.hardness_rules:LiteralHardness",
+        "material": "contact.effects.hardness_rules:MaterialHardness",
+        "constant": "contact.effects.hardness_rules:ConstantHardness",
+    },
+    tag="kind",
+    group="contactkit.hardness_rules",
+    role="HardnessRule",
+    plain=True,
+)
 PLANFORMS: Registry[Any] = Registry(
     "planform",
     {
@@ -183,7 +197,14 @@ FACE_HOLES: Registry[Any] = Registry(
     role="FaceHole",
 )
 KINDS: Registries[Any] = Registries(
-    EFFECTS, SURFACES, LOADINGS, TEMPERATURE_LAWS, ATTRACTION_LAWS, PLANFORMS, FACE_HOLES
+    EFFECTS,
+    SURFACES,
+    LOADINGS,
+    TEMPERATURE_LAWS,
+    ATTRACTION_LAWS,
+    HARDNESS_RULES,
+    PLANFORMS,
+    FACE_HOLES,
 )
 """All kinds of all families."""
 
@@ -199,7 +220,7 @@ def register(kind: K) -> K:
         cone = "indenters.shapes:Cone"  # its name in files = "module:class"
 
     The groups are ``contactkit.effects``, ``.surfaces``, ``.loadings``, ``.temperature_laws``,
-    ``.attraction_laws`` and ``.planforms``.
+    ``.attraction_laws``, ``.hardness_rules`` and ``.planforms``.
 
     Parameters
     ----------

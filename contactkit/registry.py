@@ -158,6 +158,8 @@ class Registry(_Listing[T_co]):
         What the base class is, for messages.
     attribute : str
         Attribute of a class that is its name in files.
+    plain : bool
+        Whether a name alone stands for a kind whose fields are at their defaults.
 
     Examples
     --------
@@ -180,10 +182,11 @@ class Registry(_Listing[T_co]):
         group: str = "",
         role: str = "",
         attribute: str = "kind",
+        plain: bool = False,
     ) -> None:
         self.family, self.homes, self.tag, self.group = family, homes, tag, group
         self.what = what or family
-        self.role, self.attribute = role, attribute
+        self.role, self.attribute, self.plain = role, attribute, plain
         self.own: dict[str, type[T_co]] = {}
         """Classes that `register` was given, by their names."""
 

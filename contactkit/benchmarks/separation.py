@@ -111,7 +111,7 @@ def other_menisci(scene: SeparationScene) -> dict[str, SeparationScene]:
     if profile in ("exact", "arc") and scene.interface.is_flat:
         # The disc is what the law of the FMUs has.
         printed = with_effect(scene, MeniscusForce(profile="as-published", radius="disc"))
-        if any(isinstance(e, Rupture) and e.gap is None for e in scene.effects):
-            printed = with_effect(printed, Rupture(criterion="zero-neck"))  # its own, never mixed
+        if any(isinstance(e, Rupture) and isinstance(e.gap, str) for e in scene.effects):
+            printed = with_effect(printed, Rupture(gap="zero-neck"))  # its own, never mixed
         found["published meniscus, Eq. (3.11)"] = printed
     return found

@@ -58,6 +58,21 @@ _RENAMED = {
 }
 
 
+# Fields that became fields of a choice, or the choice itself, by effect and key.
+_MOVED = {
+    ("Rupture", "criterion"): 'gap = "limit" or "zero-neck", in place of a length',
+    ("HardnessLimit", "hardness"): 'rule = { kind = "constant", hardness = ... }',
+    ("HardnessLimit", "shift"): 'rule = { kind = "continuous", shift = ... }',
+    ("HardnessLimit", "displacement"): 'rule = { kind = "continuous", displacement = ... }',
+}
+
+
+def _moved(kind: type, key: str) -> str:
+    """Name the replacement of a field that a class had before; empty if there is none."""
+    now = _MOVED.get((kind.__name__, key))
+    return f"it is now {now}" if now else ""
+
+
 def renamed(key: str) -> str:
     """Name the replacement of a key of earlier files, or nearly so; empty if it never was one."""
     import difflib  # for this alone
@@ -81,6 +96,8 @@ def _tagged(known: Registry[Any] | Registries[Any], tag: str) -> Callable[[Any, 
     """Structure a table by the name of its kind under `tag`; kinds may be registered later."""
 
     def hook(value: Any, _: Any) -> Any:
+        if isinstance(value, str) and getattr(known, "plain", False):
+            value = {tag: value}
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
@@ -210,7 +227,9 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
                     f"{kind.__name__}.{key}",
                     value[key],
                     "be a known key",
-                    hint=renamed(key) or _owners(kind, key) + nearest(key, (*known, *more)),
+                    hint=_moved(kind, key)
+                    or renamed(key)
+                    or _owners(kind, key) + nearest(key, (*known, *more)),
                 )
         return inner(value, target)
 

@@ -66,7 +66,7 @@ class _Tables(NamedTuple):
             raise DescriptionError(place, value, "be a number, a text, or true or false", hint=hint)
         return plain
 
-    def _table(self, value: Any, place: str) -> dict[str, Any]:
+    def _table(self, value: Any, place: str) -> dict[str, Any] | str:
         kind = type(value)
         if "__attrs_attrs__" not in vars(kind):
             hint = f"decorate {kind.__name__} with @attrs.frozen(kw_only=True)"
@@ -78,7 +78,8 @@ class _Tables(NamedTuple):
                 table[a.alias] = _put_away(item, kind, a, self.arrays)
             elif a.init and item is not None and item != a.default:
                 table[a.alias] = self.of(item, f"{place}.{a.alias}")
-        return table
+        registry = KINDS.of(kind)
+        return table[registry.tag] if registry and registry.plain and len(table) == 1 else table
 
     def _tagged(self, value: Any, place: str) -> dict[str, Any]:
         """Key and name of the kind of an object, if it is one of several."""

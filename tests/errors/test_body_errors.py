@@ -50,7 +50,7 @@ REFUSE = (
     (ck.MeniscusForce(profile="arc"),),
     (ck.MeniscusForce(profile="as-published"),),
     (VISCOUS, ck.Rupture()),
-    (VISCOUS, ck.Rupture(criterion="zero-neck")),
+    (VISCOUS, ck.Rupture(gap="zero-neck")),
     (ck.VanDerWaalsForce(closure="hamaker", **ATTRACTION),),
     (ck.AdhesiveContact(model="jkr", **STICKY),),
     (ck.AdhesiveContact(model="dmt", **STICKY),),

@@ -183,7 +183,7 @@ def test_what_is_imposed_is_required(given):
         (ck.MeniscusForce, "profile", "as-published"),
         (ck.MeniscusForce, "pulled", "lower"),
         (ck.TensionLimit, "cavity", "reynolds"),
-        (ck.Rupture, "criterion", "zero-neck"),
+        (ck.Rupture, "gap", "zero-neck"),
     ],
 )
 def test_an_unknown_choice_is_refused_with_the_known_ones(effect, field, right):

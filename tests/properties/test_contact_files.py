@@ -305,7 +305,7 @@ CALLED = {
     "hardness": (ck.HardnessLimit(),),
     "local hardness": (ck.HardnessLimit(rule="material"),),
     "hardness map": (
-        ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(np.full((16, 16), 4e9))),
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=ck.HardnessMap(np.full((16, 16), 4e9)))),
     ),
     "coupled friction": (FRICTION, ck.FrictionCoupling()),
     "film": (ck.FilmMeniscus(film_thickness=1e-9),),
@@ -348,7 +348,7 @@ def test_arrays_of_a_scene_are_kept_with_the_result(tmp_path):
     parts = (ck.Paraboloid(radius=1.0), ck.Heights(heights=heights, pixel_size=(1e-6 / 16,) * 2))
     hard = ck.HardnessMap(np.linspace(3e9, 5e9, 256).reshape(16, 16))
     result = contact(
-        ck.HardnessLimit(rule="constant", hardness=hard),
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hard)),
         surface=ck.CombinedSurface(parts=parts),
         grid=None,
     )

@@ -46,7 +46,7 @@ def film(**changed):
 
 @pytest.fixture(scope="module")
 def pressed():
-    return contact(ck.HardnessLimit(rule="constant", hardness=2e9))
+    return contact(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e9)))
 
 
 def test_maps_are_over_the_centres_of_pixels_with_their_units(pressed):
@@ -102,7 +102,7 @@ def test_tractions_zones_and_histories_come_along():
     assert found.slip_zone.dims == ("step", "y", "x")
     assert found.sizes["step"] == 2
     assert found.slip_force.dims == ("state",)
-    hard = ck.HardnessLimit(rule="constant", hardness=2e9)
+    hard = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e9))
     history = ck.PlasticHistory(pressures=(800e6,))
     found = contact(hard, history).to_xarray()
     assert found.residual_depth.dims == ("y", "x")

@@ -51,7 +51,7 @@ OWNED = {
         "elasticity.hardness_rules.layer_on_substrate",
     },
     ck.HardnessLimit(rule="material"): set(),
-    ck.HardnessLimit(rule="constant", hardness=1e9): set(),
+    ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e9)): set(),
     ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"elasticity.hardness_rules.*"},
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {

@@ -78,7 +78,7 @@ OWNED = {
     ck.TensionLimit(strength=1e4, cavity="reynolds"): {"flats": TENSION["flats"]},
     ck.ShearLimit(strength=1e3): SHEAR,
     ck.Rupture(): {"flats": EXACT_FLAT_END, "sphere": EXACT_SPHERE},
-    ck.Rupture(criterion="zero-neck"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
+    ck.Rupture(gap="zero-neck"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
     ck.Rupture(gap=5e-6): {"flats": set(), "sphere": set()},
 }
 # Forces of the solids stand beside those of the film: each is tried with a few of these.
@@ -287,13 +287,13 @@ HEARTS = [
         "capillary.exact.stability.stability_limit",
     ),
     (
-        (ck.ViscousForce(), ck.Rupture(criterion="zero-neck")),
+        (ck.ViscousForce(), ck.Rupture(gap="zero-neck")),
         "flats",
         "time",
         "capillary.arc.flat.zero_neck_gap",
     ),
     (
-        (ck.ViscousForce(), ck.Rupture(criterion="zero-neck")),
+        (ck.ViscousForce(), ck.Rupture(gap="zero-neck")),
         "sphere",
         "time",
         "capillary.arc.sphere.zero_neck_gap",

@@ -272,7 +272,7 @@ def test_press_is_the_scene_in_one_line():
         loading=ck.Pressing(pressure=2e8),
         effects=(
             ck.LayeredHalfSpace(),
-            ck.HardnessLimit(rule="constant", hardness=5e9),
+            ck.HardnessLimit(rule=ck.ConstantHardness(hardness=5e9)),
         ),
     )
     same = ck.solve(ck.plan(scene))

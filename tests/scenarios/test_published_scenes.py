@@ -200,7 +200,7 @@ def test_a_flooded_film_keeps_its_radius_rightly():
 
 
 def test_the_closed_neck_stands_beside_the_exact_limit():
-    result = run(PUBLISHED, ck.Rupture(criterion="zero-neck"))
+    result = run(PUBLISHED, ck.Rupture(gap="zero-neck"))
     found = {one.number: one for one in result.errata}
     assert set(found) == {"3.11", "zero neck"}
     assert found["zero neck"].corrected == pytest.approx(

@@ -250,7 +250,7 @@ def _check_grows(before: _Node, node: _Node) -> None:
         raise InfeasibleError(
             f"at {node.force:.6g} N the plastic spots are smaller than at {before.force:.6g} "
             "N: the hardness grows with the load, and residual indentations of smaller loads are "
-            "lost; use HardnessLimit(rule='material') or rule='constant', or end the loads below "
+            "lost; use HardnessLimit(rule='material') or ConstantHardness, or end the loads below "
             "that"
         )
 

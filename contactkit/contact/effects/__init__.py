@@ -2,6 +2,7 @@
 
 base            Base classes: the roles of the effects in the contact problem.
 elasticity      Elastic compliance of half-spaces and stacks of layers.
+hardness_rules  Rules for the hardness of a body: `HardnessRule`.
 plasticity      Hardness: the upper bound of the pressure.
 adhesion        Attraction of the surfaces across their gap.
 attraction_laws Laws of that attraction: Dugdale, exponential, Lennard-Jones.
