@@ -57,7 +57,7 @@ def calls(monkeypatch):
 
     count(prepared, "combined_heights")
     count(prepared, "ContactSolver")
-    count(random_surfaces, "self_affine")
+    count(random_surfaces, "gaussian_exponential")
     for kind in (LayeredHalfSpace, HardnessLimit, FrictionCoupling):
         original = kind.prepare
 
@@ -72,7 +72,7 @@ def calls(monkeypatch):
 ONCE = {
     "combined_heights": 1,
     "ContactSolver": 1,
-    "self_affine": 1,
+    "gaussian_exponential": 1,
     "LayeredHalfSpace": 1,
     "HardnessLimit": 1,
 }

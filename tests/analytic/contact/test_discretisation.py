@@ -208,7 +208,7 @@ def test_a_hardness_map_goes_with_the_pixels():
     limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=ck.HardnessMap(hardness)))
     result = pressed(band_limited(1, 8), PIXEL, (*HALF, limit))
     found = discretisation_error(result)
-    of = [one.plan.scene.effect(ck.HardnessLimit).hardness.values for one in found.companions]
+    of = [one.plan.scene.effect(ck.HardnessLimit).rule.hardness.values for one in found.companions]
     assert [one.shape for one in of] == [(16, 16)] * 2 + [(8, 8)] * 2
     assert [one.flat[0] for one in of] == [6e9, 4e9, 6e9, 6e9]
 
