@@ -16,7 +16,7 @@ Examples
 ... )
 >>> print(ck.plan(scene))
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
-  on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower', radius='arc')
+  on   meniscus-force      capillary force of the meniscus (profile='exact')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
   on   tension-limit       the liquid tears at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
   off  shear-limit         wall shear stress bounded by a limiting shear strength
@@ -127,7 +127,7 @@ if TYPE_CHECKING:
     from .separation.effects.adhesion import AdhesiveContact, VanDerWaalsForce
     from .separation.effects.asperities import AsperityMenisci
     from .separation.effects.base import FilmStatus, LimitKind
-    from .separation.effects.meniscus import MeniscusForce
+    from .separation.effects.meniscus import AsPublished, MeniscusForce
     from .separation.effects.rupture import Rupture
     from .separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce
     from .separation.motion.advance import advance
@@ -154,6 +154,7 @@ _HOMES = {
     "Adhesion": "contact.effects.adhesion",
     "AdhesiveContact": "separation.effects.adhesion",
     "Approach": "scene.loading",
+    "AsPublished": "separation.effects.meniscus",
     "AsperityMenisci": "separation.effects.asperities",
     "AsperityPopulation": "scene.asperity_population",
     "Body": "scene.interface",
@@ -287,6 +288,7 @@ __all__ = [
     "Adhesion",
     "AdhesiveContact",
     "Approach",
+    "AsPublished",
     "AsperityMenisci",
     "AsperityPopulation",
     "Body",

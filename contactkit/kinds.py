@@ -19,6 +19,7 @@ __all__ = [
     "HARDNESS_RULES",
     "KINDS",
     "LOADINGS",
+    "MENISCUS_PROFILES",
     "PLANFORMS",
     "SEPARATION_EFFECTS",
     "SEPARATION_LOADINGS",
@@ -172,6 +173,13 @@ HARDNESS_RULES: Registry[Any] = Registry(
     role="HardnessRule",
     plain=True,
 )
+MENISCUS_PROFILES: Registry[Any] = Registry(
+    "meniscus profile",
+    {"as-published": "separation.effects.meniscus:AsPublished"},
+    tag="kind",
+    role="AsPublished",
+    plain=True,
+)
 PLANFORMS: Registry[Any] = Registry(
     "planform",
     {
@@ -203,6 +211,7 @@ KINDS: Registries[Any] = Registries(
     TEMPERATURE_LAWS,
     ATTRACTION_LAWS,
     HARDNESS_RULES,
+    MENISCUS_PROFILES,
     PLANFORMS,
     FACE_HOLES,
 )

@@ -83,7 +83,7 @@ def _own_law(scene: SeparationScene) -> Name:
         raise PlanError(both)
     meniscus, viscous = scene.effect(MeniscusForce), scene.effect(ViscousForce)
     if meniscus is not None:
-        return meniscus.profile
+        return meniscus.form
     is_printed = viscous is not None and viscous.closure == "as-published"
     return "as-published" if is_printed else "exact"
 
@@ -144,7 +144,7 @@ def _meniscus(
     gap, angles = scene.loading.initial_gap, _angles(scene)
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
-        pulled = effect.pulled if effect is not None else "lower"
+        pulled = effect.printed.pulled if effect is not None else "lower"
         from ..as_published.printed.common import meniscus_divided_3_33
 
         def printed(volume: Floats, number: Floats) -> Floats:

@@ -60,6 +60,8 @@ _RENAMED = {
 
 # Fields that became fields of a choice, or the choice itself, by effect and key.
 _MOVED = {
+    ("MeniscusForce", "pulled"): 'profile = { kind = "as-published", pulled = ... }',
+    ("MeniscusForce", "radius"): 'profile = { kind = "as-published", radius = ... }',
     ("Rupture", "criterion"): 'gap = "limit" or "zero-neck", in place of a length',
     ("HardnessLimit", "hardness"): 'rule = { kind = "constant", hardness = ... }',
     ("HardnessLimit", "shift"): 'rule = { kind = "continuous", shift = ... }',
@@ -111,6 +113,17 @@ def _of_family(base: type) -> Callable[[Any, Any], Any]:
     registry = KINDS.of(base)
     assert registry is not None
     return _tagged(registry, registry.tag)
+
+
+def _is_choice(kind: Any) -> bool:
+    """Whether a type is one of some words or an object of a family."""
+    return any(map(_is_base, get_args(kind))) and any(get_args(one) for one in get_args(kind))
+
+
+def _choice(kind: Any) -> Callable[[Any, Any], Any]:
+    """Structure a word as it is, which the field checks, and a table by its kind."""
+    table = _of_family(next(filter(_is_base, get_args(kind))))
+    return lambda value, target: value if isinstance(value, str) else table(value, target)
 
 
 def _is_base(kind: Any) -> bool:
@@ -337,6 +350,7 @@ _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
 _CONVERTER.register_structure_hook_factory(_is_base, _of_family)
+_CONVERTER.register_structure_hook_factory(_is_choice, _choice)
 _CONVERTER.register_structure_hook(_ContactEffect, _tagged(CONTACT_EFFECTS, "effect"))
 _CONVERTER.register_structure_hook(
     _SeparationEffect, _tagged(Registries(SEPARATION_EFFECTS, SLIDING_EFFECTS), "effect")

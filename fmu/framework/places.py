@@ -42,13 +42,13 @@ class Place:
     nothing : optional
         Value that stands for None, or for an effect that is not there.
     words : mapping, optional
-        Text in the scene by member of an enumeration.
+        Value in the scene by member of an enumeration; of others the parameter has `nothing`.
     """
 
     paths: tuple[str, ...] = field(converter=_as_tuple)
     effect: type | None = None
     nothing: Any = None
-    words: Mapping[IntEnum, str] = field(factory=dict)
+    words: Mapping[IntEnum, Any] = field(factory=dict)
 
     @property
     def fields(self) -> frozenset[str]:
@@ -68,7 +68,9 @@ class Place:
             found = [reduce(getattr, path.split("."), owner) for path in paths]
         value = min((one for one in found if one is not None), default=self.nothing)
         member = next((one for one, text in self.words.items() if text == value), value)
-        return member.name if isinstance(member, IntEnum) else member
+        if isinstance(member, IntEnum):
+            return member.name
+        return self.nothing if isinstance(member, str) or self.words else member
 
     def value_in_scene(self, value: Any) -> Any:
         """Value of the field for one of the parameter."""

@@ -25,7 +25,7 @@ def approx(value, rel):
     return pytest.approx(value, rel=rel, abs=0.0)
 
 
-FORCES = (ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce())
+FORCES = (ck.MeniscusForce(profile=ck.AsPublished(radius="disc")), ck.ViscousForce())
 LIMITED = (*FORCES, ck.TensionLimit(strength=1e5, cavity="truncated"), ck.ShearLimit(strength=1e6))
 
 

@@ -122,7 +122,7 @@ class Rupture(FilmEnd):
         if not self.takes_printed():
             return "consistent"
         meniscus = scene.effect(MeniscusForce)
-        return "as-published" if meniscus is not None and meniscus.profile == "exact" else ""
+        return "as-published" if meniscus is not None and meniscus.form == "exact" else ""
 
     def errata(self, plan: PlanView) -> tuple[PublishedValue, ...]:
         """See `SeparationEffect.errata`."""

@@ -82,7 +82,7 @@ def _settings(
     ]
     coupled = [("tips in this process", law, False)]
     film = scene.tip.effect(MeniscusForce)
-    if film is not None and film.profile == "exact":
+    if film is not None and film.form == "exact":
         arc = tuple(evolve(e, profile="arc") if e is film else e for e in scene.effects)
         less = tip_law(evolve(scene, effects=arc).tip, scene.study.humidity)
         coupled.append(("arc in place of the exact meniscus", less, True))

@@ -450,7 +450,7 @@ def test_every_number_of_a_scene_arrives(path):
         ({"effects": ck.Rupture(gap="zero-neck")}, "Rupture"),
         ({"loading": ck.ImposedForce(force=1.0, initial_gap=6e-6, final_gap=2e-4)}, "a mass"),
         ({"effects": ck.TensionLimit(cavity="reynolds")}, "TensionLimit.cavity = 'truncated', not"),
-        ({"effects": ck.MeniscusForce(profile="as-published", pulled="upper")}, "pulled = 'lower'"),
+        ({"effects": ck.MeniscusForce(profile=ck.AsPublished(pulled="upper"))}, "pulled = 'lower'"),
     ],
 )
 def test_what_the_parameters_do_not_hold_is_refused(changes, message):
