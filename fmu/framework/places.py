@@ -67,10 +67,12 @@ class Place:
             paths = self.paths if owner is not None else ()
             found = [reduce(getattr, path.split("."), owner) for path in paths]
         value = min((one for one in found if one is not None), default=self.nothing)
-        member = next((one for one, text in self.words.items() if text == value), value)
-        if isinstance(member, IntEnum):
-            return member.name
-        return self.nothing if isinstance(member, str) or self.words else member
+        # A choice with other fields is read as the same choice: the caller names the difference.
+        alike = [m for m, one in self.words.items() if one == value]
+        alike += [m for m, one in self.words.items() if has(type(one)) and type(one) is type(value)]
+        if alike:
+            return alike[0].name
+        return self.nothing if self.words or isinstance(value, str) else value
 
     def value_in_scene(self, value: Any) -> Any:
         """Value of the field for one of the parameter."""

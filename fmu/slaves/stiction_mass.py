@@ -329,9 +329,7 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     is_exact = film is not None and film.form == "exact"
     effects: list[SeparationEffect] = []
     for effect in effects_of(scene):
-        if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
-            effects.append(evolve(effect, pulled="lower", radius="arc"))
-        elif isinstance(effect, TensionLimit):
+        if isinstance(effect, TensionLimit):
             effects += filter(None, (as_written(effect),))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)

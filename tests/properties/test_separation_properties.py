@@ -322,8 +322,12 @@ def all_loadings(draw):
 effects = st.tuples(
     st.builds(
         ck.MeniscusForce,
-        profile=st.sampled_from(["arc", "as-published"]),
-        pulled=st.sampled_from(["lower", "upper"]),
+        profile=st.just("arc")
+        | st.builds(
+            ck.AsPublished,
+            pulled=st.sampled_from(["lower", "upper"]),
+            radius=st.sampled_from(["arc", "disc"]),
+        ),
     ),
     st.builds(ck.ViscousForce, closure=st.sampled_from(["volume-conserving", "flooded"])),
     st.builds(

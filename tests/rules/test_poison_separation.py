@@ -345,7 +345,7 @@ def test_every_effect_and_every_choice_is_poisoned():
     assert {effect for case in CASES for effect in case[0]} == {*TABLE, *OTHERS}
     solids = [effect for effect in SOLIDS if isinstance(effect, ck.AdhesiveContact)]
     assert {effect.model for effect in solids} == {"jkr", "dmt", "maugis-dugdale"}
-    assert {effect.profile for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
+    assert {effect.form for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
         "exact",
         "arc",
         "as-published",

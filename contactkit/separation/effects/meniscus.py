@@ -84,16 +84,8 @@ class MeniscusForce(SeparationForce):
         ``"exact"``: the axisymmetric solution of the Young-Laplace equation at the volume (or the
         pressure) of the meniscus, up to the gap at which it loses stability; any contact angles.
         ``"arc"``: an arc of a circle that keeps its volume, a fast model; one force, taken through
-        its neck or belly, on both bodies. ``"as-published"``: Eq. (3.11) between flats and Eq.
-        (3.12) on a sphere as printed, known to be wrong (their errata are listed by
-        `plan.cite()`), for reproduction only.
-    pulled : {"lower", "upper"}
-        Body whose contact circle and contact angle enter Eq. (3.11); as-published only.
-    radius : {"arc", "disc"}
-        Radius in Eq. (3.11) of a volume; as-published only. ``"arc"``: that of the contact circle
-        of the arc of Eqs. (3.38) to (3.40), as the source has it, up to the gap at which its neck
-        closes. ``"disc"``: that of an upright disc, which is near the other for films much wider
-        than high, and is what the law ``PUBLISHED`` of the FMU ``stiction-mass`` takes.
+        its neck or belly, on both bodies. ``"as-published"``, or `AsPublished` with its choices:
+        the printed equations, known to be wrong, for reproduction only.
 
     Notes
     -----
