@@ -134,7 +134,7 @@ class PartialSlip(Observer[PartialSlipPart]):
         sphere or a rough surface; `SlipCoupling.step_error` estimates it.
     pressing_rtol : float, optional
         Error of the tractions by the steps of pressing, rms over that of their bound [-], at most
-        0.1; None: 0.01. Needs some 15 to 60 steps for 0.01, and ten times as many for a tenth of it.
+        0.1; None: 0.01, which needs some 15 to 60 steps; a tenth of it needs ten times as many.
 
     Notes
     -----

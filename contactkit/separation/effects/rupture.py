@@ -10,7 +10,7 @@ from attrs import Attribute, field, frozen
 from ...capillary.arc import flat as arc_flat
 from ...errors import DescriptionError
 from ...units import si
-from ...validators import choice, positive
+from ...validators import positive, refuse
 from .base import FilmEnd
 from .meniscus import MeniscusForce
 from .meniscus_flat import exact_end
@@ -27,9 +27,10 @@ _JUST_BELOW = 1.0 - 1e-6  # of the gap at which a bridge ends
 
 
 def _gap(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    if isinstance(value, str):
-        choice("limit", "zero-neck")(owner, attribute, value)
-    else:
+    if isinstance(value, str) and value not in ("limit", "zero-neck"):
+        expected = "be positive and finite, or one of 'limit', 'zero-neck'"
+        raise refuse(owner, attribute, value, expected)
+    if not isinstance(value, str):
         positive(owner, attribute, value)
 
 

@@ -404,7 +404,8 @@ def numbers_of(owner, path=()):
         value, name = getattr(owner, part.name), (*path, part.name)
         if isinstance(value, tuple):
             for i, one in enumerate(value):
-                yield from numbers_of(one, (*name, i))
+                if attrs.has(type(one)):
+                    yield from numbers_of(one, (*name, i))
         elif attrs.has(type(value)):
             yield from numbers_of(value, name)
         elif isinstance(value, float | int):
