@@ -87,7 +87,7 @@ class _Chain:
         """Start anew, after a solve that ended in the middle."""
         self._plan, self._contacts = None, ContactChain()
 
-    def run(self, scene: Scene, accuracy: Accuracy) -> AnyResult:
+    def run(self, scene: Scene, accuracy: Accuracy) -> Any:
         if not isinstance(scene, ContactScene):
             return run(plan(scene, accuracy))
         made = unprepared_plan(scene, accuracy)

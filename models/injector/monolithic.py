@@ -9,11 +9,11 @@ DOP853 (explicit, order 8) where none does. Events are voltages that switch, the
 left, kinks of the film laws, a film that tears, turns of the edge of its cavity, a film that is
 full again, rupture, re-wetting, release, the end stop met and left, the end of the current. The
 laws of film and valve are those of the package; unknowns, time stepping and search for events are
-not, so that an agreement with `contactkit.motion`, or with its FMU coupled to that of the drive,
-says something about both.
+not, so that an agreement with `contactkit.separation.motion`, or with its FMU coupled to that of
+the drive, says something about both.
 
 Validity: as the laws themselves; the numerical error is about `rtol`. Landing on the end cap is
-inelastic, as in `contactkit.motion`: a bounce is left out.
+inelastic, as in `contactkit.separation.motion`: a bounce is left out.
 """
 
 from __future__ import annotations
@@ -468,6 +468,7 @@ class _Run:
                 viscous = film.viscous_force(gap, speed)[0]
             else:
                 viscous, growth = torn_pieces.torn_film(tearing, cavity, gap, speed, scale * void)
+                viscous += film.unbounded(gap, speed).viscous
             net -= film.static_force(gap) + viscous
             return [speed / gap, net / mass, rise, viscous, viscous * speed, growth / scale]
 

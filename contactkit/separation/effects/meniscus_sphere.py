@@ -61,7 +61,7 @@ def sphere_law(prepared: PreparedScene[SeparationScene], profile: str) -> ForceL
         gap = min(max(gap, 0.0), top)
         return n * tension * bridges.force(gap, curve(gap))
 
-    return ForceLaw(law, end=bridges.end, known_to=known_to, poles=bridges.poles)
+    return ForceLaw(law, end=bridges.end, known_to=known_to, poles=bridges.poles, rate="none")
 
 
 def _fixed(prepared: PreparedScene[SeparationScene]) -> tuple[float, float, float, float]:

@@ -1,4 +1,4 @@
-/* Flux, current and force of the coil: as contactkit/models/coil.py, operation by operation. The
+/* Flux, current and force of the coil: as models/injector/coil.py, operation by operation. The
    lengths of the steps hang on rounding where they are as long as they can be, so the same bits in
    mean the same bits out, and anything else the tolerance. */
 

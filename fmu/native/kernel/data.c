@@ -40,7 +40,7 @@ int ck_read_whole(ck_reader *r, int low, int high) {
     return r->fine ? (int)value : low;
 }
 
-int ck_read_nodes(ck_reader *r) { return ck_read_whole(r, 2, 1000000); }
+int ck_read_nodes(ck_reader *r) { return ck_read_whole(r, 2, CK_MOST_NODES); }
 
 const double *ck_read_column(ck_reader *r, int count, int ascends) {
     const double *first = r->next;

@@ -1,5 +1,5 @@
 /* Rough faces of an end stop, and the spring behind them: as contactkit/analyses/load_displacement/curve.py and
-   stop_impact.py, from tables of nodes, values and slopes (fmu/native/faces.py). */
+   impact.py, from tables of nodes, values and slopes (fmu/native/faces.py). */
 
 #include "drive.h"
 

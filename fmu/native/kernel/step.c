@@ -67,7 +67,7 @@ int ck_coordinate(double gap, double s, double q, double found[3]) {
     return 1;
 }
 
-/* Exponent n of the viscous force, which falls as gap^-n: 3 of flats, 5 of a film that narrows, 1 of a
+/* Exponent n of the damping, which falls as gap^-n: 3 of flats, 5 of a film that narrows, 1 of a
    sphere. More is taken for a kink that begins; the coordinate only has to be close. */
 double ck_film_exponent(double gap, const ck_forces *forces) {
     double found;
@@ -83,16 +83,18 @@ static double net_of(const ck_problem *p, const ck_point *at, const ck_forces *f
            (forces->viscous + forces->fixed);
 }
 
-static void hold(const ck_held *held, ck_forces *found) {
-    found->viscous = held->force, found->viscous_by_gap = held->by_gap;
-    found->viscous_by_speed = held->by_speed, found->limit = CK_LIMIT_KIND_TENSION;
+/* A film with a cavity, in place of one that is whole; what no limit bounds stays. */
+static void hold(const ck_held *held, double speed, ck_forces *found) {
+    found->viscous = held->force + found->free * speed;
+    found->viscous_by_gap = held->by_gap + found->free_by_gap * speed;
+    found->viscous_by_speed = held->by_speed + found->free, found->limit = CK_LIMIT_KIND_TENSION;
 }
 
 void ck_forces_with(const ck_acting *acting, const ck_spot *spot, ck_place at, ck_forces *found) {
     ck_held held;
     ck_forces_at(acting, at.gap, at.speed, found);
     ck_held_at(acting->law, spot, at, &held);
-    hold(&held, found);
+    hold(&held, at.speed, found);
 }
 
 /* Void and forces at the stages of a film with a cavity; 0 if they are not found. */
@@ -101,7 +103,7 @@ static int with_cavity(const ck_problem *p, double dt, stage at[3], ck_hollow *h
     int i;
     for (i = 0; i < 3; i++) places[i].gap = at[i].at.gap, places[i].speed = at[i].at.speed;
     if (!ck_hollow_solve(p->acting->law, p->cavity, begin, dt, places, hollow)) return 0;
-    for (i = 0; i < 3; i++) hold(&hollow->held[i], &at[i].forces);
+    for (i = 0; i < 3; i++) hold(&hollow->held[i], at[i].at.speed, &at[i].forces);
     return 1;
 }
 

@@ -1,5 +1,5 @@
 /* Impact of a spring tip on a site that deforms, and rest on it. As
-   contactkit/models/micromirror/tip_impact.py, operation by operation. */
+   models/micromirror/tip_impact.py, operation by operation. */
 
 #include "root.h"
 #include "tip.h"
