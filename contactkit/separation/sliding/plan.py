@@ -140,7 +140,7 @@ def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
         for effect in scene.effects
         if type(effect) not in _KNOWN
     ]
-    if scene.liquid_pressure is not None:
+    if scene.meniscus.has_pressure:
         problems.append(
             "a sliding scene needs interface.meniscus.volume [m3] in place of its pressure"
         )
