@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
-from ...lubrication.reynolds.film import Film, FilmState
+from ...lubrication.reynolds.film import GridFilm, GridFilmState
 from ...lubrication.reynolds.solve import unchecked_step
 from ..cavity.events import is_torn_by
 from ..cavity.law import Place
@@ -50,7 +50,7 @@ class _Known(NamedTuple):
     dt: float
     gaps: tuple[float, ...]
     voids: tuple[HeldVoids, ...]
-    last: FilmState
+    last: GridFilmState
     error: float
 
     def serves(self, cavity: Cavity, start: float, dt: float, gaps: tuple[float, ...]) -> bool:
@@ -65,7 +65,7 @@ class _Known(NamedTuple):
 class FaceStages(NamedTuple):
     """Liquid at the stages of a step, the forces there, and the error of the last void [-]."""
 
-    state: FilmState
+    state: GridFilmState
     """Film at the end of the step."""
     forces: tuple[CavityForce, CavityForce, CavityForce]
     error: float
@@ -97,14 +97,14 @@ class FaceCavity:
     strength: float
     drop: float
     film_rtol: float
-    _liquid: Film = field(init=False, repr=False)
+    _liquid: GridFilm = field(init=False, repr=False)
 
     _opening: FirstOpening | None = field(init=False, repr=False)
     _last: list[_Known] = field(init=False, factory=list, repr=False)
 
     @_liquid.default
-    def _find_liquid(self) -> Film:
-        return Film(face=self.grid.face, viscosity=self.viscosity, cavity_pressure=-self.drop)
+    def _find_liquid(self) -> GridFilm:
+        return GridFilm(face=self.grid.face, viscosity=self.viscosity, drop=self.drop)
 
     @_opening.default
     def _find_opening(self) -> FirstOpening | None:
@@ -156,7 +156,7 @@ class FaceCavity:
         error = self._as_of_the_method(missed)
         return _Known(cavity, start, dt, gaps, tuple(voids), state, error)
 
-    def _after(self, state: FilmState, start: float, end: float, dt: float) -> FilmState:
+    def _after(self, state: GridFilmState, start: float, end: float, dt: float) -> GridFilmState:
         """Film after a step from one gap [m] to another in a time [s]."""
         guess = state.liquid_fraction >= 1.0
         if self._opening is not None:
@@ -208,10 +208,10 @@ class FaceCavity:
         found = self._voids(np.array(cavity.liquid), gap)(gap, speed)
         return ShownCavity(found.force, math.sqrt(found.cavity_area / math.pi), cavity.void)
 
-    def _state(self, liquid: Map, gap: float) -> FilmState:
+    def _state(self, liquid: Map, gap: float) -> GridFilmState:
         """Film of a thickness of its liquid [m] at a gap [m]."""
         face, height = self.grid.face, self.grid.relief + gap
-        return FilmState(
+        return GridFilmState(
             film=self._liquid,
             gap=height,
             pressure=np.zeros(face.shape),

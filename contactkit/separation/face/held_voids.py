@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ...lubrication.reynolds.film import Film, FilmState
+from ...lubrication.reynolds.film import GridFilm, GridFilmState
 from ...lubrication.reynolds.solve import unchecked_pressure
 from .grid import FaceGrid
 
@@ -59,7 +59,7 @@ class HeldVoids:
     ----------
     grid : FaceGrid
         The face.
-    film : Film
+    film : GridFilm
         Liquid, and pressure of its cavity.
     full : ndarray of bool, shape (ny, nx)
         Cells without a void.
@@ -68,7 +68,7 @@ class HeldVoids:
     """
 
     def __init__(
-        self, grid: FaceGrid, film: Film, full: Mask, opening: FirstOpening | None = None
+        self, grid: FaceGrid, film: GridFilm, full: Mask, opening: FirstOpening | None = None
     ) -> None:
         self._grid, self._film, self._full, self._opening = grid, film, full, opening
         self._guess = full
@@ -119,7 +119,7 @@ class HeldVoids:
         return self._known[gap]
 
     def _solved(self, gap: float) -> _Linear:
-        drop, full = -self._film.cavity_pressure, self._full
+        drop, full = self._film.drop, self._full
         speed = inflow_of(self._grid, self._film, gap)
         rest = self._pressure(gap, 0.0, full)
         closing = self._pressure(gap, -speed, full)  # no cell cavitates
@@ -136,7 +136,7 @@ class HeldVoids:
         self._guess = ~void
         return state.force, float(void.sum()) * self._area
 
-    def _pressure(self, gap: float, speed: float, guess: Mask) -> FilmState:
+    def _pressure(self, gap: float, speed: float, guess: Mask) -> GridFilmState:
         pinned = _PINNED * (abs(speed) + inflow_of(self._grid, self._film, gap))
         rate = np.where(self._full, speed, pinned)
         return unchecked_pressure(self._film, self._grid.relief + gap, rate, full=guess)
@@ -148,7 +148,7 @@ class FirstOpening:
     Solved at some speeds over that of inception, with monotone cubics between them.
     """
 
-    def __init__(self, grid: FaceGrid, film: Film, gap: float) -> None:
+    def __init__(self, grid: FaceGrid, film: GridFilm, gap: float) -> None:
         whole = HeldVoids(grid, film, np.ones(grid.face.shape, bool))
         self._gap, self._onset = gap, whole.most(gap)
         self._ratios = np.concatenate([[1.0], 1.0 + np.geomspace(*_LADDER)])
@@ -190,17 +190,17 @@ class FirstOpening:
         return self._full[min(self._place(gap, speed)[1], len(self._full) - 1)]
 
 
-def void_of(grid: FaceGrid, state: FilmState) -> Mask:
+def void_of(grid: FaceGrid, state: GridFilmState) -> Mask:
     """Cells at the pressure of the cavity."""
-    floor = state.film.cavity_pressure
+    floor = state.film.floor
     found: Mask = grid.face.loaded & (state.pressure <= floor * (1.0 - 1e-12))
     return found
 
 
-def inflow_of(grid: FaceGrid, film: Film, gap: float) -> float:
+def inflow_of(grid: FaceGrid, film: GridFilm, gap: float) -> float:
     """Growth [m/s] that the fastest inflow of a cell could fill, at the widest gap."""
     face = grid.face
     highest = gap + float(grid.relief[face.loaded].max())
     conductance = highest**3 / (12.0 * film.viscosity)
     size = min(face.pixel_size)
-    return conductance * -film.cavity_pressure / (_NEAREST * size * size)
+    return conductance * film.drop / (_NEAREST * size * size)
