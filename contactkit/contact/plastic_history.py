@@ -10,7 +10,7 @@ from attrs import evolve
 from ..errors import NotSimulatedError
 from ..scene.loading import Approach
 from ..scene.rough_surfaces import Heights
-from .effects.base import BoundedContact, Contact, FixedHardness, HardnessLaw
+from .effects.base import Contact, FixedHardness, HardnessLaw
 from .effects.plastic_history import PlasticHistory, PlasticHistoryPart
 from .effects.plasticity import AT_HARDNESS, HardnessLimit
 from .outer.load import solve_loaded
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["follow_history", "residual_surface"]
+__all__ = ["PlasticPath", "follow_history", "residual_surface"]
 
 
 class _State(NamedTuple):
@@ -58,6 +58,65 @@ class _Row(NamedTuple):
     hardness: float
 
 
+class PlasticPath:
+    """Shape of a plastic contact along its loads, and the numbers of its states.
+
+    Parameters
+    ----------
+    plan : ContactPlan
+        The contact before any load.
+    history : PlasticHistory
+        The loads.
+    """
+
+    def __init__(self, plan: ContactPlan, history: PlasticHistory) -> None:
+        self.plan, self._history = plan, history
+        self._state, self._rows = _State(np.zeros(plan.grid.shape)), list[_Row]()
+
+    def targets(self) -> list[Target]:
+        """Loads or approaches of the steps."""
+        return _targets(self.plan, self._history)
+
+    def shaped(self) -> ContactPlan:
+        """Plan of the shape that the last step left, with a hardness that remembers."""
+        plan, state = self.plan, self._state
+        shape = plan.prepared.with_heights(plan.heights - state.residual)
+        return evolve(plan, hardness=_remembering(plan, state), interface=Once(lambda: shape))
+
+    def near(self, target: Target) -> Target:
+        """Start from the last step, if there was contact."""
+        last = self._state.last
+        return target if last is None else last.near(target)
+
+    def deform(self, heights: Map, solved: Solved) -> None:
+        """Deform the heights [m] of a step for good where its contact is at the hardness."""
+        plan, contact, residual = self.plan, solved.contact, self._state.residual
+        hardness = np.asarray(solved.hardness)
+        is_plastic = (contact.pressure >= hardness * AT_HARDNESS) & (contact.pressure > 0.0)
+        overlap = contact.bounded.overlap if contact.bounded is not None else np.zeros_like(heights)
+        # Less than this is the tolerance of the solver, not flow.
+        least = 2.0 * plan.accuracy.rtol * height_scale(heights, contact.displacement)
+        flow = np.where(is_plastic & (overlap > least), overlap, 0.0)
+        self._rows.append(_row(plan, solved, contact, is_plastic, flow))
+        self._state = _State(
+            residual + flow,
+            _deepest(plan, solved, self._state),
+            solved.hardness,
+            solved if solved.pressure.any() else None,
+        )
+
+    def finished(self, solved: Solved) -> Solved:
+        """Show the last step with the depth of the whole path, as a part of the result."""
+        bounded, residual = solved.contact.bounded, self._state.residual
+        if bounded is not None:
+            bounded = bounded._replace(overlap=residual)
+        part = _part(self.plan, self._rows, residual)
+        return solved._replace(
+            contact=solved.contact._replace(bounded=bounded),
+            parts={**solved.parts, PlasticHistory: part},
+        )
+
+
 def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCounter) -> Solved:
     """Solve the steps of a loading history; the last one is the contact of the plan.
 
@@ -66,20 +125,16 @@ def follow_history(plan: ContactPlan, history: PlasticHistory, counter: WorkCoun
     InfeasibleError
         If the load of a step exceeds what the hardness there can carry.
     """
-    state, rows = _State(np.zeros(plan.grid.shape)), list[_Row]()
-    for one in _targets(plan, history):
-        step = Step(_shaped(plan, state), counter)
-        begun = one if state.last is None else state.last.near(one)
-        solved = solve_loaded(step, begun)
-        state, row, contact = _deformed(step.plan, plan, solved, state)
-        rows.append(row)
+    path = PlasticPath(plan, history)
+    for number, target in enumerate(path.targets(), 1):
+        step = Step(path.shaped(), counter)
+        solved = solve_loaded(step, path.near(target))
+        path.deform(step.plan.heights, solved)
         if solved.problem:
-            problem = f"step {len(rows)} of the loading history: {solved.problem}"
+            problem = f"step {number} of the loading history: {solved.problem}"
             solved = solved._replace(problem=problem)
             break
-    contact = step.finished(solved, one).contact._replace(bounded=contact.bounded)
-    part = _part(plan, rows, state.residual)
-    return solved._replace(contact=contact, parts={**solved.parts, PlasticHistory: part})
+    return path.finished(step.finished(solved, target))
 
 
 def residual_surface(result: ContactResult) -> Heights:
@@ -144,35 +199,6 @@ def _targets(plan: ContactPlan, history: PlasticHistory) -> list[Target]:
     if plan.mean_pressure is None:
         return [Target(None, touch + one) for one in values]
     return [Target(one, None) for one in values]
-
-
-def _shaped(plan: ContactPlan, state: _State) -> ContactPlan:
-    """Plan of the shape that the last step left, with a hardness that remembers."""
-    shape = plan.prepared.with_heights(plan.heights - state.residual)
-    return evolve(plan, hardness=_remembering(plan, state), interface=Once(lambda: shape))
-
-
-def _deformed(
-    here: ContactPlan, plan: ContactPlan, solved: Solved, state: _State
-) -> tuple[_State, _Row, Contact]:
-    """Deform the shape where the hardness is reached."""
-    contact, heights = solved.contact, here.heights
-    hardness = np.asarray(solved.hardness)
-    is_plastic = (contact.pressure >= hardness * AT_HARDNESS) & (contact.pressure > 0.0)
-    overlap = contact.bounded.overlap if contact.bounded is not None else np.zeros_like(heights)
-    # Less than this is the tolerance of the solver, not flow.
-    least = 2.0 * plan.accuracy.rtol * height_scale(heights, contact.displacement)
-    flow = np.where(is_plastic & (overlap > least), overlap, 0.0)
-    residual = state.residual + flow
-    made = BoundedContact(contact.bounded.hardness, residual) if contact.bounded else None
-    after = _State(
-        residual,
-        _deepest(plan, solved, state),
-        solved.hardness,
-        solved if solved.pressure.any() else None,
-    )
-    row = _row(plan, solved, contact, is_plastic, flow)
-    return after, row, contact._replace(bounded=made)
 
 
 def _remembering(plan: ContactPlan, state: _State) -> HardnessLaw | None:

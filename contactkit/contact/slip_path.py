@@ -23,6 +23,7 @@ from attrs import evolve
 from ..scene.loading import Approach
 from .effects.elasticity import bodies_of, layers_of
 from .effects.partial_slip import PartialSlip
+from .effects.plastic_history import PlasticHistory
 from .outer.displacement import displacement_scale
 from .outer.load import solve_loaded
 from .outer.step import Solved, Step
@@ -35,6 +36,8 @@ from .work import WorkCounter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from .plastic_history import PlasticPath
 
     Map = NDArray[np.float64]
 
@@ -74,6 +77,7 @@ class _Run:
         self.plan, self.counter, self.law = plan, counter, effect.law
         self.friction = Friction(plan.grid, stacks, self.law, plan.accuracy.threads)
         self.coupling = coupling_of(plan.grid, *bodies_of(interface), plan.accuracy.threads)
+        self.plastic: PlasticPath | None = None
 
     def target(self, fraction: float) -> Target:
         """Load or approach at a fraction of that of the scene."""
@@ -82,6 +86,10 @@ class _Run:
             touch = self.plan.prepared.first_touch
             return Target(None, touch + fraction * loading.approach)
         return Target(fraction * (load or 0.0), None)
+
+    def targets(self, steps: int) -> list[Target]:
+        """Loads or approaches of a number of steps of pressing."""
+        return [self.target((i / steps) ** _GROWTH) for i in range(1, steps + 1)]
 
     def normal(self, traction: Map) -> Map:
         """Normal displacement [m] by tractions along the load and across it, (2, ny, nx)."""
@@ -189,18 +197,24 @@ def follow_coupled(plan: ContactPlan, effect: PartialSlip, counter: WorkCounter)
 
 def _press(run: _Run, effect: PartialSlip) -> _Pressed:
     """Press the bodies together in the steps asked for, or in as many as their error needs."""
+    if (history := run.plan.scene.effect(PlasticHistory)) is not None:
+        from .plastic_history import PlasticPath
+
+        run.plastic = PlasticPath(run.plan, history)
+        targets = run.plastic.targets()
+        return _Pressed(_pressed(run, targets), len(targets), None)
     steps = effect.pressing_steps
     if steps is not None:
-        near = _pressed(run, steps)
+        near = _pressed(run, run.targets(steps))
         half = steps // 2
         if not half or near.solved.problem:
             return _Pressed(near, steps, None)
-        coarse = _pressed(run, half, _LOOSEST)
+        coarse = _pressed(run, run.targets(half), _LOOSEST)
         return _Pressed(near, steps, _step_error(near, steps, coarse, half))
-    coarse = _pressed(run, _FEWEST, _LOOSEST)
+    coarse = _pressed(run, run.targets(_FEWEST), _LOOSEST)
     steps = _REFINED * _FEWEST
     while True:
-        near = _pressed(run, steps)
+        near = _pressed(run, run.targets(steps))
         error = _step_error(near, steps, coarse, _FEWEST)
         if near.solved.problem or error <= effect.pressing_rtol or steps >= _MOST_STEPS:
             return _Pressed(near, steps, error)
@@ -208,16 +222,17 @@ def _press(run: _Run, effect: PartialSlip) -> _Pressed:
         steps = min(wanted, _MOST_STEPS)
 
 
-def _pressed(run: _Run, steps: int, last: float = 0.0) -> _State:
+def _pressed(run: _Run, targets: list[Target], last: float = 0.0) -> _State:
     """Press the bodies together without a tangential force; `last` is the last step's tolerance."""
     free = Imposed("force", 0.0, np.array([1.0, 0.0]), True)
     state, near = run.friction.at_rest(np.zeros(run.plan.grid.shape)), None
-    for i in range(1, steps + 1):
-        least = _LOOSEST if i < steps else last
-        near = _sub_step(run, state, run.target((i / steps) ** _GROWTH), free, near, least)
+    for i, target in enumerate(targets, 1):
+        # Flow adds up: the shape that a loose step leaves would stay wrong.
+        is_loose = i < len(targets) and run.plastic is None
+        near = _sub_step(run, state, target, free, near, _LOOSEST if is_loose else last)
         state = near.taken.state
         if near.solved.problem:
-            problem = f"pressing step {i} of {steps}: {near.solved.problem}"
+            problem = f"pressing step {i} of {len(targets)}: {near.solved.problem}"
             return near._replace(solved=near.solved._replace(problem=problem))
     assert near is not None
     return near
@@ -232,12 +247,14 @@ def _sub_step(
     least: float = 0.0,
 ) -> _State:
     """Solve pressure and tractions at the end of a sub-step, from a solution nearby if any."""
-    plan = run.plan
+    plan = run.plan if run.plastic is None else run.plastic.shaped()
     if least > plan.accuracy.rtol:
         plan = evolve(plan, accuracy=evolve(plan.accuracy, rtol=least))
     unknown = SlipDisplacement(run, before, imposed, near.taken if near else None, least)
     step = Step(plan, run.counter, (unknown,), max(run.plan.accuracy.outer_rtol, least))
     solved = solve_loaded(step, target if near is None else near.solved.near(target))
+    if run.plastic is not None:
+        run.plastic.deform(plan.heights, solved)
     return _State(step, solved, solved.memories[unknown.name])
 
 
@@ -272,4 +289,5 @@ def _finished(run: _Run, near: _State, record: Record, pressed: _Pressed, begun:
         pressing_steps=pressed.steps,
     )
     run.counter.clock(PartialSlip.name, begun)
-    return solved._replace(parts={**solved.parts, PartialSlip: record.part(coupling)})
+    made = solved._replace(parts={**solved.parts, PartialSlip: record.part(coupling)})
+    return made if run.plastic is None else run.plastic.finished(made)

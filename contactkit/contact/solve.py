@@ -148,14 +148,14 @@ def _attracted(newest: ContactResult) -> AttractedContact | None:
 
 def _solved(plan: ContactPlan, target: Target, counter: WorkCounter) -> Solved:
     """Solve the contact, or follow the path of loads that an effect brings."""
-    if (history := plan.scene.effect(PlasticHistory)) is not None:
-        from .plastic_history import follow_history
-
-        return follow_history(plan, history, counter)
     if (slip := plan.scene.effect(PartialSlip)) is not None and slip.couples(plan.scene):
         from .slip_path import follow_coupled
 
         return follow_coupled(plan, slip, counter)
+    if (history := plan.scene.effect(PlasticHistory)) is not None:
+        from .plastic_history import follow_history
+
+        return follow_history(plan, history, counter)
     step = Step(plan, counter)
     return step.finished(solve_loaded(step, target), target)
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["animate", "instants", "liquid_fraction", "opening", "pressure"]
 
-BAR = 1e5
+BAR = 1e5  # [Pa], in which pressures are drawn
 _CAVITY = "#c1440e"
 Mirror = tuple[bool, bool]
 

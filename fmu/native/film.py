@@ -26,8 +26,11 @@ __all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepare
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
 
-_FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
-_FARTHER = 100.0  # the same of forces that lose no digits there
+# Final gaps up to which laws without an end are tabulated; beyond, their last power goes on. A
+# motion in a host rarely goes farther than four; forces that cost no digits there (static ones) are
+# cheap to 100.
+_FAR = 4.0
+_FARTHER = 100.0
 _PROBES = 65  # gaps at which a law is asked how it depends on the speed
 _MOST_LAWS = 8  # of one film, in the records of the kernel
 _INF = math.inf

@@ -1,4 +1,4 @@
-"""What the file of a native FMU holds: films as tables, rough faces as curves."""
+"""Records in the file of a native FMU: films as tables, rough faces as curves."""
 
 from __future__ import annotations
 

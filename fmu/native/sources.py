@@ -19,7 +19,7 @@ from ...errors import DescriptionError
 from ..framework.toolchain import fmi_headers
 from .data import CAUSALITIES, TYPES, Contents
 from .models import DISCRETE, MODELS, VARIABLES, enumerations
-from .record import Column, Record, Several, c_name
+from .record import MOST_NODES, Column, Record, Several, c_name
 from .records import Rate, Scale
 
 __all__ = ["description_sources", "kernel_sources", "layout"]
@@ -76,7 +76,7 @@ def _declarations() -> tuple[str, ...]:
         _enum("variables", _distinct([*VARIABLES, "variables"])),
         f"enum {{ CK_DISCRETE = {len(DISCRETE)} }}; /* outputs that change at events only */\n",
         *map(_members, (*enumerations(), Scale, Rate)),
-        _enum("most of several members", {f"most_{name}": most for name, most in _mosts().items()}),
+        _enum("most of several members", {f"most_{name}": n for name, n in _mosts().items()}),
         "typedef struct ck_reader ck_reader;\n",
         *map(_struct, _records()),
         "extern const char *const ck_names[CK_VARIABLES];\n"
@@ -163,7 +163,7 @@ def _mosts() -> dict[str, int]:
     DescriptionError
         If two records have members of one name, but not as many of them.
     """
-    found: dict[str, int] = {}
+    found = {"nodes": MOST_NODES}
     for record in _records():
         for name, kind, _ in record.members():
             if isinstance(kind, Several) and found.setdefault(name, kind.most) != kind.most:

@@ -68,7 +68,7 @@ SIGNALS = (
 )
 """What `couple` records; SI units, forces of all tips of a side, films of one tip."""
 
-LANDED, HELD, FREE = 1.0, 2.0, 3.0
+LANDED, HELD, FREE = 1.0, 2.0, 3.0  # floats, as columns of results are
 """State of a tip: on its site, off it but within reach of its forces, and free."""
 
 

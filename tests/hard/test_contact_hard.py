@@ -358,7 +358,7 @@ def test_iterations_of_the_hardness_that_run_out_say_so_and_hand_over_what_they_
     assert (reached.status, reached.message) == ("not converged", str(caught.value))
     np.testing.assert_array_equal(caught.value.result.pressure, reached.pressure)
     assert reached.residual <= 1e-8
-    assert np.all(reached.pressure <= reached.of(ck.HardnessLimit).hardness)
+    assert np.all(reached.pressure <= reached.of(ck.HardnessLimit).hardness * (1.0 + 1e-15))
 
 
 @pytest.mark.parametrize("pressure", np.geomspace(1e5, 2e7, 9))

@@ -139,6 +139,7 @@ class PartialSlip(Observer[PartialSlipPart]):
     -----
     Coupled, the path begins where pressing ends: displacement counts from there, and the dissipated
     work of the first state is that of pressing. `stiffness` is that at the pressure as it is.
+    Beside `PlasticHistory` its steps press the bodies together, and the path deforms them further.
     A minimum belongs to each step of the tractions, not to both loads together. Pressed in a single
     step, a sphere has been found for coefficients up to 3 (nu = 0), in two or more for 10; for 100
     and more only with some numbers of steps, as its outermost pixels come and go by turns. A step
@@ -277,10 +278,11 @@ class PartialSlip(Observer[PartialSlipPart]):
             missing.append(
                 "components=2 with coupled=True, as pressure draws the surfaces along both axes"
             )
-        if scene.effect(LoadHistory) is not None:
+        has_steps = self.pressing_steps is not None or self.pressing_rtol != _PRESSING
+        if has_steps and scene.effect(LoadHistory) is not None:
             missing.append(
-                "coupled=False beside PlasticHistory, or PlasticHistory left out: each follows a "
-                "path of its own"
+                "no pressing_steps or pressing_rtol beside PlasticHistory, whose steps press the "
+                "bodies together"
             )
         return missing
 

@@ -199,6 +199,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
 
     def validity(self, contact: Contact, part: PlasticHistoryPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
+        is_shared = contact.attracted is not None or contact.frictional is not None
         return (
             ValidityNumber(
                 name="fraction of the contact at the hardness, over its history",
@@ -209,9 +210,11 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
             ),
             ValidityNumber(
                 name="imbalance of work and energy over the loading history",
-                value=part.work_error,
+                value=None if is_shared else part.work_error,
                 high=_HIGHEST_IMBALANCE,
-                detail="error of external_work by the trapezoidal rule, over the work of the load; "
+                detail="adhesion or friction takes a part of the work that is not counted"
+                if is_shared
+                else "error of external_work by the trapezoidal rule, over the work of the load; "
                 "the states are not affected; use more steps",
             ),
         )

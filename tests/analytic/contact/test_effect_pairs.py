@@ -299,6 +299,45 @@ def test_adhesion_pulls_a_plastic_contact_deeper():
     assert again.residual_volume[-1] == one.residual_volume[-1]
 
 
+def test_without_flow_the_steps_of_a_history_are_steps_of_pressing():
+    """Loads of a quarter and all: those of two steps of pressing."""
+    steps = ck.PlasticHistory(pressures=(2e7,), steps=1)
+    pair = solved(HARD, steps, slip(0.5, steps=None))
+    alone = solved(slip(0.5, steps=2))
+    one, other = pair.of(ck.PartialSlip), alone.of(ck.PartialSlip)
+    assert pair.pressure == pytest.approx(alone.pressure, abs=1e-5 * alone.max_pressure)
+    assert one.traction_x == pytest.approx(other.traction_x, abs=1e-3 * other.traction_x.max())
+    assert one.coupling.pressing_steps == 2
+
+
+def test_without_friction_the_history_of_a_coupled_path_is_left():
+    pair = solved(LIMIT, UP_AND_DOWN, slip(1e-9, steps=None))
+    alone = solved(LIMIT, UP_AND_DOWN)
+    depth = alone.of(ck.PlasticHistory).residual_depth
+    assert depth.max() > 0.0
+    assert pair.of(ck.PlasticHistory).residual_depth == pytest.approx(depth, abs=1e-5 * depth.max())
+    assert pair.pressure == pytest.approx(alone.pressure, abs=1e-5 * alone.max_pressure)
+
+
+def test_flow_and_slip_act_on_each_other():
+    pair = solved(LIMIT, UP_AND_DOWN, slip(0.5, steps=None))
+    part, depth = pair.of(ck.PartialSlip), pair.of(ck.PlasticHistory).residual_depth
+    apart = solved(LIMIT, UP_AND_DOWN).of(ck.PlasticHistory).residual_depth
+    assert np.abs(depth - apart).max() > 0.01 * apart.max()
+    assert pair.pressure.max() <= 3e8 * (1.0 + 1e-9)
+    size = np.hypot(part.traction_x[-1], part.traction_y[-1])
+    assert np.all(size <= 0.5 * pair.pressure * (1.0 + 1e-6) + 1e-6 * pair.max_pressure)
+    u = pair.plan.prepared.solver.displacement(pair.pressure) + part.coupling.displacement
+    gap = u - pair.heights + depth - pair.rigid_approach
+    elastic = pair.contact & (pair.pressure < 2.99e8)
+    assert np.abs(gap[elastic]).max() < 1e-3 * np.ptp(u)
+
+
+def test_steps_of_pressing_beside_a_history_are_refused():
+    with pytest.raises(ck.PlanError, match="no pressing_steps or pressing_rtol beside Plastic"):
+        solved(LIMIT, UP_AND_DOWN, slip(steps=4))
+
+
 def film(**given):
     return ck.FilmMeniscus(film_thickness=1e-9, **given)
 
