@@ -203,7 +203,7 @@ class Plan(ScenePlan):
             found.append("no mass: speeds are those at which the film balances the pull")
         if isinstance(loading, ImposedForce):
             found.append(closing_note(loading, self.film))
-        if not self.scene.interface.has_discs:
+        if not self.scene.interface.has_discs and len(self.forces) > 1:
             found.append(
                 f"the face is no even disc: all but the viscous force take it for one of the same "
                 f"area, of radius {quantity_text(self.scene.interface.rim_radius, 'm')}"
