@@ -308,7 +308,7 @@ def test_a_load_just_below_the_hardness_times_the_area_is_carried(short):
 
 @pytest.mark.parametrize("load", [1e7, 1e7 * (1.0 + 1e-9), 1e9])
 def test_a_load_above_the_hardness_times_the_area_is_refused_before_any_work(monkeypatch, load):
-    import contactkit.contact.grid as realise
+    import contactkit.contact.grid as grid
     import contactkit.contact.prepared as prepared
 
     def never(*_args, **_kwargs):
@@ -316,7 +316,7 @@ def test_a_load_above_the_hardness_times_the_area_is_refused_before_any_work(mon
 
     monkeypatch.setattr(prepared, "ContactSolver", never)
     monkeypatch.setattr(prepared, "combined_heights", never)
-    monkeypatch.setattr(realise, "realise", never)
+    monkeypatch.setattr(grid, "realise", never)
     with pytest.raises(ck.InfeasibleError, match=r"load .* N reaches H\*A = .* N.*lower the load"):
         made(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e7)), pressure=load)
     with pytest.raises(ck.InfeasibleError, match=r"H\*A"):

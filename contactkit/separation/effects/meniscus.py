@@ -159,7 +159,7 @@ class MeniscusForce(SeparationForce):
 
     def proportional_to(self, scene: SeparationScene) -> str:
         """See `SeparationForce.proportional_to`; at a fixed pressure it is not."""
-        return "surface_tension" if scene.liquid_pressure is None else ""
+        return "" if scene.meniscus.has_pressure else "surface_tension"
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
@@ -167,7 +167,7 @@ class MeniscusForce(SeparationForce):
         missing: tuple[str, ...] = ()
         if not scene.interface.is_flat and self.printed != AsPublished():
             missing += (f"two flats for {self.profile}, which Eq. (3.11) has",)
-        if scene.liquid_pressure is not None:
+        if scene.meniscus.has_pressure:
             return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
@@ -203,7 +203,7 @@ class MeniscusForce(SeparationForce):
 
     def notes(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.notes`: what pulls where no amount of liquid is given."""
-        is_flooded = scene.meniscus.volume is None and scene.liquid_pressure is None
+        is_flooded = scene.meniscus.volume is None and not scene.meniscus.has_pressure
         if not is_flooded:
             return ()
         return (

@@ -77,7 +77,7 @@ class Rupture(FilmEnd):
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`."""
-        at_pressure = isinstance(self.gap, str) and scene.liquid_pressure is not None
+        at_pressure = isinstance(self.gap, str) and scene.meniscus.has_pressure
         return ("surface_tension",) if at_pressure else ()
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -85,7 +85,7 @@ class Rupture(FilmEnd):
         meniscus = scene.meniscus
         if not isinstance(self.gap, str) or meniscus.volume is not None:
             return ()
-        if scene.liquid_pressure is not None and self.gap == "limit":
+        if scene.meniscus.has_pressure and self.gap == "limit":
             return ()
         return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
 
