@@ -52,6 +52,8 @@ from contactkit.kinds import (
     ATTRACTION_LAWS,
     CONTACT_EFFECTS,
     CONTACT_LOADINGS,
+    HARDNESS_RULES,
+    MENISCUS_PROFILES,
     SEPARATION_EFFECTS,
     SEPARATION_LOADINGS,
     SLIDING_EFFECTS,
@@ -80,7 +82,12 @@ DOCS = Path(__file__).parents[1]
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 
 
-FACTORIES = {ck.Flat: "flat, no rim", Body: "rigid and flat", ck.Window: "periodic"}
+FACTORIES = {
+    ck.Flat: "flat, no rim",
+    Body: "rigid and flat",
+    ck.Window: "periodic",
+    ck.ContinuousHardness: '`"continuous"`',
+}
 ROLES: Mapping[type, str] = {
     SeparationForce: "force",
     FilmLimit: "limit",
@@ -206,6 +213,8 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "sliding effect keys": lambda: named([(kind.name, kind) for kind in SLIDING_EFFECTS], "effect"),
     "sliding effects": lambda: effect_table(SLIDING_EFFECTS),
     "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
+    "hardness rules": lambda: named([(one.kind, one) for one in HARDNESS_RULES], "kind"),
+    "meniscus profiles": lambda: named([(k.kind, k) for k in MENISCUS_PROFILES], "kind"),
     "attraction laws": lambda: named([(law.kind, law) for law in ATTRACTION_LAWS], "law"),
     "contact effects": lambda: effect_table(CONTACT_EFFECTS),
     "tangential step": lambda: keys(ck.TangentialStep),
