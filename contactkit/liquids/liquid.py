@@ -267,7 +267,17 @@ class Liquid(Described):
         >>> round(water.molar_volume(293.15) * 1e6, 3)
         18.047
         """
-        density = self.at(temperature).given("density")
+        return self.molar_volume_of(self.at(temperature))
+
+    def molar_volume_of(self, state: LiquidState) -> float:
+        """Molar volume [m3/mol] of this liquid in a state that is known.
+
+        Raises
+        ------
+        DescriptionError
+            If molar mass or density is not given.
+        """
+        density = state.given("density")
         if self.molar_mass is None or density is None:
             name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
             raise DescriptionError(

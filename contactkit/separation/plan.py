@@ -248,7 +248,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
             "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
         )
     if film.end <= loading.initial_gap:
-        raise _too_wide(scene, film.end)
+        raise _too_wide(prepared, film.end)
     check_rim(prepared)
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
@@ -274,7 +274,7 @@ def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: Liquid
         for effect in effects_of(scene)
         for item in (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
     ]
-    if scene.liquid_pressure is not None:
+    if scene.meniscus.has_pressure:
         problems += [
             f"{type(e).__name__} needs interface.meniscus.volume [m3] in place of its pressure: it "
             "has no law at a fixed pressure"
@@ -335,12 +335,13 @@ def _check_gap(scene: SeparationScene) -> None:
             raise InfeasibleError(f"loading.initial_gap is 0 m: {effect.touching}")
 
 
-def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
+def _too_wide(prepared: PreparedScene[SeparationScene], end: float) -> InfeasibleError:
     """Error that names the largest gap, and the largest number of menisci where that is known."""
+    scene = prepared.scene
     gap, meniscus = scene.loading.initial_gap, scene.meniscus
     reach, cure = "volume", "give more volume or a smaller initial_gap"
-    if scene.liquid_pressure is not None:
-        reach = f"pressure of {scene.liquid_pressure:g} Pa"
+    if prepared.liquid_pressure is not None:
+        reach = f"pressure of {prepared.liquid_pressure:g} Pa"
         cure = "give one nearer to zero (a higher humidity) or a smaller initial_gap"
     elif meniscus.volume is None:
         reach, cure = "liquid", "give a smaller initial_gap"
