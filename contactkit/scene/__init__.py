@@ -2,6 +2,8 @@
 
 materials            Materials, and stacks of layers bonded to a substrate.
 surfaces             Base class of all surfaces; flat, sphere, paraboloid and wave.
+planforms            Planforms of a face: discs, rings, rectangles, images, and their sums.
+faces                Holes and recesses of a face.
 rough_surfaces       Random roughness, height maps, and sums of surfaces.
 topography           Topography objects of other packages as surfaces.
 asperity_population  Summits of a rough surface as a population of spheres.

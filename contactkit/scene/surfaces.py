@@ -190,6 +190,13 @@ def _curved(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "not be zero", "leave it out for an even face")
 
 
+def _relief(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    part(Surface)(owner, attribute, value)
+    if not hasattr(value, "pixel_size") or not hasattr(value, "heights"):
+        cure = "heights of any surface on a grid of one's own: Heights(heights=..., pixel_size=...)"
+        raise refuse(owner, attribute, value, "be Heights", cure)
+
+
 @frozen(kw_only=True)
 class Flat(Surface):
     """A flat face with a rim, or without end: a disc, or any planform, tilted, crowned, recessed.
@@ -210,10 +217,14 @@ class Flat(Surface):
         Slopes along x and y by which the face recedes from the other one [rad].
     crown_radius : float, optional
         Radius of curvature of a face that is slightly domed [m]; negative: hollow.
+    relief : Heights, optional
+        Height map on top of all this, such as measured roughness, its middle at the origin; beyond
+        its edge it is as high as there.
 
     Notes
     -----
-    The gap of two faces is the shortest distance between them within the film, recesses apart.
+    The gap of two faces is the shortest distance between them within the film, recesses and reliefs
+    apart: a peak of a relief is nearer by its height.
 
     Examples
     --------
@@ -235,6 +246,7 @@ class Flat(Surface):
         default=(0.0, 0.0), converter=as_pair, validator=_slopes, metadata=si("rad")
     )
     crown_radius: float | None = field(default=None, validator=optional(_curved), metadata=si("m"))
+    relief: Surface | None = field(default=None, validator=optional(_relief))
 
     @holes.validator
     def _check_holes(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
@@ -270,7 +282,7 @@ class Flat(Surface):
     @property
     def is_even(self) -> bool:
         """Whether it has one height everywhere, and no hole."""
-        is_level = self.tilt == (0.0, 0.0) and self.crown_radius is None
+        is_level = self.tilt == (0.0, 0.0) and self.crown_radius is None and self.relief is None
         return is_level and not self.holes and not self.recesses
 
     @property
